@@ -1,0 +1,27 @@
+// The knobs of a step. The defaults stand; each says what it costs to turn it.
+#pragma once
+
+#include <cstdint>
+
+namespace scree {
+
+struct Settings {
+    float rate = 60;   // steps per second, 10 to 1000
+    int substeps = 8;  // per step, 1 to 64. Contact stiffness grows with its square, cost in proportion
+
+    // Contact constraint: a damped spring solved implicitly (Catto, Soft Constraints, GDC 2011).
+    float contact_hertz = 0.125f;        // of the substep rate. Above 0.125 split contacts over-react and stacks buzz
+    float contact_damping_ratio = 10;    // 1 to 40: below, what was pushed apart springs
+    float push_speed = 3;                // m/s, greatest speed at which overlapping bodies are pushed apart
+    float split_relaxation = 1.5f;       // mass splitting: s = max(1, contacts / this). Converges below 2; 1.95 fell over
+    float speculative_distance = 0.02f;  // m, contacts are made this far ahead (and as far as the pair moves in a step)
+    float restitution_threshold = 1;     // m/s, slower impacts do not bounce: bodies at rest would hop
+    float max_speed = 400;               // m/s, velocities are clamped to it
+    float max_turn = 0.785f;             // rad per substep, angular velocity is clamped to it
+
+    // Where the buffers start. They grow when a step needs more, and no result depends on it.
+    std::uint32_t pairs_at_first = 0;     // 0: from the number of bodies
+    std::uint32_t contacts_at_first = 0;  // 0: from the number of bodies
+};
+
+}  // namespace scree

@@ -1,0 +1,76 @@
+// A Vulkan device: found, explained, opened. The Vulkan loader is looked up at run time, so a machine without it can run the rest.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "host/vulkan_functions.h"
+
+namespace scree::host {
+
+// No Vulkan, no such device, or a Vulkan call that failed. The message says what to do about it.
+struct DeviceError : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+// One physical device as `scree devices` shows it.
+struct DeviceReport {
+    int index = 0;  // as the loader lists them
+    std::string name;
+    std::string driver;       // name and version
+    std::string api_version;  // "1.3.230"
+    bool is_processor = false;  // a software device such as lavapipe
+    std::uint64_t memory_bytes = 0;         // the largest device-local heap
+    std::uint64_t largest_binding = 0;      // maxStorageBufferRange, bytes
+    std::vector<std::string> lacks;         // each with the reason; empty when usable
+};
+
+// Every physical device. Throws DeviceError when there is no Vulkan loader or no driver, naming the package that brings one.
+std::vector<DeviceReport> list_devices();
+
+struct DeviceOptions {
+    std::string which;        // "" the first real GPU, else the first usable one; an index; or part of a name, any case
+    bool validation = false;  // validation and synchronisation validation layers (DeviceError if the layer is not installed)
+    // Receives each validation message; by default they are collected in Device::validation_messages().
+    std::function<void(const std::string&)> on_message;
+};
+
+class Device {
+public:
+    static std::shared_ptr<Device> open(const DeviceOptions& options = {});
+    ~Device();
+    Device(const Device&) = delete;
+    Device& operator=(const Device&) = delete;
+
+    const DeviceReport& report() const;
+    const VulkanFunctions& vk() const;
+    VkPhysicalDevice physical() const;
+    VkDevice handle() const;
+    VkQueue queue() const;  // one queue with graphics, compute and transfer
+    std::uint32_t queue_family() const;
+    VkPipelineCache pipeline_cache() const;  // read at start from, and written at the end to, $XDG_CACHE_HOME/scree (or ~/.cache/scree)
+    double timestamp_period_ns() const;
+    std::vector<std::string> validation_messages() const;
+
+    // Index of a memory type with these properties among `allowed_bits`; throws DeviceError if there is none.
+    std::uint32_t memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags properties) const;
+    // Submits command buffers (in order) to the queue with one fence and waits for it.
+    void submit_and_wait(const std::vector<VkCommandBuffer>& commands);
+    // For the canvas and the runner to share the queue from several threads.
+    void submit(const std::vector<VkCommandBuffer>& commands, VkFence fence);
+    void wait_idle() const;
+
+private:
+    Device();
+    struct Interior;
+    std::unique_ptr<Interior> interior_;
+};
+
+// Throws DeviceError("what: VK_ERROR_...") unless the result is VK_SUCCESS.
+void check(VkResult result, const char* what);
+
+}  // namespace scree::host
