@@ -9,27 +9,32 @@
 
 namespace scree {
 
-struct State;       // compute/state.h: every buffer of a step, on the host
-struct Parameters;  // what Settings and the scene fix for a whole run
+struct State;  // compute/state.h
 
-// What one step was: done, or a list would have outgrown its buffer, and nothing has changed.
-struct StepOutcome {
-    bool done = true;
-};
+using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
 
 class Runner {
 public:
     virtual ~Runner() = default;
-    virtual std::string backend() const = 0;  // "cpu", "vulkan", "lockstep"
-    virtual std::string device() const = 0;   // for people: the processor or the Vulkan device
+    virtual std::string backend() const = 0;       // "cpu" or "vulkan"
+    virtual std::string device() const = 0;        // for people: threads, or the name of the Vulkan device
+    virtual std::uint32_t group_size() const = 0;  // threads of a workgroup, a power of two up to 256
 
-    // Takes over the buffers of `state` (sizes and contents). Called at the start and after a buffer has grown.
-    virtual void upload(const State& state) = 0;
-    // Runs one step; on overflow leaves the body state as it was and says so.
-    virtual StepOutcome step(const State& inputs) = 0;
-    // Copies every buffer back.
-    virtual void download(State& state) = 0;
-    virtual std::vector<std::pair<std::string, double>> stage_milliseconds() const = 0;  // mean per step
+    virtual bool in_place() const = 0;  // works on the state's own tables, so all of them need memory
+
+    // Takes over the tables: sizes and contents. Called once, and again after the tables have grown. The state outlives the
+    // runner.
+    virtual void attach(State& state) = 0;
+    // Runs one step with the state's parameters and actions. False: a list would have outgrown its buffer; the bodies are as
+    // before, and State::counts says what is needed.
+    virtual bool step() = 0;
+    // Brings counts, poses and velocities, or every table, back into the attached state.
+    virtual void fetch_bodies() = 0;
+    virtual void fetch() = 0;
+    virtual StageTimes stage_times() const = 0;  // means over the steps since attach
 };
+
+// On the CPU, in `threads` threads (0: one per core). No bit depends on how many.
+std::unique_ptr<Runner> make_reference_runner(int threads = 0);
 
 }  // namespace scree

@@ -9,16 +9,13 @@
 #include <cstdint>
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "compute/runner.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
 
 namespace scree {
-
-class Runner;  // compute/runner.h
-struct State;  // compute/state.h
 
 struct BodyState {
     vec3 position;          // m
@@ -29,24 +26,25 @@ struct BodyState {
 
 // Sums over the whole world, in double precision, and the extremes that a promise is made of.
 struct Statistics {
-    std::size_t bodies = 0;     // of every motion
-    std::size_t manifolds = 0;  // pairs of bodies with contact points
-    std::size_t points = 0;     // contact points
-    double penetration_mean = 0;  // m, over the points that penetrate; 0 if none does
-    double penetration_max = 0;   // m
-    double max_speed = 0;         // m/s, of a dynamic body
-    double kinetic_energy = 0;    // J
-    double potential_energy = 0;  // J, -m g.x
+    std::size_t bodies = 0;                  // of every motion
+    std::size_t manifolds = 0;               // pairs of bodies with contact points
+    std::size_t points = 0;                  // contact points
+    double penetration_mean = 0;             // m, over the points that penetrate; 0 if none does
+    double penetration_max = 0;              // m
+    double max_speed = 0;                    // m/s, of a dynamic body
+    double kinetic_energy = 0;               // J
+    double potential_energy = 0;             // J, -m g.x
     double momentum[3] = {0, 0, 0};          // kg m/s
     double angular_momentum[3] = {0, 0, 0};  // kg m^2/s, about the origin
-    double drift_max = 0;         // m, greatest distance of a dynamic body from its start
-    std::size_t not_finite = 0;   // bodies
-    std::size_t below_ground = 0; // dynamic bodies whose centre lies behind a plane of the scene
+    double drift_max = 0;                    // m, greatest distance of a dynamic body from its start
+    std::size_t not_finite = 0;              // bodies
+    std::size_t below_ground = 0;            // dynamic bodies whose centre lies behind a plane of the scene
 };
 
 class World {
 public:
-    // Checks and copies the scene (throws SceneError). `runner` says where to simulate; see compute/runner.h.
+    // Checks and copies the scene (throws SceneError; std::invalid_argument for settings out of range). `runner` says where to
+    // simulate: make_reference_runner (compute/runner.h) or make_device_runner (compute/device_runner.h).
     World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     // On the CPU, with `threads` threads (0: one per core).
     explicit World(const Scene& scene, const Settings& settings = {}, int threads = 0);
@@ -67,9 +65,9 @@ public:
     // What acts on a body in the next step; calls add up. Indices are those of the scene; a wrong one throws std::out_of_range,
     // a value that is not finite std::invalid_argument, a body that is not dynamic std::invalid_argument.
     void apply_force(std::size_t body, vec3 force, vec3 offset = vec3(0));      // N, held for the step; offset from the centre, m
-    void apply_torque(std::size_t body, vec3 torque);                          // N m
+    void apply_torque(std::size_t body, vec3 torque);                           // N m
     void apply_impulse(std::size_t body, vec3 impulse, vec3 offset = vec3(0));  // N s, at the step's start
-    void apply_angular_impulse(std::size_t body, vec3 impulse);                // N m s
+    void apply_angular_impulse(std::size_t body, vec3 impulse);                 // N m s
     void set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity);  // m/s, rad/s; dynamic and kinematic bodies
 
     // Read back from wherever the world is.
@@ -78,8 +76,8 @@ public:
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
 
     std::uint64_t buffer_growths() const;
-    std::size_t buffer_bytes() const;                                      // at present, all tables together
-    std::vector<std::pair<std::string, double>> stage_milliseconds() const;  // per stage of the plan, mean over the steps so far
+    std::size_t buffer_bytes() const;  // at present, all tables together
+    StageTimes stage_times() const;    // milliseconds per step, mean so far
 
 private:
     struct Interior;

@@ -1,4 +1,4 @@
-// A buffer on a device, with its memory. Host-visible when the device's memory is (lavapipe), else filled through a staging buffer.
+// A buffer on a device, with its memory. Host-visible when the device's memory is (lavapipe), else filled through staging.
 #pragma once
 
 #include <cstddef>

@@ -1,4 +1,4 @@
-// A Vulkan device: found, explained, opened. The Vulkan loader is looked up at run time, so a machine without it can run the rest.
+// A Vulkan device: found, explained, opened. The loader is looked up at run time, so a machine without Vulkan can run the rest.
 #pragma once
 
 #include <cstdint>
@@ -21,12 +21,16 @@ struct DeviceError : std::runtime_error {
 struct DeviceReport {
     int index = 0;  // as the loader lists them
     std::string name;
-    std::string driver;       // name and version
-    std::string api_version;  // "1.3.230"
-    bool is_processor = false;  // a software device such as lavapipe
-    std::uint64_t memory_bytes = 0;         // the largest device-local heap
-    std::uint64_t largest_binding = 0;      // maxStorageBufferRange, bytes
-    std::vector<std::string> lacks;         // each with the reason; empty when usable
+    std::string driver;                 // name and version
+    std::string api_version;            // "1.3.230"
+    bool is_processor = false;          // a software device such as lavapipe
+    std::uint64_t memory_bytes = 0;     // the largest device-local heap
+    std::uint64_t largest_binding = 0;  // maxStorageBufferRange, bytes
+    // Which modes 32-bit floats can be asked for (host/spirv.h). None of them is a lack: + - * are correctly rounded without.
+    bool can_flush_denormals = false;
+    bool can_preserve_specials = false;
+    bool can_round_to_nearest = false;
+    std::vector<std::string> lacks;  // each with the reason; empty when usable
 };
 
 // Every physical device. Throws DeviceError when there is no Vulkan loader or no driver, naming the package that brings one.
@@ -35,7 +39,9 @@ std::vector<DeviceReport> list_devices();
 struct DeviceOptions {
     std::string which;        // "" the first real GPU, else the first usable one; an index; or part of a name, any case
     bool validation = false;  // validation and synchronisation validation layers (DeviceError if the layer is not installed)
-    // Receives each validation message; by default they are collected in Device::validation_messages().
+    // Treats device memory as the host cannot see it, as on most discrete cards: buffers are read and written through staging.
+    bool staged = false;
+    // Receives each validation message, from any thread; they are collected in Device::validation_messages() too.
     std::function<void(const std::string&)> on_message;
 };
 
@@ -52,7 +58,12 @@ public:
     VkDevice handle() const;
     VkQueue queue() const;  // one queue with graphics, compute and transfer
     std::uint32_t queue_family() const;
-    VkPipelineCache pipeline_cache() const;  // read at start from, and written at the end to, $XDG_CACHE_HOME/scree (or ~/.cache/scree)
+    const VkPhysicalDeviceLimits& limits() const;
+    const VkPhysicalDeviceMemoryProperties& memory() const;
+    bool staged() const;                   // see DeviceOptions
+    std::uint32_t timestamp_bits() const;  // 0: the queue has no timestamps
+    // Read at the start from, and written at the end to, $XDG_CACHE_HOME/scree (or ~/.cache/scree).
+    VkPipelineCache pipeline_cache() const;
     double timestamp_period_ns() const;
     std::vector<std::string> validation_messages() const;
 
@@ -64,8 +75,15 @@ public:
     void submit(const std::vector<VkCommandBuffer>& commands, VkFence fence);
     void wait_idle() const;
 
+    // Names an object in validation messages; does nothing without validation.
+    template <typename Handle>
+    void set_name(VkObjectType type, Handle handle, const std::string& name) const {
+        name_object(type, reinterpret_cast<std::uint64_t>(handle), name);
+    }
+
 private:
     Device();
+    void name_object(VkObjectType type, std::uint64_t handle, const std::string& name) const;
     struct Interior;
     std::unique_ptr<Interior> interior_;
 };

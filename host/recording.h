@@ -22,13 +22,15 @@ public:
     void push(const void* data, std::uint32_t bytes);
     void dispatch(std::uint32_t groups);
     void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`
-    void barrier();  // compute and transfer writes become visible to compute, indirect arguments, vertex shaders, transfers and the host
+    void barrier();  // compute and transfer writes become visible to compute, indirect arguments, vertex shaders and transfers
+    void zero(const Buffer& buffer);  // all of it
     void copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset = 0, std::size_t to_offset = 0);
     void timestamp();
-    void end();  // before the first submission
+    void end();  // before the first submission. Makes all writes visible to the host and to later submissions
 
     VkCommandBuffer handle() const { return commands_; }
-    // Seconds between consecutive timestamps of the last submission (which must have been waited for).
+    // Seconds between consecutive timestamps of the last submission (which must have been waited for); empty if the queue has no
+    // timestamps.
     std::vector<double> timestamp_seconds() const;
 
 private:
@@ -41,6 +43,7 @@ private:
     VkPipelineLayout bound_layout_ = VK_NULL_HANDLE;
     std::uint32_t timestamps_ = 0;
     std::uint32_t timestamps_written_ = 0;
+    std::uint32_t push_bytes_ = 0;
 };
 
 }  // namespace scree::host

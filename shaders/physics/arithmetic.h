@@ -1,7 +1,7 @@
 // Arithmetic whose every bit is the same on every processor: only + - *, comparisons and integer operations.
 //
-// Vulkan rounds + - * correctly, but allows division 2.5 ULP and inverse square root 2 ULP; so those are made here from an integer
-// seed and three Newton steps (relative error 1.5e-7, measured against double over the whole range).
+// Vulkan rounds + - * correctly, but allows division 2.5 ULP and inverse square root 2 ULP; so those are made here from an
+// integer seed and three Newton steps (relative error 1.5e-7, measured against double over the whole range).
 #ifndef SCREE_PHYSICS_ARITHMETIC_H
 #define SCREE_PHYSICS_ARITHMETIC_H
 

@@ -17,14 +17,14 @@ CONSTANT uint MOTION_KINEMATIC = 2u;
 
 CONSTANT uint NONE = 0xFFFFFFFFu;
 
-// ---- bodies, written when the scene is described ------------------------------------------------------------------------------
+// ---- bodies, written when the scene is described
 struct Traits {
     vec3 size;  // see SHAPE_*, m
     uint shape;
-    vec3 inverse_inertia;  // principal, body frame, 1/(kg m^2); 0 if not dynamic
-    float inverse_mass;    // 1/kg; 0 if not dynamic
-    float friction;        // Coulomb coefficient; a pair takes the geometric mean
-    float restitution;     // 0 to 1; a pair takes the larger
+    vec3 inverse_inertia;      // principal, body frame, 1/(kg m^2); 0 if not dynamic
+    float inverse_mass;        // 1/kg; 0 if not dynamic
+    float friction;            // Coulomb coefficient; a pair takes the geometric mean
+    float restitution;         // 0 to 1; a pair takes the larger
     float rolling_resistance;  // m, lever arm of the normal force that resists rolling; a pair takes the larger
     float gravity_scale;
     float linear_damping;   // 1/s
@@ -33,7 +33,7 @@ struct Traits {
     uint large;  // 1: kept out of the grid, in the short list of large bodies
 };
 
-// ---- bodies, state ------------------------------------------------------------------------------------------------------------
+// ---- bodies, state
 struct Pose {
     vec3 position;  // of the centre of mass, m
     float pad;
@@ -58,10 +58,6 @@ struct Load {
     float pad0;
     vec3 angular_acceleration;  // rad/s^2
     float pad1;
-    vec3 kick;  // velocity change at the start of the step (impulses), m/s
-    float pad2;
-    vec3 angular_kick;  // rad/s
-    float pad3;
 };
 
 // What the user asks of one body for one step; at most one record a body (the host adds up).
@@ -84,7 +80,7 @@ struct Action {
     float pad7;
 };
 
-// ---- what touches -------------------------------------------------------------------------------------------------------------
+// ---- what touches
 // Up to four points in which two bodies touch or are about to.
 struct Manifold {
     vec3 normal;     // unit, world, from A to B
@@ -95,6 +91,131 @@ struct Touch {
     Manifold manifold;
     uint count;  // points, 0 to 4; unused points are zero
     uint pad0, pad1, pad2;
+};
+
+// ---- who is near whom
+struct Bounds {   // of a body over the coming step, with its margin
+    vec3 lower;   // m
+    uint level;   // of the grid; cells of level l are cell * 2^l wide
+    vec3 upper;   // m
+    uint bucket;  // of its centre's cell; the last one for a large body
+};
+struct CellEntry {  // the same, in the order of buckets, then of bodies
+    vec3 lower;     // m
+    uint body;
+    vec3 upper;  // m
+    uint level;
+};
+struct Pair {
+    uint a, b;      // bodies, a < b
+    uint kind;      // KIND_*
+    uint previous;  // its contact in the last step, or NONE
+};
+
+// ---- contacts: what lasts from step to step
+struct Contact {
+    uint a, b;       // bodies, a < b
+    uint count;      // points, 1 to 4
+    uint features;   // as in Manifold
+    vec3 normal;     // unit, world, from A to B, when the contact was made
+    uint age;        // steps since it was made
+    vec3 d;          // centre of B minus centre of A when it was made, m
+    float pad;       //
+    vec4 points[4];  // as in Manifold, when it was made
+    vec4 turn_a;     // orientation of A when it was made
+    vec4 turn_b;     // orientation of B when it was made
+};
+struct Impulse {
+    vec4 normal;      // per point, of one substep, N s, >= 0
+    vec4 separation;  // per point, m
+    vec4 approach;    // per point: normal velocity of an impact to be thrown back, m/s, < 0; else 0
+    vec3 friction;    // in the tangent plane, world, on B, N s
+    float twist;      // about the normal, N m s
+    vec3 rolling;     // world, on B, N m s
+    float pad0;
+    vec3 d;  // centre of B minus centre of A now, m: where both bodies feel the same point
+    float pad1;
+};
+
+// ---- contacts: what the solver needs in this step
+struct Constraint {
+    uint a, b;                 // bodies
+    uint slot_a, slot_b;       // where their velocity changes go; NONE for a body that contacts do not move
+    vec3 normal;               // unit, world, from A to B
+    float friction;            // Coulomb coefficient of the pair
+    vec4 arms[4];              // xyz: from A's centre to the point, m; w: 1/mass of A felt there along the normal, 1/kg
+    vec4 give_b;               // per point: 1/mass of B felt along the normal, 1/kg; 0 with arms.w = 0 for an unused point
+    vec3 centre;               // of the friction patch, from A's centre, m
+    float twist_a;             // 1/inertia of A about the normal, 1/(kg m^2)
+    vec3 slide_a;              // 1/mass of A in the tangent plane at the patch: (11, 12, 22), 1/kg
+    float twist_b;             // of B
+    vec3 slide_b;              // of B
+    float rolling_resistance;  // of the pair, m
+    float reach;               // mean distance of the points from the patch's centre, m: lever arm of twisting friction
+    float restitution;         // of the pair
+    uint count;                // points
+    uint pair;                 // whose manifold it is
+};
+struct Slot {       // what one contact did to one body; a body sums its slots in order
+    vec3 linear;    // m/s
+    float carries;  // 1: the contact pushes, or will in the next substep; it counts in the split
+    vec3 angular;   // rad/s
+    float pad;
+};
+
+// ---- the step itself
+struct Parameters {  // fixed for a run
+    vec3 gravity;    // m/s^2
+    float dt;        // of a step, s
+    float h;         // of a substep, s
+    float inverse_h;
+    float bias_rate;  // soft contact, 1/s (Catto 2011)
+    float mass_scale;
+    float impulse_scale;
+    float push_speed;             // m/s
+    float inverse_relaxation;     // 1 / 1.5
+    float speculative;            // m
+    float restitution_threshold;  // m/s
+    float max_speed;              // m/s
+    float max_spin;               // rad/s
+    float cell;                   // width of the grid's finest cells, m
+    float inverse_cell;
+    uint bodies;
+    uint buckets;  // of the grid, a power of two; one more holds the large bodies
+    uint pair_capacity;
+    uint contact_capacity;
+    uint group_size;   // threads of a workgroup, a power of two
+    uint group_shift;  // its logarithm
+    uint actions;      // records in the list, for the coming step
+    uint redo;         // 1: the step is done again after a buffer grew; impulses have been applied already
+    uint pad0, pad1, pad2;
+};
+
+CONSTANT uint KINDS = 10u;  // of pairs: nine of shapes, and those whose contact is kept
+CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind
+CONSTANT uint SPAN_SHIFT = 4u;
+CONSTANT uint SCAN_ITEMS = 8u;  // items that one thread of a scan adds up
+CONSTANT uint SCAN_SHIFT = 3u;
+
+// Work that the device counts itself: rows of Counts.arguments.
+CONSTANT uint WORK_PAIRS = 0u;
+CONSTANT uint WORK_SPANS = 1u;
+CONSTANT uint WORK_KIND_BLOCKS = 2u;
+CONSTANT uint WORK_PAIR_BLOCKS = 3u;
+CONSTANT uint WORK_CONTACTS = 4u;
+CONSTANT uint WORK_KIND = 5u;  // and the KINDS - 1 rows after it
+CONSTANT uint OVERFLOW_PAIRS = 1u;
+CONSTANT uint OVERFLOW_CONTACTS = 2u;
+
+struct Counts {  // what the device counts in a step
+    uint pairs, contacts;
+    uint levels;    // bit l: some body is on level l of the grid
+    uint overflow;  // OVERFLOW_*; while not 0 no stage changes the bodies
+    uint required_pairs, required_contacts;
+    uint steps;  // whole steps done
+    uint pad;
+    uint kind_first[12];  // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uvec4 arguments[16];  // per WORK_*: workgroups x, y, z, and threads
 };
 
 LAWS_END

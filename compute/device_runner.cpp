@@ -1,0 +1,250 @@
+// Walks the plan on a Vulkan device.
+#include "compute/device_runner.h"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+#include "shaders/embedded.h"
+#include "shaders/physics/counts.h"
+
+namespace scree {
+
+namespace {
+
+constexpr std::uint32_t threads_of_a_group = 128;
+
+// contacts <-> contacts_before and so on in the second parity.
+Table other_parity(Table table) {
+    using enum Table;
+    switch (table) {
+        case contacts:
+            return contacts_before;
+        case contacts_before:
+            return contacts;
+        case impulses:
+            return impulses_before;
+        case impulses_before:
+            return impulses;
+        case first_contacts:
+            return first_contacts_before;
+        case first_contacts_before:
+            return first_contacts;
+        default:
+            return table;
+    }
+}
+
+std::size_t argument_offset(physics::uint row) {
+    return offsetof(physics::Counts, arguments) + row * sizeof(physics::uvec4);
+}
+
+}  // namespace
+
+DeviceRunner::DeviceRunner(std::shared_ptr<host::Device> device) : device_(std::move(device)) {}
+DeviceRunner::~DeviceRunner() {
+    if (device_) device_->wait_idle();
+}
+
+std::string DeviceRunner::device() const {
+    return device_->report().name;
+}
+std::uint32_t DeviceRunner::group_size() const {
+    return threads_of_a_group;
+}
+
+const host::Buffer& DeviceRunner::buffer(Table table) const {
+    return buffers_[static_cast<std::size_t>(parity_ ? other_parity(table) : table)];
+}
+host::Buffer& DeviceRunner::buffer(Table table) {
+    return buffers_[static_cast<std::size_t>(parity_ ? other_parity(table) : table)];
+}
+
+void DeviceRunner::attach(State& state) {
+    device_->wait_idle();
+    state_ = &state;
+    if (plan_.empty()) {
+        plan_ = plan(state.substeps);
+        clock_ = StageClock(plan_);
+        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));
+        for (const Stage& stage : plan_) {
+            const auto same = std::find_if(plan_.begin(), plan_.end(), [&](const Stage& s) { return s.name == stage.name; });
+            const auto first = static_cast<std::size_t>(same - plan_.begin());
+            if (first < pipeline_of_.size()) {
+                pipeline_of_.push_back(pipeline_of_[first]);
+                continue;
+            }
+            pipeline_of_.push_back(pipelines_.size());
+            pipelines_.emplace_back(layout_, stage.name.c_str(), shaders::find(stage.name), std::vector{threads_of_a_group},
+                                    device_->report().can_flush_denormals);
+        }
+        counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
+    }
+    make_buffers();
+    upload();
+    record();
+}
+
+void DeviceRunner::make_buffers() {
+    const std::uint32_t most_groups = device_->limits().maxComputeWorkGroupCount[0];
+    const physics::Parameters& p = state_->fixed();
+    if (std::max({p.pair_capacity, p.buckets, p.contact_capacity}) / p.group_size >= most_groups)
+        throw host::DeviceError("the scene needs lists of " + std::to_string(std::max(p.pair_capacity, p.buckets)) +
+                                " items, but this device runs at most " +
+                                std::to_string(std::uint64_t{most_groups} * p.group_size) +
+                                " threads at once: use fewer bodies, or --backend cpu");
+    buffers_.resize(table_count);
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const TableInfo& info = table_infos()[i];
+        const std::size_t bytes = state_->allocated(info.length) * info.record_bytes;
+        if (buffers_[i].bytes() == bytes) continue;
+        buffers_[i] = {};  // its memory first, then the new one's
+        buffers_[i] = host::Buffer(device_, info.name, bytes);
+    }
+}
+
+void DeviceRunner::upload() {
+    using enum Table;
+    parity_ = 0;
+    const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
+    for (const Table table : {parameters, counts, traits, poses, velocities}) send(table);
+    sent_ = state_->fixed();
+    // Before the first step, and for tables that were never brought back, zeros are right.
+    for (const Table table : {contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
+        if (!state_->raw(table).empty()) send(table);
+}
+
+void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const {
+    const physics::Parameters& p = state_->fixed();
+    const std::size_t index = static_cast<std::size_t>(&stage - plan_.data());
+    recording.bind(pipelines_[pipeline_of_[index]], *tables_[parity]);
+    recording.push(&stage.pass, sizeof(stage.pass));
+    const auto indirect = [&](physics::uint row) {
+        recording.dispatch_indirect(buffers_[static_cast<std::size_t>(Table::counts)], argument_offset(row));
+    };
+    switch (stage.over) {
+        case Over::one_group:
+            recording.dispatch(1);
+            break;
+        case Over::actions:
+        case Over::bodies:
+            recording.dispatch(std::max(1u, physics::work_for(p.bodies, p).x));
+            break;
+        case Over::buckets:
+            recording.dispatch(physics::work_for(p.buckets + 2, p).x);
+            break;
+        case Over::body_blocks:
+            recording.dispatch(physics::scan_work_for(p.bodies, p).x);
+            break;
+        case Over::bucket_blocks:
+            recording.dispatch(physics::scan_work_for(p.buckets + 1, p).x);
+            break;
+        case Over::pairs:
+            indirect(physics::WORK_PAIRS);
+            break;
+        case Over::spans:
+            indirect(physics::WORK_SPANS);
+            break;
+        case Over::kind_blocks:
+            indirect(physics::WORK_KIND_BLOCKS);
+            break;
+        case Over::pair_blocks:
+            indirect(physics::WORK_PAIR_BLOCKS);
+            break;
+        case Over::contacts:
+            indirect(physics::WORK_CONTACTS);
+            break;
+        case Over::kind:
+            indirect(physics::WORK_KIND + stage.pass);
+            break;
+    }
+}
+
+void DeviceRunner::record() {
+    const host::Buffer& counts = buffers_[static_cast<std::size_t>(Table::counts)];
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+        std::vector<const host::Buffer*> bound;
+        for (std::size_t i = 0; i < table_count; ++i)
+            bound.push_back(
+                &buffers_[static_cast<std::size_t>(parity ? other_parity(static_cast<Table>(i)) : static_cast<Table>(i))]);
+        alone_[parity].clear();
+        steps_[parity].reset();
+        tables_[parity] = std::make_unique<host::Table>(layout_, bound);
+        auto recording = std::make_unique<host::Recording>(device_, static_cast<std::uint32_t>(plan_.size()) + 1);
+        recording->timestamp();
+        for (const Stage& stage : plan_) {
+            record_stage(*recording, stage, parity);
+            if (stage.feeds_next) recording->barrier();
+            recording->timestamp();
+        }
+        recording->copy(counts, counts_back_, sizeof(physics::Counts));
+        recording->barrier();
+        recording->end();
+        steps_[parity] = std::move(recording);
+    }
+}
+
+void DeviceRunner::send_inputs() {
+    const physics::Parameters& p = state_->fixed();
+    if (std::memcmp(&p, &sent_, sizeof p) != 0) {
+        buffer(Table::parameters).write(&p, sizeof p);
+        sent_ = p;
+    }
+    if (p.actions) buffer(Table::actions).write(state_->actions.data(), p.actions * sizeof(physics::Action));
+}
+
+void DeviceRunner::begin_step() {
+    if (!state_->fixed().redo) parity_ ^= 1;
+    send_inputs();
+}
+
+bool DeviceRunner::step() {
+    begin_step();
+    device_->submit_and_wait({steps_[parity_]->handle()});
+    counts_back_.read(&state_->counted(), sizeof(physics::Counts));
+    const std::vector<double> seconds = steps_[parity_]->timestamp_seconds();
+    for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
+    clock_.end_step();
+    return state_->counted().overflow == 0;
+}
+
+void DeviceRunner::run_stage(std::size_t index) {
+    std::vector<std::unique_ptr<host::Recording>>& alone = alone_[parity_];
+    if (alone.empty()) {
+        for (const Stage& stage : plan_) {
+            auto recording = std::make_unique<host::Recording>(device_, 0);
+            record_stage(*recording, stage, parity_);
+            recording->barrier();
+            recording->end();
+            alone.push_back(std::move(recording));
+        }
+    }
+    device_->submit_and_wait({alone[index]->handle()});
+}
+
+void DeviceRunner::read(Table table, std::span<std::byte> bytes) const {
+    buffer(table).read(bytes.data(), bytes.size());
+}
+
+void DeviceRunner::fetch_bodies() {
+    for (const Table table : {Table::counts, Table::poses, Table::velocities}) read(table, state_->raw(table));
+}
+
+void DeviceRunner::fetch() {
+    fetch_bodies();
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const auto table = static_cast<Table>(i);
+        const TableInfo& info = table_infos()[i];
+        if (info.length == Length::blocks || table == Table::parameters || table == Table::actions) continue;
+        state_->make(table);
+        const bool before = table == Table::contacts_before || table == Table::impulses_before;
+        const std::size_t items = before ? state_->allocated(info.length) : state_->live(info.length);
+        if (items) read(table, state_->raw(table).first(items * info.record_bytes));
+    }
+}
+
+std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device) {
+    return std::make_unique<DeviceRunner>(std::move(device));
+}
+
+}  // namespace scree

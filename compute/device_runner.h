@@ -1,0 +1,72 @@
+// The device runner: the plan's stages as compute dispatches on a Vulkan device, recorded once and submitted every step.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "compute/plan.h"
+#include "compute/runner.h"
+#include "compute/stage_clock.h"
+#include "host/buffer.h"
+#include "host/device.h"
+#include "host/pipeline.h"
+#include "host/recording.h"
+
+namespace scree {
+
+class DeviceRunner : public Runner {
+public:
+    explicit DeviceRunner(std::shared_ptr<host::Device> device);
+    ~DeviceRunner() override;
+
+    std::string backend() const override { return "vulkan"; }
+    std::string device() const override;
+    std::uint32_t group_size() const override;
+    bool in_place() const override { return false; }
+    void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
+    bool step() override;
+    void fetch_bodies() override;
+    void fetch() override;
+    StageTimes stage_times() const override { return clock_.means(); }
+
+    // What a canvas draws from. They are other buffers after a step that had to grow.
+    const host::Buffer& traits() const { return buffer(Table::traits); }
+    const host::Buffer& poses() const { return buffer(Table::poses); }
+    const host::Buffer& velocities() const { return buffer(Table::velocities); }
+
+    // For the comparison with another runner: a step stage by stage, and what a stage wrote.
+    void begin_step();
+    void run_stage(std::size_t index);
+    void read(Table table, std::span<std::byte> bytes) const;
+
+private:
+    const host::Buffer& buffer(Table table) const;
+    host::Buffer& buffer(Table table);
+    void make_buffers();
+    void upload();
+    void record();
+    void record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const;
+    void send_inputs();
+
+    std::shared_ptr<host::Device> device_;
+    State* state_ = nullptr;
+    std::vector<Stage> plan_;
+    StageClock clock_;
+    std::shared_ptr<host::TableLayout> layout_;
+    std::vector<host::Pipeline> pipelines_;  // by stage of the plan; a stage of an earlier name shares its pipeline
+    std::vector<std::size_t> pipeline_of_;
+    std::vector<host::Buffer> buffers_;  // by binding; contacts and those before change places with the parity
+    host::Buffer counts_back_;
+    // Per parity: the table, the whole step, and (made when asked for) each stage alone.
+    std::array<std::unique_ptr<host::Table>, 2> tables_;
+    std::array<std::unique_ptr<host::Recording>, 2> steps_;
+    std::array<std::vector<std::unique_ptr<host::Recording>>, 2> alone_;
+    std::size_t parity_ = 0;
+    physics::Parameters sent_{};
+};
+
+std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device);
+
+}  // namespace scree

@@ -1,0 +1,87 @@
+// Walks both runners stage by stage.
+#include "compute/lockstep.h"
+
+#include <algorithm>
+#include <cstring>
+#include <iomanip>
+#include <sstream>
+
+#include "compute/device_runner.h"
+#include "compute/reference_runner.h"
+#include "compute/statistics.h"
+
+namespace scree {
+
+namespace {
+
+std::string words_of(const std::byte* cpu, const std::byte* device, std::size_t offset) {
+    std::uint32_t a = 0, b = 0;
+    float fa = 0, fb = 0;
+    std::memcpy(&a, cpu, 4);
+    std::memcpy(&b, device, 4);
+    std::memcpy(&fa, cpu, 4);
+    std::memcpy(&fb, device, 4);
+    std::ostringstream text;
+    text << "byte " << offset << ": cpu 0x" << std::hex << a << " (" << std::dec << std::setprecision(9) << fa << "), device 0x"
+         << std::hex << b << " (" << std::dec << fb << ")";
+    return text.str();
+}
+
+// The first record of the table in which the device differs from the state, into the result.
+bool table_equal(const State& state, const DeviceRunner& device, Table table, LockstepResult& result) {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    const auto expected = state.raw(table).first(state.live(info.length) * info.record_bytes);
+    if (expected.empty()) return true;
+    std::vector<std::byte> found(expected.size());
+    device.read(table, found);
+    const auto [cpu, gpu] = std::mismatch(expected.begin(), expected.end(), found.begin());
+    if (cpu == expected.end()) return true;
+    const std::size_t word = static_cast<std::size_t>(cpu - expected.begin()) / 4 * 4;
+    result.equal = false;
+    result.buffer = info.name;
+    result.element = word / info.record_bytes;
+    result.detail = words_of(&expected[word], &found[word], word % info.record_bytes);
+    return false;
+}
+
+}  // namespace
+
+LockstepResult compare_in_lockstep(const Scene& given, const Settings& settings, std::shared_ptr<host::Device> device,
+                                   int threads, int steps, const std::function<bool(int)>& progress) {
+    const Scene scene = checked(given);
+    DeviceRunner there(std::move(device));
+    ReferenceRunner here(threads);
+    // The image of the device is a state of its own; both have the same parameters, so the same group size.
+    State image(scene, settings, there.group_size(), there.in_place());
+    State state(scene, settings, there.group_size(), here.in_place());
+    there.attach(image);
+    here.attach(state);
+
+    LockstepResult result;
+    for (result.step = 0; result.step < steps; ++result.step) {
+        if (progress && !progress(result.step)) break;
+        bool done = false;
+        for (bool redo = false; !done; redo = true) {
+            state.fixed().redo = image.fixed().redo = redo;
+            there.begin_step();
+            done = here.step([&](const Stage& stage, std::size_t index) {
+                there.run_stage(index);
+                result.stage = stage.name;
+                return std::all_of(stage.writes.begin(), stage.writes.end(),
+                                   [&](Table table) { return table_equal(state, there, table, result); });
+            });
+            if (!result.equal) return result;
+            if (done) break;
+            there.fetch();
+            image.grow();
+            state.grow();
+            there.attach(image);
+            here.attach(state);
+        }
+    }
+    result.stage.clear();
+    result.hash = hash_of(state);
+    return result;
+}
+
+}  // namespace scree

@@ -1,0 +1,32 @@
+// The CPU and a device walk the same plan side by side; after every stage what it wrote is compared bit by bit.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "compute/scene.h"
+#include "compute/settings.h"
+
+namespace scree {
+
+namespace host {
+class Device;
+}
+
+struct LockstepResult {
+    bool equal = true;
+    int step = 0;             // the last one walked, from 0
+    std::string stage;        // the first that differs
+    std::string buffer;       // what it wrote there
+    std::size_t element = 0;  // the first record that differs
+    std::string detail;       // byte of the record, and both values
+    std::uint64_t hash = 0;   // of the common state at the end
+};
+
+// Walks `steps` steps, or until something differs or `progress` (told the steps done) says false. Throws as World does.
+LockstepResult compare_in_lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device,
+                                   int threads, int steps, const std::function<bool(int)>& progress = {});
+
+}  // namespace scree

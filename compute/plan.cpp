@@ -1,0 +1,68 @@
+// The plan of a step.
+#include "compute/plan.h"
+
+#include "compute/reference/stages.h"
+
+namespace scree {
+
+namespace {
+
+using namespace reference;
+
+void scan(std::vector<Stage>& stages, const std::string& what, Over blocks, Table result, decltype(Stage::reference) spine,
+          decltype(Stage::reference) offsets) {
+    stages.push_back({"scan_" + what + "_sums", blocks, scan_nothing, {}});
+    stages.push_back({"scan_" + what + "_spine", Over::one_group, spine, {Table::counts}});
+    stages.push_back({"scan_" + what + "_offsets", blocks, offsets, {result}});
+}
+
+const char* const kind_names[] = {"sphere_sphere", "sphere_capsule", "sphere_box", "sphere_plane", "capsule_capsule",
+                                  "capsule_box",   "capsule_plane",  "box_box",    "box_plane"};
+
+}  // namespace
+
+// clang-format off
+std::vector<Stage> plan(int substeps) {
+    using enum Table;
+    std::vector<Stage> s;
+    // what pushes the bodies, where they will be
+    s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, counts}});
+    s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads}});
+    s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts}});
+    // broadphase: who is near whom
+    scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
+    s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
+    s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}});
+    s.push_back({"count_pairs", Over::bodies, count_pairs, {pair_starts}});
+    scan(s, "pairs", Over::body_blocks, pair_starts, scan_pairs_spine, scan_pairs_offsets);
+    s.push_back({"fill_pairs", Over::bodies, fill_pairs, {pairs}});
+    s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});
+    // narrowphase: who touches whom, and where
+    s.push_back({"count_kinds", Over::spans, count_kinds, {kind_starts}});
+    scan(s, "kinds", Over::kind_blocks, kind_starts, scan_nothing, scan_kinds_offsets);
+    s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
+    for (std::uint32_t kind = 0; kind < std::size(kind_names); ++kind)
+        s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
+    s.back().feeds_next = true;
+    s.back().writes = {manifolds, touching};
+    // contacts: who shares a body with whom, what they inherit
+    scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
+    s.push_back({"list_contacts", Over::pairs, list_contacts, {slot_ends}});
+    scan(s, "slots", Over::body_blocks, slot_ends, scan_nothing, scan_slots_offsets);
+    s.push_back({"fill_slots", Over::contacts, fill_slots, {slot_ends}});
+    s.push_back({"order_slots", Over::bodies, order_slots, {slot_sides, first_contacts}});
+    s.push_back({"prepare_contacts", Over::contacts, prepare_contacts, {contacts, constraints, impulses, slots}});
+    // the solver
+    for (int substep = 1; substep <= substeps; ++substep) {
+        const std::uint32_t last = substep == substeps;
+        s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}});
+        s.push_back({"solve_contacts", Over::contacts, solve_contacts, {impulses, slots}});
+        s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses}});
+        s.push_back({"relax_contacts", Over::contacts, relax_contacts, {impulses, slots}, last});
+    }
+    s.push_back({"end_step", Over::bodies, end_step, {velocities, counts}});
+    return s;
+}
+// clang-format on
+
+}  // namespace scree

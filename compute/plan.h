@@ -1,0 +1,42 @@
+// The step: its stages and their order, on one screen. Runners walk this list, and nothing else repeats it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compute/state.h"
+#include "compute/threads.h"
+
+namespace scree {
+
+// What a stage runs over, one thread an item. Those in the second line are known only to the device and reach it as indirect
+// dispatches.
+enum class Over {
+    one_group,
+    actions,
+    bodies,
+    buckets,
+    body_blocks,
+    bucket_blocks,
+    pairs,
+    spans,
+    kind_blocks,
+    pair_blocks,
+    contacts,
+    kind
+};
+
+struct Stage {
+    std::string name;  // of the shader, and of the time measured
+    Over over;
+    void (*reference)(State&, const Threads&, std::uint32_t pass);
+    std::vector<Table> writes;  // what a comparison of two runners looks at afterwards
+    std::uint32_t pass = 0;     // told to the stage; for Over::kind which kind
+    bool feeds_next = true;     // a barrier follows
+};
+
+// The stages of one step. Both texts of a stage bear its name: shaders/stages/<name>.comp and a function in compute/reference/.
+std::vector<Stage> plan(int substeps);
+
+}  // namespace scree

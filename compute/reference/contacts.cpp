@@ -1,0 +1,123 @@
+// Reference contact stages: slots of bodies, preparation, and the contact halves of a substep.
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "compute/reference/stages.h"
+#include "shaders/physics/block.h"
+
+namespace scree::reference {
+
+namespace {
+
+bool movable(const State& state, std::uint32_t body) {
+    return state.traits[body].motion == physics::MOTION_DYNAMIC;
+}
+
+std::uint32_t taken(std::uint32_t& end) {
+    return std::atomic_ref(end).fetch_add(1, std::memory_order_relaxed);
+}
+
+physics::Couple velocities_of(const State& state, const physics::Constraint& c) {
+    return {state.velocities[c.a], state.velocities[c.b]};
+}
+
+// What the contact did to the lent bodies, handed to the whole ones.
+void hand_out(State& state, const physics::Constraint& c, const physics::Couple& before, const physics::Couple& after,
+              const physics::Couple& guess, float carrying) {
+    if (c.slot_a != physics::NONE)
+        state.slots[c.slot_a] = physics::slot_of(before.a, after.a, state.masses[c.a].split, guess.a, carrying);
+    if (c.slot_b != physics::NONE)
+        state.slots[c.slot_b] = physics::slot_of(before.b, after.b, state.masses[c.b].split, guess.b, carrying);
+}
+
+}  // namespace
+
+void list_contacts(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().pairs, [&](std::size_t i) {
+        if (state.touching[i] == 0) return;
+        state.constraints[state.contact_starts[i]].pair = static_cast<std::uint32_t>(i);
+        for (const std::uint32_t body : {state.pairs[i].a, state.pairs[i].b})
+            if (movable(state, body)) taken(state.slot_ends[body]);
+    });
+}
+
+void fill_slots(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const auto contact = static_cast<std::uint32_t>(i);
+        physics::Constraint& c = state.constraints[i];
+        c.slot_a = physics::NONE;
+        c.slot_b = physics::NONE;
+        const physics::Pair& pair = state.pairs[c.pair];
+        if (movable(state, pair.a)) state.slot_sides[taken(state.slot_ends[pair.a])] = 2 * contact;
+        if (movable(state, pair.b)) state.slot_sides[taken(state.slot_ends[pair.b])] = 2 * contact + 1;
+    });
+}
+
+void order_slots(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    const std::size_t n = state.fixed().bodies;
+    threads.for_each(n, [&](std::size_t i) {
+        state.first_contacts[i] = state.contact_starts[state.pair_starts[i]];
+        const std::uint32_t first = i == 0 ? 0 : state.slot_ends[i - 1];
+        const std::uint32_t last = state.slot_ends[i];
+        std::sort(state.slot_sides.begin() + first, state.slot_sides.begin() + last);
+        for (std::uint32_t slot = first; slot < last; ++slot) {
+            physics::Constraint& c = state.constraints[state.slot_sides[slot] / 2];
+            (state.slot_sides[slot] % 2 == 0 ? c.slot_a : c.slot_b) = slot;
+        }
+    });
+    state.first_contacts[n] = state.counted().contacts;
+}
+
+void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
+    const physics::Parameters& p = state.fixed();
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        physics::Constraint& c = state.constraints[i];
+        const std::uint32_t index = c.pair;
+        const physics::Pair& pair = state.pairs[index];
+        const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+        const physics::Mass &ma = state.masses[pair.a], &mb = state.masses[pair.b];
+        physics::Contact& contact = state.contacts[i];
+        contact =
+            physics::contact_of(pair, state.manifolds[index], state.touching[index], state.poses[pair.a], state.poses[pair.b]);
+        c = physics::constraint_of(contact, ta, ma, tb, mb, c.slot_a, c.slot_b, p);
+        c.pair = index;
+
+        physics::Impulse& impulse = state.impulses[i];
+        impulse = pair.previous == physics::NONE
+                      ? physics::no_impulse(contact.d)
+                      : physics::inherited(contact, state.contacts_before[pair.previous], state.impulses_before[pair.previous],
+                                           physics::match_radius(ta, tb));
+        impulse.separation = physics::separations_of(contact);
+        const physics::Couple now = velocities_of(state, c);
+        const float carrying = physics::carries(c, impulse, now, p);
+        hand_out(state, c, now, now, physics::warm_start(c, impulse, physics::at_rest(), ma, mb), carrying);
+    });
+}
+
+void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::Constraint& c = state.constraints[i];
+        const physics::Couple before = velocities_of(state, c);
+        const physics::Solved after =
+            physics::solved(c, state.impulses[i], before, state.masses[c.a], state.masses[c.b], state.fixed());
+        state.impulses[i] = after.impulse;
+        hand_out(state, c, before, after.couple, physics::at_rest(), 0);
+    });
+}
+
+void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::Constraint& c = state.constraints[i];
+        const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
+        const physics::Couple before = velocities_of(state, c);
+        const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, state.fixed());
+        state.impulses[i] = physics::without_blows(after.impulse, c.count);
+        physics::Couple guess = physics::at_rest();
+        if (!last) guess = physics::warm_start(c, state.impulses[i], guess, ma, mb);
+        hand_out(state, c, before, after.couple, guess, physics::carries(c, state.impulses[i], after.couple, state.fixed()));
+    });
+}
+
+}  // namespace scree::reference

@@ -1,0 +1,53 @@
+// The stages as plain loops on the CPU: the independent text that the shaders are checked against. One function a stage.
+#pragma once
+
+#include <cstdint>
+
+#include "compute/state.h"
+#include "compute/threads.h"
+
+namespace scree::reference {
+
+#define SCREE_STAGE(name) void name(State& state, const Threads& threads, std::uint32_t pass)
+
+// bodies.cpp
+SCREE_STAGE(begin_step);
+SCREE_STAGE(apply_actions);
+SCREE_STAGE(bound_bodies);
+SCREE_STAGE(begin_substep);
+SCREE_STAGE(move_bodies);
+SCREE_STAGE(end_step);
+
+// broadphase.cpp
+SCREE_STAGE(fill_cells);
+SCREE_STAGE(order_cells);
+SCREE_STAGE(count_pairs);
+SCREE_STAGE(fill_pairs);
+SCREE_STAGE(match_pairs);
+
+// narrowphase.cpp
+SCREE_STAGE(count_kinds);
+SCREE_STAGE(fill_kinds);
+SCREE_STAGE(collide);  // pass: the kind of pairs
+
+// contacts.cpp
+SCREE_STAGE(list_contacts);
+SCREE_STAGE(fill_slots);
+SCREE_STAGE(order_slots);
+SCREE_STAGE(prepare_contacts);
+SCREE_STAGE(solve_contacts);
+SCREE_STAGE(relax_contacts);
+
+// scans.cpp: block sums are the devices' own affair; here the total is known in the spine, the offsets in the last stage.
+SCREE_STAGE(scan_nothing);
+SCREE_STAGE(scan_pairs_spine);
+SCREE_STAGE(scan_contacts_spine);
+SCREE_STAGE(scan_cells_offsets);
+SCREE_STAGE(scan_pairs_offsets);
+SCREE_STAGE(scan_kinds_offsets);
+SCREE_STAGE(scan_contacts_offsets);
+SCREE_STAGE(scan_slots_offsets);
+
+#undef SCREE_STAGE
+
+}  // namespace scree::reference

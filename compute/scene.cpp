@@ -1,0 +1,169 @@
+// What a scene may say: ranges, unit vectors, and the mass of each shape.
+#include "compute/scene.h"
+
+#include <charconv>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+namespace scree {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr float smallest_size = 1e-3f;    // m. Below, a body's inverse inertia leaves the range of a float
+constexpr float largest_size = 1e5f;      // m
+constexpr float largest_position = 1e6f;  // m. A float resolves 6 cm there
+constexpr float smallest_density = 1e-3f;
+constexpr float largest_density = 1e6f;   // kg/m^3
+constexpr float largest_velocity = 1e4f;  // m/s and rad/s
+constexpr float largest_gravity = 1e4f;   // m/s^2
+constexpr float largest_friction = 100;
+constexpr float largest_damping = 1e4f;  // 1/s
+constexpr float largest_scale = 1e3f;
+
+std::string text_of(float value) {
+    if (std::isnan(value)) return "NaN";
+    if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
+    char text[32];
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+std::string plain(float limit) {
+    return limit >= 1 && limit < 1e7f ? std::to_string(static_cast<int>(limit)) : text_of(limit);
+}
+
+std::string out_of_range(float value, float low, float high, const char* unit) {
+    const std::string limits =
+        low == -high ? "within " + plain(high) + unit + " of 0" : "between " + plain(low) + " and " + plain(high) + unit;
+    return "must be " + limits + ", is " + text_of(value);
+}
+
+// One body under examination: where it is, and what it is called, for messages. Texts are made only when there is something to
+// say.
+class Examination {
+public:
+    Examination(std::size_t index, const Body& body) : index_(index), body_(body) {}
+
+    [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
+        throw SceneError("/bodies/" + std::to_string(index_) + key,
+                         reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
+    }
+    void between(const char* key, float value, float low, float high, const char* unit) const {
+        if (!(value >= low && value <= high)) refuse(key, out_of_range(value, low, high, unit));
+    }
+    void between(const char* key, vec3 value, float low, float high, const char* unit) const {
+        for (int i = 0; i < 3; ++i) {
+            if (value[i] >= low && value[i] <= high) continue;
+            refuse(key + ("/" + std::to_string(i)), out_of_range(value[i], low, high, unit));
+        }
+    }
+    // Divides by the length in double precision. What has unit length already, to rounding, stays: checking twice changes no bit.
+    template <class Vector>
+    void make_unit(const char* key, Vector& v, const char* meaning) const {
+        double squared = 0;
+        for (int i = 0; i < Vector::length(); ++i) {
+            if (!std::isfinite(v[i])) refuse(key + ("/" + std::to_string(i)), "must be finite, is " + text_of(v[i]));
+            squared += static_cast<double>(v[i]) * v[i];
+        }
+        if (squared < 1e-12) refuse(key, std::string("must not be of length 0: ") + meaning);
+        if (std::abs(squared - 1) <= 2.5e-7) return;
+        for (int i = 0; i < Vector::length(); ++i) v[i] = static_cast<float>(v[i] / std::sqrt(squared));
+    }
+
+private:
+    std::size_t index_;
+    const Body& body_;
+};
+
+void examine_shape(const Examination& body, Shape& shape, Motion motion) {
+    if (auto* sphere = std::get_if<Sphere>(&shape)) {
+        body.between("/shape/sphere/radius", sphere->radius, smallest_size, largest_size, " m");
+    } else if (auto* capsule = std::get_if<Capsule>(&shape)) {
+        body.between("/shape/capsule/radius", capsule->radius, smallest_size, largest_size, " m");
+        body.between("/shape/capsule/half_height", capsule->half_height, 0, largest_size, " m");
+    } else if (auto* box = std::get_if<Box>(&shape)) {
+        body.between("/shape/box/half_extents", box->half_extents, smallest_size, largest_size, " m");
+    } else if (auto* plane = std::get_if<Plane>(&shape)) {
+        body.make_unit("/shape/plane/normal", plane->normal, "it says which way the plane faces");
+        body.between("/shape/plane/offset", plane->offset, -largest_position, largest_position, " m");
+        if (motion != Motion::fixed) body.refuse("/motion", "a plane must be \"fixed\": it is infinite and cannot move");
+    }
+}
+
+void examine(const Examination& body, Body& b) {
+    examine_shape(body, b.shape, b.motion);
+    body.between("/position", b.position, -largest_position, largest_position, " m");
+    body.make_unit("/orientation", b.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
+    body.between("/velocity", b.velocity, -largest_velocity, largest_velocity, " m/s");
+    body.between("/angular_velocity", b.angular_velocity, -largest_velocity, largest_velocity, " rad/s");
+    body.between("/density", b.density, smallest_density, largest_density, " kg/m^3");
+    body.between("/friction", b.friction, 0, largest_friction, "");
+    body.between("/restitution", b.restitution, 0, 1, "");
+    body.between("/rolling_resistance", b.rolling_resistance, 0, largest_size, " m");
+    body.between("/linear_damping", b.linear_damping, 0, largest_damping, " 1/s");
+    body.between("/angular_damping", b.angular_damping, 0, largest_damping, " 1/s");
+    body.between("/gravity_scale", b.gravity_scale, -largest_scale, largest_scale, "");
+    if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
+        body.refuse("/velocity", "a fixed body has no velocity; a body that moves whatever it meets is \"kinematic\"");
+    }
+    const MassProperties properties = mass_properties(b.shape, b.density);
+    const bool representable = std::isnormal(properties.mass) && std::isnormal(properties.inertia.x) &&
+                               std::isnormal(properties.inertia.y) && std::isnormal(properties.inertia.z) &&
+                               std::isnormal(1 / properties.mass) && std::isnormal(1 / properties.inertia.x) &&
+                               std::isnormal(1 / properties.inertia.y) && std::isnormal(1 / properties.inertia.z);
+    if (b.motion == Motion::dynamic && !representable) {
+        body.refuse("/density", "size and density give a mass or inertia out of the range of a float");
+    }
+}
+
+MassProperties of_box(dvec3 half, double density) {
+    const double mass = density * 8 * half.x * half.y * half.z;
+    const dvec3 squares = half * half;
+    return {static_cast<float>(mass),
+            vec3(dvec3(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y) * (mass / 3))};
+}
+
+MassProperties of_sphere(double radius, double density) {
+    const double mass = density * 4 / 3 * std::numbers::pi * radius * radius * radius;
+    return {static_cast<float>(mass), vec3(static_cast<float>(0.4 * mass * radius * radius))};
+}
+
+// A cylinder and two half spheres; a half sphere's centre of mass lies 3/8 r above its base, so about the capsule's centre it has
+// (2/5) m r^2 + m (h^2 + (3/4) h r) across and (2/5) m r^2 along, with h the half height.
+MassProperties of_capsule(double radius, double half_height, double density) {
+    const double r2 = radius * radius;
+    const double cylinder = density * std::numbers::pi * r2 * 2 * half_height;
+    const double caps = density * 4 / 3 * std::numbers::pi * r2 * radius;
+    const double along = cylinder * r2 / 2 + caps * r2 * 0.4;
+    const double across = cylinder * (r2 / 4 + half_height * half_height / 3) +
+                          caps * (0.4 * r2 + half_height * half_height + 0.75 * half_height * radius);
+    return {static_cast<float>(cylinder + caps), vec3(dvec3(across, along, across))};
+}
+
+}  // namespace
+
+SceneError::SceneError(std::string place, const std::string& reason)
+    : std::runtime_error(place.empty() ? reason : place + ": " + reason), pointer(std::move(place)) {}
+
+Scene checked(Scene scene) {
+    for (int i = 0; i < 3; ++i) {
+        const float g = scene.gravity[i];
+        if (g >= -largest_gravity && g <= largest_gravity) continue;
+        throw SceneError("/gravity/" + std::to_string(i), out_of_range(g, -largest_gravity, largest_gravity, " m/s^2"));
+    }
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        examine(Examination(i, scene.bodies[i]), scene.bodies[i]);
+    }
+    return scene;
+}
+
+MassProperties mass_properties(const Shape& shape, float density) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return of_sphere(sphere->radius, density);
+    if (const auto* box = std::get_if<Box>(&shape)) return of_box(dvec3(box->half_extents), density);
+    if (const auto* capsule = std::get_if<Capsule>(&shape)) return of_capsule(capsule->radius, capsule->half_height, density);
+    return {};
+}
+
+}  // namespace scree

@@ -1,0 +1,135 @@
+// Writing a scene as JSON text, one body a line, with the shortest digits that read back to the same float.
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+#include "compute/scene_json.h"
+
+namespace scree {
+
+namespace {
+
+// JSON text that grows.
+class Text {
+public:
+    std::string take() { return std::move(text_); }
+    Text& operator<<(std::string_view plain) {
+        text_ += plain;
+        return *this;
+    }
+    Text& operator<<(float value) {
+        if (!std::isfinite(value)) throw SceneError("", "a value of the scene is not finite; JSON cannot hold it");
+        if (value == 0) return *this << (std::signbit(value) ? "-0.0" : "0");
+        char digits[64];
+        char* end = std::to_chars(digits, digits + sizeof digits - 1, value).ptr;
+        *end = '\0';
+        // Readers go through a double; should that round twice to a neighbour, write all digits of the float instead.
+        double wide = 0;
+        std::from_chars(digits, end, wide);
+        if (static_cast<float>(wide) != value)
+            end = std::to_chars(digits, digits + sizeof digits, static_cast<double>(value)).ptr;
+        return *this << std::string_view(digits, static_cast<std::size_t>(end - digits));
+    }
+    template <glm::length_t size>
+    Text& operator<<(const glm::vec<size, float>& v) {
+        for (glm::length_t i = 0; i < size; ++i) *this << (i == 0 ? "[" : ", ") << v[i];
+        return *this << "]";
+    }
+    void quoted(std::string_view words) {
+        static constexpr char hex[] = "0123456789abcdef";
+        text_ += '"';
+        for (const char c : words) {
+            const auto code = static_cast<unsigned char>(c);
+            if (c == '"' || c == '\\') {
+                text_ += '\\';
+                text_ += c;
+            } else if (code < 0x20) {
+                text_ += "\\u00";
+                text_ += hex[code >> 4];
+                text_ += hex[code & 15];
+            } else {
+                text_ += c;
+            }
+        }
+        text_ += '"';
+    }
+    template <class Value>
+    void unless_default(std::string_view key, const Value& value, const Value& by_default) {
+        if (same_bits(value, by_default)) return;
+        *this << ", \"" << key << "\": " << value;
+    }
+
+private:
+    static bool same_bits(float a, float b) { return std::bit_cast<unsigned>(a) == std::bit_cast<unsigned>(b); }
+    template <glm::length_t size>
+    static bool same_bits(const glm::vec<size, float>& a, const glm::vec<size, float>& b) {
+        for (glm::length_t i = 0; i < size; ++i) {
+            if (!same_bits(a[i], b[i])) return false;
+        }
+        return true;
+    }
+
+    std::string text_;
+};
+
+void write(Text& text, const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+        text << "{\"sphere\": {\"radius\": " << sphere->radius;
+    } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
+        text << "{\"capsule\": {\"radius\": " << capsule->radius << ", \"half_height\": " << capsule->half_height;
+    } else if (const auto* box = std::get_if<Box>(&shape)) {
+        text << "{\"box\": {\"half_extents\": " << box->half_extents;
+    } else if (const auto* plane = std::get_if<Plane>(&shape)) {
+        text << "{\"plane\": {\"normal\": " << plane->normal << ", \"offset\": " << plane->offset;
+    }
+    text << "}}";
+}
+
+void write(Text& text, const Body& body) {
+    static const Body by_default;
+    text << "{";
+    if (!body.name.empty()) {
+        text << "\"name\": ";
+        text.quoted(body.name);
+        text << ", ";
+    }
+    if (body.motion != Motion::dynamic)
+        text << "\"motion\": \"" << (body.motion == Motion::fixed ? "fixed" : "kinematic") << "\", ";
+    text << "\"shape\": ";
+    write(text, body.shape);
+    text << ", \"position\": " << body.position;
+    text.unless_default("orientation", body.orientation, by_default.orientation);
+    text.unless_default("velocity", body.velocity, by_default.velocity);
+    text.unless_default("angular_velocity", body.angular_velocity, by_default.angular_velocity);
+    text.unless_default("density", body.density, by_default.density);
+    text.unless_default("friction", body.friction, by_default.friction);
+    text.unless_default("restitution", body.restitution, by_default.restitution);
+    text.unless_default("rolling_resistance", body.rolling_resistance, by_default.rolling_resistance);
+    text.unless_default("linear_damping", body.linear_damping, by_default.linear_damping);
+    text.unless_default("angular_damping", body.angular_damping, by_default.angular_damping);
+    text.unless_default("gravity_scale", body.gravity_scale, by_default.gravity_scale);
+    text << "}";
+}
+
+}  // namespace
+
+std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
+    Text text;
+    text << "{\"gravity\": " << scene.gravity << ",\n";
+    if (viewpoint) {
+        text << " \"camera\": {\"eye\": " << viewpoint->eye << ", \"target\": " << viewpoint->target
+             << ", \"vertical_fov\": " << viewpoint->vertical_fov << "},\n";
+    }
+    text << " \"bodies\": [";
+    const char* between = "\n  ";
+    for (const Body& body : scene.bodies) {
+        text << between;
+        write(text, body);
+        between = ",\n  ";
+    }
+    text << "\n]}\n";
+    return text.take();
+}
+
+}  // namespace scree

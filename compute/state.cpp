@@ -1,0 +1,251 @@
+// How the tables begin: parameters from settings, traits from shapes and materials, room for a first guess of contacts.
+#include "compute/state.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "shaders/physics/counts.h"
+#include "shaders/physics/grid.h"
+
+namespace scree {
+
+namespace {
+
+// Levels of the grid with fewer bodies than this are cheaper to look through than to look up.
+constexpr std::size_t few_bodies = 8;
+constexpr std::size_t most_large = 64;
+
+float width_of(const physics::Traits& traits) {
+    const physics::vec3 size = traits.size;
+    if (traits.shape == physics::SHAPE_SPHERE) return 2 * size.x;
+    if (traits.shape == physics::SHAPE_CAPSULE) return 2 * (size.x + size.y);
+    return 2 * std::max({size.x, size.y, size.z});
+}
+
+physics::Traits traits_of(const Body& body) {
+    physics::Traits traits{};
+    traits.motion = static_cast<physics::uint>(body.motion);
+    traits.shape = static_cast<physics::uint>(body.shape.index());
+    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) traits.size = vec3(sphere->radius, 0, 0);
+    if (const auto* capsule = std::get_if<Capsule>(&body.shape)) traits.size = vec3(capsule->radius, capsule->half_height, 0);
+    if (const auto* box = std::get_if<Box>(&body.shape)) traits.size = box->half_extents;
+    if (const auto* plane = std::get_if<Plane>(&body.shape)) traits.size = plane->normal;
+    if (body.motion == Motion::dynamic) {
+        const MassProperties properties = mass_properties(body.shape, body.density);
+        traits.inverse_mass = 1 / properties.mass;
+        traits.inverse_inertia = vec3(1 / properties.inertia.x, 1 / properties.inertia.y, 1 / properties.inertia.z);
+    }
+    traits.friction = body.friction;
+    traits.restitution = body.restitution;
+    traits.rolling_resistance = body.rolling_resistance;
+    traits.gravity_scale = body.gravity_scale;
+    traits.linear_damping = body.linear_damping;
+    traits.angular_damping = body.angular_damping;
+    traits.large = traits.shape == physics::SHAPE_PLANE ? 1 : 0;
+    return traits;
+}
+
+// The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.
+float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
+    std::vector<float> widths;
+    for (const physics::Traits& body : traits)
+        if (!body.large && body.motion == physics::MOTION_DYNAMIC) widths.push_back(width_of(body));
+    if (widths.empty()) return 1;
+    const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
+    std::nth_element(widths.begin(), tenth, widths.end());
+    return 1.25f * (*tenth + 2 * speculative);
+}
+
+// Bodies of sizes so rare that a level of the grid is not worth it join the planes in the list of large ones.
+void mark_large(std::vector<physics::Traits>& traits, float cell) {
+    std::array<std::size_t, physics::LEVELS> population{};
+    const auto level = [&](const physics::Traits& body) { return physics::level_of(width_of(body), 1 / cell); };
+    for (const physics::Traits& body : traits)
+        if (!body.large) ++population[level(body)];
+    std::size_t room = most_large;
+    for (std::size_t l = population.size(); l-- > 0;) {
+        if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
+        room -= population[l];
+        for (physics::Traits& body : traits)
+            if (!body.large && level(body) == l) body.large = 1;
+    }
+}
+
+physics::Parameters parameters_of(const Scene& scene, const Settings& settings) {
+    physics::Parameters p{};
+    p.gravity = scene.gravity;
+    p.dt = 1 / settings.rate;
+    p.h = p.dt / static_cast<float>(settings.substeps);
+    p.inverse_h = 1 / p.h;
+    // Soft constraint coefficients, Catto, Soft Constraints, GDC 2011.
+    const float omega = 2 * std::numbers::pi_v<float> * settings.contact_hertz * p.inverse_h;
+    const float a1 = 2 * settings.contact_damping_ratio + p.h * omega;
+    const float a2 = p.h * omega * a1;
+    p.bias_rate = omega / a1;
+    p.mass_scale = a2 / (1 + a2);
+    p.impulse_scale = 1 / (1 + a2);
+    p.push_speed = settings.push_speed;
+    p.inverse_relaxation = 1 / settings.split_relaxation;
+    p.speculative = settings.speculative_distance;
+    p.restitution_threshold = settings.restitution_threshold;
+    p.max_speed = settings.max_speed;
+    p.max_spin = settings.max_turn * p.inverse_h;
+    return p;
+}
+
+}  // namespace
+
+const std::array<TableInfo, table_count>& table_infos() {
+    using namespace physics;
+    static const std::array<TableInfo, table_count> infos{{
+#define SCREE_INFO(binding, name, block, record, length) {#name, sizeof(record), Length::length},
+        SCREE_TABLES(SCREE_INFO)
+#undef SCREE_INFO
+    }};
+    return infos;
+}
+
+State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all)
+    : substeps(settings.substeps), all_(all) {
+    const auto n = static_cast<std::uint32_t>(scene.bodies.size());
+    traits.reserve(n + 1);
+    for (const Body& body : scene.bodies) traits.push_back(traits_of(body));
+
+    parameters.assign(1, parameters_of(scene, settings));
+    physics::Parameters& p = fixed();
+    p.cell = cell_width(traits, p.speculative);
+    p.inverse_cell = 1 / p.cell;
+    mark_large(traits, p.cell);
+    p.bodies = n;
+    p.buckets = std::bit_ceil(std::max(64u, 2 * n));
+    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 4 * n;
+    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + 2 * n;
+    p.group_size = group_size;
+    p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
+    allocate();
+    for (std::uint32_t i = 0; i < n; ++i) {
+        const Body& body = scene.bodies[i];
+        const auto* plane = std::get_if<Plane>(&body.shape);
+        poses[i] = {plane ? plane->normal * plane->offset : body.position, 0, plane ? vec4(0, 0, 0, 1) : body.orientation};
+        const bool moves = body.motion != Motion::fixed;
+        velocities[i] = {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
+    }
+    counted() = physics::emptied(counted(), p);
+}
+
+std::size_t State::allocated(Length length) const {
+    const physics::Parameters& p = parameters[0];
+    const std::size_t spans = physics::spans_of(p.pair_capacity);
+    const std::size_t kinds = physics::KINDS * spans + 1;
+    const std::size_t block = std::size_t{p.group_size} << physics::SCAN_SHIFT;
+    switch (length) {
+        case Length::one:
+            return 1;
+        case Length::bodies:
+            return std::max(1u, p.bodies);
+        case Length::bodies_and_end:
+            return p.bodies + 1;
+        case Length::buckets:
+            return p.buckets + 2;
+        case Length::pairs:
+            return p.pair_capacity;
+        case Length::pairs_and_end:
+            return p.pair_capacity + 1;
+        case Length::kinds:
+            return kinds;
+        case Length::contacts:
+            return p.contact_capacity;
+        case Length::slots:
+            return 2 * std::size_t{p.contact_capacity};
+        case Length::blocks:
+            return std::max({kinds, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2;
+    }
+    return 0;
+}
+
+std::size_t State::live(Length length) const {
+    const physics::Counts& c = counts[0];
+    switch (length) {
+        case Length::bodies:
+            return fixed().bodies;
+        case Length::pairs:
+            return c.pairs;
+        case Length::pairs_and_end:
+            return c.pairs + 1;
+        case Length::kinds:
+            return physics::KINDS * physics::spans_of(c.pairs) + 1;
+        case Length::contacts:
+            return c.contacts;
+        case Length::slots:
+            return fixed().bodies ? slot_ends[fixed().bodies - 1] : 0;
+        case Length::blocks:
+            return 0;  // scratch of the device's scans
+        default:
+            return allocated(length);
+    }
+}
+
+void State::make(Table table) {
+    switch (table) {
+#define SCREE_RESIZE(binding, name, block, record, length) \
+    case Table::name:                                      \
+        name.resize(allocated(Length::length));            \
+        break;
+        SCREE_TABLES(SCREE_RESIZE)
+#undef SCREE_RESIZE
+    }
+}
+
+void State::allocate() {
+    using enum Table;
+    for (const Table table : {parameters, counts, traits, poses, velocities, actions}) make(table);
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
+}
+
+void State::turn_over() {
+    contacts.swap(contacts_before);
+    impulses.swap(impulses_before);
+    first_contacts.swap(first_contacts_before);
+}
+
+void State::grow() {
+    const physics::Counts c = counted();
+    const auto with_room = [](std::uint32_t need) { return need + need / 2; };
+    if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_room(c.required_pairs);
+    if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);
+    counted().overflow = 0;
+    allocate();
+}
+
+std::size_t State::bytes() const {
+    std::size_t sum = 0;
+    for (const TableInfo& info : table_infos()) sum += allocated(info.length) * info.record_bytes;
+    return sum;
+}
+
+std::span<std::byte> State::raw(Table table) {
+    switch (table) {
+#define SCREE_RAW(binding, name, block, record, length) \
+    case Table::name:                                   \
+        return std::as_writable_bytes(std::span(name));
+        SCREE_TABLES(SCREE_RAW)
+#undef SCREE_RAW
+    }
+    return {};
+}
+
+std::span<const std::byte> State::raw(Table table) const {
+    switch (table) {
+#define SCREE_RAW(binding, name, block, record, length) \
+    case Table::name:                                   \
+        return std::as_bytes(std::span(name));
+        SCREE_TABLES(SCREE_RAW)
+#undef SCREE_RAW
+    }
+    return {};
+}
+
+}  // namespace scree

@@ -1,0 +1,80 @@
+// Every table of a step on the host: what the reference runner works on, and the image of what a device holds.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compute/scene.h"
+#include "compute/settings.h"
+#include "shaders/physics/records.h"
+#include "shaders/stages/tables.h"
+
+namespace scree {
+
+// What tables are as long as.
+enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, contacts, slots, blocks };
+
+enum class Table : std::uint32_t {
+#define SCREE_NAME(binding, name, block, record, length) name = binding,
+    SCREE_TABLES(SCREE_NAME)
+#undef SCREE_NAME
+};
+
+struct TableInfo {
+    const char* name;
+    std::size_t record_bytes;
+    Length length;
+};
+#define SCREE_COUNT(binding, name, block, record, length) +1
+inline constexpr std::size_t table_count = 0 SCREE_TABLES(SCREE_COUNT);
+#undef SCREE_COUNT
+const std::array<TableInfo, table_count>& table_infos();  // by binding
+
+struct State {
+#define SCREE_VECTOR(binding, name, block, record, length) std::vector<physics::record> name;
+    SCREE_TABLES(SCREE_VECTOR)
+#undef SCREE_VECTOR
+
+    // The tables of a checked scene before its first step. `all`: every table has its memory here; else only what the scene
+    // itself says, and make() brings the others.
+    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all);
+    void make(Table table);
+
+    // Last step's contacts become those before; called at the start of every step that is not a repetition.
+    void turn_over();
+
+    // Makes room for what the last step asked for and half as much again. What is in the tables stays.
+    void grow();
+
+    // Items of a table as allocated, and those that mean something at present.
+    std::size_t allocated(Length length) const;
+    std::size_t live(Length length) const;
+    std::size_t bytes() const;  // of all tables, wherever they are
+
+    std::span<std::byte> raw(Table table);
+    std::span<const std::byte> raw(Table table) const;
+
+    physics::Parameters& fixed() {
+        return parameters[0];
+    }
+    const physics::Parameters& fixed() const {
+        return parameters[0];
+    }
+    physics::Counts& counted() {
+        return counts[0];
+    }
+    const physics::Counts& counted() const {
+        return counts[0];
+    }
+
+    int substeps = 1;
+
+private:
+    void allocate();
+    bool all_ = true;
+};
+
+}  // namespace scree

@@ -1,0 +1,106 @@
+// Sums in double precision over the bodies and contacts of a state.
+#include "compute/statistics.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/gtc/quaternion.hpp>
+
+namespace scree {
+
+namespace {
+
+using glm::dvec3;
+
+bool finite(const State& state, std::size_t i) {
+    const physics::Pose& pose = state.poses[i];
+    const physics::Velocity& velocity = state.velocities[i];
+    float sum = 0;  // NaN and infinity survive being multiplied by zero
+    for (const float x : {pose.position.x, pose.position.y, pose.position.z, pose.orientation.x, pose.orientation.y,
+                          pose.orientation.z, pose.orientation.w, velocity.linear.x, velocity.linear.y, velocity.linear.z,
+                          velocity.angular.x, velocity.angular.y, velocity.angular.z})
+        sum += x * 0.0f;
+    return sum == 0.0f;
+}
+
+dvec3 angular_momentum(const MassProperties& mass, vec4 q, dvec3 angular) {
+    const glm::dquat turn(q.w, q.x, q.y, q.z);
+    return turn * (dvec3(mass.inertia) * (glm::conjugate(turn) * angular));
+}
+
+void add_motion(const Scene& scene, const State& state, std::size_t i, Statistics& s, dvec3& momentum, dvec3& spin) {
+    const MassProperties mass = mass_properties(scene.bodies[i].shape, scene.bodies[i].density);
+    const dvec3 x(state.poses[i].position), v(state.velocities[i].linear), w(state.velocities[i].angular);
+    const dvec3 own_spin = angular_momentum(mass, state.poses[i].orientation, w);
+    const double m = mass.mass;
+    momentum += m * v;
+    spin += m * glm::cross(x, v) + own_spin;
+    s.kinetic_energy += 0.5 * m * glm::dot(v, v) + 0.5 * glm::dot(w, own_spin);
+    s.potential_energy -= m * scene.bodies[i].gravity_scale * glm::dot(dvec3(scene.gravity), x);
+    s.max_speed = std::max(s.max_speed, glm::length(v));
+    s.drift_max = std::max(s.drift_max, glm::length(x - dvec3(scene.bodies[i].position)));
+}
+
+void add_contacts(const State& state, Statistics& s) {
+    std::size_t inside = 0;
+    double depth = 0;
+    s.manifolds = state.counted().contacts;
+    for (std::size_t i = 0; i < s.manifolds; ++i) {
+        const physics::uint count = state.contacts[i].count;
+        s.points += count;
+        for (physics::uint k = 0; k < count; ++k) {
+            const double separation = state.impulses[i].separation[static_cast<int>(k)];
+            if (separation >= 0) continue;
+            ++inside;
+            depth -= separation;
+            s.penetration_max = std::max(s.penetration_max, -separation);
+        }
+    }
+    if (inside) s.penetration_mean = depth / static_cast<double>(inside);
+}
+
+}  // namespace
+
+Statistics statistics_of(const Scene& scene, const State& state) {
+    Statistics s;
+    s.bodies = scene.bodies.size();
+    dvec3 momentum(0), spin(0);
+    std::vector<const Plane*> planes;
+    for (const Body& body : scene.bodies)
+        if (const auto* plane = std::get_if<Plane>(&body.shape)) planes.push_back(plane);
+    for (std::size_t i = 0; i < s.bodies; ++i) {
+        if (!finite(state, i)) {
+            ++s.not_finite;
+            continue;
+        }
+        if (scene.bodies[i].motion != Motion::dynamic) continue;
+        add_motion(scene, state, i, s, momentum, spin);
+        const vec3 centre = state.poses[i].position;
+        s.below_ground += std::any_of(planes.begin(), planes.end(), [&](const Plane* plane) {
+            return glm::dot(dvec3(plane->normal), dvec3(centre)) < plane->offset;
+        });
+    }
+    add_contacts(state, s);
+    for (int axis = 0; axis < 3; ++axis) {
+        s.momentum[axis] = momentum[axis];
+        s.angular_momentum[axis] = spin[axis];
+    }
+    return s;
+}
+
+std::uint64_t hash_of(const State& state) {
+    constexpr std::size_t floats = 13;
+    std::vector<float> values(floats * state.fixed().bodies);
+    for (std::size_t i = 0; i < state.fixed().bodies; ++i) {
+        float* row = values.data() + floats * i;
+        std::memcpy(row, &state.poses[i].position, 12);
+        std::memcpy(row + 3, &state.poses[i].orientation, 16);
+        std::memcpy(row + 7, &state.velocities[i].linear, 12);
+        std::memcpy(row + 10, &state.velocities[i].angular, 12);
+    }
+    return XXH64(values.data(), values.size() * sizeof(float), 0);
+}
+
+}  // namespace scree

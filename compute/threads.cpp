@@ -1,0 +1,48 @@
+// The loops of threads.h on oneTBB.
+#include "compute/threads.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <algorithm>
+#include <thread>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+namespace scree {
+
+#if defined(__SSE2__)
+FlushedDenormals::FlushedDenormals() : before_(_mm_getcsr()) {
+    _mm_setcsr(before_ | 0x8040u);
+}  // flush to zero, denormals are zero
+FlushedDenormals::~FlushedDenormals() {
+    _mm_setcsr(before_);
+}
+#else
+FlushedDenormals::FlushedDenormals() = default;
+FlushedDenormals::~FlushedDenormals() = default;
+#endif
+
+struct Threads::Arena {
+    explicit Arena(int threads) : arena(threads) {}
+    tbb::task_arena arena;
+};
+
+Threads::Threads(int count) : count_(count > 0 ? count : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {
+    if (count_ > 1) arena_ = std::make_unique<Arena>(count_);
+}
+Threads::~Threads() = default;
+
+void Threads::for_ranges(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
+    arena_->arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const tbb::blocked_range<std::size_t>& part) {
+            const FlushedDenormals flushed;
+            range(part.begin(), part.end());
+        });
+    });
+}
+
+}  // namespace scree

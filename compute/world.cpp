@@ -1,0 +1,170 @@
+// The world: walks steps, grows tables, and turns what the user asks into actions.
+#include "compute/world.h"
+
+#include <xxhash.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <stdexcept>
+
+#include "compute/state.h"
+#include "compute/statistics.h"
+
+namespace scree {
+
+namespace {
+
+bool finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void demand(bool condition, const std::string& what) {
+    if (!condition) throw std::invalid_argument("settings: " + what);
+}
+
+Settings in_range(const Settings& s) {
+    demand(s.rate >= 10 && s.rate <= 1000, "rate must be between 10 and 1000 Hz, is " + std::to_string(s.rate));
+    demand(s.substeps >= 1 && s.substeps <= 64, "substeps must be between 1 and 64, is " + std::to_string(s.substeps));
+    demand(s.contact_hertz > 0 && s.contact_hertz <= 0.5f, "contact_hertz must be in (0, 0.5]");
+    demand(s.contact_damping_ratio >= 1 && s.contact_damping_ratio <= 40, "contact_damping_ratio must be between 1 and 40");
+    demand(s.push_speed > 0 && s.push_speed <= 100, "push_speed must be in (0, 100] m/s");
+    demand(s.split_relaxation >= 1 && s.split_relaxation < 2, "split_relaxation must be in [1, 2)");
+    demand(s.speculative_distance > 0 && s.speculative_distance <= 1, "speculative_distance must be in (0, 1] m");
+    demand(s.restitution_threshold >= 0, "restitution_threshold must not be negative");
+    demand(s.max_speed > 0 && s.max_speed <= 1e4f, "max_speed must be in (0, 10000] m/s");
+    demand(s.max_turn > 0 && s.max_turn <= 1.57f, "max_turn must be in (0, 1.57] rad");
+    return s;
+}
+
+}  // namespace
+
+struct World::Interior {
+    Scene scene;
+    Settings settings;
+    std::unique_ptr<Runner> runner;
+    State state;
+    std::map<std::size_t, physics::Action> actions;  // for the next step, by body
+    std::uint64_t steps = 0;
+    std::uint64_t growths = 0;
+
+    Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r)
+        : scene(std::move(s)),
+          settings(t),
+          runner(std::move(r)),
+          state(scene, settings, runner->group_size(), runner->in_place()) {
+        runner->attach(state);
+    }
+
+    physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false) {
+        if (body >= scene.bodies.size())
+            throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()));
+        if (!finite(value) || !finite(second)) throw std::invalid_argument("body " + std::to_string(body) + ": not finite");
+        const Motion motion = scene.bodies[body].motion;
+        if (motion == Motion::fixed || (motion == Motion::kinematic && !kinematic_too))
+            throw std::invalid_argument("body " + std::to_string(body) + " is not dynamic");
+        physics::Action& action = actions[body];
+        action.body = static_cast<physics::uint>(body);
+        return action;
+    }
+
+    void step() {
+        physics::Parameters& parameters = state.fixed();
+        parameters.actions = 0;
+        for (const auto& [body, action] : actions) state.actions[parameters.actions++] = action;
+        actions.clear();
+        parameters.redo = 0;
+        while (!runner->step()) {
+            runner->fetch();
+            state.grow();
+            ++growths;
+            state.fixed().redo = 1;
+            runner->attach(state);
+        }
+        ++steps;
+    }
+};
+
+World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
+    : interior_(std::make_unique<Interior>(scree::checked(scene), in_range(settings), std::move(runner))) {}
+World::World(const Scene& scene, const Settings& settings, int threads)
+    : World(scene, settings, make_reference_runner(threads)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::step(int count) {
+    for (int i = 0; i < count; ++i) interior_->step();
+}
+
+std::uint64_t World::steps() const {
+    return interior_->steps;
+}
+double World::time() const {
+    return static_cast<double>(interior_->steps) / interior_->settings.rate;
+}
+const Scene& World::scene() const {
+    return interior_->scene;
+}
+const Settings& World::settings() const {
+    return interior_->settings;
+}
+Runner& World::runner() {
+    return *interior_->runner;
+}
+
+void World::apply_force(std::size_t body, vec3 force, vec3 offset) {
+    physics::Action& action = interior_->action_on(body, force, offset);
+    action.force += force;
+    action.torque += glm::cross(offset, force);
+}
+void World::apply_torque(std::size_t body, vec3 torque) {
+    interior_->action_on(body, torque, torque).torque += torque;
+}
+void World::apply_impulse(std::size_t body, vec3 impulse, vec3 offset) {
+    physics::Action& action = interior_->action_on(body, impulse, offset);
+    action.impulse += impulse;
+    action.angular_impulse += glm::cross(offset, impulse);
+}
+void World::apply_angular_impulse(std::size_t body, vec3 impulse) {
+    interior_->action_on(body, impulse, impulse).angular_impulse += impulse;
+}
+void World::set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity) {
+    physics::Action& action = interior_->action_on(body, velocity, angular_velocity, /* kinematic_too */ true);
+    action.flags |= physics::ACTION_SETS_VELOCITY;
+    action.velocity = velocity;
+    action.angular_velocity = angular_velocity;
+}
+
+std::vector<BodyState> World::bodies() const {
+    interior_->runner->fetch_bodies();
+    const State& state = interior_->state;
+    std::vector<BodyState> bodies(state.fixed().bodies);
+    for (std::size_t i = 0; i < bodies.size(); ++i)
+        bodies[i] = {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear,
+                     state.velocities[i].angular};
+    return bodies;
+}
+
+Statistics World::statistics() const {
+    interior_->runner->fetch();
+    return statistics_of(interior_->scene, interior_->state);
+}
+
+std::uint64_t World::state_hash() const {
+    interior_->runner->fetch_bodies();
+    return hash_of(interior_->state);
+}
+
+std::uint64_t World::buffer_growths() const {
+    return interior_->growths;
+}
+std::size_t World::buffer_bytes() const {
+    return interior_->state.bytes();
+}
+StageTimes World::stage_times() const {
+    return interior_->runner->stage_times();
+}
+
+}  // namespace scree

@@ -1,0 +1,37 @@
+// The list of demos, in one place.
+#include "demos/demos.h"
+
+#include <algorithm>
+
+namespace scree::demos {
+
+const std::vector<Demo>& all_demos() {
+    static const std::vector<Demo> demos = {
+        {"rest", "one body of each shape comes to rest on the ground", 4, false, rest},
+        {"stack", "ten boxes, placed a little carelessly, stand", 10, false, stack},
+        {"tower", "a single column of forty boxes stands", 40, false, tower},
+        {"wall", "a wall of sixteen courses in running bond stands", 520, false, wall},
+        {"pyramid", "a pyramid of 465 boxes stands", 465, false, pyramid},
+        {"seesaw", "equal weights balance; unequal weights tip", 6, false, seesaw},
+        {"slopes", "bodies slide, stick and roll down inclines as the formulas say", 8, false, slopes},
+        {"cradle", "five spheres in a row pass on a blow", 5, false, cradle},
+        {"dominoes", "a winding row of dominoes falls, to the last", 60, false, dominoes},
+        {"pile", "boxes fall into a pit and come to rest", 1000, true, pile},
+        {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
+        {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
+    };
+    return demos;
+}
+
+const Demo* find_demo(std::string_view name) {
+    const auto& demos = all_demos();
+    const auto found = std::find_if(demos.begin(), demos.end(), [&](const Demo& demo) { return name == demo.name; });
+    return found == demos.end() ? nullptr : &*found;
+}
+
+DemoScene build(const Demo& demo, DemoOptions options) {
+    if (options.bodies == 0 || !demo.takes_bodies) options.bodies = demo.bodies;
+    return demo.build(options);
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,54 @@
+// The demos: named scenes, each with a view of it and a promise of what will have happened at its end.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compute/scene.h"
+#include "compute/scene_json.h"
+#include "demos/promise.h"
+
+namespace scree::demos {
+
+struct DemoOptions {
+    std::size_t bodies = 0;  // wanted; scenes of a fixed size ignore it
+    std::uint64_t seed = 1;
+};
+
+struct DemoScene {
+    Scene scene;
+    Viewpoint viewpoint;
+    vec3 low, high;  // corners of where it happens, m
+    float seconds;   // until the promise can be judged
+    Promise promise;
+};
+
+struct Demo {
+    const char* name;
+    const char* line;    // what it shows, one line
+    std::size_t bodies;  // dynamic bodies by default
+    bool takes_bodies;   // --bodies changes how many
+    DemoScene (*build)(const DemoOptions&);
+};
+
+const std::vector<Demo>& all_demos();
+const Demo* find_demo(std::string_view name);            // null if there is none
+DemoScene build(const Demo& demo, DemoOptions options);  // bodies 0: the default
+
+DemoScene rest(const DemoOptions&);
+DemoScene stack(const DemoOptions&);
+DemoScene tower(const DemoOptions&);
+DemoScene wall(const DemoOptions&);
+DemoScene pyramid(const DemoOptions&);
+DemoScene seesaw(const DemoOptions&);
+DemoScene slopes(const DemoOptions&);
+DemoScene cradle(const DemoOptions&);
+DemoScene dominoes(const DemoOptions&);
+DemoScene pile(const DemoOptions&);
+DemoScene mix(const DemoOptions&);
+DemoScene avalanche(const DemoOptions&);
+
+}  // namespace scree::demos

@@ -1,0 +1,39 @@
+// Pseudo-random numbers that are the same on every machine: PCG32 (O'Neill, 2014), 64 bits of state, 32 bits of output.
+#pragma once
+
+#include <cstdint>
+
+#include "compute/scene.h"
+
+namespace scree::demos {
+
+class Random {
+public:
+    explicit Random(std::uint64_t seed) : state_(seed + increment) { bits(); }
+
+    std::uint32_t bits() {
+        const std::uint64_t old = state_;
+        state_ = old * 6364136223846793005u + increment;
+        const auto shifted = static_cast<std::uint32_t>(((old >> 18) ^ old) >> 27);
+        const auto turn = static_cast<std::uint32_t>(old >> 59);
+        return (shifted >> turn) | (shifted << ((32 - turn) & 31));
+    }
+    // 24 bits of chance: every value is a float, and no rounding differs between machines.
+    float unit() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
+    float between(float low, float high) { return low + (high - low) * unit(); }
+
+    // Any orientation, all alike: a point of the 4-ball's surface, by rejection, since sin and cos differ between C libraries.
+    vec4 orientation() {
+        for (;;) {
+            const float x = between(-1, 1), y = between(-1, 1), z = between(-1, 1), w = between(-1, 1);
+            const float squared = x * x + y * y + z * z + w * w;
+            if (squared < 1 && squared > 0.01f) return vec4(x, y, z, w);  // made unit when the scene is checked
+        }
+    }
+
+private:
+    static constexpr std::uint64_t increment = 1442695040888963407u;
+    std::uint64_t state_;
+};
+
+}  // namespace scree::demos

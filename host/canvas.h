@@ -1,0 +1,69 @@
+// A canvas without a display: draws the bodies of a simulation straight from its buffers on the device into pictures.
+#pragma once
+
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "host/buffer.h"
+#include "host/canvas_colors.h"
+#include "host/device.h"
+#include "host/image.h"
+
+namespace scree::host {
+
+using glm::vec3;
+
+struct Camera {
+    vec3 eye{8, 5, 12};       // m
+    vec3 target{0, 1, 0};     // m
+    vec3 up{0, 1, 0};
+    float vertical_fov = 40;  // degrees
+    float near_plane = 0.05f; // m; there is no far plane
+};
+
+// The state of the simulation, one record a body, as in shaders/physics/records.h. Borrowed; read only by the shaders.
+struct BodyTables {
+    const Buffer* traits = nullptr;      // Traits
+    const Buffer* poses = nullptr;       // Pose
+    const Buffer* velocities = nullptr;  // Velocity
+};
+
+// Which bodies have which shape: their indices in the tables, fixed for a run.
+struct ShapeInstances {
+    std::vector<std::uint32_t> spheres, capsules, boxes, planes;
+};
+
+struct CanvasOptions {
+    int width = 1280;                      // pixels
+    int height = 720;                      // pixels
+    int samples = 4;                       // a pixel: 1 or 4
+    bool shadows = true;                   // of the sun, and the darkening between bodies
+    bool legend = true;                    // the colour scale and the caption in the picture
+    vec3 toward_sun{-0.52f, 0.74f, 0.43f};  // any length
+};
+
+class Canvas {
+public:
+    // Throws DeviceError for sizes that the device cannot draw.
+    Canvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const BodyTables& tables, const CanvasOptions& options = {});
+    ~Canvas();
+    Canvas(Canvas&&) noexcept;
+    Canvas& operator=(Canvas&&) noexcept;
+
+    // When buffers were made anew.
+    void set_tables(const BodyTables& tables);
+
+    // The picture now: waits for what was submitted to the queue before, and for the drawing. `scene_low` and `scene_high` are
+    // corners of the part of the world that casts shadows; keep them fixed over a run, or the shadows' edges crawl.
+    // Lines of the caption are parted by '\n'. The same state gives the same pixels.
+    Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high);
+
+private:
+    struct Interior;
+    std::unique_ptr<Interior> interior_;
+};
+
+}  // namespace scree::host

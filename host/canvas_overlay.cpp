@@ -1,0 +1,132 @@
+// The legend and the caption, as rectangles in pixels.
+#include "host/canvas_overlay.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include "host/glyphs.h"
+
+namespace scree::host {
+namespace {
+
+constexpr glm::vec3 INK{0.87f, 0.88f, 0.90f};
+constexpr glm::vec3 PANEL{0.012f, 0.014f, 0.020f};
+
+// Lengths in pixels for a picture of this height; at 720 the text is 19 high.
+struct Measures {
+    float unit, text, small, margin, padding;
+    explicit Measures(int height)
+        : unit(static_cast<float>(height) / 720.0f),
+          text(std::max(10.0f, std::round(19 * unit))),
+          small(std::max(9.0f, std::round(16 * unit))),
+          margin(std::round(18 * unit)),
+          padding(std::round(12 * unit)) {}
+};
+
+class Sheet {
+public:
+    void panel(float left, float top, float right, float bottom, float radius, glm::vec4 color) {
+        OverlayQuad quad{};
+        quad.rectangle = {left, top, right, bottom};
+        quad.color = color;
+        quad.kind = OVERLAY_PANEL;
+        quad.extra = radius;
+        quads.push_back(quad);
+    }
+    void bar(float left, float top, float right, float bottom) {
+        OverlayQuad quad{};
+        quad.rectangle = {left, top, right, bottom};
+        quad.color = {1, 1, 1, 1};
+        quad.kind = OVERLAY_BAR;
+        quads.push_back(quad);
+    }
+    // `base` is the base line.
+    void text(std::string_view line, float left, float base, float size, float strength = 1.0f) {
+        const float grow = size / static_cast<float>(GLYPH_SIZE);
+        float pen = left;
+        while (!line.empty()) {
+            const Glyph& glyph = glyph_of(take_code(line));
+            if (glyph.width > 0) {
+                OverlayQuad quad{};
+                const float x = pen + static_cast<float>(glyph.left) * grow;
+                const float y = base + static_cast<float>(glyph.top) * grow;
+                quad.rectangle = {x, y, x + static_cast<float>(glyph.width) * grow, y + static_cast<float>(glyph.height) * grow};
+                const auto u = static_cast<float>(glyph.x), v = static_cast<float>(glyph.y);
+                quad.texture_rectangle = {u, v, u + static_cast<float>(glyph.width), v + static_cast<float>(glyph.height)};
+                quad.color = glm::vec4(INK, strength);
+                quad.kind = OVERLAY_GLYPH;
+                quad.extra = 1.0f / grow;
+                quads.push_back(quad);
+            }
+            pen += glyph.advance * grow;
+        }
+    }
+    std::vector<OverlayQuad> quads;
+};
+
+void add_caption(Sheet& sheet, int height, const std::string& caption) {
+    const Measures m(height);
+    std::vector<std::string_view> lines;
+    std::string_view rest = caption;
+    for (std::size_t end = 0; end != std::string_view::npos;) {
+        end = rest.find('\n');
+        lines.push_back(rest.substr(0, end));
+        if (end != std::string_view::npos) rest.remove_prefix(end + 1);
+    }
+    float widest = 0;
+    for (const std::string_view line : lines) widest = std::max(widest, text_width(line, m.text));
+    const float step = std::round(1.3f * m.text);
+    const float bottom = static_cast<float>(height) - m.margin;
+    const float top = bottom - 2 * m.padding - step * static_cast<float>(lines.size()) + std::round(0.3f * m.text);
+    sheet.panel(m.margin, top, std::round(m.margin + 2 * m.padding + widest), bottom, std::round(7 * m.unit), glm::vec4(PANEL, 0.62f));
+    float base = top + m.padding + std::round(0.80f * m.text);
+    for (const std::string_view line : lines) {
+        sheet.text(line, m.margin + m.padding, base, m.text);
+        base += step;
+    }
+}
+
+void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
+    const Measures m(height);
+    const BarPlace place = legend_bar(width, height);
+    const auto left = static_cast<float>(place.left), top = static_cast<float>(place.top);
+    const auto right = static_cast<float>(place.right), bottom = static_cast<float>(place.bottom);
+    sheet.panel(left - m.padding - std::round(6 * m.unit), top - std::round(1.15f * m.text) - m.padding,
+                right + m.padding + std::round(6 * m.unit), static_cast<float>(height) - m.margin, std::round(7 * m.unit),
+                glm::vec4(PANEL, 0.62f));
+    const std::string unit = color_unit(scale.by);
+    const float title_base = top - std::round(0.42f * m.text);
+    sheet.text(color_title(scale.by), left, title_base, m.text);
+    sheet.text(unit, right - text_width(unit, m.small), title_base, m.small, 0.75f);
+    sheet.bar(left, top, right, bottom);
+    const float thin = std::max(1.0f, std::round(m.unit));
+    for (const float value : scale_ticks(scale.low, scale.high, scale.logarithmic, 6)) {
+        const float t = scale.logarithmic ? std::log(value / scale.low) / std::log(scale.high / scale.low)
+                                          : (value - scale.low) / (scale.high - scale.low);
+        const float x = std::round(left + t * (right - left - thin));
+        sheet.panel(x, bottom, x + thin, bottom + std::round(5 * m.unit), 0, glm::vec4(INK, 0.8f));
+        const std::string label = tick_label(value, scale.logarithmic);
+        sheet.text(label, x + 0.5f * thin - 0.5f * text_width(label, m.small), bottom + std::round(5 * m.unit + 1.0f * m.small), m.small);
+    }
+}
+
+}  // namespace
+
+BarPlace legend_bar(int width, int height) {
+    const Measures m(height);
+    const int inset = static_cast<int>(m.margin + m.padding + std::round(6 * m.unit));
+    const int long_side = std::min(static_cast<int>(std::round(300 * m.unit)), width - 2 * inset);
+    const int below = static_cast<int>(m.margin + std::round(0.5f * m.padding) + std::round(6 * m.unit + 1.2f * m.small));
+    const int thickness = static_cast<int>(std::max(4.0f, std::round(14 * m.unit)));
+    return {width - inset - long_side, height - below - thickness, width - inset, height - below};
+}
+
+std::vector<OverlayQuad> overlay_quads(int width, int height, const ColorScale& scale, const std::string& caption) {
+    Sheet sheet;
+    if (!caption.empty()) add_caption(sheet, height, caption);
+    if (has_scale(scale.by) && legend_bar(width, height).left >= 0) add_legend(sheet, width, height, scale);
+    return sheet.quads;
+}
+
+}  // namespace scree::host

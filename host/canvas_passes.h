@@ -1,0 +1,32 @@
+// The render passes of the canvas and the pipelines that draw in them.
+#pragma once
+
+#include "host/canvas_objects.h"
+
+namespace scree::host {
+
+constexpr VkFormat COLOR_FORMAT = VK_FORMAT_R8G8B8A8_SRGB;  // the device encodes, so that samples are averaged as light
+constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
+
+// Depth only, left ready to be read by fragment shaders.
+VkRenderPass make_shadow_pass(Objects& objects);
+// Attachments: colour, depth and, with more than one sample, the picture into which the colour is resolved.
+VkRenderPass make_picture_pass(Objects& objects, int samples);
+
+struct PipelineShape {
+    const char* vertex = nullptr;
+    const char* fragment = nullptr;  // none: depth only
+    VkRenderPass pass = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    int samples = 1;
+    int width = 0, height = 0;  // pixels
+    VkCullModeFlags cull = VK_CULL_MODE_NONE;
+    VkCompareOp depth = VK_COMPARE_OP_ALWAYS;
+    bool writes_depth = false;
+    bool colors = true;  // the pass has a colour attachment
+    bool blends = false;
+    bool strip = false;  // a triangle strip instead of separate triangles
+};
+VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape);
+
+}  // namespace scree::host

@@ -1,0 +1,38 @@
+// Frames to PNG files and to a video, encoded beside the simulation.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "host/image.h"
+
+namespace scree::host {
+
+struct FrameWriterOptions {
+    std::filesystem::path folder;  // frame_000000.png, ... are written here; empty: no files
+    std::filesystem::path video;   // an .mp4 file; empty: no video
+    double frames_per_second = 60;
+    int width = 1280;   // pixels
+    int height = 720;   // pixels
+    int threads = 0;    // PNG encoders; 0: one, or two when there are more than four processors
+    int waiting = 6;    // frames held at most before add() waits; bounds memory
+};
+
+class FrameWriter {
+public:
+    // Makes the folder. Throws ImageError now for what can be known now: an unwritable place, no ffmpeg.
+    explicit FrameWriter(const FrameWriterOptions& options);
+    ~FrameWriter();  // finishes what waits, and stays silent about errors
+    FrameWriter(const FrameWriter&) = delete;
+    FrameWriter& operator=(const FrameWriter&) = delete;
+
+    void add(Image image);  // the next frame; throws the first error of the encoders
+    void finish();          // waits until all is on disk; throws the first error
+    int frames() const;     // added so far
+
+private:
+    struct Interior;
+    std::unique_ptr<Interior> interior_;
+};
+
+}  // namespace scree::host

@@ -1,0 +1,163 @@
+// One contact made ready for a step: last step's impulses carried over to this step's points, and what the solver needs of it.
+#ifndef SCREE_PHYSICS_CONTACT_H
+#define SCREE_PHYSICS_CONTACT_H
+
+#include "shaders/physics/motion.h"
+
+LAWS_BEGIN
+
+LAW vec3 xyz(vec4 v) {
+    return vec3(v.x, v.y, v.z);
+}
+LAW uint feature_of(uint features, uint point) {
+    return (features >> (8u * point)) & 0xFFu;
+}
+
+// ---- last step's impulses to this step's points
+// Smallest half width, m: what lengths on a
+// body are measured against.
+LAW float thickness(Traits traits) {
+    if (traits.shape == SHAPE_PLANE) return 1.0e30f;
+    return traits.shape == SHAPE_BOX ? smaller(traits.size.x, smaller(traits.size.y, traits.size.z)) : traits.size.x;
+}
+
+// How far a point may have wandered on a body and still be the same, m.
+LAW float match_radius(Traits a, Traits b) {
+    return 0.1f * smaller(thickness(a), thickness(b));
+}
+
+LAW Impulse no_impulse(vec3 d) {
+    Impulse impulse;
+    impulse.normal = vec4(0.0f);
+    impulse.separation = vec4(0.0f);
+    impulse.approach = vec4(0.0f);
+    impulse.friction = vec3(0.0f);
+    impulse.twist = 0.0f;
+    impulse.rolling = vec3(0.0f);
+    impulse.pad0 = 0.0f;
+    impulse.d = d;
+    impulse.pad1 = 0.0f;
+    return impulse;
+}
+
+// The nearest unused old point within `radius` of each new one, measured on A; the feature id breaks ties only, because ids
+// flicker while points stay. A single point is its successor wherever it went: a wheel's contact travels round the wheel.
+LAW vec4 matched_normal(Contact now, Contact before, vec4 normal, float radius) {
+    vec4 matched = vec4(0.0f);
+    if (now.count == 1u && before.count == 1u) {
+        matched.x = normal.x;
+        return matched;
+    }
+    uint taken = 0u;
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= now.count) break;
+        vec3 anchor = rotate_back(now.turn_a, xyz(now.points[k]));
+        float nearest = radius * radius;
+        uint best = NONE;
+        for (uint j = 0u; j < 4u; ++j) {
+            if (j >= before.count) break;
+            vec3 apart = anchor - rotate_back(before.turn_a, xyz(before.points[j]));
+            float score = dot3(apart, apart);
+            if (feature_of(now.features, k) != feature_of(before.features, j)) score = score + 1.0e-8f;
+            if (score < nearest && ((taken >> j) & 1u) == 0u) {
+                nearest = score;
+                best = j;
+            }
+        }
+        if (best != NONE) {
+            matched[k] = normal[best];
+            taken = taken | (1u << best);
+        }
+    }
+    return matched;
+}
+
+LAW Impulse inherited(Contact now, Contact before, Impulse was, float radius) {
+    Impulse impulse = no_impulse(now.d);
+    impulse.normal = matched_normal(now, before, was.normal, radius);
+    float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
+    if (total > 0.0f) {
+        impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
+        impulse.twist = was.twist;
+        impulse.rolling = was.rolling;
+    }
+    return impulse;
+}
+
+// ---- made ready
+LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b) {
+    Contact contact;
+    contact.a = pair.a;
+    contact.b = pair.b;
+    contact.count = count;
+    contact.features = manifold.features;
+    contact.normal = manifold.normal;
+    contact.age = 0u;
+    contact.d = b.position - a.position;
+    contact.pad = 0.0f;
+    for (uint k = 0u; k < 4u; ++k) contact.points[k] = manifold.points[k];
+    contact.turn_a = a.orientation;
+    contact.turn_b = b.orientation;
+    return contact;
+}
+
+LAW vec4 separations_of(Contact contact) {
+    return vec4(contact.points[0].w, contact.points[1].w, contact.points[2].w, contact.points[3].w);
+}
+
+// 1/mass that a push along u at the lever arm r meets: 1/m + (r x u).I^-1 (r x v), with v = u for the effective mass itself.
+LAW float give(Mass mass, vec3 r, vec3 u) {
+    vec3 arm = cross3(r, u);
+    return mass.inverse_mass + dot3(arm, turned_by(mass, arm));
+}
+LAW vec3 slide_give(Mass mass, vec3 r, vec3 t1, vec3 t2) {
+    vec3 arm2 = cross3(r, t2);
+    vec3 turn1 = turned_by(mass, cross3(r, t1));
+    return vec3(give(mass, r, t1), dot3(arm2, turn1), give(mass, r, t2));
+}
+
+LAW Constraint constraint_of(Contact contact, Traits ta, Mass a, Traits tb, Mass b, uint slot_a, uint slot_b,
+                             Parameters parameters) {
+    Constraint c;
+    c.a = contact.a;
+    c.b = contact.b;
+    c.slot_a = slot_a;
+    c.slot_b = slot_b;
+    c.normal = contact.normal;
+    c.friction = square_root(ta.friction * tb.friction);
+    c.rolling_resistance = larger(ta.rolling_resistance, tb.rolling_resistance);
+    c.restitution = larger(ta.restitution, tb.restitution);
+    c.count = contact.count;
+    c.pair = NONE;
+    c.give_b = vec4(0.0f);
+    // The patch lies where the points touch: those still ahead weigh less, so its centre moves smoothly as a body tips.
+    vec3 centre = vec3(0.0f);
+    float weights = 0.0f;
+    float fade = reciprocal(parameters.speculative);
+    for (uint k = 0u; k < 4u; ++k) {
+        c.arms[k] = vec4(0.0f);
+        if (k >= contact.count) continue;
+        vec3 arm = xyz(contact.points[k]);
+        c.arms[k] = vec4(arm, give(a, arm, contact.normal));
+        c.give_b[k] = give(b, arm - contact.d, contact.normal);
+        float weight = clamped(1.0f - contact.points[k].w * fade, 0.05f, 1.0f);
+        centre = centre + arm * weight;
+        weights = weights + weight;
+    }
+    c.centre = centre * reciprocal(weights);
+    float reach = 0.0f;
+    for (uint k = 0u; k < 4u; ++k)
+        if (k < contact.count) reach = reach + length3(xyz(contact.points[k]) - c.centre);
+    c.reach = contact.count > 1u ? reach * reciprocal(float(contact.count)) : 0.0f;
+    vec3 t1 = tangent(contact.normal);
+    vec3 t2 = cross3(contact.normal, t1);
+    c.slide_a = slide_give(a, c.centre, t1, t2);
+    c.slide_b = slide_give(b, c.centre - contact.d, t1, t2);
+    c.twist_a = dot3(contact.normal, turned_by(a, contact.normal));
+    c.twist_b = dot3(contact.normal, turned_by(b, contact.normal));
+    return c;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,115 @@
+// Where a body is in the uniform grid of several levels, and which bodies are near each other.
+//
+// Cells of level l are cell * 2^l wide. A body lies in the one cell of its bounds' centre, on the lowest level whose cells are at
+// least as wide as its bounds; so two bodies of a level that overlap lie in the same or in neighbouring cells, and a body finds
+// the wider ones in the 27 cells round its centre on each coarser level. A row of cells along x is a run of buckets, hence three
+// cells are one range of the sorted list. Planes and rare large bodies lie in one bucket more, which every body looks through.
+#ifndef SCREE_PHYSICS_GRID_H
+#define SCREE_PHYSICS_GRID_H
+
+#include "shaders/physics/arithmetic.h"
+#include "shaders/physics/records.h"
+
+LAWS_BEGIN
+
+CONSTANT uint LEVELS = 32u;
+
+LAW float power_of_two(int exponent) {
+    return uintBitsToFloat(uint(exponent + 127) << 23);
+}
+
+// The lowest level whose cells are 1% wider than `extent`: the spare hides the rounding of positions up to 80,000 cells away.
+LAW uint level_of(float extent, float inverse_cell) {
+    float cells = extent * inverse_cell * 1.01f;
+    if (cells <= 1.0f) return 0u;
+    uint bits = floatBitsToUint(cells);
+    uint level = (bits >> 23) - 127u + ((bits & 0x7FFFFFu) != 0u ? 1u : 0u);
+    return level < LEVELS - 1u ? level : LEVELS - 1u;
+}
+
+LAW ivec3 cell_of(vec3 lower, vec3 upper, uint level, float inverse_cell) {
+    vec3 centre = (lower + upper) * (0.5f * inverse_cell * power_of_two(-int(level)));
+    return ivec3(int(floor(centre.x)), int(floor(centre.y)), int(floor(centre.z)));
+}
+
+// Buckets along x follow each other; rows are scattered by a multiplicative hash (Teschner et al. 2003, other primes, mixed once
+// more).
+LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
+    uint row = uint(cell.y) * 0x9E3779B1u ^ uint(cell.z) * 0x85EBCA77u ^ level * 0xC2B2AE3Du;
+    row = (row ^ (row >> 15)) * 0x2C1B3C6Du;
+    return (uint(cell.x) + (row ^ (row >> 13))) & (buckets - 1u);
+}
+
+// Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it.
+LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Parameters parameters) {
+    vec3 half_size = vec3(traits.size.x);
+    float reach = traits.size.x;
+    if (traits.shape == SHAPE_CAPSULE) {
+        vec3 axis = rotate(pose.orientation, vec3(0.0f, traits.size.y, 0.0f));
+        half_size = half_size + absolute3(axis);
+        reach = traits.size.x + traits.size.y;
+    } else if (traits.shape == SHAPE_BOX) {
+        Axes axes = axes_of(pose.orientation);
+        half_size = absolute3(axes.x) * traits.size.x + absolute3(axes.y) * traits.size.y + absolute3(axes.z) * traits.size.z;
+        reach = length3(traits.size);
+    }
+    if (traits.shape != SHAPE_SPHERE) {
+        // Turning widens the bounds by at most the arc, and never beyond the sphere around the body.
+        float arc = length3(velocity.angular) * parameters.dt * reach;
+        half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
+    }
+    half_size = half_size + vec3(parameters.speculative);
+    vec3 way = velocity.linear * parameters.dt;
+    Bounds bounds;
+    bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));
+    bounds.upper = pose.position + half_size + larger3(way, vec3(0.0f));
+    bounds.level = 0u;
+    bounds.bucket = parameters.buckets;
+    if (traits.large == 0u) {
+        vec3 extent = bounds.upper - bounds.lower;
+        bounds.level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);
+        bounds.bucket = bucket_of(cell_of(bounds.lower, bounds.upper, bounds.level, parameters.inverse_cell), bounds.level,
+                                  parameters.buckets);
+    }
+    return bounds;
+}
+
+LAW bool boxes_overlap(vec3 lower_a, vec3 upper_a, vec3 lower_b, vec3 upper_b) {
+    return lower_a.x <= upper_b.x && lower_b.x <= upper_a.x && lower_a.y <= upper_b.y && lower_b.y <= upper_a.y &&
+           lower_a.z <= upper_b.z && lower_b.z <= upper_a.z;
+}
+
+// Whether bounds reach a plane: the corner that lies deepest is not in front of it.
+LAW bool reaches_plane(vec3 lower, vec3 upper, vec3 normal, vec3 point) {
+    vec3 corner =
+        vec3(normal.x > 0.0f ? lower.x : upper.x, normal.y > 0.0f ? lower.y : upper.y, normal.z > 0.0f ? lower.z : upper.z);
+    return dot3(corner - point, normal) <= 0.0f;
+}
+
+// A pair of grid bodies is listed once: by the one on the finer level, on the same level by the one with the lower id.
+LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
+    return level < other_level || (level == other_level && body < other);
+}
+
+LAW bool can_touch(Traits a, Traits b) {
+    return (a.motion == MOTION_DYNAMIC || b.motion == MOTION_DYNAMIC) && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE);
+}
+
+// Shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); KIND_KEPT is a contact that is kept.
+CONSTANT uint KIND_KEPT = 9u;
+LAW uint kind_of(uint shape_a, uint shape_b) {
+    uint low = shape_a < shape_b ? shape_a : shape_b;
+    uint high = shape_a < shape_b ? shape_b : shape_a;
+    return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
+}
+
+// How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step.
+LAW float margin_of(Traits a, Velocity va, Traits b, Velocity vb, Parameters parameters) {
+    float turning = length3(va.angular) * (a.shape == SHAPE_SPHERE ? 0.0f : length3(a.size)) +
+                    length3(vb.angular) * (b.shape == SHAPE_SPHERE ? 0.0f : length3(b.size));
+    return parameters.speculative + (length3(vb.linear - va.linear) + turning) * parameters.dt;
+}
+
+LAWS_END
+
+#endif

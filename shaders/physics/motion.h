@@ -1,0 +1,131 @@
+// How one body moves: what pushes it, its inertia in the world, its velocity and pose after a substep.
+#ifndef SCREE_PHYSICS_MOTION_H
+#define SCREE_PHYSICS_MOTION_H
+
+#include "shaders/physics/arithmetic.h"
+#include "shaders/physics/records.h"
+
+LAWS_BEGIN
+
+LAW Load gravity_load(Traits traits, Parameters parameters) {
+    Load load;
+    load.acceleration = traits.motion == MOTION_DYNAMIC ? parameters.gravity * traits.gravity_scale : vec3(0.0f);
+    load.pad0 = 0.0f;
+    load.angular_acceleration = vec3(0.0f);
+    load.pad1 = 0.0f;
+    return load;
+}
+
+// R diag(i) R^T, the tensor with principal values i in the axes R.
+LAW Mass tensor_in_world(Axes axes, vec3 i) {
+    vec3 x = axes.x * i.x, y = axes.y * i.y, z = axes.z * i.z;
+    Mass tensor;
+    tensor.xx = (x.x * axes.x.x + y.x * axes.y.x) + z.x * axes.z.x;
+    tensor.xy = (x.x * axes.x.y + y.x * axes.y.y) + z.x * axes.z.y;
+    tensor.xz = (x.x * axes.x.z + y.x * axes.y.z) + z.x * axes.z.z;
+    tensor.yy = (x.y * axes.x.y + y.y * axes.y.y) + z.y * axes.z.y;
+    tensor.yz = (x.y * axes.x.z + y.y * axes.y.z) + z.y * axes.z.z;
+    tensor.zz = (x.z * axes.x.z + y.z * axes.y.z) + z.z * axes.z.z;
+    tensor.inverse_mass = 0.0f;
+    tensor.split = 1.0f;
+    return tensor;
+}
+LAW vec3 turned_by(Mass tensor, vec3 v) {
+    return vec3((tensor.xx * v.x + tensor.xy * v.y) + tensor.xz * v.z, (tensor.xy * v.x + tensor.yy * v.y) + tensor.yz * v.z,
+                (tensor.xz * v.x + tensor.yz * v.y) + tensor.zz * v.z);
+}
+
+// The same about every axis: spheres, cubes, and bodies that contacts do not turn.
+LAW bool turns_evenly(Traits traits) {
+    return traits.inverse_inertia.x == traits.inverse_inertia.y && traits.inverse_inertia.x == traits.inverse_inertia.z;
+}
+
+LAW Mass mass_in_world(Traits traits, vec4 orientation, float split) {
+    Mass mass;
+    if (turns_evenly(traits)) {
+        mass.xx = traits.inverse_inertia.x;
+        mass.yy = traits.inverse_inertia.x;
+        mass.zz = traits.inverse_inertia.x;
+        mass.xy = 0.0f;
+        mass.xz = 0.0f;
+        mass.yz = 0.0f;
+    } else {
+        mass = tensor_in_world(axes_of(orientation), traits.inverse_inertia);
+    }
+    mass.inverse_mass = traits.inverse_mass;
+    mass.split = split;
+    return mass;
+}
+
+// Impulses at the start of the step, forces into the load of the whole step.
+LAW Velocity kicked(Velocity velocity, Action action, Mass mass) {
+    if ((action.flags & ACTION_SETS_VELOCITY) != 0u) {
+        velocity.linear = action.velocity;
+        velocity.angular = action.angular_velocity;
+    }
+    velocity.linear = velocity.linear + action.impulse * mass.inverse_mass;
+    velocity.angular = velocity.angular + turned_by(mass, action.angular_impulse);
+    return velocity;
+}
+LAW Load loaded(Load load, Action action, Mass mass) {
+    load.acceleration = load.acceleration + action.force * mass.inverse_mass;
+    load.angular_acceleration = load.angular_acceleration + turned_by(mass, action.torque);
+    return load;
+}
+
+LAW vec3 shortened(vec3 v, float longest) {
+    float squared = dot3(v, v);
+    return squared > longest * longest ? v * (longest * inverse_square_root(squared)) : v;
+}
+
+// The velocity at the start of a substep: gravity, forces and damping (implicit: v / (1 + h c)), and what the contacts decided.
+// Damping sees the velocity before the contacts' changes, which arrive together with their next warm start.
+LAW Velocity accelerated(Velocity velocity, Velocity change, Load load, Traits traits, Parameters parameters) {
+    float h = parameters.h;
+    float keep = traits.linear_damping > 0.0f ? reciprocal(1.0f + h * traits.linear_damping) : 1.0f;
+    float keep_turning = traits.angular_damping > 0.0f ? reciprocal(1.0f + h * traits.angular_damping) : 1.0f;
+    Velocity after = velocity;
+    after.linear = (velocity.linear + load.acceleration * h) * keep + change.linear;
+    after.angular = (velocity.angular + load.angular_acceleration * h) * keep_turning + change.angular;
+    after.linear = without_dust(shortened(after.linear, parameters.max_speed));
+    after.angular = without_dust(shortened(after.angular, parameters.max_spin));
+    return after;
+}
+
+LAW vec4 turned(vec4 orientation, vec3 angular, float h) {
+    vec4 spin = compose(vec4(angular * (0.5f * h), 0.0f), orientation);
+    return unit_quaternion(orientation + spin);
+}
+
+struct Moved {
+    Pose pose;
+    Velocity velocity;
+};
+// One substep of free motion. The angular momentum L = R I R^T w is what stays the same while the body turns, so w is made from
+// it anew: once at the middle of the substep (explicit midpoint, second order), once at its end. No torque-free tumbling is lost
+// or gained beyond rounding in L, and the energy of a spin lies between L^2 / 2 I_max and L^2 / 2 I_min whatever h.
+LAW Moved moved(Pose pose, Velocity velocity, Traits traits, float h) {
+    Moved after;
+    after.pose = pose;
+    after.velocity = velocity;
+    after.pose.position = pose.position + velocity.linear * h;
+    if (traits.motion != MOTION_DYNAMIC || turns_evenly(traits)) {
+        after.pose.orientation = turned(pose.orientation, velocity.angular, h);
+        return after;
+    }
+    vec3 i = traits.inverse_inertia;
+    vec3 spin = rotate_back(pose.orientation, velocity.angular);
+    vec3 inertia = vec3(reciprocal(i.x), reciprocal(i.y), reciprocal(i.z));
+    vec3 momentum = rotate(pose.orientation, vec3(spin.x * inertia.x, spin.y * inertia.y, spin.z * inertia.z));
+    vec4 middle = turned(pose.orientation, velocity.angular, 0.5f * h);
+    vec3 l = rotate_back(middle, momentum);
+    vec3 angular = rotate(middle, vec3(l.x * i.x, l.y * i.y, l.z * i.z));
+    after.pose.orientation = turned(pose.orientation, angular, h);
+    l = rotate_back(after.pose.orientation, momentum);
+    after.velocity.angular = rotate(after.pose.orientation, vec3(l.x * i.x, l.y * i.y, l.z * i.z));
+    return after;
+}
+
+LAWS_END
+
+#endif

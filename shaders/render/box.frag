@@ -1,0 +1,33 @@
+// Boxes: flat faces whose edges are shaded as if rounded, so that the light shows how the box is turned.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/render/light.h"
+
+layout(location = 0) in vec3 point;
+layout(location = 1) in vec3 own;
+layout(location = 2) flat in vec4 size_axis;
+layout(location = 3) flat in vec4 turn;
+layout(location = 4) flat in vec4 color;
+layout(location = 0) out vec4 out_color;
+
+void main() {
+    float distance = length(point);
+    vec3 d = point / distance;
+    float pixel = distance * frame.pixel.x;
+    vec3 size = size_axis.xyz;
+    float smallest = min(size.x, min(size.y, size.z));
+    float bevel = min(max(0.14 * smallest, 1.2 * pixel), 0.5 * smallest);
+    bevel = min(bevel, max(0.06, 1.2 * pixel));  // m; a long slab keeps a narrow edge
+    // The normal of a box with edges rounded by `bevel`, read on the flat face.
+    vec3 over = max(abs(own) - (size - bevel), 0.0) * sign(own);
+    int axis = int(size_axis.w + 0.5);
+    vec3 face = vec3(0);
+    face[axis] = sign(own[axis]);
+    vec3 rounded = over - face * dot(over, face) + face * bevel;
+    vec3 normal = turned(turn, normalize(rounded));
+    float edge = clamp(length(over - face * dot(over, face)) / bevel, 0.0, 1.0);
+    // Worn, lighter edges; the two tones of a cube's sides tell them apart in the shade.
+    float tone = (axis == 1 ? 1.0 : (axis == 0 ? 0.95 : 0.90)) * (1.0 + 0.22 * edge * edge);
+    vec3 shaded = lit(color.rgb * tone, point, normal, d, 0.6) + color.rgb * (0.2 * color.a * color.a);
+    out_color = vec4(tone_mapped(hazed(shaded, distance)), 1.0);
+}

@@ -1,0 +1,28 @@
+// Planes: four triangles around the point below the eye, whose far corners lie at infinity.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_BODIES
+#include "shaders/render/scene.h"
+
+layout(location = 0) flat out vec4 out_plane;  // unit normal; w: height of the eye above the plane, m
+layout(location = 1) flat out vec4 out_u;      // an axis of the plane; w: the eye's coordinate on it, m
+layout(location = 2) flat out vec4 out_v;
+
+void main() {
+    uint body = instances[gl_InstanceIndex];
+    vec3 n = traits[body].size;
+    float height = dot(n, frame.eye.xyz - poses[body].position);
+    // Axes that follow the world's where they can: on the ground u is x and v is z.
+    vec3 v = normalize(abs(n.z) < 0.9 ? vec3(0, 0, 1) - n * n.z : vec3(0, 1, 0) - n * n.y);
+    vec3 u = cross(n, v);
+    out_plane = vec4(n, height);
+    out_u = vec4(u, dot(u, frame.eye.xyz));
+    out_v = vec4(v, dot(v, frame.eye.xyz));
+    int corner = gl_VertexIndex % 3;
+    int quarter = gl_VertexIndex / 3 + (corner == 2 ? 1 : 0);
+    float x = quarter == 0 || quarter == 3 || quarter == 4 ? 1.0 : -1.0;
+    float y = quarter % 4 < 2 ? 1.0 : -1.0;
+    vec4 at = corner == 0 ? vec4(-n * height, 1.0) : vec4(u * x + v * y, 0.0);
+    // Behind the plane one sees through it.
+    gl_Position = height > 0.0 ? frame.view_projection * at : vec4(0, 0, -1, 1);
+}

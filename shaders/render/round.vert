@@ -1,0 +1,49 @@
+// Spheres and capsules: a mesh of directions, of a sphere only the side that the eye sees.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_BODIES
+#include "shaders/render/coloring.h"
+
+layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
+    // Of a sphere: xy on a unit circle, z the share of the way to the silhouette.
+    // Of a capsule: unit direction, y along its axis; w: 1 or -1, the cap it belongs to.
+    vec4 directions[];
+};
+layout(location = 0) out vec3 out_point;        // relative to the eye
+layout(location = 1) flat out vec4 out_center;  // relative to the eye; w: radius
+layout(location = 2) flat out vec4 out_axis;    // unit; w: half height
+layout(location = 3) flat out vec4 out_turn;    // the body's orientation
+layout(location = 4) flat out vec4 out_color;   // w: how far up the colour scale
+
+void main() {
+    uint body = instances[gl_InstanceIndex];
+    Traits t = traits[body];
+    Pose pose = poses[body];
+    bool capsule = t.shape == SHAPE_CAPSULE;
+    float radius = t.size.x;
+    float half_height = capsule ? t.size.y : 0.0;
+    vec3 center = pose.position - frame.eye.xyz;
+    vec3 axis = turned(pose.orientation, vec3(0, 1, 0));
+    out_center = vec4(center, radius);
+    out_axis = vec4(axis, half_height);
+    out_turn = pose.orientation;
+    out_color = body_color(body);
+
+    float distance = max(length(center), 1e-6);
+    vec3 toward = -center / distance;
+    vec4 given = directions[gl_VertexIndex];
+    // A frame turned to the eye: about a capsule's axis, or about the line of sight.
+    vec3 pole = capsule ? axis : (abs(toward.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0));
+    vec3 side = cross(pole, toward);
+    if (dot(side, side) < 1e-8) side = cross(pole, abs(pole.x) < 0.9 ? vec3(1, 0, 0) : vec3(0, 0, 1));
+    side = normalize(side);
+    vec3 local;
+    if (capsule) {
+        local = axis * (half_height * given.w) + radius * (side * given.x + axis * given.y + cross(side, axis) * given.z);
+    } else {
+        float angle = given.z * acos(clamp(radius / distance, 0.0, 1.0));
+        local = radius * (cos(angle) * toward + sin(angle) * (side * given.x + cross(toward, side) * given.y));
+    }
+    out_point = center + local;
+    gl_Position = frame.view_projection * vec4(out_point, 1.0);
+}

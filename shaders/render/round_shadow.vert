@@ -1,0 +1,37 @@
+// Shadows of spheres and capsules: discs through the caps' centres and a ribbon along the axis, all towards the light.
+//
+// These flat shapes cast what the body casts, and lie behind all of it that the light reaches: no body speckles itself.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_BODIES
+#include "shaders/render/scene.h"
+#include "shaders/render/shadow_map.h"
+
+layout(location = 0) out vec2 out_place;  // radii from the nearest cap's centre
+
+const vec2 CORNERS[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
+
+void main() {
+    uint body = instances[gl_InstanceIndex];
+    Traits t = traits[body];
+    Pose pose = poses[body];
+    float radius = t.size.x;
+    float half_height = t.shape == SHAPE_CAPSULE ? t.size.y : 0.0;
+    vec3 w = toward_light();
+    vec3 axis = turned(pose.orientation, vec3(0, 1, 0));
+    vec3 u = cross(w, abs(w.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0));
+    if (half_height > 0.0 && abs(dot(axis, w)) < 0.9999) u = axis - w * dot(axis, w);
+    u = normalize(u);
+    vec3 v = cross(w, u);
+    vec2 corner = CORNERS[gl_VertexIndex % 6];
+    int part = gl_VertexIndex / 6;  // a disc, a disc, the ribbon
+    vec3 at = pose.position - frame.eye.xyz;
+    if (part < 2) {
+        at += axis * (part == 0 ? half_height : -half_height) + (u * corner.x + v * corner.y) * radius;
+        out_place = corner;
+    } else {
+        at += axis * (half_height * corner.x) + v * (radius * corner.y);
+        out_place = vec2(0.0, corner.y);
+    }
+    gl_Position = light_position(at);
+}

@@ -1,0 +1,11 @@
+// The sky: from the horizon's haze to blue, brighter around the sun; below the horizon the haze.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/render/light.h"
+
+layout(location = 0) out vec4 out_color;
+
+void main() {
+    vec3 ray = frame.ray_corner.xyz + frame.ray_right.xyz * gl_FragCoord.x + frame.ray_down.xyz * gl_FragCoord.y;
+    out_color = vec4(tone_mapped(sky_color(normalize(ray))), 1.0);
+}

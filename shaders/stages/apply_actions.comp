@@ -1,0 +1,15 @@
+// Adds what the user asks: impulses to velocities (once, also when the step is done again), forces to loads.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/motion.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.actions || COUNTS.overflow != 0u) return;
+    Action action = actions[i];
+    Mass mass = mass_in_world(traits[action.body], poses[action.body].orientation, 1.0f);
+    if (PARAMETERS.redo == 0u) velocities[action.body] = kicked(velocities[action.body], action, mass);
+    loads[action.body] = loaded(loads[action.body], action, mass);
+}

@@ -1,0 +1,17 @@
+// Empties the lists of a step and gives every body its gravity.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/motion.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i < PARAMETERS.buckets + 2u) cells[i] = 0u;
+    if (i <= PARAMETERS.bodies) {
+        pair_starts[i] = 0u;
+        slot_ends[i] = 0u;
+    }
+    if (i < PARAMETERS.bodies) loads[i] = gravity_load(traits[i], PARAMETERS);
+    if (i == 0u) COUNTS = emptied(COUNTS, PARAMETERS);
+}

@@ -1,0 +1,19 @@
+// Gathers warm starts (and the last substep's relaxation), adds forces, and splits each body among the contacts that carry.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/block.h"
+#include "shaders/stages/stage.glsl"
+
+// after the tables that it sums
+#include "shaders/stages/gather.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
+    Traits body = traits[i];
+    if (body.motion != MOTION_DYNAMIC) return;
+    Gathered sum = gather(i);
+    velocities[i] = accelerated(velocities[i], sum.change, loads[i], body, PARAMETERS);
+    masses[i].split = split_of(sum.carrying, PARAMETERS);
+}

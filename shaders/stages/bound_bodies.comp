@@ -1,0 +1,19 @@
+// Each body's bounds over the coming step, its cell, and its inertia in the world.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/grid.h"
+#include "shaders/physics/motion.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.bodies) return;
+    Traits body = traits[i];
+    Pose pose = poses[i];
+    Bounds around = bounds_of(body, pose, velocities[i], PARAMETERS);
+    bounds[i] = around;
+    masses[i] = mass_in_world(body, pose.orientation, 1.0f);
+    atomicAdd(cells[around.bucket], 1u);
+    if (body.large == 0u) atomicOr(COUNTS.levels, 1u << around.level);
+}

@@ -1,0 +1,55 @@
+// variants: collide_sphere_sphere -DKIND=0 -DCOLLIDE=collide_sphere_sphere
+// variants: collide_sphere_capsule -DKIND=1 -DCOLLIDE=collide_sphere_capsule
+// variants: collide_sphere_box -DKIND=2 -DCOLLIDE=collide_sphere_box
+// variants: collide_sphere_plane -DKIND=3 -DCOLLIDE=collide_sphere_plane
+// variants: collide_capsule_capsule -DKIND=4 -DCOLLIDE=collide_capsule_capsule
+// variants: collide_capsule_box -DKIND=5 -DCOLLIDE=collide_capsule_box
+// variants: collide_capsule_plane -DKIND=6 -DCOLLIDE=collide_capsule_plane
+// variants: collide_box_box -DKIND=7 -DCOLLIDE=collide_box_box
+// variants: collide_box_plane -DKIND=8 -DCOLLIDE=collide_box_plane
+// Finds where the pairs of one kind touch.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#if KIND == 0
+#include "shaders/physics/collide_sphere_sphere.h"
+#elif KIND == 1
+#include "shaders/physics/collide_sphere_capsule.h"
+#elif KIND == 2
+#include "shaders/physics/collide_sphere_box.h"
+#elif KIND == 3
+#include "shaders/physics/collide_sphere_plane.h"
+#elif KIND == 4
+#include "shaders/physics/collide_capsule_capsule.h"
+#elif KIND == 5
+#include "shaders/physics/collide_capsule_box.h"
+#elif KIND == 6
+#include "shaders/physics/collide_capsule_plane.h"
+#elif KIND == 7
+#include "shaders/physics/collide_box_box.h"
+#elif KIND == 8
+#include "shaders/physics/collide_box_plane.h"
+#endif
+#include "shaders/physics/grid.h"
+#include "shaders/physics/touch.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread() + COUNTS.kind_first[KIND];
+    if (i >= COUNTS.kind_first[KIND + 1]) return;
+    uint pair = binned[i];
+    uint a = pairs[pair].a, b = pairs[pair].b;
+    Traits ta = traits[a], tb = traits[b];
+    Pose pa = poses[a], pb = poses[b];
+    float margin = margin_of(ta, velocities[a], tb, velocities[b], PARAMETERS);
+    // The law wants the simpler shape first.
+    bool swap = ta.shape > tb.shape;
+    Traits first_traits = swap ? tb : ta;
+    Traits second_traits = swap ? ta : tb;
+    Pose first = swap ? pb : pa;
+    Pose second = swap ? pa : pb;
+    Touch touch = COLLIDE(first_traits, first, second_traits, second, margin);
+    if (swap) touch = flipped(touch, second.position - first.position);
+    manifolds[pair] = touch.manifold;
+    touching[pair] = touch.count;
+}

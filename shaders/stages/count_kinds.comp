@@ -1,0 +1,17 @@
+// Counts the kinds of pairs in each span of pairs.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    uint spans = spans_of(COUNTS.pairs);
+    if (i >= spans) return;
+    uint found[KINDS];
+    for (uint k = 0u; k < KINDS; ++k) found[k] = 0u;
+    uint last = min((i + 1u) * SPAN, COUNTS.pairs);
+    for (uint pair = i * SPAN; pair < last; ++pair) ++found[pairs[pair].kind];
+    for (uint k = 0u; k < KINDS; ++k) kind_starts[k * spans + i] = found[k];
+    if (i == 0u) kind_starts[KINDS * spans] = 0u;
+}

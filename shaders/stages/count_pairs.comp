@@ -1,0 +1,18 @@
+// Counts the pairs that each body owns.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/stages/stage.glsl"
+
+uint pairs_found = 0u;
+void found(uint other) {
+    ++pairs_found;
+}
+#include "shaders/stages/neighbours.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.bodies) return;
+    look_around(i);
+    pair_starts[i] = pairs_found;
+}

@@ -1,0 +1,12 @@
+// Puts each body into its bucket, in any order.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.bodies) return;
+    uint entry = atomicAdd(cells[bounds[i].bucket], 1u);
+    cell_entries[entry].body = i;
+}

@@ -1,0 +1,18 @@
+// Lists the pairs kind by kind, in their order, and says how many of each there are.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    uint spans = spans_of(COUNTS.pairs);
+    if (i >= spans) return;
+    uint next[KINDS];
+    for (uint k = 0u; k < KINDS; ++k) next[k] = kind_starts[k * spans + i];
+    uint last = min((i + 1u) * SPAN, COUNTS.pairs);
+    for (uint pair = i * SPAN; pair < last; ++pair) binned[next[pairs[pair].kind]++] = pair;
+    if (i == 0u)
+        for (uint k = 0u; k < KINDS; ++k)
+            COUNTS = with_kinds(COUNTS, k, kind_starts[k * spans], kind_starts[(k + 1u) * spans], PARAMETERS);
+}

@@ -1,0 +1,26 @@
+// Gathers the biased pass and moves the bodies by a substep.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/motion.h"
+#include "shaders/stages/stage.glsl"
+
+// after the tables that it sums
+#include "shaders/stages/gather.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
+    Traits body = traits[i];
+    if (body.motion == MOTION_FIXED) return;
+    Velocity velocity = velocities[i];
+    if (body.motion == MOTION_DYNAMIC) {
+        Velocity change = gather(i).change;
+        velocity.linear = velocity.linear + change.linear;
+        velocity.angular = velocity.angular + change.angular;
+    }
+    Moved after = moved(poses[i], velocity, body, PARAMETERS.h);
+    poses[i] = after.pose;
+    velocities[i] = after.velocity;
+    if (!turns_evenly(body)) masses[i] = mass_in_world(body, after.pose.orientation, masses[i].split);
+}

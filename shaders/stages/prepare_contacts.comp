@@ -1,0 +1,33 @@
+// Makes each contact ready for the step: geometry, masses, and the impulses it inherits.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/block.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= COUNTS.contacts) return;
+    uint pair_index = constraints[i].pair;
+    Pair pair = pairs[pair_index];
+    Traits ta = traits[pair.a], tb = traits[pair.b];
+    Mass ma = masses[pair.a], mb = masses[pair.b];
+    Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
+    Constraint constraint = constraint_of(contact, ta, ma, tb, mb, constraints[i].slot_a, constraints[i].slot_b, PARAMETERS);
+    constraint.pair = pair_index;
+    Impulse impulse = no_impulse(contact.d);
+    if (pair.previous != NONE)
+        impulse = inherited(contact, contacts_before[pair.previous], impulses_before[pair.previous], match_radius(ta, tb));
+    impulse.separation = separations_of(contact);
+
+    Couple guess = warm_start(constraint, impulse, at_rest(), ma, mb);
+    Couple now;
+    now.a = velocities[pair.a];
+    now.b = velocities[pair.b];
+    float carrying = carries(constraint, impulse, now, PARAMETERS);
+    contacts[i] = contact;
+    constraints[i] = constraint;
+    impulses[i] = impulse;
+    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(now.a, now.a, 1.0f, guess.a, carrying);
+    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(now.b, now.b, 1.0f, guess.b, carrying);
+}

@@ -1,0 +1,24 @@
+// The pass without bias over all contacts at once; it also hands out the next substep's warm start (push.pass 1: there is none).
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/block.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= COUNTS.contacts) return;
+    Constraint c = constraints[i];
+    Mass ma = masses[c.a], mb = masses[c.b];
+    Couple before;
+    before.a = velocities[c.a];
+    before.b = velocities[c.b];
+    Solved after = relaxed(c, impulses[i], before, ma, mb, PARAMETERS);
+    Impulse impulse = without_blows(after.impulse, c.count);
+    impulses[i] = impulse;
+    Couple guess = at_rest();
+    if (push.pass == 0u) guess = warm_start(c, impulse, guess, ma, mb);
+    float carrying = carries(c, impulse, after.couple, PARAMETERS);
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(before.a, after.couple.a, ma.split, guess.a, carrying);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(before.b, after.couple.b, mb.split, guess.b, carrying);
+}

@@ -1,0 +1,54 @@
+// Exclusive prefix sums in three stages (reduce, then scan): sums of blocks, a scan of the sums by one workgroup, offsets.
+//
+// Nothing waits for another workgroup, because Vulkan promises no such progress; decoupled look-back would hang on some devices.
+// What is scanned is chosen by the variant: SCAN_ITEMS_OF items, read by SCAN_READ(i), result to SCAN_WRITE(i, sum), one more for
+// the total, which SCAN_TOTAL(total) hears of.
+#ifndef SCREE_STAGES_SCAN_GLSL
+#define SCREE_STAGES_SCAN_GLSL
+
+#include "shaders/stages/stage.glsl"
+
+#if defined(SCAN_CELLS)
+#define SCAN_ITEMS_OF (PARAMETERS.buckets + 1u)
+#define SCAN_READ(i) cells[i]
+#define SCAN_WRITE(i, sum) cells[i] = sum
+#define SCAN_TOTAL(total)
+#elif defined(SCAN_PAIRS)
+#define SCAN_ITEMS_OF PARAMETERS.bodies
+#define SCAN_READ(i) pair_starts[i]
+#define SCAN_WRITE(i, sum) pair_starts[i] = sum
+#define SCAN_TOTAL(total) COUNTS = with_pairs(COUNTS, total, PARAMETERS)
+#elif defined(SCAN_KINDS)
+#define SCAN_ITEMS_OF (KINDS * spans_of(COUNTS.pairs))
+#define SCAN_READ(i) kind_starts[i]
+#define SCAN_WRITE(i, sum) kind_starts[i] = sum
+#define SCAN_TOTAL(total)
+#elif defined(SCAN_CONTACTS)
+#define SCAN_ITEMS_OF COUNTS.pairs
+#define SCAN_READ(i) (touching[i] > 0u ? 1u : 0u)
+#define SCAN_WRITE(i, sum) contact_starts[i] = sum
+#define SCAN_TOTAL(total) COUNTS = with_contacts(COUNTS, total, PARAMETERS)
+#elif defined(SCAN_SLOTS)
+#define SCAN_ITEMS_OF PARAMETERS.bodies
+#define SCAN_READ(i) slot_ends[i]
+#define SCAN_WRITE(i, sum) slot_ends[i] = sum
+#define SCAN_TOTAL(total)
+#endif
+
+shared uint partial[256];
+
+// Sum of the values of the workgroup's threads before this one. Every thread calls it.
+uint sum_before(uint value) {
+    uint t = gl_LocalInvocationID.x;
+    partial[t] = value;
+    barrier();
+    for (uint d = 1u; d < gl_WorkGroupSize.x; d <<= 1) {
+        uint other = t >= d ? partial[t - d] : 0u;
+        barrier();
+        partial[t] += other;
+        barrier();
+    }
+    return partial[t] - value;
+}
+
+#endif

@@ -1,0 +1,21 @@
+// The biased pass over all contacts at once.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/block.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= COUNTS.contacts) return;
+    Constraint c = constraints[i];
+    Mass ma = masses[c.a], mb = masses[c.b];
+    Couple before;
+    before.a = velocities[c.a];
+    before.b = velocities[c.b];
+    Solved after = solved(c, impulses[i], before, ma, mb, PARAMETERS);
+    impulses[i] = after.impulse;
+    Couple none = at_rest();
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(before.a, after.couple.a, ma.split, none.a, 0.0f);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(before.b, after.couple.b, mb.split, none.b, 0.0f);
+}

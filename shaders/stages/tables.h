@@ -1,0 +1,39 @@
+// The one table of buffers of a step: binding, name, record, and what it is as long as. C++ and GLSL both expand it.
+//
+// *_before are last step's contacts: their buffers and those without the suffix change places after every step.
+#ifndef SCREE_STAGES_TABLES_H
+#define SCREE_STAGES_TABLES_H
+
+//   binding, name, block, record, length
+#define SCREE_TABLES(X)                                                                                                          \
+    X(0, parameters, ParametersTable, Parameters, one)                                                                           \
+    X(1, counts, CountsTable, Counts, one)                                                                                       \
+    X(2, traits, TraitsTable, Traits, bodies)                                                                                    \
+    X(3, poses, PosesTable, Pose, bodies)                                                                                        \
+    X(4, velocities, VelocitiesTable, Velocity, bodies)                                                                          \
+    X(5, masses, MassesTable, Mass, bodies)                                                                                      \
+    X(6, loads, LoadsTable, Load, bodies)                                                                                        \
+    X(7, actions, ActionsTable, Action, bodies)                                                                                  \
+    X(8, bounds, BoundsTable, Bounds, bodies)                                                                                    \
+    X(9, cells, CellsTable, uint, buckets) /* counted, scanned, and after filling the end of each bucket's entries */            \
+    X(10, cell_entries, CellEntriesTable, CellEntry, bodies)                                                                     \
+    X(11, pair_starts, PairStartsTable, uint, bodies_and_end)                                                                    \
+    X(12, pairs, PairsTable, Pair, pairs)                                                                                        \
+    X(13, kind_starts, KindStartsTable, uint, kinds)                                                                             \
+    X(14, binned, BinnedTable, uint, pairs)                                                                                      \
+    X(15, manifolds, ManifoldsTable, Manifold, pairs)                                                                            \
+    X(16, touching, TouchingTable, uint, pairs) /* points of each pair's manifold */                                             \
+    X(17, contact_starts, ContactStartsTable, uint, pairs_and_end)                                                               \
+    X(18, contacts, ContactsTable, Contact, contacts)                                                                            \
+    X(19, contacts_before, ContactsBeforeTable, Contact, contacts)                                                               \
+    X(20, impulses, ImpulsesTable, Impulse, contacts)                                                                            \
+    X(21, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                                                               \
+    X(22, first_contacts, FirstContactsTable, uint, bodies_and_end) /* of those that a body owns */                              \
+    X(23, first_contacts_before, FirstContactsBeforeTable, uint, bodies_and_end)                                                 \
+    X(24, slot_ends, SlotEndsTable, uint, bodies_and_end) /* counted, scanned, and after filling the end of each body's slots */ \
+    X(25, slot_sides, SlotSidesTable, uint, slots) /* which side of which contact owns a slot: 2 * contact + side */             \
+    X(26, constraints, ConstraintsTable, Constraint, contacts)                                                                   \
+    X(27, slots, SlotsTable, Slot, slots)                                                                                        \
+    X(28, block_sums, BlockSumsTable, uint, blocks)
+
+#endif

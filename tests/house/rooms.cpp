@@ -1,0 +1,136 @@
+// What each room may include and may say; see the table of the rooms in README.md.
+#include <catch2/catch.hpp>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/house/tree.h"
+
+namespace {
+
+using scree::house::at;
+using scree::house::code_files;
+using scree::house::Include;
+using scree::house::SourceFile;
+
+bool begins(const std::string& text, const std::string& start) {
+    return text.compare(0, start.size(), start) == 0;
+}
+
+// The only files of compute that know the machine.
+bool knows_the_device(const SourceFile& file) {
+    return file.in("compute/device_runner") || file.in("compute/lockstep");
+}
+
+// What the files of a folder may include, by the beginning of its path. The first folder that fits counts.
+struct Room {
+    std::string folder;
+    std::vector<std::string> may_include;
+};
+const std::vector<Room> rooms = {
+    {"shaders/physics/", {"shaders/physics/"}},
+    {"shaders/stages/", {"shaders/physics/", "shaders/stages/"}},
+    {"shaders/render/", {"shaders/physics/", "shaders/render/"}},
+    {"shaders/", {"shaders/"}},
+    {"host/", {"host/", "shaders/embedded.h", "shaders/render/"}},
+    {"compute/device_runner", {"compute/", "host/", "shaders/"}},
+    {"compute/lockstep", {"compute/", "host/", "shaders/"}},
+    {"compute/", {"compute/", "shaders/physics/", "shaders/stages/"}},
+    {"demos/", {"demos/", "compute/", "host/", "shaders/physics/"}},
+    {"tests/", {"tests/", "demos/", "compute/", "host/", "shaders/"}},
+};
+
+std::string wrong_way(const SourceFile& file, const Include& include) {
+    if (file.in("tests/consumer/")) return include.quoted ? "the installed headers are included with <>" : "";
+    const bool outside = include.path.find("vulkan") != std::string::npos || include.path.find("GLFW") != std::string::npos;
+    if (outside && !file.in("host/") && !knows_the_device(file) && !file.in("tests/")) return "only host knows Vulkan";
+    if (!include.quoted) return "";
+    for (const Room& room : rooms) {
+        if (!file.in(room.folder)) continue;
+        for (const std::string& allowed : room.may_include) {
+            if (begins(include.path, allowed)) return "";
+        }
+        return room.folder + " may not include \"" + include.path + "\"";
+    }
+    return "belongs to no room";
+}
+
+// Words that a room never says. Comments may say some of them.
+struct Silence {
+    std::string folder;
+    std::regex word;
+    bool even_in_comments;
+    std::string why;
+};
+
+const std::vector<Silence>& silences() {
+    static const std::vector<Silence> list = {
+        {"shaders/physics/", std::regex("\\bgl_"), true, "the laws know no threads"},
+        {"shaders/physics/", std::regex("\\bVk[A-Z]"), true, "the laws know no machine"},
+        {"compute/", std::regex("\\bVk[A-Z]|\\bVK_|\\bvk[A-Z]"), false, "only the device runner says Vk"},
+        {"compute/", std::regex("[Pp]ixel|\\bEGL"), true, "compute draws nothing"},
+        {"demos/", std::regex("\\bVk[A-Z]|\\bVK_|\\bvk[A-Z]"), false, "host says Vk"},
+        {"host/", std::regex("[Gg]ravity|[Mm]anifold|[Rr]estitution|[Nn]arrowphase"), true, "host knows no physics"},
+    };
+    return list;
+}
+
+}  // namespace
+
+TEST_CASE("house: every include points the right way and is written from the root", "[house]") {
+    REQUIRE(code_files().size() > 20);
+    for (const SourceFile& file : code_files()) {
+        for (const Include& include : scree::house::includes_of(file.text)) {
+            const std::string wrong = wrong_way(file, include);
+            if (!wrong.empty()) FAIL_CHECK(at(file, include.line, wrong));
+        }
+    }
+    SUCCEED();
+}
+
+TEST_CASE("house: no room says what it does not know", "[house]") {
+    for (const SourceFile& file : code_files()) {
+        for (const Silence& silence : silences()) {
+            if (!file.in(silence.folder) || knows_the_device(file)) continue;
+            std::istringstream lines(silence.even_in_comments ? file.text
+                                                              : scree::house::without_comments_and_strings(file.text));
+            std::size_t number = 0;
+            for (std::string line; std::getline(lines, line);) {
+                ++number;
+                if (std::regex_search(line, silence.word)) FAIL_CHECK(at(file, number, silence.why + ": " + line));
+            }
+        }
+    }
+    SUCCEED();
+}
+
+TEST_CASE("house: every file opens with a sentence that says what it is", "[house]") {
+    for (const SourceFile& file : scree::house::source_files()) {
+        std::istringstream lines(file.text);
+        std::string line, comment;
+        const bool hash = file.ends_with(".txt") || file.ends_with(".py") || file.ends_with(".sh");
+        std::getline(lines, line);
+        if (begins(line, "#!")) std::getline(lines, line);
+        for (; begins(line, hash ? "# " : "// "); std::getline(lines, line)) comment += line + " ";
+        if (comment.find_first_of(".:") == std::string::npos) FAIL_CHECK(at(file, 1, "opens with no sentence"));
+    }
+    SUCCEED();
+}
+
+TEST_CASE("house: the rules themselves tell right from wrong", "[house]") {
+    const auto verdict = [](const std::string& path, const std::string& include) {
+        return wrong_way({path, ""}, scree::house::includes_of("#include " + include + "\n").at(0)).empty();
+    };
+    CHECK(verdict("compute/world.cpp", "\"shaders/physics/records.h\""));
+    CHECK(verdict("compute/device_runner.cpp", "\"host/buffer.h\""));
+    CHECK(verdict("demos/main.cpp", "\"host/canvas.h\""));
+    CHECK_FALSE(verdict("compute/world.cpp", "\"host/buffer.h\""));
+    CHECK_FALSE(verdict("compute/world.cpp", "\"world.h\""));
+    CHECK_FALSE(verdict("compute/world.cpp", "<vulkan/vulkan.h>"));
+    CHECK_FALSE(verdict("host/canvas.cpp", "\"compute/world.h\""));
+    CHECK_FALSE(verdict("shaders/physics/contact.h", "\"compute/scene.h\""));
+    CHECK_FALSE(verdict("demos/main.cpp", "\"tests/house/tree.h\""));
+    CHECK(scree::house::without_comments("a /* b\n */ c // d") == "a     \n    c     ");
+    CHECK(scree::house::without_comments_and_strings("a \"//\" '\"' b") == "a \"  \" ' ' b");
+}

@@ -1,0 +1,265 @@
+// The compiled shaders: float arithmetic that every device does alike, and records that lie in memory as in C++.
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "host/spirv.h"
+#include "shaders/embedded.h"
+#include "shaders/physics/records.h"
+#include "shaders/stages/tables.h"
+#include "tests/house/spirv_layout.h"
+
+namespace {
+
+using namespace scree;
+using house::Layout;
+
+std::vector<std::string_view> stage_names() {
+    std::vector<std::string_view> names;
+    for (const std::string_view name : shaders::names()) {
+        if (name.find('.') == std::string_view::npos) names.push_back(name);
+    }
+    return names;
+}
+
+struct Record {
+    std::size_t size;
+    std::map<std::string, std::size_t> offsets;  // bytes, by member
+};
+
+// Every record that a buffer holds. A member that is missing here, or a record, is found out by the test.
+const std::map<std::string, Record>& records() {
+    using namespace physics;
+#define M(member) \
+    { #member, offsetof(R, member) }
+    static const std::map<std::string, Record> table = [] {
+        std::map<std::string, Record> all;
+        {
+            using R = Traits;
+            all["Traits"] = {
+                sizeof(R),
+                {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution), M(rolling_resistance),
+                 M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large)}};
+        }
+        {
+            using R = Pose;
+            all["Pose"] = {sizeof(R), {M(position), M(pad), M(orientation)}};
+        }
+        {
+            using R = Velocity;
+            all["Velocity"] = {sizeof(R), {M(linear), M(pad0), M(angular), M(pad1)}};
+        }
+        {
+            using R = Mass;
+            all["Mass"] = {sizeof(R), {M(xx), M(xy), M(xz), M(yy), M(yz), M(zz), M(inverse_mass), M(split)}};
+        }
+        {
+            using R = Load;
+            all["Load"] = {sizeof(R), {M(acceleration), M(pad0), M(angular_acceleration), M(pad1)}};
+        }
+        {
+            using R = Action;
+            all["Action"] = {sizeof(R),
+                             {M(body), M(flags), M(pad0), M(pad1), M(force), M(pad2), M(torque), M(pad3), M(impulse), M(pad4),
+                              M(angular_impulse), M(pad5), M(velocity), M(pad6), M(angular_velocity), M(pad7)}};
+        }
+        {
+            using R = Manifold;
+            all["Manifold"] = {sizeof(R), {M(normal), M(features), M(points)}};
+        }
+        {
+            using R = Touch;
+            all["Touch"] = {sizeof(R), {M(manifold), M(count), M(pad0), M(pad1), M(pad2)}};
+        }
+        {
+            using R = Bounds;
+            all["Bounds"] = {sizeof(R), {M(lower), M(level), M(upper), M(bucket)}};
+        }
+        {
+            using R = CellEntry;
+            all["CellEntry"] = {sizeof(R), {M(lower), M(body), M(upper), M(level)}};
+        }
+        {
+            using R = Pair;
+            all["Pair"] = {sizeof(R), {M(a), M(b), M(kind), M(previous)}};
+        }
+        {
+            using R = Contact;
+            all["Contact"] = {
+                sizeof(R), {M(a), M(b), M(count), M(features), M(normal), M(age), M(d), M(pad), M(points), M(turn_a), M(turn_b)}};
+        }
+        {
+            using R = Impulse;
+            all["Impulse"] = {sizeof(R),
+                              {M(normal), M(separation), M(approach), M(friction), M(twist), M(rolling), M(pad0), M(d), M(pad1)}};
+        }
+        {
+            using R = Constraint;
+            all["Constraint"] = {
+                sizeof(R),
+                {M(a), M(b), M(slot_a), M(slot_b), M(normal), M(friction), M(arms), M(give_b), M(centre), M(twist_a), M(slide_a),
+                 M(twist_b), M(slide_b), M(rolling_resistance), M(reach), M(restitution), M(count), M(pair)}};
+        }
+        {
+            using R = Slot;
+            all["Slot"] = {sizeof(R), {M(linear), M(carries), M(angular), M(pad)}};
+        }
+        {
+            using R = Parameters;
+            all["Parameters"] = {sizeof(R),
+                                 {M(gravity),
+                                  M(dt),
+                                  M(h),
+                                  M(inverse_h),
+                                  M(bias_rate),
+                                  M(mass_scale),
+                                  M(impulse_scale),
+                                  M(push_speed),
+                                  M(inverse_relaxation),
+                                  M(speculative),
+                                  M(restitution_threshold),
+                                  M(max_speed),
+                                  M(max_spin),
+                                  M(cell),
+                                  M(inverse_cell),
+                                  M(bodies),
+                                  M(buckets),
+                                  M(pair_capacity),
+                                  M(contact_capacity),
+                                  M(group_size),
+                                  M(group_shift),
+                                  M(actions),
+                                  M(redo),
+                                  M(pad0),
+                                  M(pad1),
+                                  M(pad2)}};
+        }
+        {
+            using R = Counts;
+            all["Counts"] = {sizeof(R),
+                             {M(pairs), M(contacts), M(levels), M(overflow), M(required_pairs), M(required_contacts), M(steps),
+                              M(pad), M(kind_first), M(arguments)}};
+        }
+        return all;
+    }();
+#undef M
+    return table;
+}
+
+// The record and binding of each block, from the list that C++ and GLSL share.
+struct TableEntry {
+    std::uint32_t binding;
+    std::string record;
+    std::size_t size;
+};
+std::map<std::string, TableEntry> tables() {
+    using namespace physics;
+#define SCREE_ENTRY(binding, name, block, record, length) {#block, {binding, #record, sizeof(record)}},
+    return {SCREE_TABLES(SCREE_ENTRY)};
+#undef SCREE_ENTRY
+}
+
+}  // namespace
+
+TEST_CASE("house: no stage has an instruction whose bits depend on the device", "[house]") {
+    REQUIRE(stage_names().size() > 10);
+    for (const std::string_view name : stage_names()) {
+        for (const std::string& instruction : host::inexact_instructions(shaders::find(name)))
+            FAIL_CHECK(name << ": " << instruction);
+    }
+}
+
+TEST_CASE("house: no float operation of a stage may be contracted", "[house]") {
+    constexpr std::uint16_t op_decorate = 71;
+    constexpr std::uint32_t no_contraction = 42;
+    // FNegate, FAdd, FSub, FMul, FDiv, FRem, FMod, VectorTimesScalar to OuterProduct, Dot.
+    const std::set<std::uint16_t> float_arithmetic = {127, 129, 131, 133, 136, 140, 141, 142, 143, 144, 145, 146, 147, 148};
+    std::size_t seen = 0;
+    for (const std::string_view name : stage_names()) {
+        std::set<std::uint32_t> decorated;
+        const auto instructions = host::spirv_instructions(shaders::find(name));
+        for (const host::SpirvInstruction& i : instructions) {
+            if (i.opcode == op_decorate && i.words[2] == no_contraction) decorated.insert(i.words[1]);
+        }
+        for (const host::SpirvInstruction& i : instructions) {
+            if (float_arithmetic.count(i.opcode) == 0) continue;
+            ++seen;
+            if (decorated.count(i.words[2]) == 0) FAIL_CHECK(name << ": " << host::spirv_name(i.opcode) << " may be contracted");
+        }
+    }
+    REQUIRE(seen > 100);
+}
+
+TEST_CASE("house: records lie in memory alike in C++ and in the shaders", "[house]") {
+    std::set<std::string> seen;
+    for (const std::string_view name : stage_names()) {
+        const Layout layout = house::layout_of(shaders::find(name));
+        for (const house::StructLayout& type : layout.structs) {
+            if (type.is_block) continue;
+            INFO("shader " << name << ", struct " << type.name);
+            const auto found = records().find(type.name);
+            if (found == records().end()) {
+                FAIL_CHECK("has no row in the table of records");
+                continue;
+            }
+            seen.insert(type.name);
+            for (const house::MemberLayout& member : type.members) {
+                INFO("member " << member.name);
+                const auto offset = found->second.offsets.find(member.name);
+                if (offset == found->second.offsets.end()) {
+                    FAIL_CHECK("has no row in the table of records");
+                } else {
+                    CHECK(member.offset == offset->second);
+                }
+            }
+            CHECK(type.members.size() == found->second.offsets.size());
+        }
+        for (const house::ArrayLayout& array : layout.arrays) {
+            INFO("shader " << name << ", array of " << array.element);
+            const auto found = records().find(array.element);
+            CHECK(array.stride == (found == records().end() ? array.element_bytes : found->second.size));
+        }
+    }
+    CHECK(seen.size() > 8);
+    for (const auto& [name, record] : records()) {
+        INFO("record " << name);
+        CHECK(record.size % 16 == 0);
+    }
+}
+
+TEST_CASE("house: every block of a stage is a table of the step, at its binding", "[house]") {
+    const auto expected = tables();
+    for (const std::string_view name : stage_names()) {
+        for (const house::StructLayout& type : house::layout_of(shaders::find(name)).structs) {
+            if (!type.is_block || type.binding == house::no_binding) continue;
+            INFO("shader " << name << ", block " << type.name);
+            const auto found = expected.find(type.name);
+            if (found == expected.end()) {
+                FAIL_CHECK("is no table of shaders/stages/tables.h");
+                continue;
+            }
+            CHECK(type.binding == found->second.binding);
+            REQUIRE(type.members.size() == 1);
+            CHECK(type.members[0].element == found->second.record);
+            CHECK(type.members[0].stride == found->second.size);
+        }
+    }
+}
+
+TEST_CASE("house: the host chooses the workgroup size of every stage", "[house]") {
+    constexpr std::uint16_t op_decorate = 71;
+    constexpr std::uint32_t spec_id = 1;
+    for (const std::string_view name : stage_names()) {
+        std::vector<std::uint32_t> ids;
+        for (const host::SpirvInstruction& i : host::spirv_instructions(shaders::find(name))) {
+            if (i.opcode == op_decorate && i.words[2] == spec_id) ids.push_back(i.words[3]);
+        }
+        INFO("shader " << name);
+        CHECK(ids == std::vector<std::uint32_t>{0});
+    }
+}

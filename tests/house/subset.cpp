@@ -1,0 +1,86 @@
+// The rules of the common subset of GLSL and C++, read off the text of the laws and the stages.
+#include <catch2/catch.hpp>
+#include <cstddef>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "tests/house/tree.h"
+
+namespace {
+
+using scree::house::at;
+using scree::house::SourceFile;
+using scree::house::Token;
+
+// What Vulkan does not round correctly, or what processors do differently.
+const std::set<std::string> forbidden_calls = {
+    "sqrt",        "inversesqrt", "normalize",    "length",    "distance", "dot",     "cross",      "mix",         "fma",
+    "min",         "max",         "clamp",        "pow",       "exp",      "exp2",    "log",        "log2",        "sin",
+    "cos",         "tan",         "asin",         "acos",      "atan",     "sinh",    "cosh",       "tanh",        "mod",
+    "fract",       "step",        "round",        "sign",      "reflect",  "refract", "smoothstep", "faceforward", "inverse",
+    "determinant", "transpose",   "outerProduct", "roundEven", "modf",     "ldexp",   "frexp",      "isnan",       "isinf",
+};
+const std::set<std::string> forbidden_words = {"double",    "dvec2", "dvec3", "dvec4",      "float16_t",
+                                               "float64_t", "half",  "quat",  "subgroupAdd"};
+
+bool is_swizzle(const Token& before, const Token& token) {
+    if (token.text.size() < 2 || token.text.size() > 4) return false;
+    const bool letters =
+        token.text.find_first_not_of("xyzw") == std::string::npos || token.text.find_first_not_of("rgba") == std::string::npos;
+    // Mass has members xx to zz: on a vector these would not compile in C++.
+    static const std::set<std::string> members = {"xx", "xy", "xz", "yy", "yz", "zz"};
+    return letters && (members.count(token.text) == 0 || before.text.compare(0, 3, "gl_") == 0);
+}
+
+std::vector<std::string> breaches(const SourceFile& file) {
+    std::vector<std::string> found;
+    const std::vector<Token> tokens = scree::house::tokens_of(file.text);
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const Token& token = tokens[i];
+        const std::string next = i + 1 < tokens.size() ? tokens[i + 1].text : "";
+        const std::string previous = i > 0 ? tokens[i - 1].text : "";
+        if (token.text == "/") found.push_back(at(file, token.line, "division; multiply by reciprocal()"));
+        // Stages use these on integers, which is exact; tests/house/spirv.cpp sees them on floats.
+        const bool on_integers =
+            file.in("shaders/stages/") && (token.text == "min" || token.text == "max" || token.text == "clamp");
+        if (token.identifier() && !on_integers && next == "(" && previous != "." && forbidden_calls.count(token.text) != 0) {
+            found.push_back(at(file, token.line, token.text + "() differs between processors; arithmetic.h has ours"));
+        }
+        if (token.identifier() && forbidden_words.count(token.text) != 0) found.push_back(at(file, token.line, token.text));
+        if (token.number() && token.text.compare(0, 2, "0x") != 0) {
+            const bool fraction = token.text.find_first_of(".eE") != std::string::npos;
+            const bool ends_in_f = token.text.back() == 'f' && token.text[token.text.size() - 2] != 'l';
+            if (fraction && !ends_in_f) found.push_back(at(file, token.line, token.text + " is a double in C++; write an f"));
+        }
+        if (i > 1 && previous == "." && is_swizzle(tokens[i - 2], token)) {
+            found.push_back(at(file, token.line, "swizzle ." + token.text));
+        }
+    }
+    return found;
+}
+
+}  // namespace
+
+TEST_CASE("house: the laws and the stages keep to the common subset", "[house]") {
+    std::size_t files = 0;
+    for (const SourceFile& file : scree::house::code_files()) {
+        if (!file.in("shaders/physics/") && !file.in("shaders/stages/")) continue;
+        ++files;
+        for (const std::string& breach : breaches(file)) FAIL_CHECK(breach);
+    }
+    REQUIRE(files > 3);
+}
+
+TEST_CASE("house: a breach of the subset is seen", "[house]") {
+    const auto count = [](const std::string& code) { return breaches({"shaders/physics/law.h", code}).size(); };
+    CHECK(count("float y = a * b - 2.0f; // a / b, sqrt(2.0)\n#include \"a/b.h\"\n") == 0);
+    CHECK(count("uint y = 0x5F375A86u - (x >> 1); float z = m.xx + clamped(1.0e-3f, 0.0f, 1.0f);") == 0);
+    CHECK(count("float y = a / b;") == 1);
+    CHECK(count("float y = sqrt(a);") == 1);
+    CHECK(count("float y = 2.0 * a;") == 1);
+    CHECK(count("float y = 1e-3 * a;") == 1);
+    CHECK(count("vec3 y = a.xyz;") == 1);
+    CHECK(count("uint y = gl_GlobalInvocationID.xy;") == 1);
+    CHECK(count("double y;") == 1);
+}
