@@ -75,8 +75,7 @@ void DeviceRunner::attach(State& state) {
                 continue;
             }
             pipeline_of_.push_back(pipelines_.size());
-            pipelines_.emplace_back(layout_, stage.name.c_str(), shaders::find(stage.name), std::vector{threads_of_a_group},
-                                    device_->report().can_flush_denormals);
+            pipelines_.emplace_back(layout_, stage.name.c_str(), shaders::find(stage.name), std::vector{threads_of_a_group});
         }
         counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
     }
@@ -224,6 +223,23 @@ void DeviceRunner::run_stage(std::size_t index) {
 
 void DeviceRunner::read(Table table, std::span<std::byte> bytes) const {
     buffer(table).read(bytes.data(), bytes.size());
+}
+
+void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
+    buffer(table).write(bytes.data(), bytes.size());
+}
+
+void DeviceRunner::poison() {
+    using enum Table;
+    const auto lasting = {parameters, counts,          traits,          poses,
+                          velocities, contacts_before, impulses_before, first_contacts_before,
+                          contacts,   impulses,        first_contacts};
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const auto table = static_cast<Table>(i);
+        if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
+        const std::vector<std::byte> garbage(buffer(table).bytes(), std::byte{0xCD});
+        write(table, garbage);
+    }
 }
 
 void DeviceRunner::fetch_bodies() {

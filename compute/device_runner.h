@@ -40,6 +40,9 @@ public:
     void begin_step();
     void run_stage(std::size_t index);
     void read(Table table, std::span<std::byte> bytes) const;
+    void write(Table table, std::span<const std::byte> bytes);
+    // Fills with 0xCD every table that a step must not read before it has written it.
+    void poison();
 
 private:
     const host::Buffer& buffer(Table table) const;

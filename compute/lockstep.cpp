@@ -46,42 +46,75 @@ bool table_equal(const State& state, const DeviceRunner& device, Table table, Lo
 
 }  // namespace
 
-LockstepResult compare_in_lockstep(const Scene& given, const Settings& settings, std::shared_ptr<host::Device> device,
-                                   int threads, int steps, const std::function<bool(int)>& progress) {
-    const Scene scene = checked(given);
-    DeviceRunner there(std::move(device));
-    ReferenceRunner here(threads);
-    // The image of the device is a state of its own; both have the same parameters, so the same group size.
-    State image(scene, settings, there.group_size(), there.in_place());
-    State state(scene, settings, there.group_size(), here.in_place());
-    there.attach(image);
-    here.attach(state);
-
+struct Lockstep::Interior {
+    DeviceRunner there;
+    ReferenceRunner here;
+    State image, state;  // of the device; of the CPU. Both have the same parameters, so the same group size
     LockstepResult result;
-    for (result.step = 0; result.step < steps; ++result.step) {
-        if (progress && !progress(result.step)) break;
-        bool done = false;
-        for (bool redo = false; !done; redo = true) {
-            state.fixed().redo = image.fixed().redo = redo;
-            there.begin_step();
-            done = here.step([&](const Stage& stage, std::size_t index) {
-                there.run_stage(index);
-                result.stage = stage.name;
-                return std::all_of(stage.writes.begin(), stage.writes.end(),
-                                   [&](Table table) { return table_equal(state, there, table, result); });
-            });
-            if (!result.equal) return result;
-            if (done) break;
-            there.fetch();
-            image.grow();
-            state.grow();
-            there.attach(image);
-            here.attach(state);
-        }
+
+    Interior(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
+        : there(std::move(device)),
+          here(threads),
+          image(scene, settings, there.group_size(), there.in_place()),
+          state(scene, settings, there.group_size(), here.in_place()) {
+        attach();
     }
+
+    void attach() {
+        there.attach(image);
+        there.poison();
+        here.attach(state);
+    }
+
+    bool compare(const Stage& stage, std::size_t index) {
+        there.run_stage(index);
+        result.stage = stage.name;
+        return std::all_of(stage.writes.begin(), stage.writes.end(),
+                           [&](Table table) { return table_equal(state, there, table, result); });
+    }
+
+    // False when a buffer had to grow first.
+    bool attempt(bool redo) {
+        state.fixed().redo = image.fixed().redo = redo;
+        there.begin_step();
+        if (here.step([&](const Stage& stage, std::size_t index) { return compare(stage, index); }) || !result.equal) return true;
+        there.fetch();
+        image.grow();
+        state.grow();
+        attach();
+        return false;
+    }
+};
+
+Lockstep::Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
+    : interior_(std::make_unique<Interior>(checked(scene), settings, std::move(device), threads)) {}
+Lockstep::~Lockstep() = default;
+const LockstepResult& Lockstep::result() const {
+    return interior_->result;
+}
+DeviceRunner& Lockstep::device() {
+    return interior_->there;
+}
+
+bool Lockstep::step() {
+    LockstepResult& result = interior_->result;
+    if (!result.equal) return false;
+    for (bool redo = false; !interior_->attempt(redo); redo = true) continue;
+    if (!result.equal) return false;
+    ++result.step;
     result.stage.clear();
-    result.hash = hash_of(state);
-    return result;
+    result.hash = hash_of(interior_->state);
+    return true;
+}
+
+LockstepResult compare_in_lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device,
+                                   int threads, int steps, const std::function<bool(int)>& progress) {
+    Lockstep lockstep(scene, settings, std::move(device), threads);
+    while (lockstep.result().step < steps) {
+        if (progress && !progress(lockstep.result().step)) break;
+        if (!lockstep.step()) break;
+    }
+    return lockstep.result();
 }
 
 }  // namespace scree

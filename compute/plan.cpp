@@ -2,6 +2,7 @@
 #include "compute/plan.h"
 
 #include "compute/reference/stages.h"
+#include "shaders/physics/grid.h"
 
 namespace scree {
 
@@ -43,8 +44,7 @@ std::vector<Stage> plan(int substeps) {
     s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
     for (std::uint32_t kind = 0; kind < std::size(kind_names); ++kind)
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
-    s.back().feeds_next = true;
-    s.back().writes = {manifolds, touching};
+    s.push_back({"collide_kept", Over::kind, collide_kept, {manifolds, touching}, physics::KIND_KEPT});
     // contacts: who shares a body with whom, what they inherit
     scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
     s.push_back({"list_contacts", Over::pairs, list_contacts, {slot_ends}});

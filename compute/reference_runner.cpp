@@ -22,7 +22,6 @@ bool ReferenceRunner::step() {
 }
 
 bool ReferenceRunner::step(const std::function<bool(const Stage&, std::size_t)>& look) {
-    const FlushedDenormals flushed;
     if (!state_->fixed().redo) state_->turn_over();
     for (std::size_t i = 0; i < plan_.size(); ++i) {
         const auto begin = std::chrono::steady_clock::now();

@@ -175,7 +175,7 @@ std::size_t State::live(Length length) const {
         case Length::pairs_and_end:
             return c.pairs + 1;
         case Length::kinds:
-            return physics::KINDS * physics::spans_of(c.pairs) + 1;
+            return physics::KINDS * physics::spans_of(c.pairs);
         case Length::contacts:
             return c.contacts;
         case Length::slots:

@@ -8,23 +8,7 @@
 #include <algorithm>
 #include <thread>
 
-#if defined(__SSE2__)
-#include <immintrin.h>
-#endif
-
 namespace scree {
-
-#if defined(__SSE2__)
-FlushedDenormals::FlushedDenormals() : before_(_mm_getcsr()) {
-    _mm_setcsr(before_ | 0x8040u);
-}  // flush to zero, denormals are zero
-FlushedDenormals::~FlushedDenormals() {
-    _mm_setcsr(before_);
-}
-#else
-FlushedDenormals::FlushedDenormals() = default;
-FlushedDenormals::~FlushedDenormals() = default;
-#endif
 
 struct Threads::Arena {
     explicit Arena(int threads) : arena(threads) {}
@@ -38,10 +22,8 @@ Threads::~Threads() = default;
 
 void Threads::for_ranges(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
     arena_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const tbb::blocked_range<std::size_t>& part) {
-            const FlushedDenormals flushed;
-            range(part.begin(), part.end());
-        });
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
+                          [&](const tbb::blocked_range<std::size_t>& part) { range(part.begin(), part.end()); });
     });
 }
 

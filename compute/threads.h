@@ -7,18 +7,6 @@
 
 namespace scree {
 
-// The processor rounds denormals to zero while this lives, as GPUs do; put back afterwards.
-class FlushedDenormals {
-public:
-    FlushedDenormals();
-    ~FlushedDenormals();
-    FlushedDenormals(const FlushedDenormals&) = delete;
-    FlushedDenormals& operator=(const FlushedDenormals&) = delete;
-
-private:
-    unsigned before_ = 0;
-};
-
 class Threads {
 public:
     explicit Threads(int count = 0);  // 0: one per core

@@ -20,6 +20,14 @@ bool finite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+// Sums that a step can calculate with: no mass is so small that this much pushes it beyond what a float holds.
+physics::Action bounded(physics::Action action) {
+    constexpr float most = 1e15f;
+    for (vec3* push : {&action.force, &action.torque, &action.impulse, &action.angular_impulse})
+        *push = glm::clamp(*push, vec3(-most), vec3(most));
+    return action;
+}
+
 void demand(bool condition, const std::string& what) {
     if (!condition) throw std::invalid_argument("settings: " + what);
 }
@@ -72,7 +80,7 @@ struct World::Interior {
     void step() {
         physics::Parameters& parameters = state.fixed();
         parameters.actions = 0;
-        for (const auto& [body, action] : actions) state.actions[parameters.actions++] = action;
+        for (const auto& [body, action] : actions) state.actions[parameters.actions++] = bounded(action);
         actions.clear();
         parameters.redo = 0;
         while (!runner->step()) {

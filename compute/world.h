@@ -63,7 +63,8 @@ public:
     Runner& runner();
 
     // What acts on a body in the next step; calls add up. Indices are those of the scene; a wrong one throws std::out_of_range,
-    // a value that is not finite std::invalid_argument, a body that is not dynamic std::invalid_argument.
+    // a value that is not finite std::invalid_argument, a body that is not dynamic std::invalid_argument. What comes to more than
+    // 1e15 N, N m, N s or N m s acts as that much.
     void apply_force(std::size_t body, vec3 force, vec3 offset = vec3(0));      // N, held for the step; offset from the centre, m
     void apply_torque(std::size_t body, vec3 torque);                           // N m
     void apply_impulse(std::size_t body, vec3 impulse, vec3 offset = vec3(0));  // N s, at the step's start

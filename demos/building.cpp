@@ -43,6 +43,12 @@ void add_pit(Scene& scene, vec3 half, float thickness, float friction) {
 }
 
 Viewpoint view_of(vec3 low, vec3 high, float azimuth, float elevation) {
+    std::vector<vec3> corners;
+    for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? high.x : low.x, i & 2 ? high.y : low.y, i & 4 ? high.z : low.z);
+    return view_of(corners, azimuth, elevation);
+}
+
+Viewpoint view_of(const std::vector<vec3>& points, float azimuth, float elevation) {
     constexpr float margin = 1.06f, aspect = 16.0f / 9;
     Viewpoint view;
     view.vertical_fov = 35;
@@ -51,29 +57,26 @@ Viewpoint view_of(vec3 low, vec3 high, float azimuth, float elevation) {
     const vec3 right = glm::normalize(glm::cross(vec3(0, 1, 0), back));
     const vec3 up = glm::cross(back, right);
     const float rise = std::tan(view.vertical_fov * degrees / 2) / margin;
-    view.target = (low + high) * 0.5f;
+    view.target = vec3(0);
+    for (const vec3& point : points) view.target += point / static_cast<float>(points.size());
     // A point p off the target is seen if |p.right| <= rise aspect (d - p.back), and likewise upward. The target is moved until
     // what is seen lies in the middle of the frame; a few rounds settle it.
-    float distance = 1;
+    float distance = 0;
     for (int round = 0; round < 8; ++round) {
         distance = 0.1f;
-        for (int pass = 0; pass < 2; ++pass) {
-            vec3 least(1e30f), most(-1e30f);
-            for (int corner = 0; corner < 8; ++corner) {
-                const vec3 p =
-                    vec3(corner & 1 ? high.x : low.x, corner & 2 ? high.y : low.y, corner & 4 ? high.z : low.z) - view.target;
-                const float near = glm::dot(p, back);
-                if (pass == 0) {
-                    distance = std::max({distance, near + std::abs(glm::dot(p, right)) / (rise * aspect),
-                                         near + std::abs(glm::dot(p, up)) / rise});
-                } else {
-                    const vec3 seen = vec3(glm::dot(p, right), glm::dot(p, up), 0) / (distance - near);
-                    least = glm::min(least, seen);
-                    most = glm::max(most, seen);
-                }
-            }
-            if (pass == 1) view.target += (right * (least.x + most.x) + up * (least.y + most.y)) * (0.5f * distance);
+        for (const vec3& point : points) {
+            const vec3 p = point - view.target;
+            const float side = std::abs(glm::dot(p, right)) / (rise * aspect), height = std::abs(glm::dot(p, up)) / rise;
+            distance = std::max(distance, glm::dot(p, back) + std::max(side, height));
         }
+        vec3 least(1e30f), most(-1e30f);
+        for (const vec3& point : points) {
+            const vec3 p = point - view.target;
+            const vec3 seen = vec3(glm::dot(p, right), glm::dot(p, up), 0) / (distance - glm::dot(p, back));
+            least = glm::min(least, seen);
+            most = glm::max(most, seen);
+        }
+        view.target += (right * (least.x + most.x) + up * (least.y + most.y)) * (0.5f * distance);
     }
     view.eye = view.target + back * distance;
     return view;

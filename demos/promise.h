@@ -38,10 +38,7 @@ public:
     template <class... More>
     explicit Promise(Claim first, More... more) : claims_{std::move(first), Claim(std::move(more))...} {}
 
-    Promise&& and_also(Claim claim) && {
-        claims_.push_back(std::move(claim));
-        return std::move(*this);
-    }
+    void also(Claim claim) { claims_.push_back(std::move(claim)); }
     Promise&& watching(Indices bodies) && {
         watched_ = std::move(bodies);
         return std::move(*this);

@@ -13,21 +13,31 @@ namespace {
 using glm::vec3;
 
 // Evenly spaced colours of the published maps (matplotlib's viridis, inferno, plasma; Nunez, Anderton and Renslow's cividis;
-// Mikhailov's turbo), 0xRRGGBB. The first colours of plasma and inferno are left out: near black, a body's shading cannot be seen.
-constexpr std::uint32_t PLASMA[] = {0x2d0594, 0x5b02a3, 0x8707a6, 0xab2394, 0xca457a, 0xe16462, 0xf2844b, 0xfca636, 0xfcce25, 0xf0f921};
-constexpr std::uint32_t INFERNO[] = {0x2f0a5b, 0x540f6d, 0x781c6d, 0x9b2964, 0xbc3754, 0xd84c3e, 0xed6925,
-                                     0xf98e09, 0xfbb61a, 0xf4df53, 0xfcffa4};
-constexpr std::uint32_t VIRIDIS[] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e, 0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
-constexpr std::uint32_t CIVIDIS[] = {0x00204d, 0x00336f, 0x39486b, 0x575c6d, 0x707173, 0x8a8779, 0xa69d75, 0xc4b56c, 0xe4cf5b, 0xffea46};
-constexpr std::uint32_t TURBO[] = {0x30123b, 0x4662d7, 0x36aaf9, 0x1ae4b6, 0x72fe5e, 0xc7ef34, 0xfaba39, 0xf66b19, 0xcb2a04, 0x7a0403};
+// Mikhailov's turbo), 0xRRGGBB. The first colours of plasma and inferno are left out: near black, a body's shading cannot be
+// seen.
+constexpr std::uint32_t PLASMA[] = {0x2d0594, 0x5b02a3, 0x8707a6, 0xab2394, 0xca457a,
+                                    0xe16462, 0xf2844b, 0xfca636, 0xfcce25, 0xf0f921};
+constexpr std::uint32_t INFERNO[] = {0x2f0a5b, 0x540f6d, 0x781c6d, 0x9b2964, 0xbc3754, 0xd84c3e,
+                                     0xed6925, 0xf98e09, 0xfbb61a, 0xf4df53, 0xfcffa4};
+constexpr std::uint32_t VIRIDIS[] = {0x440154, 0x482878, 0x3e4989, 0x31688e, 0x26828e,
+                                     0x1f9e89, 0x35b779, 0x6ece58, 0xb5de2b, 0xfde725};
+constexpr std::uint32_t CIVIDIS[] = {0x00204d, 0x00336f, 0x39486b, 0x575c6d, 0x707173,
+                                     0x8a8779, 0xa69d75, 0xc4b56c, 0xe4cf5b, 0xffea46};
+constexpr std::uint32_t TURBO[] = {0x30123b, 0x4662d7, 0x36aaf9, 0x1ae4b6, 0x72fe5e,
+                                   0xc7ef34, 0xfaba39, 0xf66b19, 0xcb2a04, 0x7a0403};
 
 std::span<const std::uint32_t> knots_of(ColorMap map) {
     switch (map) {
-        case ColorMap::plasma: return PLASMA;
-        case ColorMap::inferno: return INFERNO;
-        case ColorMap::viridis: return VIRIDIS;
-        case ColorMap::cividis: return CIVIDIS;
-        case ColorMap::turbo: return TURBO;
+        case ColorMap::plasma:
+            return PLASMA;
+        case ColorMap::inferno:
+            return INFERNO;
+        case ColorMap::viridis:
+            return VIRIDIS;
+        case ColorMap::cividis:
+            return CIVIDIS;
+        case ColorMap::turbo:
+            return TURBO;
     }
     return PLASMA;
 }
@@ -137,7 +147,8 @@ std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most
             break;
         }
     }
-    for (double k = std::ceil(low / step - 1e-6); k * step <= high + 1e-6 * step; k += 1) ticks.push_back(static_cast<float>(k * step));
+    for (double k = std::ceil(low / step - 1e-6); k * step <= high + 1e-6 * step; k += 1)
+        ticks.push_back(static_cast<float>(k * step));
     return ticks;
 }
 

@@ -11,7 +11,7 @@
 namespace scree::host {
 
 enum class ColorBy { momentum, speed, spin, kinetic_energy, height, body, plain };  // as COLOR_BY_* in shaders/render/frame.h
-enum class ColorMap { plasma, inferno, viridis, cividis, turbo };  // all but turbo grow lighter steadily
+enum class ColorMap { plasma, inferno, viridis, cividis, turbo };                   // all but turbo grow lighter steadily
 
 // Fixed for a run by its owner, so that colours mean the same in every frame.
 struct ColorScale {

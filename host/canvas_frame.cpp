@@ -27,6 +27,7 @@ bool finite(vec3 v) {
 struct LightMap {
     mat4 matrix{1};
     float texel = 0;  // m
+    float depth = 0;  // m
 };
 
 // The box, as seen along parallel rays that come from `toward`, as 0..1 in three axes.
@@ -34,7 +35,8 @@ LightMap light_map(vec3 toward, vec3 eye, vec3 low, vec3 high, int size) {
     const Axes axes = axes_of(toward, vec3(0, 1, 0));
     vec3 least(1e30f), most(-1e30f);
     for (int i = 0; i < 8; ++i) {
-        const vec3 corner = vec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z) - eye;
+        const vec3 corner =
+            vec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z) - eye;
         const vec3 seen(glm::dot(axes.right, corner), glm::dot(axes.up, corner), glm::dot(axes.back, corner));
         least = glm::min(least, seen);
         most = glm::max(most, seen);
@@ -51,6 +53,7 @@ LightMap light_map(vec3 toward, vec3 eye, vec3 low, vec3 high, int size) {
     }
     map.matrix[3] = vec4(-least.x / extent.x, -least.y / extent.y, most.z / extent.z, 1.0f);
     map.texel = std::max(extent.x, extent.y) / static_cast<float>(size);
+    map.depth = extent.z;
     return map;
 }
 
@@ -58,7 +61,8 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
     const vec3 look = camera.target - camera.eye;
     if (!finite(camera.eye) || !finite(look) || !(glm::dot(look, look) > 0) || !finite(camera.up) || !(camera.near_plane > 0) ||
         !(camera.vertical_fov > 0 && camera.vertical_fov < 179)) {
-        throw std::invalid_argument("camera: the eye and the target must differ and be finite, the angle lie between 0 and 179 degrees");
+        throw std::invalid_argument(
+            "camera: the eye and the target must differ and be finite, the angle lie between 0 and 179 degrees");
     }
     const Axes axes = axes_of(-glm::normalize(look), camera.up);
     const auto width = static_cast<float>(options.width), height = static_cast<float>(options.height);
@@ -76,11 +80,12 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
     frame.ray_right = vec4(axes.right * (2 * slope * aspect / width), width);
     frame.ray_down = vec4(axes.up * (-2 * slope / height), height);
     frame.pixel = vec4(2 * slope / height, 0, 0, 0);
-    frame.eye = vec4(camera.eye, 6.0f * glm::length(look));
+    frame.eye = vec4(camera.eye, 3.5f * glm::length(look));
 }
 
 void set_scale(Frame& frame, const ColorScale& scale) {
-    if (has_scale(scale.by) && (!(scale.high > scale.low) || !std::isfinite(scale.high - scale.low) || (scale.logarithmic && !(scale.low > 0)))) {
+    if (has_scale(scale.by) &&
+        (!(scale.high > scale.low) || !std::isfinite(scale.high - scale.low) || (scale.logarithmic && !(scale.low > 0)))) {
         throw std::invalid_argument("color scale: high must exceed low, and low exceed 0 when logarithmic");
     }
     const float low = scale.logarithmic ? std::log(scale.low) : scale.low;
@@ -105,6 +110,8 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     const LightMap sky_map = light_map(vec3(0, 1, 0), camera.eye, low, high, SKY_MAP_SIZE);
     frame.sun_map = sun_map.matrix;
     frame.sky_map = sky_map.matrix;
+    frame.pixel.y = sky_map.depth;
+    frame.pixel.z = 20 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
     frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
     frame.maps = vec4(sun_map.texel, sky_map.texel, 1.0f / SUN_MAP_SIZE, 1.0f / SKY_MAP_SIZE);

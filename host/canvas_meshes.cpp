@@ -50,7 +50,7 @@ RoundMesh sphere_mesh(int corners) {
 
 RoundMesh capsule_mesh(int corners) {
     RoundMesh mesh;
-    const int rings = corners >= 24 ? 4 : corners >= 12 ? 3 : 2;  // from a pole to its equator
+    const int rings = corners >= 32 ? 8 : corners >= 16 ? 4 : corners >= 10 ? 3 : 2;  // from a pole to its equator
     // From the upper pole to the lower one; the equator twice, once for each cap.
     for (int cap = 1; cap >= -1; cap -= 2) {
         for (int k = 0; k <= rings; ++k) {
@@ -58,7 +58,8 @@ RoundMesh capsule_mesh(int corners) {
             const double polar = 0.5 * PI * ring / rings;
             for (int i = 0; i < corners; ++i) {
                 const double angle = 2 * PI * i / corners;
-                mesh.directions.emplace_back(std::sin(polar) * std::cos(angle), cap * std::cos(polar), std::sin(polar) * std::sin(angle), cap);
+                mesh.directions.emplace_back(std::sin(polar) * std::cos(angle), cap * std::cos(polar),
+                                             std::sin(polar) * std::sin(angle), cap);
             }
         }
     }
@@ -69,7 +70,7 @@ RoundMesh capsule_mesh(int corners) {
             const auto b = static_cast<std::uint32_t>(row * corners + (i + 1) % corners);
             const auto c = a + static_cast<std::uint32_t>(corners);
             const auto d = b + static_cast<std::uint32_t>(corners);
-            if (row > 0) add(mesh, a, b, c);          // at the poles one of the two has no area
+            if (row > 0) add(mesh, a, b, c);  // at the poles one of the two has no area
             if (row + 2 < rows) add(mesh, b, d, c);
         }
     }
@@ -77,7 +78,7 @@ RoundMesh capsule_mesh(int corners) {
 }
 
 int round_corners(std::size_t bodies) {
-    return bodies <= 200 ? 64 : bodies <= 1000 ? 32 : bodies <= 20000 ? 24 : 16;
+    return bodies <= 200 ? 64 : bodies <= 1000 ? 32 : bodies <= 20000 ? 20 : 16;
 }
 
 }  // namespace scree::host

@@ -15,13 +15,14 @@ constexpr glm::vec3 PANEL{0.012f, 0.014f, 0.020f};
 
 // Lengths in pixels for a picture of this height; at 720 the text is 19 high.
 struct Measures {
-    float unit, text, small, margin, padding;
+    float unit, text, small, margin, padding, side;
     explicit Measures(int height)
         : unit(static_cast<float>(height) / 720.0f),
           text(std::max(10.0f, std::round(19 * unit))),
           small(std::max(9.0f, std::round(16 * unit))),
           margin(std::round(18 * unit)),
-          padding(std::round(12 * unit)) {}
+          padding(std::round(12 * unit)),
+          side(std::round(14 * unit)) {}
 };
 
 class Sheet {
@@ -79,7 +80,8 @@ void add_caption(Sheet& sheet, int height, const std::string& caption) {
     const float step = std::round(1.3f * m.text);
     const float bottom = static_cast<float>(height) - m.margin;
     const float top = bottom - 2 * m.padding - step * static_cast<float>(lines.size()) + std::round(0.3f * m.text);
-    sheet.panel(m.margin, top, std::round(m.margin + 2 * m.padding + widest), bottom, std::round(7 * m.unit), glm::vec4(PANEL, 0.62f));
+    sheet.panel(m.margin, top, std::round(m.margin + 2 * m.padding + widest), bottom, std::round(7 * m.unit),
+                glm::vec4(PANEL, 0.62f));
     float base = top + m.padding + std::round(0.80f * m.text);
     for (const std::string_view line : lines) {
         sheet.text(line, m.margin + m.padding, base, m.text);
@@ -92,9 +94,8 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
     const BarPlace place = legend_bar(width, height);
     const auto left = static_cast<float>(place.left), top = static_cast<float>(place.top);
     const auto right = static_cast<float>(place.right), bottom = static_cast<float>(place.bottom);
-    sheet.panel(left - m.padding - std::round(6 * m.unit), top - std::round(1.15f * m.text) - m.padding,
-                right + m.padding + std::round(6 * m.unit), static_cast<float>(height) - m.margin, std::round(7 * m.unit),
-                glm::vec4(PANEL, 0.62f));
+    sheet.panel(left - m.padding - m.side, top - std::round(1.15f * m.text) - m.padding, right + m.padding + m.side,
+                static_cast<float>(height) - m.margin, std::round(7 * m.unit), glm::vec4(PANEL, 0.62f));
     const std::string unit = color_unit(scale.by);
     const float title_base = top - std::round(0.42f * m.text);
     sheet.text(color_title(scale.by), left, title_base, m.text);
@@ -107,7 +108,8 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
         const float x = std::round(left + t * (right - left - thin));
         sheet.panel(x, bottom, x + thin, bottom + std::round(5 * m.unit), 0, glm::vec4(INK, 0.8f));
         const std::string label = tick_label(value, scale.logarithmic);
-        sheet.text(label, x + 0.5f * thin - 0.5f * text_width(label, m.small), bottom + std::round(5 * m.unit + 1.0f * m.small), m.small);
+        sheet.text(label, x + 0.5f * thin - 0.5f * text_width(label, m.small), bottom + std::round(5 * m.unit + 1.0f * m.small),
+                   m.small);
     }
 }
 
@@ -115,7 +117,7 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
 
 BarPlace legend_bar(int width, int height) {
     const Measures m(height);
-    const int inset = static_cast<int>(m.margin + m.padding + std::round(6 * m.unit));
+    const int inset = static_cast<int>(m.margin + m.padding + m.side);
     const int long_side = std::min(static_cast<int>(std::round(300 * m.unit)), width - 2 * inset);
     const int below = static_cast<int>(m.margin + std::round(0.5f * m.padding) + std::round(6 * m.unit + 1.2f * m.small));
     const int thickness = static_cast<int>(std::max(4.0f, std::round(14 * m.unit)));

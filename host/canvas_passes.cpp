@@ -19,13 +19,13 @@ VkAttachmentDescription attachment(VkFormat format, int samples, bool kept, VkIm
     return a;
 }
 
-constexpr VkPipelineStageFlags DEPTH_TESTS = VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkAccessFlags DEPTH_ACCESS =
-    VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+constexpr VkPipelineStageFlags DEPTH_TESTS =
+    VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+constexpr VkAccessFlags DEPTH_ACCESS = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 constexpr VkAccessFlags COLOR_ACCESS = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
 
-VkRenderPass make_pass(Objects& objects, std::span<const VkAttachmentDescription> attachments, const VkSubpassDescription& subpass,
-                       std::span<const VkSubpassDependency> dependencies) {
+VkRenderPass make_pass(Objects& objects, std::span<const VkAttachmentDescription> attachments,
+                       const VkSubpassDescription& subpass, std::span<const VkSubpassDependency> dependencies) {
     const VulkanFunctions& vk = objects.device()->vk();
     VkRenderPassCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO;
@@ -58,7 +58,7 @@ VkRenderPass make_picture_pass(Objects& objects, int samples) {
     const bool resolves = samples > 1;
     std::array attachments{
         attachment(COLOR_FORMAT, samples, !resolves,
-                   resolves ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+                   resolves ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
         attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
         attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
@@ -72,13 +72,31 @@ VkRenderPass make_picture_pass(Objects& objects, int samples) {
     subpass.pDepthStencilAttachment = &depth;
     subpass.pResolveAttachments = resolves ? &picture : nullptr;
     constexpr VkPipelineStageFlags outputs = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_TESTS;
+    const VkPipelineStageFlags reader = resolves ? VK_PIPELINE_STAGE_TRANSFER_BIT : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+    const VkAccessFlags reading = resolves ? VK_ACCESS_TRANSFER_READ_BIT : VK_ACCESS_SHADER_READ_BIT;
     const std::array dependencies{
-        VkSubpassDependency{VK_SUBPASS_EXTERNAL, 0, outputs | VK_PIPELINE_STAGE_TRANSFER_BIT, outputs,
+        VkSubpassDependency{VK_SUBPASS_EXTERNAL, 0, outputs | reader, outputs,
                             VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,
                             COLOR_ACCESS | DEPTH_ACCESS, 0},
-        VkSubpassDependency{0, VK_SUBPASS_EXTERNAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT,
-                            VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, 0}};
+        VkSubpassDependency{0, VK_SUBPASS_EXTERNAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, reader,
+                            VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, reading, 0}};
     return make_pass(objects, std::span(attachments).first(resolves ? 3 : 2), subpass, dependencies);
+}
+
+VkRenderPass make_smoothing_pass(Objects& objects) {
+    std::array attachments{attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+    attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+    const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
+    VkSubpassDescription subpass{};
+    subpass.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+    subpass.colorAttachmentCount = 1;
+    subpass.pColorAttachments = &color;
+    constexpr VkPipelineStageFlags output = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT;
+    const std::array dependencies{VkSubpassDependency{VK_SUBPASS_EXTERNAL, 0, output | VK_PIPELINE_STAGE_TRANSFER_BIT, output,
+                                                      VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, COLOR_ACCESS, 0},
+                                  VkSubpassDependency{0, VK_SUBPASS_EXTERNAL, output, VK_PIPELINE_STAGE_TRANSFER_BIT,
+                                                      VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT, VK_ACCESS_TRANSFER_READ_BIT, 0}};
+    return make_pass(objects, attachments, subpass, dependencies);
 }
 
 VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape) {

@@ -10,8 +10,12 @@ constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
 // Depth only, left ready to be read by fragment shaders.
 VkRenderPass make_shadow_pass(Objects& objects);
-// Attachments: colour, depth and, with more than one sample, the picture into which the colour is resolved.
+// Attachments: colour, depth and, with more than one sample, the picture into which the colour is resolved, to be copied. With
+// one sample the colour is left ready to be read by the fragment shader that smooths it.
 VkRenderPass make_picture_pass(Objects& objects, int samples);
+
+// One attachment: the picture, drawn over wholly and left ready to be copied.
+VkRenderPass make_smoothing_pass(Objects& objects);
 
 struct PipelineShape {
     const char* vertex = nullptr;

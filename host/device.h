@@ -27,7 +27,7 @@ struct DeviceReport {
     std::uint64_t memory_bytes = 0;     // the largest device-local heap
     std::uint64_t largest_binding = 0;  // maxStorageBufferRange, bytes
     // Which modes 32-bit floats can be asked for (host/spirv.h). None of them is a lack: + - * are correctly rounded without.
-    bool can_flush_denormals = false;
+    bool can_preserve_denormals = false;
     bool can_preserve_specials = false;
     bool can_round_to_nearest = false;
     std::vector<std::string> lacks;  // each with the reason; empty when usable

@@ -63,7 +63,7 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     report.api_version = version_text(properties.apiVersion);
     report.is_processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     report.largest_binding = limits.maxStorageBufferRange;
-    report.can_flush_denormals = floats.shaderDenormFlushToZeroFloat32;
+    report.can_preserve_denormals = floats.shaderDenormPreserveFloat32;
     report.can_preserve_specials = floats.shaderSignedZeroInfNanPreserveFloat32;
     report.can_round_to_nearest = floats.shaderRoundingModeRTEFloat32;
     VkPhysicalDeviceMemoryProperties memory;

@@ -86,8 +86,8 @@ std::string as_cpp(const Atlas& atlas) {
     for (std::size_t i = 0; i < atlas.levels.size(); ++i) out << (i % 32 == 0 ? "\n" : "") << int{atlas.levels[i]} << ",";
     out << "\n};\nconst Glyph GLYPHS[] = {\n";
     for (const Glyph& g : atlas.glyphs) {
-        out << "{" << g.code << "u, " << g.x << ", " << g.y << ", " << g.width << ", " << g.height << ", " << g.left << ", " << g.top << ", "
-            << std::showpoint << g.advance << "f},\n";
+        out << "{" << g.code << "u, " << g.x << ", " << g.y << ", " << g.width << ", " << g.height << ", " << g.left << ", "
+            << g.top << ", " << std::showpoint << g.advance << "f},\n";
     }
     out << "};\n}\nconst GlyphAtlas& glyph_atlas() {\n    static const GlyphAtlas atlas{" << ATLAS_WIDTH << ", " << atlas.height
         << ", LEVELS, GLYPHS};\n    return atlas;\n}\n}\n";

@@ -37,6 +37,7 @@ public:
         std::unique_lock lock(mutex_);
         room_.wait(lock, [&] { return jobs_.size() < longest_ || error_; });
         if (error_) std::rethrow_exception(error_);
+        if (closed_) throw ImageError("frames: the writer is finished, no more can be added");
         jobs_.push_back(std::move(job));
         arrived_.notify_one();
     }
@@ -106,14 +107,16 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
     if (!options.folder.empty()) require_writable_folder(options.folder);
     if (!options.video.empty()) {
         interior_->video = std::make_unique<Video>(options.video, options.width, options.height, options.frames_per_second);
-        interior_->film = std::make_unique<Line>(longest, 1, [video = interior_->video.get()](const Job& job) { video->add(*job.image); });
+        interior_->film =
+            std::make_unique<Line>(longest, 1, [video = interior_->video.get()](const Job& job) { video->add(*job.image); });
     }
     if (!options.folder.empty()) {
-        interior_->pictures = std::make_unique<Line>(longest, encoders(options.threads), [folder = options.folder](const Job& job) {
-            char name[32];
-            std::snprintf(name, sizeof name, "frame_%06d.png", job.number);
-            write_png(folder / name, *job.image);
-        });
+        interior_->pictures =
+            std::make_unique<Line>(longest, encoders(options.threads), [folder = options.folder](const Job& job) {
+                char name[32];
+                std::snprintf(name, sizeof name, "frame_%06d.png", job.number);
+                write_png(folder / name, *job.image);
+            });
     }
 }
 

@@ -9,13 +9,13 @@
 namespace scree::host {
 
 struct FrameWriterOptions {
-    std::filesystem::path folder;  // frame_000000.png, ... are written here; empty: no files
-    std::filesystem::path video;   // an .mp4 file; empty: no video
+    std::filesystem::path folder{};  // frame_000000.png, ... are written here; empty: no files
+    std::filesystem::path video{};   // an .mp4 file; empty: no video
     double frames_per_second = 60;
-    int width = 1280;   // pixels
-    int height = 720;   // pixels
-    int threads = 0;    // PNG encoders; 0: one, or two when there are more than four processors
-    int waiting = 6;    // frames held at most before add() waits; bounds memory
+    int width = 1280;  // pixels
+    int height = 720;  // pixels
+    int threads = 0;   // PNG encoders; 0: one, or two when there are more than four processors
+    int waiting = 6;   // frames held at most before add() waits; bounds memory
 };
 
 class FrameWriter {

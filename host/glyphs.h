@@ -9,9 +9,9 @@ namespace scree::host {
 
 // Lengths in texels of the atlas, in which a line of text is GLYPH_SIZE high.
 struct Glyph {
-    std::uint32_t code = 0;  // Unicode
+    std::uint32_t code = 0;                   // Unicode
     int x = 0, y = 0, width = 0, height = 0;  // in the atlas
-    int left = 0, top = 0;   // from the pen on the base line to the upper left corner
+    int left = 0, top = 0;                    // from the pen on the base line to the upper left corner
     float advance = 0;
 };
 

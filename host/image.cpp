@@ -49,9 +49,9 @@ std::vector<std::uint8_t> png_bytes(const Image& image) {
     const Context context(spng_ctx_new(SPNG_CTX_ENCODER), &spng_ctx_free);
     if (!context) throw ImageError("PNG: out of memory");
     spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
-    // Level 1 with the two cheap filters: measured on rendered frames, a third of the default's time for a tenth more bytes.
+    // Measured on rendered frames: a quarter of the default's time (60 ms for 1280 x 720), for a sixth more bytes.
     spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1);
-    spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB | SPNG_FILTER_CHOICE_UP);
+    spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB);
     spng_ihdr header{};
     header.width = static_cast<std::uint32_t>(image.width);
     header.height = static_cast<std::uint32_t>(image.height);

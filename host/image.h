@@ -14,8 +14,8 @@ struct ImageError : std::runtime_error {
 };
 
 struct Image {
-    int width = 0;   // pixels
-    int height = 0;  // pixels
+    int width = 0;                   // pixels
+    int height = 0;                  // pixels
     std::vector<std::uint8_t> rgba;  // rows from the top, four bytes a pixel, sRGB
 };
 

@@ -109,17 +109,15 @@ Table& Table::operator=(Table&& other) noexcept {
 }
 
 Pipeline::Pipeline(std::shared_ptr<TableLayout> layout, const char* name, std::span<const std::uint32_t> words,
-                   const std::vector<std::uint32_t>& specialisation, bool flush_denormals)
+                   const std::vector<std::uint32_t>& specialisation)
     : layout_(std::move(layout)) {
     const Device& device = *layout_->device();
     const VulkanFunctions& vk = device.vk();
     const DeviceReport& report = device.report();
-    if (flush_denormals && !report.can_flush_denormals) {
-        throw DeviceError(std::string(name) + ": " + report.name + " cannot be asked to flush denormals");
-    }
     std::vector<std::uint32_t> patched;
     try {
-        patched = with_float_controls(words, {flush_denormals, report.can_preserve_specials, report.can_round_to_nearest});
+        patched = with_float_controls(words,
+                                      {report.can_preserve_denormals, report.can_preserve_specials, report.can_round_to_nearest});
     } catch (const SpirvError& error) {
         throw DeviceError(std::string(name) + ": " + error.what());
     }

@@ -50,10 +50,10 @@ private:
 
 class Pipeline {
 public:
-    // `words` is SPIR-V with entry point main; specialisation constant i gets specialisation[i]. Rounding to nearest and true
-    // -0, infinities and NaN are asked for where the device offers them; `flush_denormals` throws DeviceError where it does not.
+    // `words` is SPIR-V with entry point main; specialisation constant i gets specialisation[i]. Rounding to nearest, denormals,
+    // true -0, infinities and NaN are asked for where the device offers them.
     Pipeline(std::shared_ptr<TableLayout> layout, const char* name, std::span<const std::uint32_t> words,
-             const std::vector<std::uint32_t>& specialisation = {}, bool flush_denormals = false);
+             const std::vector<std::uint32_t>& specialisation = {});
     ~Pipeline();
     Pipeline(Pipeline&& other) noexcept;
     Pipeline& operator=(Pipeline&& other) noexcept;

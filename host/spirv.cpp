@@ -78,9 +78,9 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> wo
         std::uint32_t capability, mode;
     };
     const Wish wishes[] = {
-        {controls.flush_denormals, 4465, 4460},    // DenormFlushToZero
-        {controls.preserve_specials, 4466, 4461},  // SignedZeroInfNanPreserve
-        {controls.round_to_nearest, 4467, 4462},   // RoundingModeRTE
+        {controls.preserve_denormals, 4464, 4459},  // DenormPreserve
+        {controls.preserve_specials, 4466, 4461},   // SignedZeroInfNanPreserve
+        {controls.round_to_nearest, 4467, 4462},    // RoundingModeRTE
     };
     const std::vector<SpirvInstruction> instructions = spirv_instructions(words);
     std::vector<std::uint32_t> capabilities, extensions, modes;
@@ -116,10 +116,6 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> wo
         out.insert(out.end(), i.words.begin(), i.words.end());
     }
     return out;
-}
-
-std::vector<std::uint32_t> with_flushed_denormals(std::span<const std::uint32_t> words) {
-    return with_float_controls(words, {.flush_denormals = true});
 }
 
 }  // namespace scree::host

@@ -43,12 +43,11 @@ std::vector<std::uint32_t> without_lines(std::span<const std::uint32_t> words);
 
 // What a device can be asked to promise for 32-bit floats (SPV_KHR_float_controls).
 struct FloatControls {
-    bool flush_denormals = false;    // denormal results are 0
-    bool preserve_specials = false;  // -0, infinities and NaN are what IEEE 754 says
-    bool round_to_nearest = false;   // ties to even
+    bool preserve_denormals = false;  // denormals are neither flushed on the way in nor as results
+    bool preserve_specials = false;   // -0, infinities and NaN are what IEEE 754 says
+    bool round_to_nearest = false;    // ties to even
 };
 // The module asking for them, in every entry point.
 std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> words, FloatControls controls);
-std::vector<std::uint32_t> with_flushed_denormals(std::span<const std::uint32_t> words);
 
 }  // namespace scree::host

@@ -79,13 +79,13 @@ void Video::Interior::start(const std::string& program, double frames_per_second
     std::ostringstream rate;
     rate.imbue(std::locale::classic());
     rate << frames_per_second;
-    std::vector<std::string> words{program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pixel_format",
-                                   "rgba", "-video_size", std::to_string(width) + "x" + std::to_string(height), "-framerate",
-                                   rate.str(), "-i", "pipe:0", "-vf",
-                                   // The default would tag nothing and convert by BT.601, which players of HD video misread.
-                                   "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-colorspace",
-                                   "bt709", "-color_primaries", "bt709", "-color_trc", "bt709", "-c:v", "libx264", "-preset", "fast",
-                                   "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart", "-f", "mp4", partial.string()};
+    std::vector<std::string> words{
+        program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pixel_format", "rgba", "-video_size",
+        std::to_string(width) + "x" + std::to_string(height), "-framerate", rate.str(), "-i", "pipe:0", "-vf",
+        // The default would tag nothing and convert by BT.601, which players of HD video misread.
+        "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709", "-color_primaries",
+        "bt709", "-color_trc", "bt709", "-c:v", "libx264", "-preset", "fast", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags",
+        "+faststart", "-f", "mp4", partial.string()};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);

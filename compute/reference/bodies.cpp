@@ -46,7 +46,7 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         const physics::Action& action = state.actions[i];
         const std::size_t body = action.body;
         const physics::Mass mass = physics::mass_in_world(state.traits[body], state.poses[body].orientation, 1);
-        if (!state.fixed().redo) state.velocities[body] = physics::kicked(state.velocities[body], action, mass);
+        if (!state.fixed().redo) state.velocities[body] = physics::kicked(state.velocities[body], action, mass, state.fixed());
         state.loads[body] = physics::loaded(state.loads[body], action, mass);
     }
 }

@@ -6,6 +6,7 @@
 
 #include "compute/reference/stages.h"
 #include "shaders/physics/grid.h"
+#include "shaders/physics/persistence.h"
 
 namespace scree::reference {
 
@@ -115,7 +116,12 @@ void match_pairs(State& state, const Threads& threads, std::uint32_t) {
         physics::Pair& pair = state.pairs[i];
         pair.previous = contact_before(state, pair.a, pair.b);
         if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
-        pair.kind = physics::kind_of(state.traits[pair.a].shape, state.traits[pair.b].shape);
+        const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+        const bool kept =
+            pair.previous != physics::NONE &&
+            physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[pair.a],
+                             state.velocities[pair.a], tb, state.poses[pair.b], state.velocities[pair.b]);
+        pair.kind = kept ? physics::KIND_KEPT : physics::kind_of(ta.shape, tb.shape);
     });
 }
 

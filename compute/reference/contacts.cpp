@@ -5,6 +5,8 @@
 
 #include "compute/reference/stages.h"
 #include "shaders/physics/block.h"
+#include "shaders/physics/grid.h"
+#include "shaders/physics/persistence.h"
 
 namespace scree::reference {
 
@@ -78,18 +80,23 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Pair& pair = state.pairs[index];
         const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
         const physics::Mass &ma = state.masses[pair.a], &mb = state.masses[pair.b];
+        const physics::Manifold& manifold = state.manifolds[index];
         physics::Contact& contact = state.contacts[i];
-        contact =
-            physics::contact_of(pair, state.manifolds[index], state.touching[index], state.poses[pair.a], state.poses[pair.b]);
+        physics::Impulse& impulse = state.impulses[i];
+        if (pair.kind == physics::KIND_KEPT) {
+            contact = physics::aged(state.contacts_before[pair.previous]);
+            impulse = physics::continued(contact, state.impulses_before[pair.previous]);
+        } else {
+            contact = physics::contact_of(pair, manifold, state.touching[index], state.poses[pair.a], state.poses[pair.b]);
+            impulse = pair.previous == physics::NONE
+                          ? physics::no_impulse(contact.d)
+                          : physics::inherited(contact, state.contacts_before[pair.previous],
+                                               state.impulses_before[pair.previous], physics::match_radius(ta, tb));
+        }
+        impulse.separation = physics::separations_of(manifold);
         c = physics::constraint_of(contact, ta, ma, tb, mb, c.slot_a, c.slot_b, p);
         c.pair = index;
 
-        physics::Impulse& impulse = state.impulses[i];
-        impulse = pair.previous == physics::NONE
-                      ? physics::no_impulse(contact.d)
-                      : physics::inherited(contact, state.contacts_before[pair.previous], state.impulses_before[pair.previous],
-                                           physics::match_radius(ta, tb));
-        impulse.separation = physics::separations_of(contact);
         const physics::Couple now = velocities_of(state, c);
         const float carrying = physics::carries(c, impulse, now, p);
         hand_out(state, c, now, now, physics::warm_start(c, impulse, physics::at_rest(), ma, mb), carrying);

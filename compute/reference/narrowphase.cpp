@@ -14,6 +14,7 @@
 #include "shaders/physics/collide_sphere_sphere.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
+#include "shaders/physics/persistence.h"
 #include "shaders/physics/touch.h"
 
 namespace scree::reference {
@@ -40,7 +41,6 @@ void count_kinds(State& state, const Threads& threads, std::uint32_t) {
             state.kind_starts[kind * spans + i] = static_cast<physics::uint>(
                 std::count_if(pairs.begin(), pairs.end(), [&](const physics::Pair& pair) { return pair.kind == kind; }));
     });
-    state.kind_starts[physics::KINDS * spans] = 0;
 }
 
 void fill_kinds(State& state, const Threads& threads, std::uint32_t) {
@@ -71,6 +71,17 @@ void collide(State& state, const Threads& threads, std::uint32_t kind) {
         if (swapped) touch = physics::flipped(touch, state.poses[other].position - state.poses[simpler].position);
         state.manifolds[index] = touch.manifold;
         state.touching[index] = touch.count;
+    });
+}
+
+void collide_kept(State& state, const Threads& threads, std::uint32_t) {
+    const std::size_t first = state.counted().kind_first[physics::KIND_KEPT];
+    threads.for_each(state.counted().kind_first[physics::KIND_KEPT + 1] - first, [&](std::size_t i) {
+        const std::size_t index = state.binned[first + i];
+        const physics::Pair& pair = state.pairs[index];
+        const physics::Contact& contact = state.contacts_before[pair.previous];
+        state.manifolds[index] = physics::kept_manifold(contact, state.poses[pair.a], state.poses[pair.b]);
+        state.touching[index] = contact.count;
     });
 }
 

@@ -29,6 +29,7 @@ SCREE_STAGE(match_pairs);
 SCREE_STAGE(count_kinds);
 SCREE_STAGE(fill_kinds);
 SCREE_STAGE(collide);  // pass: the kind of pairs
+SCREE_STAGE(collide_kept);
 
 // contacts.cpp
 SCREE_STAGE(list_contacts);

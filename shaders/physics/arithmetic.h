@@ -7,6 +7,10 @@
 
 #include "shaders/physics/language.h"
 
+// Literal zeros take part in no sum and no product: Mesa folds a * 0.0 and a + 0.0 and with it loses the sign of a zero,
+// NoContraction or not. So a sum begins with its first term, and what is to be 0 or more is made so by a select that never yields
+// -0.
+
 LAWS_BEGIN
 
 // 1/x for 2^-125 < |x| < 2^125. Below that the result grows to infinity, so a caller excludes 0.
@@ -42,6 +46,10 @@ LAW float larger(float a, float b) {
 }
 LAW float clamped(float x, float low, float high) {
     return x < low ? low : (x > high ? high : x);
+}
+// x, and +0 for all that is not positive.
+LAW float positive(float x) {
+    return x > 0.0f ? x : 0.0f;
 }
 LAW vec3 smaller3(vec3 a, vec3 b) {
     return vec3(smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z));
@@ -83,6 +91,10 @@ LAW vec3 rotate(vec4 q, vec3 v) {
     vec3 u = vec3(q.x, q.y, q.z);
     vec3 t = cross3(u, v) * 2.0f;
     return v + t * q.w + cross3(u, t);
+}
+// The body's y axis in the world. Written out, because products with a literal zero are not the same everywhere: see below.
+LAW vec3 upright(vec4 q) {
+    return vec3(2.0f * (q.x * q.y - q.w * q.z), 1.0f - 2.0f * (q.x * q.x + q.z * q.z), 2.0f * (q.y * q.z + q.w * q.x));
 }
 LAW vec4 conjugate(vec4 q) {
     return vec4(-q.x, -q.y, -q.z, q.w);

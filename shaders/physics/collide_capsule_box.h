@@ -149,7 +149,7 @@ LAW Stretch stretch_along_box(vec3 normal, vec3 centre, vec3 half_axis, vec3 ext
 // Two points where the capsule lies along a face or an edge, otherwise one.
 LAW Touch collide_capsule_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
     vec3 centre = rotate_back(pose_b.orientation, pose_a.position - pose_b.position);
-    vec3 half_axis = rotate_back(pose_b.orientation, rotate(pose_a.orientation, vec3(0.0f, a.size.y, 0.0f)));
+    vec3 half_axis = rotate_back(pose_b.orientation, upright(pose_a.orientation) * a.size.y);
     float radius = a.size.x;
     Exit way = exit_of_segment(centre, half_axis, b.size, radius);
     Stretch stretch = stretch_along_box(way.normal, centre, half_axis, b.size, radius, way.gap);
@@ -160,12 +160,13 @@ LAW Touch collide_capsule_box(Traits a, Pose pose_a, Traits b, Pose pose_b, floa
         way.support = coordinate(b.size, face);
     }
     Touch touch = touch_along(-rotate(pose_b.orientation, way.normal));
-    for (uint k = 0u; k < 2u; ++k) {
-        float t = two ? (k == 0u ? stretch.low : stretch.high) : way.t;
-        float gap = two ? dot3(way.normal, centre + half_axis * t) - way.support : way.gap;
+    for (uint k = 0u; k < 3u; ++k) {
+        bool along = two && k < 2u;
+        float t = along ? (k == 0u ? stretch.low : stretch.high) : way.t;
+        float gap = along ? dot3(way.normal, centre + half_axis * t) - way.support : way.gap;
         float separation = gap - radius;
         vec3 point = rotate(pose_b.orientation, half_axis * t - way.normal * (radius + 0.5f * separation));
-        if (two || k == 0u) touch = with_point(touch, point, separation, two ? 1u + k : 0u, margin);
+        if (along || (k == 2u && touch.count == 0u)) touch = with_point(touch, point, separation, along ? 1u + k : 0u, margin);
     }
     return touch;
 }

@@ -11,8 +11,8 @@ LAWS_BEGIN
 // radii there (which misjudges the gap by at most 1/200 of them). Axes that cross part along their common perpendicular.
 LAW Touch collide_capsule_capsule(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
     vec3 d = pose_b.position - pose_a.position;
-    vec3 u = rotate(pose_a.orientation, vec3(0.0f, 1.0f, 0.0f));
-    vec3 v = rotate(pose_b.orientation, vec3(0.0f, 1.0f, 0.0f));
+    vec3 u = upright(pose_a.orientation);
+    vec3 v = upright(pose_b.orientation);
     float half_a = a.size.y;
     float half_b = b.size.y;
     float radii = a.size.x + b.size.x;

@@ -8,7 +8,7 @@ LAWS_BEGIN
 
 // One point below each end that is near enough.
 LAW Touch collide_capsule_plane(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
-    vec3 half_axis = rotate(pose_a.orientation, vec3(0.0f, a.size.y, 0.0f));
+    vec3 half_axis = upright(pose_a.orientation) * a.size.y;
     float height = -dot3(b.size, pose_b.position - pose_a.position);
     float rise = dot3(b.size, half_axis);
     float low = (height - rise) - a.size.x;

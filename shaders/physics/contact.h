@@ -40,13 +40,14 @@ LAW Impulse no_impulse(vec3 d) {
     return impulse;
 }
 
-// The nearest unused old point within `radius` of each new one, measured on A; the feature id breaks ties only, because ids
-// flicker while points stay. A single point is its successor wherever it went: a wheel's contact travels round the wheel.
-LAW vec4 matched_normal(Contact now, Contact before, vec4 normal, float radius) {
-    vec4 matched = vec4(0.0f);
+// Old points' values to new points: the nearest unused old point within `radius` of each new one, measured on A; the feature id
+// breaks ties only, because ids flicker while points stay. A single point is its successor wherever it went: a wheel's contact
+// travels round the wheel.
+LAW vec4 matched(Contact now, Contact before, vec4 values, float radius) {
+    vec4 found = vec4(0.0f);
     if (now.count == 1u && before.count == 1u) {
-        matched.x = normal.x;
-        return matched;
+        found.x = values.x;
+        return found;
     }
     uint taken = 0u;
     for (uint k = 0u; k < 4u; ++k) {
@@ -65,16 +66,17 @@ LAW vec4 matched_normal(Contact now, Contact before, vec4 normal, float radius) 
             }
         }
         if (best != NONE) {
-            matched[k] = normal[best];
+            found[k] = values[best];
             taken = taken | (1u << best);
         }
     }
-    return matched;
+    return found;
 }
 
 LAW Impulse inherited(Contact now, Contact before, Impulse was, float radius) {
     Impulse impulse = no_impulse(now.d);
-    impulse.normal = matched_normal(now, before, was.normal, radius);
+    impulse.normal = matched(now, before, was.normal, radius);
+    impulse.approach = matched(now, before, was.approach, radius);
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {
         impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
@@ -101,8 +103,8 @@ LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b)
     return contact;
 }
 
-LAW vec4 separations_of(Contact contact) {
-    return vec4(contact.points[0].w, contact.points[1].w, contact.points[2].w, contact.points[3].w);
+LAW vec4 separations_of(Manifold manifold) {
+    return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
 }
 
 // 1/mass that a push along u at the lever arm r meets: 1/m + (r x u).I^-1 (r x v), with v = u for the effective mass itself.
@@ -114,6 +116,32 @@ LAW vec3 slide_give(Mass mass, vec3 r, vec3 t1, vec3 t2) {
     vec3 arm2 = cross3(r, t2);
     vec3 turn1 = turned_by(mass, cross3(r, t1));
     return vec3(give(mass, r, t1), dot3(arm2, turn1), give(mass, r, t2));
+}
+
+// The points stay with the rounder body, or with the thinner one: a ball rolls on, a small box slides on over a big one, and the
+// contact goes with it. Between two round bodies the point and the normal follow both.
+LAW bool is_round(Traits traits) {
+    return traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE;
+}
+LAW uint anchor_of(Contact contact, Traits a, Traits b) {
+    if (is_round(a) && is_round(b) && contact.count == 1u) return ANCHOR_ROUND;
+    if (is_round(a) != is_round(b)) return is_round(a) ? ANCHOR_A : ANCHOR_B;
+    return thickness(b) < thickness(a) ? ANCHOR_B : ANCHOR_A;
+}
+
+// The friction patch lies where the points touch: those still ahead weigh less, so its centre moves smoothly as a body tips.
+LAW vec3 patch_centre(Contact contact, Parameters parameters) {
+    vec3 centre;
+    float weights = 0.0f;
+    float fade = reciprocal(parameters.speculative);
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= contact.count) break;
+        float weight = clamped(1.0f - contact.points[k].w * fade, 0.05f, 1.0f);
+        vec3 moment = xyz(contact.points[k]) * weight;
+        centre = k == 0u ? moment : centre + moment;
+        weights = weights + weight;
+    }
+    return centre * reciprocal(weights);
 }
 
 LAW Constraint constraint_of(Contact contact, Traits ta, Mass a, Traits tb, Mass b, uint slot_a, uint slot_b,
@@ -129,32 +157,35 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Mass a, Traits tb, Mass
     c.restitution = larger(ta.restitution, tb.restitution);
     c.count = contact.count;
     c.pair = NONE;
+    c.anchor = anchor_of(contact, ta, tb);
+    c.radius_a = ta.size.x;
+    c.radius_b = tb.size.x;
+    c.pad = 0u;
     c.give_b = vec4(0.0f);
-    // The patch lies where the points touch: those still ahead weigh less, so its centre moves smoothly as a body tips.
-    vec3 centre = vec3(0.0f);
-    float weights = 0.0f;
-    float fade = reciprocal(parameters.speculative);
+    vec3 centre = patch_centre(contact, parameters);
+    float reach = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {
         c.arms[k] = vec4(0.0f);
         if (k >= contact.count) continue;
         vec3 arm = xyz(contact.points[k]);
-        c.arms[k] = vec4(arm, give(a, arm, contact.normal));
-        c.give_b[k] = give(b, arm - contact.d, contact.normal);
-        float weight = clamped(1.0f - contact.points[k].w * fade, 0.05f, 1.0f);
-        centre = centre + arm * weight;
-        weights = weights + weight;
+        vec3 from_b = arm - contact.d;
+        c.arms[k] = vec4(c.anchor == ANCHOR_B ? from_b : arm, give(a, arm, contact.normal));
+        c.give_b[k] = give(b, from_b, contact.normal);
+        reach = reach + length3(arm - centre);
     }
-    c.centre = centre * reciprocal(weights);
-    float reach = 0.0f;
-    for (uint k = 0u; k < 4u; ++k)
-        if (k < contact.count) reach = reach + length3(xyz(contact.points[k]) - c.centre);
     c.reach = contact.count > 1u ? reach * reciprocal(float(contact.count)) : 0.0f;
     vec3 t1 = tangent(contact.normal);
     vec3 t2 = cross3(contact.normal, t1);
-    c.slide_a = slide_give(a, c.centre, t1, t2);
-    c.slide_b = slide_give(b, c.centre - contact.d, t1, t2);
+    c.slide_a = slide_give(a, centre, t1, t2);
+    c.slide_b = slide_give(b, centre - contact.d, t1, t2);
     c.twist_a = dot3(contact.normal, turned_by(a, contact.normal));
     c.twist_b = dot3(contact.normal, turned_by(b, contact.normal));
+    c.centre = c.anchor == ANCHOR_B ? centre - contact.d : centre;
+    if (c.anchor == ANCHOR_ROUND) {
+        vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
+        c.arms[0] = vec4(centre - half_gap - contact.normal * c.radius_a, c.arms[0].w);
+        c.centre = (centre - contact.d) + half_gap + contact.normal * c.radius_b;
+    }
     return c;
 }
 

@@ -45,7 +45,7 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Parameters par
     vec3 half_size = vec3(traits.size.x);
     float reach = traits.size.x;
     if (traits.shape == SHAPE_CAPSULE) {
-        vec3 axis = rotate(pose.orientation, vec3(0.0f, traits.size.y, 0.0f));
+        vec3 axis = upright(pose.orientation) * traits.size.y;
         half_size = half_size + absolute3(axis);
         reach = traits.size.x + traits.size.y;
     } else if (traits.shape == SHAPE_BOX) {

@@ -57,25 +57,32 @@ LAW Mass mass_in_world(Traits traits, vec4 orientation, float split) {
     return mass;
 }
 
+LAW vec3 shortened(vec3 v, float longest) {
+    float squared = dot3(v, v);
+    return squared > longest * longest ? v * (longest * inverse_square_root(squared)) : v;
+}
+// A velocity that is finite and within the speeds that a step can handle, whatever pushed the body.
+LAW Velocity limited(Velocity velocity, Parameters parameters) {
+    vec3 far = vec3(1.0e15f);  // its square is finite
+    velocity.linear = shortened(larger3(smaller3(velocity.linear, far), -far), parameters.max_speed);
+    velocity.angular = shortened(larger3(smaller3(velocity.angular, far), -far), parameters.max_spin);
+    return velocity;
+}
+
 // Impulses at the start of the step, forces into the load of the whole step.
-LAW Velocity kicked(Velocity velocity, Action action, Mass mass) {
+LAW Velocity kicked(Velocity velocity, Action action, Mass mass, Parameters parameters) {
     if ((action.flags & ACTION_SETS_VELOCITY) != 0u) {
         velocity.linear = action.velocity;
         velocity.angular = action.angular_velocity;
     }
     velocity.linear = velocity.linear + action.impulse * mass.inverse_mass;
     velocity.angular = velocity.angular + turned_by(mass, action.angular_impulse);
-    return velocity;
+    return limited(velocity, parameters);
 }
 LAW Load loaded(Load load, Action action, Mass mass) {
     load.acceleration = load.acceleration + action.force * mass.inverse_mass;
     load.angular_acceleration = load.angular_acceleration + turned_by(mass, action.torque);
     return load;
-}
-
-LAW vec3 shortened(vec3 v, float longest) {
-    float squared = dot3(v, v);
-    return squared > longest * longest ? v * (longest * inverse_square_root(squared)) : v;
 }
 
 // The velocity at the start of a substep: gravity, forces and damping (implicit: v / (1 + h c)), and what the contacts decided.
@@ -87,42 +94,61 @@ LAW Velocity accelerated(Velocity velocity, Velocity change, Load load, Traits t
     Velocity after = velocity;
     after.linear = (velocity.linear + load.acceleration * h) * keep + change.linear;
     after.angular = (velocity.angular + load.angular_acceleration * h) * keep_turning + change.angular;
-    after.linear = without_dust(shortened(after.linear, parameters.max_speed));
-    after.angular = without_dust(shortened(after.angular, parameters.max_spin));
+    after = limited(after, parameters);
+    after.linear = without_dust(after.linear);
+    after.angular = without_dust(after.angular);
     return after;
 }
 
 LAW vec4 turned(vec4 orientation, vec3 angular, float h) {
-    vec4 spin = compose(vec4(angular * (0.5f * h), 0.0f), orientation);
-    return unit_quaternion(orientation + spin);
+    vec3 half_turn = angular * (0.5f * h);
+    vec3 axis = vec3(orientation.x, orientation.y, orientation.z);
+    vec3 spin = half_turn * orientation.w + cross3(half_turn, axis);
+    return unit_quaternion(orientation + vec4(spin, -dot3(half_turn, axis)));
 }
 
 struct Moved {
     Pose pose;
     Velocity velocity;
 };
-// One substep of free motion. The angular momentum L = R I R^T w is what stays the same while the body turns, so w is made from
-// it anew: once at the middle of the substep (explicit midpoint, second order), once at its end. No torque-free tumbling is lost
-// or gained beyond rounding in L, and the energy of a spin lies between L^2 / 2 I_max and L^2 / 2 I_min whatever h.
-LAW Moved moved(Pose pose, Velocity velocity, Traits traits, float h) {
+// The centre goes on by h v, with the rest of the sum kept for the next time.
+LAW Moved carried(Pose pose, Velocity velocity, float h) {
+    vec3 way = velocity.linear * h + vec3(pose.rest_x, velocity.rest_y, velocity.rest_z);
     Moved after;
     after.pose = pose;
     after.velocity = velocity;
-    after.pose.position = pose.position + velocity.linear * h;
+    after.pose.position = pose.position + way;
+    vec3 rest = way - (after.pose.position - pose.position);
+    after.pose.rest_x = rest.x;
+    after.velocity.rest_y = rest.y;
+    after.velocity.rest_z = rest.z;
+    return after;
+}
+
+// The spin of a body of angular momentum L in this orientation, w = R I^-1 R^T L.
+LAW vec3 spin_of(vec4 orientation, vec3 momentum, vec3 inverse_inertia) {
+    vec3 l = rotate_back(orientation, momentum);
+    return rotate(orientation, vec3(l.x * inverse_inertia.x, l.y * inverse_inertia.y, l.z * inverse_inertia.z));
+}
+
+// One substep of free motion. The angular momentum L = R I R^T w is what stays the same while the body turns, so w follows from
+// it: once at the middle of the substep (explicit midpoint, second order), once at its end. Torque-free tumbling keeps L to
+// rounding, and the energy of a spin lies between L^2 / 2 I_max and L^2 / 2 I_min whatever h. Only the change of w is taken from
+// L: its rounding and that of the reciprocals would otherwise add up in one direction, 1e-7 in every substep.
+LAW Moved moved(Pose pose, Velocity velocity, Traits traits, float h) {
+    Moved after = carried(pose, velocity, h);
     if (traits.motion != MOTION_DYNAMIC || turns_evenly(traits)) {
         after.pose.orientation = turned(pose.orientation, velocity.angular, h);
         return after;
     }
     vec3 i = traits.inverse_inertia;
     vec3 spin = rotate_back(pose.orientation, velocity.angular);
-    vec3 inertia = vec3(reciprocal(i.x), reciprocal(i.y), reciprocal(i.z));
-    vec3 momentum = rotate(pose.orientation, vec3(spin.x * inertia.x, spin.y * inertia.y, spin.z * inertia.z));
+    vec3 momentum = rotate(pose.orientation, vec3(spin.x * reciprocal(i.x), spin.y * reciprocal(i.y), spin.z * reciprocal(i.z)));
+    vec3 at_first = spin_of(pose.orientation, momentum, i);
     vec4 middle = turned(pose.orientation, velocity.angular, 0.5f * h);
-    vec3 l = rotate_back(middle, momentum);
-    vec3 angular = rotate(middle, vec3(l.x * i.x, l.y * i.y, l.z * i.z));
-    after.pose.orientation = turned(pose.orientation, angular, h);
-    l = rotate_back(after.pose.orientation, momentum);
-    after.velocity.angular = rotate(after.pose.orientation, vec3(l.x * i.x, l.y * i.y, l.z * i.z));
+    vec3 halfway = velocity.angular + (spin_of(middle, momentum, i) - at_first);
+    after.pose.orientation = turned(pose.orientation, halfway, h);
+    after.velocity.angular = velocity.angular + (spin_of(after.pose.orientation, momentum, i) - at_first);
     return after;
 }
 

@@ -34,16 +34,19 @@ struct Traits {
 };
 
 // ---- bodies, state
+// A position is the sum of a float and a rest below its last bit (compensated summation, Kahan 1965): a substep moves a body by
+// so little that the rounding of the sum, always to the same side, would else change its speed by 1e-4 and the angular momentum
+// with it. The rest fills the records' gaps.
 struct Pose {
-    vec3 position;  // of the centre of mass, m
-    float pad;
+    vec3 position;     // of the centre of mass, m
+    float rest_x;      // m
     vec4 orientation;  // unit quaternion, body to world
 };
 struct Velocity {
-    vec3 linear;  // of the centre of mass, m/s
-    float pad0;
+    vec3 linear;   // of the centre of mass, m/s
+    float rest_y;  // of the position, m
     vec3 angular;  // world axes, rad/s
-    float pad1;
+    float rest_z;  // of the position, m
 };
 
 // What a body's velocity does not remember: the inertia of its present orientation, and what pushes it in this step.
@@ -138,14 +141,21 @@ struct Impulse {
 };
 
 // ---- contacts: what the solver needs in this step
+// Which body a contact's points stay with while both move through the substeps of a step.
+CONSTANT uint ANCHOR_A = 0u;
+CONSTANT uint ANCHOR_B = 1u;
+CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the one point lies between two round bodies wherever they go
+
 struct Constraint {
-    uint a, b;                 // bodies
-    uint slot_a, slot_b;       // where their velocity changes go; NONE for a body that contacts do not move
-    vec3 normal;               // unit, world, from A to B
-    float friction;            // Coulomb coefficient of the pair
-    vec4 arms[4];              // xyz: from A's centre to the point, m; w: 1/mass of A felt there along the normal, 1/kg
+    uint a, b;            // bodies
+    uint slot_a, slot_b;  // where their velocity changes go; NONE for a body that contacts do not move
+    vec3 normal;          // unit, world, from A to B
+    float friction;       // Coulomb coefficient of the pair
+    // xyz: from the anchor's centre to the point, m (ANCHOR_ROUND: from A's centre to the centre of A's curvature);
+    // w: 1/mass of A felt there along the normal, 1/kg
+    vec4 arms[4];
     vec4 give_b;               // per point: 1/mass of B felt along the normal, 1/kg; 0 with arms.w = 0 for an unused point
-    vec3 centre;               // of the friction patch, from A's centre, m
+    vec3 centre;               // of the friction patch, as the arms, m (ANCHOR_ROUND: of B's curvature, from B's centre)
     float twist_a;             // 1/inertia of A about the normal, 1/(kg m^2)
     vec3 slide_a;              // 1/mass of A in the tangent plane at the patch: (11, 12, 22), 1/kg
     float twist_b;             // of B
@@ -155,6 +165,9 @@ struct Constraint {
     float restitution;         // of the pair
     uint count;                // points
     uint pair;                 // whose manifold it is
+    uint anchor;               // ANCHOR_*
+    float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m
+    uint pad;
 };
 struct Slot {       // what one contact did to one body; a body sums its slots in order
     vec3 linear;    // m/s

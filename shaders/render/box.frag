@@ -28,6 +28,6 @@ void main() {
     float edge = clamp(length(over - face * dot(over, face)) / bevel, 0.0, 1.0);
     // Worn, lighter edges; the two tones of a cube's sides tell them apart in the shade.
     float tone = (axis == 1 ? 1.0 : (axis == 0 ? 0.95 : 0.90)) * (1.0 + 0.22 * edge * edge);
-    vec3 shaded = lit(color.rgb * tone, point, normal, d, 0.6) + color.rgb * (0.2 * color.a * color.a);
-    out_color = vec4(tone_mapped(hazed(shaded, distance)), 1.0);
+    vec3 shaded = lit(color.rgb * tone, point, normal, d, 0.6) + color.rgb * (0.12 * color.a * color.a);
+    out_color = finished(hazed(shaded, distance));
 }

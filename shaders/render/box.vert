@@ -5,11 +5,11 @@
 #include "shaders/render/coloring.h"
 #include "shaders/render/cube.h"
 
-layout(location = 0) out vec3 out_point;        // relative to the eye
-layout(location = 1) out vec3 out_own;          // in the body's frame
-layout(location = 2) flat out vec4 out_size;    // half extents; w: the axis of this face, 0 to 2
+layout(location = 0) out vec3 out_point;      // relative to the eye
+layout(location = 1) out vec3 out_own;        // in the body's frame
+layout(location = 2) flat out vec4 out_size;  // half extents; w: the axis of this face, 0 to 2
 layout(location = 3) flat out vec4 out_turn;
-layout(location = 4) flat out vec4 out_color;   // w: how far up the colour scale
+layout(location = 4) flat out vec4 out_color;  // w: how far up the colour scale
 
 void main() {
     uint body = instances[gl_InstanceIndex];

@@ -1,9 +1,9 @@
-// Shadows of boxes: the sides away from the light.
+// Shadows of boxes: the sides towards the light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/scene.h"
 #include "shaders/render/cube.h"
+#include "shaders/render/scene.h"
 #include "shaders/render/shadow_map.h"
 
 void main() {

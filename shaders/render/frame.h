@@ -37,7 +37,7 @@ struct Frame {
     vec4 toward_sky;       // unit, up; w: samples per pixel
     vec4 scale;            // low, high (logarithms when logarithmic), 1 when logarithmic, COLOR_BY_*
     vec4 maps;             // shadow map texel, m; sky map texel, m; the same as parts of the maps
-    vec4 pixel;            // width of a pixel at 1 m, m
+    vec4 pixel;            // width of a pixel at 1 m, m; depth of the sky map, m; height over which its darkening halves, m
     vec4 colors[MAP_ENTRIES];  // the colour map, linear light
 };
 
@@ -46,11 +46,11 @@ RENDER_CONSTANT uint OVERLAY_PANEL = 0u;  // a rounded rectangle; extra: radius,
 RENDER_CONSTANT uint OVERLAY_GLYPH = 1u;  // texture: its rectangle in the atlas; extra: atlas texels per pixel
 RENDER_CONSTANT uint OVERLAY_BAR = 2u;    // the colour map from left to right
 struct OverlayQuad {
-    vec4 rectangle;  // left, top, right, bottom, pixels
+    vec4 rectangle;          // left, top, right, bottom, pixels
     vec4 texture_rectangle;  // left, top, right, bottom, texels
-    vec4 color;      // linear light, straight alpha
-    uint kind;       // OVERLAY_*
-    float extra;     // see OVERLAY_*
+    vec4 color;              // linear light, straight alpha
+    uint kind;               // OVERLAY_*
+    float extra;             // see OVERLAY_*
     float pad0, pad1;
 };
 

@@ -35,5 +35,5 @@ void main() {
     color = mix(color, color * 0.72, fine);
     color = mix(color, color * 0.50, coarse);
     vec3 shaded = lit(color, point, plane.xyz, ray / length(ray), 0.0);
-    out_color = vec4(tone_mapped(hazed(shaded, distance)), 1.0);
+    out_color = finished(hazed(shaded, distance));
 }

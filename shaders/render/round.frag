@@ -21,6 +21,6 @@ void main() {
     float soft = 0.8 * distance * frame.pixel.x / center_radius.w + 0.01;
     vec3 halves = clamp(own / soft, -1.0, 1.0);
     float tone = 0.87 + 0.13 * halves.x * halves.y * halves.z;
-    vec3 shaded = lit(color.rgb * tone, point, normal, point / distance, 0.9) + color.rgb * (0.2 * color.a * color.a);
-    out_color = vec4(tone_mapped(hazed(shaded, distance)), 1.0);
+    vec3 shaded = lit(color.rgb * tone, point, normal, point / distance, 0.9) + color.rgb * (0.12 * color.a * color.a);
+    out_color = finished(hazed(shaded, distance));
 }

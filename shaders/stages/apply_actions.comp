@@ -10,6 +10,6 @@ void main() {
     if (i >= PARAMETERS.actions || COUNTS.overflow != 0u) return;
     Action action = actions[i];
     Mass mass = mass_in_world(traits[action.body], poses[action.body].orientation, 1.0f);
-    if (PARAMETERS.redo == 0u) velocities[action.body] = kicked(velocities[action.body], action, mass);
+    if (PARAMETERS.redo == 0u) velocities[action.body] = kicked(velocities[action.body], action, mass, PARAMETERS);
     loads[action.body] = loaded(loads[action.body], action, mass);
 }

@@ -13,5 +13,4 @@ void main() {
     uint last = min((i + 1u) * SPAN, COUNTS.pairs);
     for (uint pair = i * SPAN; pair < last; ++pair) ++found[pairs[pair].kind];
     for (uint k = 0u; k < KINDS; ++k) kind_starts[k * spans + i] = found[k];
-    if (i == 0u) kind_starts[KINDS * spans] = 0u;
 }

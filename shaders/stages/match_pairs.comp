@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/grid.h"
+#include "shaders/physics/persistence.h"
 #include "shaders/stages/stage.glsl"
 
 // The contacts that a body owned are in the order of the other body.
@@ -30,5 +31,10 @@ void main() {
     uint previous = contact_before(pair.a, pair.b);
     if (previous == NONE) previous = contact_before(pair.b, pair.a);
     pairs[i].previous = previous;
-    pairs[i].kind = kind_of(traits[pair.a].shape, traits[pair.b].shape);
+    Traits ta = traits[pair.a], tb = traits[pair.b];
+    bool kept = false;
+    if (previous != NONE)
+        kept = is_kept(contacts_before[previous], impulses_before[previous], ta, poses[pair.a], velocities[pair.a], tb,
+                       poses[pair.b], velocities[pair.b]);
+    pairs[i].kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
 }

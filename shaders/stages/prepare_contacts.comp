@@ -3,6 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/block.h"
+#include "shaders/physics/grid.h"
+#include "shaders/physics/persistence.h"
 #include "shaders/stages/stage.glsl"
 
 void main() {
@@ -13,12 +15,16 @@ void main() {
     Traits ta = traits[pair.a], tb = traits[pair.b];
     Mass ma = masses[pair.a], mb = masses[pair.b];
     Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
+    Impulse impulse = no_impulse(contact.d);
+    if (pair.kind == KIND_KEPT) {
+        contact = aged(contacts_before[pair.previous]);
+        impulse = continued(contact, impulses_before[pair.previous]);
+    } else if (pair.previous != NONE) {
+        impulse = inherited(contact, contacts_before[pair.previous], impulses_before[pair.previous], match_radius(ta, tb));
+    }
+    impulse.separation = separations_of(manifolds[pair_index]);
     Constraint constraint = constraint_of(contact, ta, ma, tb, mb, constraints[i].slot_a, constraints[i].slot_b, PARAMETERS);
     constraint.pair = pair_index;
-    Impulse impulse = no_impulse(contact.d);
-    if (pair.previous != NONE)
-        impulse = inherited(contact, contacts_before[pair.previous], impulses_before[pair.previous], match_radius(ta, tb));
-    impulse.separation = separations_of(contact);
 
     Couple guess = warm_start(constraint, impulse, at_rest(), ma, mb);
     Couple now;

@@ -48,11 +48,11 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Pose;
-            all["Pose"] = {sizeof(R), {M(position), M(pad), M(orientation)}};
+            all["Pose"] = {sizeof(R), {M(position), M(rest_x), M(orientation)}};
         }
         {
             using R = Velocity;
-            all["Velocity"] = {sizeof(R), {M(linear), M(pad0), M(angular), M(pad1)}};
+            all["Velocity"] = {sizeof(R), {M(linear), M(rest_y), M(angular), M(rest_z)}};
         }
         {
             using R = Mass;
@@ -101,9 +101,10 @@ const std::map<std::string, Record>& records() {
         {
             using R = Constraint;
             all["Constraint"] = {
-                sizeof(R),
-                {M(a), M(b), M(slot_a), M(slot_b), M(normal), M(friction), M(arms), M(give_b), M(centre), M(twist_a), M(slide_a),
-                 M(twist_b), M(slide_b), M(rolling_resistance), M(reach), M(restitution), M(count), M(pair)}};
+                sizeof(R), {M(a),      M(b),           M(slot_a),  M(slot_b),  M(normal),  M(friction), M(arms),
+                            M(give_b), M(centre),      M(twist_a), M(slide_a), M(twist_b), M(slide_b),  M(rolling_resistance),
+                            M(reach),  M(restitution), M(count),   M(pair),    M(anchor),  M(radius_a), M(radius_b),
+                            M(pad)}};
         }
         {
             using R = Slot;

@@ -1,0 +1,68 @@
+// scree compare: processor and GPU in lockstep; the common hash, or the first stage that differs.
+#include <fmt/format.h>
+
+#include "compute/lockstep.h"
+#include "demos/commands.h"
+#include "demos/failure.h"
+#include "demos/interrupt.h"
+#include "demos/machine.h"
+#include "demos/progress.h"
+#include "demos/report.h"
+#include "demos/subject.h"
+#include "host/device.h"
+
+namespace scree::demos {
+
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    MachineOptions machine;
+    bool quiet = false;
+};
+
+int compare(const Options& options) {
+    const Subject subject = load_subject(options.scene);
+    const Machine machine = choose_machine(options.machine);
+    const int steps = options.scene.step_count(1);
+    std::optional<Progress> progress(std::in_place, subject.name, steps, "steps", options.quiet);
+    const LockstepResult result = compare_in_lockstep(subject.scene, options.scene.settings(), machine.device,
+                                                      options.machine.threads, steps, [&](int done_steps) {
+                                                          progress->done(done_steps);
+                                                          return !is_interrupted();
+                                                      });
+    progress.reset();
+    if (is_interrupted()) {
+        fmt::print(stderr, "scree: interrupted\n");
+        return interrupted;
+    }
+    machine.require_valid();
+    if (result.equal) {
+        fmt::print("{}: processor and {} agree in every bit of every stage over {} steps; state hash {}\n", subject.name,
+                   machine.device->report().name, steps, hash_text(result.hash));
+        return done;
+    }
+    fmt::print("{}: processor and {} differ first in step {}, stage {}, buffer {}, element {}: {}\n", subject.name,
+               machine.device->report().name, result.step, result.stage, result.buffer, result.element, result.detail);
+    return promise_missed;
+}
+
+}  // namespace
+
+void add_compare(CLI::App& program, int& status) {
+    CLI::App* command =
+        program.add_subcommand("compare", "Processor and GPU in lockstep: the common hash, or the first difference");
+    auto options = std::make_shared<Options>();
+    options->machine.backend = "vulkan";
+    add_options(*command, options->scene);
+    command->add_option("--device", options->machine.device,
+                        "the Vulkan device: its index or part of its name (see scree devices)");
+    command->add_option("--threads", options->machine.threads, "of the processor; 0 is one a core")->check(CLI::Range(0, 1024));
+    command->add_flag("--validate", options->machine.validate, "check every Vulkan call with the validation layers (slow)");
+    command->add_flag("--quiet,-q", options->quiet, "no progress");
+    command->footer(
+        "Compares one simulated second unless --steps or --seconds says otherwise. Exit status 1 if anything differs.");
+    command->callback([options, &status] { status = compare(*options); });
+}
+
+}  // namespace scree::demos

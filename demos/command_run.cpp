@@ -1,0 +1,151 @@
+// scree run: simulates a demo or a scene file, with pictures and a report, and holds it to its promise.
+#include <fmt/format.h>
+
+#include <chrono>
+#include <filesystem>
+
+#include "demos/commands.h"
+#include "demos/failure.h"
+#include "demos/interrupt.h"
+#include "demos/machine.h"
+#include "demos/pictures.h"
+#include "demos/progress.h"
+#include "demos/report.h"
+#include "demos/subject.h"
+#include "host/file.h"
+
+namespace scree::demos {
+
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    MachineOptions machine;
+    PictureOptions pictures;
+    std::string report;
+    bool quiet = false;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What must be known before hours of work: that its result can be written.
+void require_writable(const Options& options) {
+    if (options.pictures.fps > static_cast<double>(options.scene.rate)) {
+        throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
+                                     options.scene.rate));
+    }
+    if (options.report.empty() || options.report == "-") return;
+    const std::filesystem::path path(options.report), folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder)) {
+        throw UsageError(fmt::format("--report {}: there is no folder {}; make it first", options.report, folder.string()));
+    }
+}
+
+void step_timed(World& world, RunReport& report) {
+    const auto start = std::chrono::steady_clock::now();
+    world.step();
+    const double seconds = seconds_since(start);
+    if (world.steps() == 1) report.first_step_seconds = seconds;
+    if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
+    report.step_ms.push_back(seconds * 1e3);
+}
+
+// False if the user wished to end.
+bool simulate(const Options& options, const Subject& subject, World& world, Pictures* pictures, Recorder* recorder,
+              RunReport& report) {
+    const int steps = options.scene.step_count(subject.seconds);
+    Progress progress(subject.name, steps, "steps", options.quiet);
+    if (pictures) pictures->after_step();
+    for (int i = 0; i < steps; ++i) {
+        if (is_interrupted()) return false;
+        step_timed(world, report);
+        if (recorder) recorder->after_step(world);
+        if (pictures) pictures->after_step();
+        progress.done(i + 1);
+    }
+    return !is_interrupted();
+}
+
+void judge(const Subject& subject, World& world, Recorder* recorder, RunReport& report) {
+    report.statistics = world.statistics();
+    const bool long_enough = world.time() >= subject.seconds - 0.5 / static_cast<double>(world.settings().rate);
+    report.judged = recorder && long_enough;
+    report.rows = report.judged ? subject.promise->judge(recorder->finish(world)) : soundness(report.statistics);
+}
+
+void conclude(const Options& options, const Subject& subject, const RunReport& report) {
+    if (!options.report.empty() && options.report != "-") host::write_atomically(options.report, json_of(report));
+    if (options.report == "-") {
+        fmt::print("{}", json_of(report));
+    } else if (!options.quiet) {
+        fmt::print("{}", summary_of(report));
+        if (subject.promise && !report.judged) {
+            fmt::print("The promise was not judged: it takes {:g} s, and this run had {:g} s.\n", subject.seconds,
+                       static_cast<double>(report.steps) / static_cast<double>(report.rate));
+        }
+    }
+    if (all_pass(report.rows) || !options.quiet) return;
+    for (const Row& row : report.rows) {
+        if (!row.pass)
+            fmt::print(stderr, "scree: {}: {}: promised {}, measured {}\n", subject.name, row.what, row.promised, row.measured);
+    }
+}
+
+int run(const Options& options) {
+    const auto start = std::chrono::steady_clock::now();
+    require_writable(options);
+    const Subject subject = load_subject(options.scene);
+    const Machine machine = choose_machine(options.machine);
+    if (!machine.remark.empty() && !options.quiet) fmt::print(stderr, "scree: {}\n", machine.remark);
+    World world(subject.scene, options.scene.settings(), machine.make_runner());
+    std::optional<Pictures> pictures;
+    if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
+    std::optional<Recorder> recorder;
+    if (subject.promise) recorder.emplace(world, *subject.promise);
+
+    RunReport report;
+    if (!simulate(options, subject, world, pictures ? &*pictures : nullptr, recorder ? &*recorder : nullptr, report)) {
+        const int frames = pictures ? pictures->count() : 0;
+        pictures.reset();  // writes the pictures that are drawn, and drops the video
+        fmt::print(stderr, "scree: interrupted after {} steps{}\n", world.steps(),
+                   frames ? fmt::format(", {} pictures", frames) : "");
+        return interrupted;
+    }
+    if (pictures) pictures->finish();
+    report.name = subject.name;
+    report.backend = world.runner().backend();
+    report.device = world.runner().device();
+    report.steps = world.steps();
+    report.rate = world.settings().rate;
+    report.substeps = world.settings().substeps;
+    report.stages = world.stage_times();
+    report.buffer_growths = world.buffer_growths();
+    report.buffer_bytes = world.buffer_bytes();
+    report.state_hash = world.state_hash();
+    report.frames = pictures ? pictures->count() : 0;
+    judge(subject, world, recorder ? &*recorder : nullptr, report);
+    report.seconds_total = seconds_since(start);
+    machine.require_valid();
+    conclude(options, subject, report);
+    return all_pass(report.rows) ? done : promise_missed;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand("run", "Simulate a demo or a scene file headlessly");
+    auto options = std::make_shared<Options>();
+    add_options(*command, options->scene);
+    add_options(*command, options->machine);
+    add_options(*command, options->pictures);
+    command->add_option("--report", options->report, "a file for all numbers of the run as JSON; - is the standard output");
+    command->add_flag("--quiet,-q", options->quiet, "no progress and no summary");
+    command->footer(
+        "Examples:\n  scree run tower\n  scree run avalanche --bodies 20k --seconds 10 --video avalanche.mp4\n"
+        "  scree run scene.json --backend cpu --threads 4 --report -");
+    command->callback([options, &status] { status = run(*options); });
+}
+
+}  // namespace scree::demos

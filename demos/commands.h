@@ -1,0 +1,16 @@
+// The commands of the program, one file each. A command sets `status` to how the program ends, or throws.
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace scree::demos {
+
+void add_list(CLI::App& program, int& status);
+void add_devices(CLI::App& program, int& status);
+void add_run(CLI::App& program, int& status);
+void add_compare(CLI::App& program, int& status);
+void add_check(CLI::App& program, int& status);
+void add_bench(CLI::App& program, int& status);
+void add_export(CLI::App& program, int& status);
+
+}  // namespace scree::demos

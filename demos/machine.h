@@ -1,0 +1,32 @@
+// Where a world is simulated: the choice between a Vulkan device and the processor.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "compute/runner.h"
+#include "demos/options.h"
+
+namespace scree::host {
+class Device;
+}
+
+namespace scree::demos {
+
+struct Machine {
+    MachineOptions options;
+    std::shared_ptr<host::Device> device;  // null on the processor
+    std::string remark;                    // why it is not what one might expect; may be empty
+
+    std::unique_ptr<Runner> make_runner() const;
+    // Throws std::runtime_error with what the validation layers said, if they were asked for and said anything.
+    void require_valid() const;
+};
+
+// Throws host::DeviceError when the user named a backend or a device that is not there.
+Machine choose_machine(const MachineOptions& options);
+
+// A device to draw with: the machine's own, else any. Throws UsageError that says what to install.
+std::shared_ptr<host::Device> device_for_pictures(const Machine& machine);
+
+}  // namespace scree::demos

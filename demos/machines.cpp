@@ -1,0 +1,122 @@
+// Small mechanisms: see-saws, a row of spheres that passes on a blow, dominoes.
+#include <algorithm>
+#include <cmath>
+
+#include "demos/building.h"
+#include "demos/demos.h"
+#include "shaders/physics/arithmetic.h"
+
+namespace scree::demos {
+
+namespace {
+
+// A plank on a ridge at z, with a weight near each end; the plank's index in the scene is returned.
+std::size_t add_seesaw(Scene& scene, float z, float left_density, float right_density) {
+    const float ridge = 0.3f, plank_half = 0.06f, weight_half = 0.25f;
+    scene.bodies.push_back(fixed_box({0, ridge, z}, {0.12f, ridge, 0.5f}, 0.9f));
+    const std::size_t plank = scene.bodies.size();
+    scene.bodies.push_back(box_at({0, 2 * ridge + plank_half, z}, {2.2f, plank_half, 0.45f}));
+    const float y = 2 * ridge + 2 * plank_half + weight_half;
+    scene.bodies.push_back(box_at({-1.7f, y, z}, vec3(weight_half)));
+    scene.bodies.push_back(box_at({1.7f, y, z}, vec3(weight_half)));
+    scene.bodies[plank].density = 500;
+    scene.bodies[plank + 1].density = left_density;
+    scene.bodies[plank + 2].density = right_density;
+    for (std::size_t i = plank; i < plank + 3; ++i) scene.bodies[i].friction = 0.9f;
+    return plank;
+}
+
+// How far the plank's right end has gone down, degrees.
+double slant(const BodyState& plank) {
+    const vec3 along = physics::rotate(plank.orientation, vec3(1, 0, 0));
+    return -std::asin(std::clamp(static_cast<double>(along.y), -1.0, 1.0)) / degrees;
+}
+
+}  // namespace
+
+DemoScene seesaw(const DemoOptions&) {
+    Scene scene;
+    scene.bodies.push_back(ground());
+    const std::size_t level = add_seesaw(scene, -1.2f, 1000, 1000);
+    const std::size_t tipped = add_seesaw(scene, 1.2f, 1000, 2500);
+    const Claim stays_level = [level](const Trace& trace) {
+        return below("slant with equal weights", std::abs(slant(trace.end[level])), 1, "degrees");
+    };
+    const Claim heavier_down = [tipped](const Trace& trace) {
+        const double down = slant(trace.end[tipped]);
+        Row row = below("", down, 25, "degrees");
+        return Row{"slant toward the heavier weight", "5 to 25 degrees", row.measured, down >= 5 && down <= 25};
+    };
+    const vec3 low(-2.6f, 0, -1.9f), high(2.6f, 1.7f, 1.9f);
+    return {
+        std::move(scene), view_of(low, high, 22, 20), low, high, 6, Promise(stays_level, heavier_down, penetration_below(0.01))};
+}
+
+// Free of gravity and friction, an arm's length above the floor. The gaps are wider than a contact is made ahead, so the blow
+// goes from pair to pair, and equal masses exchange their velocities.
+DemoScene cradle(const DemoOptions&) {
+    constexpr float radius = 0.5f, gap = 0.15f, speed = 2;
+    Scene scene;
+    scene.gravity = vec3(0);
+    scene.bodies.push_back(ground());
+    Indices spheres;
+    for (int i = 0; i < 5; ++i) {
+        Body sphere;
+        sphere.shape = Sphere{radius};
+        const float x = i == 0 ? -4.5f : (2 * radius + gap) * static_cast<float>(i - 2) - 0.6f;
+        sphere.position = {x, 1, 0};
+        sphere.velocity = {i == 0 ? speed : 0.0f, 0, 0};
+        sphere.friction = 0;
+        sphere.restitution = 1;
+        spheres.push_back(scene.bodies.size());
+        scene.bodies.push_back(sphere);
+    }
+    const Claim passes_on = [last = spheres.back()](const Trace& trace) {
+        const double part = trace.end[last].velocity.x / speed;
+        return Row{"speed of the last, of the first's", "at least 0.97", below("", part, 1, "").measured,
+                   part >= 0.97 && part <= 1.03};
+    };
+    const Claim others_rest = [spheres](const Trace& trace) {
+        double fastest = 0;
+        for (std::size_t i = 0; i + 1 < spheres.size(); ++i) {
+            fastest = std::max<double>(fastest, glm::length(trace.end[spheres[i]].velocity));
+        }
+        return below("speed of the others, of the first's", fastest / speed, 0.03, "");
+    };
+    const vec3 low(-5, 0, -0.6f), high(5, 1.6f, 0.6f);
+    return {std::move(scene), view_of(low, high, 20, 16), low, high, 3, Promise(passes_on, others_rest)};
+}
+
+DemoScene dominoes(const DemoOptions& options) {
+    constexpr float spacing = 0.42f, swing = 50 * degrees, two_pi = 6.2831853f;
+    const vec3 half(0.06f, 0.5f, 0.25f);
+    const int count = static_cast<int>(options.bodies);
+    Scene scene;
+    scene.bodies.push_back(ground(0.8f));
+    vec3 place(0, half.y, 0), low(1e9f), high(-1e9f);
+    for (int i = 0; i < count; ++i) {
+        const float heading = swing * std::sin(two_pi * static_cast<float>(i) / 30);
+        Body domino = box_at(place, half, turned({0, 1, 0}, -heading));
+        domino.friction = 0.3f;
+        if (i == 0) {  // pushed: it turns about its front foot
+            domino.angular_velocity = {0, 0, -1.5f};
+            domino.velocity = {1.5f * half.y, 1.5f * half.x, 0};
+        }
+        low = glm::min(low, place - vec3(0.6f, half.y, 0.6f));
+        high = glm::max(high, place + vec3(1.2f, half.y, 0.6f));
+        scene.bodies.push_back(domino);
+        place += vec3(std::cos(heading), 0, std::sin(heading)) * spacing;
+    }
+    for (Body& body : scene.bodies) body.position -= vec3((low.x + high.x) / 2, 0, (low.z + high.z) / 2);
+    const vec3 middle((low.x + high.x) / 2, 0, (low.z + high.z) / 2);
+    low -= middle;
+    high -= middle;
+    const Claim all_fall = [](const Trace& trace) {
+        std::size_t standing = 0;
+        for (std::size_t i = 1; i < trace.end.size(); ++i) standing += !(tilt(trace.end[i], {0, 1, 0}) > 45);
+        return below("dominoes left standing", static_cast<double>(standing), 0, "");
+    };
+    return {std::move(scene), view_of(low, high, 25, 28), low, high, 14, Promise(all_fall, penetration_below(0.02))};
+}
+
+}  // namespace scree::demos

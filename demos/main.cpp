@@ -1,0 +1,60 @@
+// The program scree: reads the command line, runs a command, and turns what went wrong into one message and an exit status.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <new>
+
+#include "demos/commands.h"
+#include "demos/failure.h"
+#include "demos/interrupt.h"
+
+namespace {
+
+constexpr const char* examples = R"(Examples:
+  scree list                                            what there is to see
+  scree run avalanche --frames out --video out.mp4      pictures, without a display
+  scree run pile --bodies 10k --steps 300 --report -    numbers, as JSON
+  scree export wall -o wall.json                        a scene as a file, to change
+  scree run wall.json --seconds 5                       and to run
+  scree compare mix --steps 60                          processor and GPU, bit by bit
+  scree check                                           does everything that should stand, stand?
+
+Exit status: 0 done, 1 the work failed its promise, 2 wrong usage or input, 130 interrupted.)";
+
+int tell(const std::string& message) {
+    fmt::print(stderr, "scree: {}\n", message);
+    return scree::demos::wrong_usage;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    namespace demos = scree::demos;
+    demos::listen_for_interrupt();
+    int status = demos::done;
+    CLI::App program(
+        "scree simulates very large scenes of colliding solid bodies: the same bits on every GPU and on the processor.", "scree");
+    program.set_version_flag("--version", "scree " SCREE_VERSION);
+    program.require_subcommand(1);
+    program.footer(examples);
+    demos::add_list(program, status);
+    demos::add_devices(program, status);
+    demos::add_run(program, status);
+    demos::add_compare(program, status);
+    demos::add_check(program, status);
+    demos::add_bench(program, status);
+    demos::add_export(program, status);
+    try {
+        program.parse(argc, argv);
+        if (std::fflush(stdout) != 0) return tell("the output cannot be written");
+    } catch (const CLI::Success& help) {
+        return program.exit(help);
+    } catch (const CLI::ParseError& error) {
+        return tell(std::string(error.what()) + "\nscree --help and scree COMMAND --help say more");
+    } catch (const std::bad_alloc&) {
+        return tell("beyond memory: the scene does not fit; ask for fewer --bodies");
+    } catch (const std::exception& error) {
+        return tell(error.what());
+    }
+    return status;
+}

@@ -1,0 +1,60 @@
+// What the user may ask of a simulation, and how words of the command line become values.
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compute/settings.h"
+
+namespace scree::demos {
+
+// Where to simulate.
+struct MachineOptions {
+    std::string backend = "auto";
+    std::string device;  // index or part of a name
+    int threads = 0;     // 0: one a core
+    bool validate = false;
+};
+
+// What to simulate, and for how long.
+struct SceneOptions {
+    std::string name;  // of a demo, or a scene file
+    std::size_t bodies = 0;
+    std::uint64_t seed = 1;
+    std::optional<int> steps;
+    std::optional<double> seconds;
+    float rate = 60;  // Hz
+    int substeps = 8;
+
+    Settings settings() const;
+    int step_count(double default_seconds) const;
+};
+
+struct PictureOptions {
+    std::string frames, video;  // empty: none
+    int width = 1280, height = 720;
+    double fps = 30;
+    std::string color = "momentum", color_map = "plasma";
+    std::optional<std::pair<float, float>> color_range;
+    bool legend = true;
+
+    bool wanted() const { return !frames.empty() || !video.empty(); }
+};
+
+void add_options(CLI::App& command, MachineOptions& options);
+void add_options(CLI::App& command, SceneOptions& options);
+void add_options(CLI::App& command, PictureOptions& options);
+
+// "10k", "1M", "250" and the like. Throws CLI::ValidationError.
+std::size_t count_of(const std::string& word);
+std::vector<std::size_t> counts_of(const std::string& list);  // parted by commas
+
+// The word of `known` that is nearest to `word` by changed letters; "" if none is near.
+std::string nearest(const std::string& word, const std::vector<std::string>& known);
+
+}  // namespace scree::demos

@@ -1,0 +1,37 @@
+// Pictures of a run: at fixed moments of simulated time, from one camera, in colours that mean the same from first to last.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "compute/world.h"
+#include "demos/machine.h"
+#include "demos/options.h"
+#include "demos/subject.h"
+
+namespace scree::demos {
+
+class Pictures {
+public:
+    // Throws before anything is simulated if the folder, the video or the device will not do.
+    Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world);
+    ~Pictures();
+    Pictures(const Pictures&) = delete;
+    Pictures& operator=(const Pictures&) = delete;
+
+    void after_step();  // draws if a picture is due; also before the first step
+    void finish();      // waits until all is written; without it the video is dropped
+    int count() const;
+
+private:
+    struct Interior;
+    std::unique_ptr<Interior> interior_;
+};
+
+// The words of --color and --color-map.
+const std::vector<std::string>& color_words();
+const std::vector<std::string>& color_map_words();
+
+}  // namespace scree::demos

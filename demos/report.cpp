@@ -1,0 +1,90 @@
+// Reports of runs.
+#include "demos/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "demos/progress.h"
+#include "demos/table.h"
+
+namespace scree::demos {
+
+Spread spread_of(std::vector<double> step_ms) {
+    if (step_ms.empty()) return {};
+    std::sort(step_ms.begin(), step_ms.end());
+    const std::size_t n = step_ms.size();
+    const double mean = std::accumulate(step_ms.begin(), step_ms.end(), 0.0) / static_cast<double>(n);
+    return {mean, (step_ms[(n - 1) / 2] + step_ms[n / 2]) / 2, step_ms[(n * 95 + 99) / 100 - 1], step_ms.front()};
+}
+
+std::string hash_text(std::uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
+
+std::string json_of(const RunReport& r) {
+    const Spread ms = spread_of(r.step_ms);
+    const Statistics& s = r.statistics;
+    nlohmann::ordered_json stages = nlohmann::ordered_json::object(), promise = nlohmann::ordered_json::array();
+    for (const auto& [stage, milliseconds] : r.stages) stages[stage] = milliseconds;
+    for (const Row& row : r.rows) {
+        promise.push_back({{"what", row.what}, {"promised", row.promised}, {"measured", row.measured}, {"pass", row.pass}});
+    }
+    const nlohmann::ordered_json json = {
+        {"demo", r.name},
+        {"backend", r.backend},
+        {"device", r.device},
+        {"bodies", s.bodies},
+        {"steps", r.steps},
+        {"dt", 1.0 / r.rate},
+        {"substeps", r.substeps},
+        {"ms_per_step", {{"mean", ms.mean}, {"median", ms.median}, {"p95", ms.p95}, {"min", ms.min}}},
+        {"stages", stages},
+        {"manifolds", s.manifolds},
+        {"points", s.points},
+        {"penetration", {{"mean", s.penetration_mean}, {"max", s.penetration_max}}},
+        {"max_speed", s.max_speed},
+        {"kinetic_energy", s.kinetic_energy},
+        {"potential_energy", s.potential_energy},
+        {"momentum", s.momentum},
+        {"angular_momentum", s.angular_momentum},
+        {"drift_max", s.drift_max},
+        {"not_finite", s.not_finite},
+        {"below_ground", s.below_ground},
+        {"buffer_growths", r.buffer_growths},
+        {"buffer_bytes", r.buffer_bytes},
+        {"bytes_per_body", s.bodies ? static_cast<double>(r.buffer_bytes) / static_cast<double>(s.bodies) : 0.0},
+        {"first_step_seconds", r.first_step_seconds},
+        {"seconds_total", r.seconds_total},
+        {"frames", r.frames},
+        {"state_hash", hash_text(r.state_hash)},
+        {"promise", {{"judged", r.judged}, {"pass", r.judged && all_pass(r.rows)}, {"rows", promise}}},
+    };
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string summary_of(const RunReport& r) {
+    const Spread ms = spread_of(r.step_ms);
+    const Statistics& s = r.statistics;
+    const auto metres = [](double value) { return fmt::format("{:.3g} mm", value * 1000); };
+    std::string text =
+        fmt::format("{}: {} bodies, {} steps of 1/{:g} s on {} ({})\n", r.name, s.bodies, r.steps, r.rate, r.backend, r.device);
+    const auto line = [&text](const char* what, const std::string& value) { text += fmt::format("  {:<16}{}\n", what, value); };
+    line("time per step",
+         fmt::format("{} (median {}, 95% below {})", duration(ms.mean / 1e3), duration(ms.median / 1e3), duration(ms.p95 / 1e3)));
+    line("contacts", fmt::format("{} pairs touch, in {} points", s.manifolds, s.points));
+    line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
+    line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
+    line("greatest drift", fmt::format("{:.4g} m", s.drift_max));
+    line("buffers", fmt::format("{:.1f} MB, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6, r.buffer_growths));
+    line("state hash", hash_text(r.state_hash));
+    if (r.frames > 0) line("pictures", fmt::format("{}, {} in all", r.frames, duration(r.seconds_total)));
+    if (r.rows.empty()) return text;
+    std::vector<Cells> rows = {verdict_heading()};
+    for (const Row& row : r.rows) rows.push_back(verdict(row));
+    return text + "\n" + table(rows);
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,39 @@
+// What a run was: in words at its end, and as one JSON object for programs.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compute/world.h"
+#include "demos/promise.h"
+
+namespace scree::demos {
+
+struct RunReport {
+    std::string name, backend, device;
+    std::uint64_t steps = 0;
+    float rate = 60;  // Hz
+    int substeps = 8;
+    double first_step_seconds = 0;  // pipelines are made and buffers grow in it
+    double seconds_total = 0;       // with pictures and all
+    std::vector<double> step_ms;    // each step after the first (or the first, if it was the only one); solver only
+    std::vector<std::pair<std::string, double>> stages;  // ms per step
+    Statistics statistics;
+    std::uint64_t buffer_growths = 0, state_hash = 0;
+    std::size_t buffer_bytes = 0;
+    int frames = 0;
+    bool judged = false;  // whether the run was long enough for its promise
+    std::vector<Row> rows;
+};
+
+struct Spread {
+    double mean = 0, median = 0, p95 = 0, min = 0;  // ms
+};
+Spread spread_of(std::vector<double> step_ms);
+
+std::string hash_text(std::uint64_t hash);  // 16 hexadecimal digits
+std::string json_of(const RunReport& report);
+std::string summary_of(const RunReport& report);
+
+}  // namespace scree::demos

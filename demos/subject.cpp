@@ -1,0 +1,127 @@
+// Finding what to simulate, and refusing what cannot fit.
+#include "demos/subject.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "demos/building.h"
+#include "demos/demos.h"
+#include "demos/failure.h"
+#include "host/file.h"
+
+namespace scree::demos {
+
+namespace {
+
+// What a body takes while it is simulated: the scene itself, the tables of a step on the host and on the device, room for its
+// contacts. Too small, and a run ends half way for want of memory.
+constexpr double bytes_per_body = 4000;
+
+// Memory that this process may still take: what the system says is available, or less if a limit is set.
+double available_memory() {
+    double bytes = std::numeric_limits<double>::infinity();
+    std::ifstream system("/proc/meminfo");
+    for (std::string key, unit; system >> key;) {
+        double kilobytes = 0;
+        if (!(system >> kilobytes)) break;
+        std::getline(system, unit);
+        if (key == "MemAvailable:") bytes = kilobytes * 1024;
+    }
+    double limit = 0, used = 0;
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit && std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
+        bytes = std::min(bytes, limit - used);
+    }
+    rlimit address_space{};
+    if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
+        bytes = std::min(bytes, static_cast<double>(address_space.rlim_cur));
+    }
+    return std::max(bytes, 0.0);
+}
+
+std::size_t most_bodies() {
+    // Bodies are numbered with 32 bits; the highest numbers are taken.
+    return static_cast<std::size_t>(std::min(available_memory() / bytes_per_body, 4.0e9));
+}
+
+bool is_file_name(const std::string& name) {
+    return name.find('/') != name.npos || name.ends_with(".json");
+}
+
+// Corners of where a scene's bodies start: of those that move if there are any, else of all but planes.
+void set_bounds(Subject& subject) {
+    vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const bool moving : {true, false}) {
+        for (const Body& body : subject.scene.bodies) {
+            float reach = 0;
+            if (std::holds_alternative<Plane>(body.shape) || (moving && body.motion != Motion::dynamic)) continue;
+            if (const auto* sphere = std::get_if<Sphere>(&body.shape)) reach = sphere->radius;
+            if (const auto* capsule = std::get_if<Capsule>(&body.shape)) reach = capsule->radius + capsule->half_height;
+            if (const auto* box = std::get_if<Box>(&body.shape)) reach = glm::length(box->half_extents);
+            low = glm::min(low, body.position - reach);
+            high = glm::max(high, body.position + reach);
+        }
+        if (low.x <= high.x) break;
+    }
+    if (low.x > high.x) low = vec3(-1), high = vec3(1);
+    subject.low = low;
+    subject.high = high;
+}
+
+Subject from_file(const std::string& path) {
+    Subject subject;
+    subject.name = path;
+    try {
+        SceneDocument document = scene_from_json(host::read_text(path), most_bodies());
+        subject.scene = checked(std::move(document.scene));
+        set_bounds(subject);
+        subject.viewpoint = document.viewpoint ? *document.viewpoint : view_of(subject.low, subject.high, 30, 20);
+    } catch (const SceneError& error) {
+        throw UsageError(path + ": " + error.what());
+    }
+    return subject;
+}
+
+std::string free_memory() {
+    return fmt::format("{:.1f} GB are free, enough for about {:.1g} bodies", available_memory() / 1e9,
+                       static_cast<double>(most_bodies()));
+}
+
+}  // namespace
+
+void require_memory_for(std::size_t bodies) {
+    if (bodies <= most_bodies()) return;
+    throw UsageError(fmt::format("--bodies {}: beyond memory: they need about {:.3g} GB, {}; ask for fewer", bodies,
+                                 static_cast<double>(bodies) * bytes_per_body / 1e9, free_memory()));
+}
+
+Subject load_subject(const SceneOptions& options) {
+    const Demo* demo = find_demo(options.name);
+    if (!demo && is_file_name(options.name)) {
+        if (options.bodies) throw UsageError("--bodies: a scene file has its own bodies; leave the option out");
+        try {
+            return from_file(options.name);
+        } catch (const std::bad_alloc&) {
+            throw UsageError(options.name + ": beyond memory; " + free_memory());
+        }
+    }
+    if (!demo) {
+        std::vector<std::string> names;
+        for (const Demo& known : all_demos()) names.emplace_back(known.name);
+        const std::string near = nearest(options.name, names);
+        throw UsageError(fmt::format("unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json",
+                                     options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
+    }
+    if (options.bodies && !demo->takes_bodies) {
+        throw UsageError(
+            fmt::format("--bodies: the demo {} has a fixed number of bodies; pile, mix and avalanche take any", demo->name));
+    }
+    require_memory_for(options.bodies);
+    DemoScene built = build(*demo, {options.bodies, options.seed});
+    return {demo->name, std::move(built.scene), built.viewpoint, built.low, built.high, built.seconds, std::move(built.promise)};
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,292 @@
+// What a canvas holds on the device: made once, before the first picture.
+#include "host/canvas_interior.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "host/canvas_frame.h"
+#include "host/canvas_meshes.h"
+#include "host/canvas_overlay.h"
+#include "host/canvas_passes.h"
+#include "host/glyphs.h"
+
+namespace scree::host {
+namespace {
+
+// As in shaders/render: bodies and frame, the two shadow maps, the legend and its letters, the meshes, the picture to be
+// smoothed.
+enum Binding : std::uint32_t { TRAITS, POSES, VELOCITIES, INSTANCES, FRAME, SUN_MAP, SKY_MAP, QUADS, GLYPHS, DIRECTIONS, SCENE };
+constexpr std::uint32_t BINDINGS = SCENE + 1;
+
+constexpr bool is_sampler(std::uint32_t binding) {
+    return binding == SUN_MAP || binding == SKY_MAP || binding == GLYPHS || binding == SCENE;
+}
+
+CanvasOptions checked(CanvasOptions options, const Device& device) {
+    const auto most = static_cast<int>(std::min(device.limits().maxFramebufferWidth, device.limits().maxFramebufferHeight));
+    if (options.width < 16 || options.height < 16 || options.width > most || options.height > most) {
+        throw DeviceError("canvas: a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
+                          " pixels; this device draws from 16 x 16 to " + std::to_string(most) + " x " + std::to_string(most));
+    }
+    if (options.samples == 0) options.samples = device.report().is_processor ? 1 : 4;
+    if (options.samples != 1 && options.samples != 4)
+        throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    return options;
+}
+
+}  // namespace
+
+Canvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
+    : device(std::move(opened)), options(checked(chosen, *device)), objects(device) {
+    const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
+    quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
+    picture = Buffer(device, "canvas picture", pixels * 4, BufferUse::readback);
+    make_instances(shapes);
+    make_meshes();
+    make_layout();
+    make_samplers();
+    make_shadow_maps();
+    make_picture();
+    make_commands();
+    upload_glyphs();
+}
+
+void Canvas::Interior::make_instances(const ShapeInstances& shapes) {
+    std::vector<std::uint32_t> all;
+    const auto add = [&](const std::vector<std::uint32_t>& bodies) {
+        const Run run{static_cast<std::uint32_t>(all.size()), static_cast<std::uint32_t>(bodies.size())};
+        all.insert(all.end(), bodies.begin(), bodies.end());
+        return run;
+    };
+    spheres = add(shapes.spheres);
+    capsules = add(shapes.capsules);
+    boxes = add(shapes.boxes);
+    planes = add(shapes.planes);
+    if (all.empty()) all.push_back(0);
+    instances = Buffer(device, "canvas instances", all.size() * sizeof(std::uint32_t));
+    instances.write(all.data(), all.size() * sizeof(std::uint32_t));
+}
+
+void Canvas::Interior::make_meshes() {
+    std::vector<vec4> all_directions;
+    std::vector<std::uint32_t> all_indices;
+    const auto add = [&](const RoundMesh& mesh) {
+        const Mesh at{static_cast<std::uint32_t>(all_indices.size()), static_cast<std::uint32_t>(mesh.indices.size()),
+                      static_cast<std::int32_t>(all_directions.size())};
+        all_directions.insert(all_directions.end(), mesh.directions.begin(), mesh.directions.end());
+        all_indices.insert(all_indices.end(), mesh.indices.begin(), mesh.indices.end());
+        return at;
+    };
+    const int corners = round_corners(spheres.count + capsules.count);
+    sphere_mesh = add(scree::host::sphere_mesh(corners));
+    capsule_mesh = add(scree::host::capsule_mesh(corners / 2));
+    directions = Buffer(device, "canvas directions", all_directions.size() * sizeof(vec4));
+    directions.write(all_directions.data(), directions.bytes());
+    indices = Buffer(device, "canvas indices", all_indices.size() * sizeof(std::uint32_t));
+    indices.write(all_indices.data(), indices.bytes());
+}
+
+void Canvas::Interior::make_layout() {
+    const VulkanFunctions& vk = device->vk();
+    std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
+    std::uint32_t samplers = 0;
+    for (std::uint32_t i = 0; i < BINDINGS; ++i) {
+        bindings[i].binding = i;
+        bindings[i].descriptorType =
+            is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        bindings[i].descriptorCount = 1;
+        bindings[i].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+        samplers += is_sampler(i) ? 1 : 0;
+    }
+    VkDescriptorSetLayoutCreateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set_info.bindingCount = BINDINGS;
+    set_info.pBindings = bindings.data();
+    set_layout =
+        objects.make(vk.vkCreateDescriptorSetLayout, vk.vkDestroyDescriptorSetLayout, set_info, "vkCreateDescriptorSetLayout");
+    const VkPushConstantRange push{VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(std::uint32_t)};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set_layout;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &push;
+    layout = objects.make(vk.vkCreatePipelineLayout, vk.vkDestroyPipelineLayout, info, "vkCreatePipelineLayout");
+
+    const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, samplers},
+                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, BINDINGS - samplers}};
+    VkDescriptorPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool_info.maxSets = 1;
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorSetAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    allocation.descriptorPool =
+        objects.make(vk.vkCreateDescriptorPool, vk.vkDestroyDescriptorPool, pool_info, "vkCreateDescriptorPool");
+    allocation.descriptorSetCount = 1;
+    allocation.pSetLayouts = &set_layout;
+    check(vk.vkAllocateDescriptorSets(device->handle(), &allocation, &set), "vkAllocateDescriptorSets");
+}
+
+void Canvas::Interior::make_samplers() {
+    const VulkanFunctions& vk = device->vk();
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    linear_sampler = objects.make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler");
+    // The shadow maps: outside of them nothing casts.
+    info.magFilter = info.minFilter = VK_FILTER_NEAREST;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+    info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
+    depth_sampler = objects.make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler");
+}
+
+void Canvas::Interior::make_shadow_maps() {
+    shadow_pass = make_shadow_pass(objects);
+    for (std::size_t i = 0; i < shadow_maps.size(); ++i) {
+        ShadowMap& map = shadow_maps[i];
+        // Without shadows the maps are never read, but a descriptor must name something.
+        map.size = !options.shadows ? 1 : i == 0 ? SUN_MAP_SIZE : SKY_MAP_SIZE;
+        map.surface = objects.surface({DEPTH_FORMAT, map.size, map.size,
+                                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                       VK_IMAGE_ASPECT_DEPTH_BIT, 1});
+        map.framebuffer = objects.framebuffer(shadow_pass, std::array{map.surface.view}, map.size, map.size);
+        PipelineShape shape;
+        shape.pass = shadow_pass;
+        shape.layout = layout;
+        shape.width = shape.height = map.size;
+        shape.depth = VK_COMPARE_OP_LESS;
+        shape.writes_depth = true;
+        shape.colors = false;
+        shape.vertex = "round_shadow.vert";
+        shape.fragment = "round_shadow.frag";
+        map.round = make_pipeline(objects, shape);
+        shape.vertex = "box_shadow.vert";
+        shape.fragment = nullptr;
+        // The maps are not mirrored as pictures are, so this keeps the sides towards the light.
+        shape.cull = VK_CULL_MODE_FRONT_BIT;
+        map.box = make_pipeline(objects, shape);
+    }
+}
+
+void Canvas::Interior::make_picture() {
+    picture_pass = make_picture_pass(objects, options.samples);
+    const auto surface = [&](VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
+        return objects.surface({format, options.width, options.height, usage, aspect, samples});
+    };
+    constexpr VkImageUsageFlags shown = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    target = surface(COLOR_FORMAT, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
+    const Surface depth =
+        surface(DEPTH_FORMAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, options.samples);
+    const bool smooths = options.samples == 1;
+    scene =
+        surface(COLOR_FORMAT,
+                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | static_cast<VkImageUsageFlags>(smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : 0),
+                VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
+    std::vector<VkImageView> views{scene.view, depth.view};
+    if (!smooths) views.push_back(target.view);
+    framebuffer = objects.framebuffer(picture_pass, views, options.width, options.height);
+
+    PipelineShape shape;
+    shape.pass = picture_pass;
+    shape.layout = layout;
+    shape.samples = options.samples;
+    shape.width = options.width;
+    shape.height = options.height;
+    // Depth falls from 1 to 0 with distance, which spends a float's precision evenly.
+    shape.depth = VK_COMPARE_OP_GREATER;
+    shape.writes_depth = true;
+    const auto made = [&](const char* vertex, const char* fragment) {
+        shape.vertex = vertex;
+        shape.fragment = fragment;
+        return make_pipeline(objects, shape);
+    };
+    plane = made("plane.vert", "plane.frag");
+    shape.cull = VK_CULL_MODE_BACK_BIT;
+    round = made("round.vert", "round.frag");
+    box = made("box.vert", "box.frag");
+    shape.cull = VK_CULL_MODE_NONE;
+    shape.writes_depth = false;
+    shape.depth = VK_COMPARE_OP_GREATER_OR_EQUAL;
+    sky = made("sky.vert", "sky.frag");
+    shape.depth = VK_COMPARE_OP_ALWAYS;
+    if (smooths) {
+        smoothing_pass = make_smoothing_pass(objects);
+        smoothing_framebuffer = objects.framebuffer(smoothing_pass, std::array{target.view}, options.width, options.height);
+        shape.pass = smoothing_pass;
+        smoothing = made("sky.vert", "smooth.frag");
+    }
+    shape.blends = shape.strip = true;
+    overlay = made("overlay.vert", "overlay.frag");
+}
+
+void Canvas::Interior::make_commands() {
+    const VulkanFunctions& vk = device->vk();
+    VkCommandPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    info.queueFamilyIndex = device->queue_family();
+    pool = objects.make(vk.vkCreateCommandPool, vk.vkDestroyCommandPool, info, "vkCreateCommandPool");
+    VkCommandBufferAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocation.commandPool = pool;
+    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocation.commandBufferCount = 1;
+    check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
+}
+
+void Canvas::Interior::upload_glyphs() {
+    const VulkanFunctions& vk = device->vk();
+    const GlyphAtlas& atlas = glyph_atlas();
+    glyphs = objects.surface({VK_FORMAT_R8_UNORM, atlas.width, atlas.height,
+                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT, 1});
+    Buffer staging(device, "canvas glyphs", atlas.levels.size(), BufferUse::upload);
+    staging.write(atlas.levels.data(), atlas.levels.size());
+    begin();
+    image_barrier(glyphs.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                  VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, VK_ACCESS_TRANSFER_WRITE_BIT);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = {static_cast<std::uint32_t>(atlas.width), static_cast<std::uint32_t>(atlas.height), 1};
+    vk.vkCmdCopyBufferToImage(commands, staging.handle(), glyphs.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    image_barrier(glyphs.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_ACCESS_SHADER_READ_BIT);
+    end_and_wait();
+}
+
+void Canvas::Interior::write_set(const BodyTables& tables) {
+    if (tables.traits == nullptr || tables.poses == nullptr || tables.velocities == nullptr || !*tables.traits ||
+        !*tables.poses || !*tables.velocities) {
+        throw std::invalid_argument("canvas: a table of the bodies is missing");
+    }
+    const std::array<const Buffer*, BINDINGS> buffers{
+        tables.traits, tables.poses, tables.velocities, &instances,  &frame, nullptr,
+        nullptr,       &quads,       nullptr,           &directions, nullptr};
+    std::array<VkDescriptorBufferInfo, BINDINGS> buffer_infos{};
+    std::array<VkDescriptorImageInfo, BINDINGS> image_infos{};
+    std::array<VkWriteDescriptorSet, BINDINGS> writes{};
+    constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+    image_infos[SUN_MAP] = {depth_sampler, shadow_maps[0].surface.view, depth_layout};
+    image_infos[SKY_MAP] = {depth_sampler, shadow_maps[1].surface.view, depth_layout};
+    image_infos[GLYPHS] = {linear_sampler, glyphs.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    // Without smoothing nothing reads the scene, but a descriptor must name something.
+    image_infos[SCENE] = {linear_sampler, options.samples == 1 ? scene.view : glyphs.view,
+                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    for (std::uint32_t i = 0; i < BINDINGS; ++i) {
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = set;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        if (buffers[i] != nullptr) buffer_infos[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        writes[i].pBufferInfo = &buffer_infos[i];
+        writes[i].pImageInfo = &image_infos[i];
+    }
+    device->vk().vkUpdateDescriptorSets(device->handle(), BINDINGS, writes.data(), 0, nullptr);
+}
+
+}  // namespace scree::host

@@ -1,0 +1,80 @@
+// Contacts that are kept: while two bodies hardly move against each other, their contact stays as it was made.
+//
+// The idea is Box3D's (Erin Catto, contact recycling): normal, points, impulses and lever arms are those of the step in which the
+// contact was made, and only the separation is measured anew, between the points' marks on either body. The frozen arms
+// take away the sideways shift of the load that makes a column of soft contacts buckle, and what is the same in every step
+// can come to true rest. The price: the two forces of a contact act up to the tolerance apart, and a resting pair's
+// angular momentum is exact only to that. So the tolerance is small against the bodies, and what slides, rolls or tips lets go.
+#ifndef SCREE_PHYSICS_PERSISTENCE_H
+#define SCREE_PHYSICS_PERSISTENCE_H
+
+#include "shaders/physics/contact.h"
+
+LAWS_BEGIN
+
+CONSTANT float KEPT_SLIP = 0.01f;     // of the thinner body's half width: further apart, and the contact is made anew
+CONSTANT float KEPT_SPEED = 0.1f;     // of the same in a second: faster, and it slides, rolls or tips
+CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the turn (5 degrees) after which a body's contacts are made anew
+
+// From the mark of a point on A to its mark on B, as the bodies lie now.
+LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
+    vec3 arm = xyz(contact.points[point]);
+    vec3 half_gap = contact.normal * (0.5f * contact.points[point].w);
+    vec3 mark_a = rotate(a.orientation, rotate_back(contact.turn_a, arm - half_gap));
+    vec3 mark_b = rotate(b.orientation, rotate_back(contact.turn_b, (arm - contact.d) + half_gap));
+    return (b.position - a.position) + mark_b - mark_a;
+}
+
+LAW bool turned_little(vec4 before, vec4 now) {
+    float cosine = (before.x * now.x + before.y * now.y) + (before.z * now.z + before.w * now.w);
+    return abs(cosine) > KEPT_TURN;
+}
+
+// Whether last step's contact serves for this step: it carried, neither body is round, and its marks still lie together.
+LAW bool is_kept(Contact contact, Impulse impulse, Traits ta, Pose a, Velocity va, Traits tb, Pose b, Velocity vb) {
+    if (ta.shape == SHAPE_SPHERE || tb.shape == SHAPE_SPHERE) return false;
+    if ((impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) <= 0.0f) return false;
+    if (!turned_little(contact.turn_a, a.orientation) || !turned_little(contact.turn_b, b.orientation)) return false;
+    float size = smaller(thickness(ta), thickness(tb));
+    float tolerance = KEPT_SLIP * size;
+    float fastest = KEPT_SPEED * size;
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= contact.count) break;
+        vec3 slip = gap_between_marks(contact, k, a, b) - contact.normal * contact.points[k].w;
+        if (dot3(slip, slip) > tolerance * tolerance) return false;
+        vec3 arm = xyz(contact.points[k]);
+        vec3 speed = (vb.linear + cross3(vb.angular, arm - contact.d)) - (va.linear + cross3(va.angular, arm));
+        if (dot3(speed, speed) > fastest * fastest) return false;
+    }
+    return true;
+}
+
+LAW Manifold kept_manifold(Contact contact, Pose a, Pose b) {
+    Manifold manifold;
+    manifold.normal = contact.normal;
+    manifold.features = contact.features;
+    for (uint k = 0u; k < 4u; ++k) {
+        manifold.points[k] = vec4(0.0f);
+        if (k < contact.count)
+            manifold.points[k] = vec4(xyz(contact.points[k]), dot3(contact.normal, gap_between_marks(contact, k, a, b)));
+    }
+    return manifold;
+}
+
+LAW Contact aged(Contact contact) {
+    contact.age = contact.age + 1u;
+    return contact;
+}
+LAW Impulse continued(Contact contact, Impulse was) {
+    Impulse impulse = no_impulse(contact.d);
+    impulse.normal = was.normal;
+    impulse.approach = was.approach;
+    impulse.friction = was.friction;
+    impulse.twist = was.twist;
+    impulse.rolling = was.rolling;
+    return impulse;
+}
+
+LAWS_END
+
+#endif

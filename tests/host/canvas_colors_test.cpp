@@ -1,0 +1,75 @@
+// What pictures are made of: colour maps, ticks, text and meshes.
+#include "host/canvas_colors.h"
+
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <map>
+#include <string_view>
+#include <utility>
+
+#include "host/canvas_meshes.h"
+#include "host/glyphs.h"
+
+using namespace scree::host;
+using glm::vec3;
+
+TEST_CASE("perceptual colour maps grow lighter", "[canvas]") {
+    for (const std::string& name : color_map_names()) {
+        CAPTURE(name);
+        if (name == "turbo") continue;  // a rainbow, for those who ask for it
+        float before = -1;
+        for (int i = 0; i <= 100; ++i) {
+            const vec3 c = map_color(*color_map_named(name), static_cast<float>(i) / 100.0f);
+            const float luminance = 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+            CHECK(luminance > before - 1e-4f);
+            before = luminance;
+        }
+    }
+    CHECK_FALSE(color_map_named("jet"));
+    CHECK_FALSE(color_by_named("mass"));
+}
+
+TEST_CASE("ticks are round numbers between the ends", "[canvas]") {
+    CHECK(scale_ticks(0, 5000, false, 6) == std::vector<float>{0, 1000, 2000, 3000, 4000, 5000});
+    CHECK(scale_ticks(0, 1.2f, false, 4).size() <= 4);
+    CHECK(scale_ticks(1, 3000, true, 6) == std::vector<float>{1, 10, 100, 1000});
+    CHECK(scale_ticks(1e-8f, 1e8f, true, 6).size() <= 6);
+    CHECK(scale_ticks(1, 1, false, 6).empty());
+    CHECK(tick_label(0.5f, false) == "0.5");
+    CHECK(tick_label(1e6f, true) == "10⁶");
+    CHECK(tick_label(2.5e-5f, false) == "2.5·10⁻⁵");
+}
+
+TEST_CASE("text is measured by its letters and broken UTF-8 does no harm", "[canvas]") {
+    CHECK(text_width("", 20) == 0);
+    CHECK(text_width("momentum", 40) == Approx(2 * text_width("momentum", 20)));
+    CHECK(glyph_of(0x1F600).code == '?');
+    std::string_view broken = "\xC3";
+    CHECK(take_code(broken) == 0xFFFD);
+    CHECK(broken.empty());
+    std::string_view omega = "ω";
+    CHECK(take_code(omega) == 0x3C9);
+}
+
+TEST_CASE("meshes of round bodies are closed", "[canvas]") {
+    const int corners = GENERATE(8, 16, 20, 32, 64);
+    const RoundMesh sphere = sphere_mesh(corners);
+    const RoundMesh capsule = capsule_mesh(corners / 2 < 6 ? 6 : corners / 2);
+    for (const RoundMesh* mesh : {&sphere, &capsule}) {
+        // Every edge is walked both ways, but for the silhouette of the sphere. At the poles several corners are one point.
+        const auto point = [&](std::uint32_t index) {
+            const auto& all = mesh->directions;
+            return std::find(all.begin(), all.end(), all[index]) - all.begin();
+        };
+        std::map<std::pair<std::ptrdiff_t, std::ptrdiff_t>, int> edges;
+        for (std::size_t i = 0; i < mesh->indices.size(); i += 3) {
+            for (std::size_t k = 0; k < 3; ++k) ++edges[{point(mesh->indices[i + k]), point(mesh->indices[i + (k + 1) % 3])}];
+        }
+        int open = 0;
+        for (const auto& [edge, count] : edges) {
+            CHECK(count == 1);
+            open += edges.count({edge.second, edge.first}) == 0 ? 1 : 0;
+        }
+        CHECK(open == (mesh == &sphere ? corners : 0));
+    }
+}

@@ -1,0 +1,105 @@
+// Every stage, on the device and on the CPU, from the same tables to the same bits; outputs are poisoned first.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "compute/device_runner.h"
+#include "compute/lockstep.h"
+#include "compute/world.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+
+namespace {
+
+struct Watched {
+    std::shared_ptr<host::Device> device;
+    Watched() {
+        host::DeviceOptions options;
+        options.validation = true;
+        device = host::Device::open(options);
+    }
+    ~Watched() {
+        for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+    }
+};
+
+void require_equal(const LockstepResult& result) {
+    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                 << result.detail);
+    REQUIRE(result.equal);
+}
+
+}  // namespace
+
+TEST_CASE("every stage gives the same bits on both processors, whatever the number of bodies") {
+    const Watched watched;
+    for (const int bodies : {0, 1, 2, 126, 127, 128, 129, 1234}) {
+        CAPTURE(bodies);
+        require_equal(compare_in_lockstep(tests::heap(bodies), {}, watched.device, 1, bodies > 1000 ? 6 : 12));
+    }
+}
+
+TEST_CASE("both processors stay alike while a heap collapses, with 1, 3 and 16 substeps") {
+    const Watched watched;
+    for (const int substeps : {1, 3, 16}) {
+        CAPTURE(substeps);
+        Settings settings;
+        settings.substeps = substeps;
+        require_equal(compare_in_lockstep(tests::heap(100), settings, watched.device, 2, 60));
+    }
+}
+
+TEST_CASE("both processors grow their buffers alike") {
+    const Watched watched;
+    Settings tiny;
+    tiny.pairs_at_first = 1;
+    tiny.contacts_at_first = 1;
+    const Scene scene = tests::heap(150);
+    require_equal(compare_in_lockstep(scene, tiny, watched.device, 1, 60));
+
+    World roomy(scene, {}, 1);
+    World cramped(scene, tiny, make_device_runner(watched.device));
+    for (World* world : {&roomy, &cramped}) {
+        world->apply_impulse(3, vec3(100, 0, 0));
+        world->step(60);
+    }
+    REQUIRE(cramped.buffer_growths() > 0);
+    REQUIRE(cramped.state_hash() == roomy.state_hash());
+    REQUIRE(cramped.statistics().points == roomy.statistics().points);
+}
+
+TEST_CASE("a single bit that differs is found, with its stage, buffer and element") {
+    const Watched watched;
+    Lockstep lockstep(tests::heap(20), {}, watched.device, 1);
+    REQUIRE(lockstep.step());
+    std::vector<physics::Velocity> velocities(21);
+    const auto bytes = std::as_writable_bytes(std::span(velocities));
+    lockstep.device().read(Table::velocities, bytes);
+    velocities[13].angular.z = std::nextafter(velocities[13].angular.z, 1.0f);
+    lockstep.device().write(Table::velocities, bytes);
+    REQUIRE_FALSE(lockstep.step());
+    REQUIRE(lockstep.result().stage == "apply_actions");
+    REQUIRE(lockstep.result().buffer == "velocities");
+    REQUIRE(lockstep.result().element == 13);
+    REQUIRE_THAT(lockstep.result().detail, Catch::StartsWith("byte 24: cpu 0x"));
+}
+
+TEST_CASE("what acts from outside acts alike on both processors") {
+    const Watched watched;
+    World cpu(tests::heap(40), {}, 1);
+    World device(tests::heap(40), {}, make_device_runner(watched.device));
+    for (int step = 0; step < 40; ++step) {
+        for (World* world : {&cpu, &device}) {
+            world->apply_force(4, vec3(0, 3000, 20), vec3(0.1f, 0, 0));
+            world->apply_torque(5, vec3(50, 0, 3));
+            if (step == 10) world->apply_impulse(7, vec3(200, 300, 0), vec3(0, 0.2f, 0));
+            if (step == 20) world->apply_angular_impulse(8, vec3(0, 40, 0));
+            if (step == 30) world->set_velocity(9, vec3(0, 5, 0), vec3(1, 2, 3));
+            world->step();
+        }
+        REQUIRE(cpu.state_hash() == device.state_hash());
+    }
+}

@@ -1,0 +1,34 @@
+// Scenes for tests of whole worlds: a heap of mixed bodies on the ground, and bodies flying into each other in free space.
+#pragma once
+
+#include <cstdint>
+
+#include "compute/scene.h"
+
+namespace scree::tests {
+
+// Uniform in [-1, 1]; the same on every machine.
+class Noise {
+public:
+    explicit Noise(std::uint32_t seed) : state_(seed) {}
+    float operator()() {
+        state_ = state_ * 1664525u + 1013904223u;
+        return static_cast<float>(state_ >> 8) / 8388608.0f - 1.0f;
+    }
+    vec3 vector() {
+        const float x = (*this)(), y = (*this)(), z = (*this)();
+        return {x, y, z};
+    }
+
+private:
+    std::uint32_t state_;
+};
+
+// `count` spheres, capsules and boxes of several sizes and materials above a plane, none touching; some bounce, some resist
+// rolling.
+Scene heap(int count, std::uint32_t seed = 1);
+
+// `count` bodies flying towards a common centre without gravity, bouncing with the given restitution.
+Scene swarm(int count, float restitution, std::uint32_t seed = 1);
+
+}  // namespace scree::tests

@@ -1,0 +1,74 @@
+// Momentum: what contacts do to one body they take from the other.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "compute/world.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+
+namespace {
+
+using glm::dvec3;
+
+// Sum of |m v| and of |x x m v| + |L| over the bodies: what the totals are measured against.
+struct Scale {
+    double linear = 0, angular = 0;
+};
+Scale scale_of(const World& world) {
+    Scale scale;
+    const auto bodies = world.bodies();
+    for (std::size_t i = 0; i < bodies.size(); ++i) {
+        const Body& body = world.scene().bodies[i];
+        const MassProperties mass = mass_properties(body.shape, body.density);
+        const dvec3 momentum = double(mass.mass) * dvec3(bodies[i].velocity);
+        scale.linear += glm::length(momentum);
+        scale.angular += glm::length(glm::cross(dvec3(bodies[i].position), momentum)) +
+                         glm::length(dvec3(mass.inertia) * dvec3(bodies[i].angular_velocity));
+    }
+    return scale;
+}
+dvec3 vector(const double (&v)[3]) {
+    return {v[0], v[1], v[2]};
+}
+
+}  // namespace
+
+TEST_CASE("free collisions keep linear and angular momentum to 1e-5 of the scene's own in 1,000 steps") {
+    for (const float restitution : {0.0f, 0.6f}) {
+        World world(tests::swarm(64, restitution), {}, 1);
+        const Statistics before = world.statistics();
+        const Scale scale = scale_of(world);
+        world.step(60);
+        REQUIRE(world.statistics().kinetic_energy < 0.9 * before.kinetic_energy);  // they did collide
+        world.step(940);
+        const Statistics after = world.statistics();
+        const double linear = glm::length(vector(after.momentum) - vector(before.momentum)) / scale.linear;
+        const double angular = glm::length(vector(after.angular_momentum) - vector(before.angular_momentum)) / scale.angular;
+        INFO("restitution " << restitution << ": linear " << linear << ", angular " << angular);
+        CHECK(linear < 1e-5);
+        CHECK(angular < 1e-5);
+    }
+}
+
+TEST_CASE("a freely tumbling body keeps its angular momentum and its energy") {
+    Scene scene;
+    scene.gravity = vec3(0);
+    Body body;
+    body.shape = Box{vec3(0.2f, 0.5f, 0.9f)};
+    body.angular_velocity = vec3(0.05f, 6, 0.05f);  // about the middle axis: it flips over and over
+    scene.bodies = {body};
+    World world(scene, {}, 1);
+    const Statistics before = world.statistics();
+    double lowest = 1;  // of the body's middle axis against where it pointed
+    for (int i = 0; i < 1800; ++i) {
+        world.step();
+        const vec4 q = world.bodies()[0].orientation;
+        lowest = std::min(lowest, 1.0 - 2.0 * double(q.x * q.x + q.z * q.z));
+    }
+    const Statistics after = world.statistics();
+    REQUIRE(lowest < -0.5);  // it did flip
+    REQUIRE(glm::length(vector(after.angular_momentum) - vector(before.angular_momentum)) <
+            0.01 * glm::length(vector(before.angular_momentum)));
+    REQUIRE(after.kinetic_energy == Approx(before.kinetic_energy).epsilon(0.01));
+}
