@@ -36,7 +36,7 @@ std::vector<Stage> plan(int substeps) {
     s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}});
     s.push_back({"count_pairs", Over::bodies, count_pairs, {pair_starts}});
     scan(s, "pairs", Over::body_blocks, pair_starts, scan_pairs_spine, scan_pairs_offsets);
-    s.push_back({"fill_pairs", Over::bodies, fill_pairs, {pairs}});
+    s.push_back({"fill_pairs", Over::bodies, fill_pairs, {}});
     s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});
     // narrowphase: who touches whom, and where
     s.push_back({"count_kinds", Over::spans, count_kinds, {kind_starts}});

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
-#include <limits>
 #include <nlohmann/json.hpp>
 #include <utility>
 #include <vector>
@@ -87,7 +86,8 @@ std::string kind(const json& value) {
 void read(const json& value, const Place& place, float& out) {
     if (!value.is_number()) refuse(place, "must be a number, is " + kind(value));
     const double wide = value.get<double>();
-    if (!(std::abs(wide) <= std::numeric_limits<float>::max())) {
+    // Up to half a step above the largest float, values still round to it.
+    if (!(std::abs(wide) < 0x1.ffffffp127)) {
         refuse(place, "must be at most 3.4e38, what a 32-bit float holds; is " + value.dump());
     }
     out = static_cast<float>(wide);

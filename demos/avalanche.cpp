@@ -102,7 +102,7 @@ DemoScene avalanche(const DemoOptions& options) {
         scene.bodies.push_back(stone);
     }
     const float layers = std::ceil(static_cast<float>(options.bodies) / static_cast<float>(side * side));
-    const float back = v.edge() - v.length, top = v.surface(back) + cell * (layers + 1), run_out = 0.75f * v.length;
+    const float back = v.edge() - v.length, top = v.surface(back) + cell * (layers + 1), run_out = 0.95f * v.length;
     const vec3 low(back, 0, -v.half_width), high(run_out, top, v.half_width);
     std::vector<vec3> seen;
     for (const float z : {-v.half_width, v.half_width}) {

@@ -108,7 +108,7 @@ int run(const Options& options) {
     RunReport report;
     if (!simulate(options, subject, world, pictures ? &*pictures : nullptr, recorder ? &*recorder : nullptr, report)) {
         const int frames = pictures ? pictures->count() : 0;
-        pictures.reset();  // writes the pictures that are drawn, and drops the video
+        pictures.reset();  // what was drawn is written whole, and the video ends there
         fmt::print(stderr, "scree: interrupted after {} steps{}\n", world.steps(),
                    frames ? fmt::format(", {} pictures", frames) : "");
         return interrupted;

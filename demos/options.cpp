@@ -14,23 +14,23 @@ namespace scree::demos {
 
 namespace {
 
-double number_of(const std::string& word, const char* what) {
+double number_of(const std::string& word, const char* option, const char* such_as = "") {
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
-        throw CLI::ValidationError(what, fmt::format("\"{}\" is not a number", word));
+        throw CLI::ValidationError(option, fmt::format("\"{}\" is not a number{}", word, such_as));
     }
     return value;
 }
 
-std::pair<std::string, std::string> halves(const std::string& word, char between, const char* form) {
-    const auto at = word.find(between, 1);
-    if (at == word.npos) throw CLI::ValidationError(form, fmt::format("\"{}\" is not of the form {}", word, form));
+std::pair<std::string, std::string> halves(const std::string& word, char mark, const char* option, const char* form) {
+    const auto at = word.find(mark, 1);
+    if (at == word.npos) throw CLI::ValidationError(option, fmt::format("\"{}\" is not of the form {}", word, form));
     return {word.substr(0, at), word.substr(at + 1)};
 }
 
 void set_size(PictureOptions& options, const std::string& word) {
-    const auto [width, height] = halves(word, 'x', "WIDTHxHEIGHT");
+    const auto [width, height] = halves(word, 'x', "--size", "WIDTHxHEIGHT");
     for (const std::string& side : {width, height}) {
         const double pixels = number_of(side, "--size");
         if (pixels != std::floor(pixels) || pixels < 16 || pixels > 16384) {
@@ -42,12 +42,25 @@ void set_size(PictureOptions& options, const std::string& word) {
 }
 
 void set_range(PictureOptions& options, const std::string& word) {
-    const auto [low, high] = halves(word, ':', "LOW:HIGH");
+    const auto [low, high] = halves(word, ':', "--color-range", "LOW:HIGH");
     options.color_range = {static_cast<float>(number_of(low, "--color-range")),
                            static_cast<float>(number_of(high, "--color-range"))};
     if (!(options.color_range->first < options.color_range->second)) {
         throw CLI::ValidationError("--color-range", "LOW must be below HIGH, is " + word);
     }
+}
+
+// As CLI::Range, which lets NaN pass.
+CLI::Validator between(double low, double high) {
+    return CLI::Validator(
+        [low, high](std::string& word) {
+            double value = 0;
+            const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+            const bool whole = error == std::errc() && end == word.data() + word.size();
+            return whole && value >= low && value <= high ? ""
+                                                          : fmt::format("must be between {:g} and {:g}, is {}", low, high, word);
+        },
+        "");
 }
 
 // One of some words, or a message that names the nearest.
@@ -85,7 +98,7 @@ std::size_t count_of(const std::string& word) {
         scale = last == 'k' || last == 'K' ? 1e3 : last == 'm' || last == 'M' ? 1e6 : last == 'g' || last == 'G' ? 1e9 : 1;
         if (scale > 1) digits.pop_back();
     }
-    const double value = number_of(digits, "a number of bodies such as 500, 10k or 1M") * scale;
+    const double value = number_of(digits, "--bodies", ", such as 500, 10k or 1M") * scale;
     if (value < 1 || value > 1e15 || value != std::floor(value)) {
         throw CLI::ValidationError("--bodies", fmt::format("must be a whole number of at least 1, is \"{}\"", word));
     }
@@ -143,10 +156,10 @@ void add_options(CLI::App& command, SceneOptions& options) {
     command
         .add_option("--seconds", options.seconds,
                     "how long, in simulated seconds (default: until the demo's promise can be judged)")
-        ->check(CLI::Range(1e-3, 1e6))
+        ->check(between(1e-3, 1e6))
         ->excludes(steps)
         ->group("What");
-    command.add_option("--rate", options.rate, "steps a second")->check(CLI::Range(10.0, 1000.0))->group("What");
+    command.add_option("--rate", options.rate, "steps a second")->check(between(10.0, 1000.0))->group("What");
     command.add_option("--substeps", options.substeps, "of a step; more make taller stacks stand")
         ->check(CLI::Range(1, 64))
         ->group("What");
@@ -167,7 +180,7 @@ void add_options(CLI::App& command, PictureOptions& options) {
             "--size", [&options](const std::string& word) { set_size(options, word); }, "of a picture, WIDTHxHEIGHT (1280x720)")
         ->group(group);
     command.add_option("--fps", options.fps, "pictures for each simulated second, at most --rate")
-        ->check(CLI::Range(0.1, 1000.0))
+        ->check(between(0.1, 1000.0))
         ->group(group);
     command.add_option("--color", options.color, "what colour tells")->check(one_of(color_words()))->group(group);
     command.add_option("--color-map", options.color_map, "how it tells it")->check(one_of(color_map_words()))->group(group);

@@ -22,7 +22,7 @@ public:
     Pictures& operator=(const Pictures&) = delete;
 
     void after_step();  // draws if a picture is due; also before the first step
-    void finish();      // waits until all is written; without it the video is dropped
+    void finish();      // waits until all is written, and throws what went wrong there
     int count() const;
 
 private:

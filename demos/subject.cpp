@@ -19,7 +19,7 @@ namespace {
 
 // What a body takes while it is simulated: the scene itself, the tables of a step on the host and on the device, room for its
 // contacts. Too small, and a run ends half way for want of memory.
-constexpr double bytes_per_body = 4000;
+constexpr double bytes_per_body = 7000;
 
 // Memory that this process may still take: what the system says is available, or less if a limit is set.
 double available_memory() {
@@ -86,8 +86,8 @@ Subject from_file(const std::string& path) {
 }
 
 std::string free_memory() {
-    return fmt::format("{:.1f} GB are free, enough for about {:.1g} bodies", available_memory() / 1e9,
-                       static_cast<double>(most_bodies()));
+    return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", available_memory() / 1e9,
+                       static_cast<double>(most_bodies()) / 1e3);
 }
 
 }  // namespace

@@ -43,9 +43,10 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& found
     if (own.large) return;
     for (std::uint32_t levels = state.counted().levels & ~((1u << around.level) - 1); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
-        const physics::ivec3 middle = physics::cell_of(around.lower, around.upper, level, p.inverse_cell);
-        for (int neighbour = 0; neighbour < 27; ++neighbour) {
-            const physics::ivec3 cell = middle + physics::ivec3(neighbour % 3 - 1, neighbour / 3 % 3 - 1, neighbour / 9 - 1);
+        const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
+        const physics::ivec3 size = range.last - range.first + 1;
+        for (int k = 0; k < size.x * size.y * size.z; ++k) {
+            const physics::ivec3 cell = range.first + physics::ivec3(k % size.x, k / size.x % size.y, k / (size.x * size.y));
             for (const physics::CellEntry& other : bucket(state, physics::bucket_of(cell, level, p.buckets))) {
                 if (other.level != level || !physics::owns_pair(body, around.level, other.body, level)) continue;
                 if (!physics::boxes_overlap(around.lower, around.upper, other.lower, other.upper)) continue;
@@ -64,6 +65,19 @@ std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint3
         first, last, other, [&](const physics::Contact& contact, std::uint32_t body) { return partner(contact) < body; });
     return found != last && partner(*found) == other ? static_cast<std::uint32_t>(found - state.contacts_before.begin())
                                                      : physics::NONE;
+}
+
+physics::Pair matched(const State& state, const physics::Candidate& candidate) {
+    physics::Pair pair{std::min(candidate.owner, candidate.other), std::max(candidate.owner, candidate.other), 0, physics::NONE};
+    pair.previous = contact_before(state, pair.a, pair.b);
+    if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
+    const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+    const bool kept =
+        pair.previous != physics::NONE &&
+        physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[pair.a],
+                         state.velocities[pair.a], tb, state.poses[pair.b], state.velocities[pair.b]);
+    pair.kind = kept ? physics::KIND_KEPT : physics::kind_of(ta.shape, tb.shape);
+    return pair;
 }
 
 }  // namespace
@@ -99,29 +113,19 @@ void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const auto owner = static_cast<std::uint32_t>(i);
-        const auto first = state.pairs.begin() + state.pair_starts[i];
-        auto next = first;
-        for_each_partner(state, owner, [&](std::uint32_t other) {
-            *next++ = {std::min(owner, other), std::max(owner, other), 0, physics::NONE};
-        });
-        // The pairs of one owner differ in their other body alone, so the sum orders them by it.
-        std::sort(first, next, [](const physics::Pair& x, const physics::Pair& y) {
-            return std::uint64_t{x.a} + x.b < std::uint64_t{y.a} + y.b;
-        });
+        auto next = state.candidates.begin() + state.pair_starts[i];
+        for_each_partner(state, owner, [&](std::uint32_t other) { *next++ = {owner, other}; });
     });
 }
 
 void match_pairs(State& state, const Threads& threads, std::uint32_t) {
-    threads.for_each(state.counted().pairs, [&](std::size_t i) {
-        physics::Pair& pair = state.pairs[i];
-        pair.previous = contact_before(state, pair.a, pair.b);
-        if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
-        const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
-        const bool kept =
-            pair.previous != physics::NONE &&
-            physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[pair.a],
-                             state.velocities[pair.a], tb, state.poses[pair.b], state.velocities[pair.b]);
-        pair.kind = kept ? physics::KIND_KEPT : physics::kind_of(ta.shape, tb.shape);
+    if (state.counted().overflow) return;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        const auto first = state.candidates.begin() + state.pair_starts[i];
+        const auto last = state.candidates.begin() + state.pair_starts[i + 1];
+        std::sort(first, last, [](const auto& x, const auto& y) { return x.other < y.other; });
+        std::transform(first, last, state.pairs.begin() + state.pair_starts[i],
+                       [&](const physics::Candidate& candidate) { return matched(state, candidate); });
     });
 }
 

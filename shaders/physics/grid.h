@@ -1,9 +1,9 @@
 // Where a body is in the uniform grid of several levels, and which bodies are near each other.
 //
 // Cells of level l are cell * 2^l wide. A body lies in the one cell of its bounds' centre, on the lowest level whose cells are at
-// least as wide as its bounds; so two bodies of a level that overlap lie in the same or in neighbouring cells, and a body finds
-// the wider ones in the 27 cells round its centre on each coarser level. A row of cells along x is a run of buckets, hence three
-// cells are one range of the sorted list. Planes and rare large bodies lie in one bucket more, which every body looks through.
+// least as wide as its bounds. So what overlaps a body has its centre at most half a cell outside the body's own bounds: in two
+// or three cells along each axis, on its own level and on each coarser one. A row of cells along x is a run of buckets, hence one
+// range of the sorted list. Planes and rare large bodies lie in one bucket more, which every body looks through.
 #ifndef SCREE_PHYSICS_GRID_H
 #define SCREE_PHYSICS_GRID_H
 
@@ -27,9 +27,28 @@ LAW uint level_of(float extent, float inverse_cell) {
     return level < LEVELS - 1u ? level : LEVELS - 1u;
 }
 
+LAW ivec3 cell_at(vec3 point, uint level, float inverse_cell) {
+    vec3 scaled = point * (inverse_cell * power_of_two(-int(level)));
+    return ivec3(int(floor(scaled.x)), int(floor(scaled.y)), int(floor(scaled.z)));
+}
 LAW ivec3 cell_of(vec3 lower, vec3 upper, uint level, float inverse_cell) {
-    vec3 centre = (lower + upper) * (0.5f * inverse_cell * power_of_two(-int(level)));
-    return ivec3(int(floor(centre.x)), int(floor(centre.y)), int(floor(centre.z)));
+    return cell_at((lower + upper) * 0.5f, level, inverse_cell);
+}
+// Where the centre of a body of that level lies if its bounds reach these: at most half a cell outside them.
+struct CellRange {
+    ivec3 first;
+    int pad0;
+    ivec3 last;
+    int pad1;
+};
+LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters parameters) {
+    vec3 reach = vec3(0.5f * parameters.cell * power_of_two(int(level)));
+    CellRange range;
+    range.first = cell_at(lower - reach, level, parameters.inverse_cell);
+    range.last = cell_at(upper + reach, level, parameters.inverse_cell);
+    range.pad0 = 0;
+    range.pad1 = 0;
+    return range;
 }
 
 // Buckets along x follow each other; rows are scattered by a multiplicative hash (Teschner et al. 2003, other primes, mixed once
@@ -53,7 +72,9 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Parameters par
         half_size = absolute3(axes.x) * traits.size.x + absolute3(axes.y) * traits.size.y + absolute3(axes.z) * traits.size.z;
         reach = length3(traits.size);
     }
-    if (traits.shape != SHAPE_SPHERE) {
+    if (traits.shape == SHAPE_PLANE) {
+        half_size = vec3(1.0e30f);
+    } else if (traits.shape != SHAPE_SPHERE) {
         // Turning widens the bounds by at most the arc, and never beyond the sphere around the body.
         float arc = length3(velocity.angular) * parameters.dt * reach;
         half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
@@ -79,7 +100,7 @@ LAW bool boxes_overlap(vec3 lower_a, vec3 upper_a, vec3 lower_b, vec3 upper_b) {
            lower_a.z <= upper_b.z && lower_b.z <= upper_a.z;
 }
 
-// Whether bounds reach a plane: the corner that lies deepest is not in front of it.
+// Whether bounds reach a plane (whose own are infinite): the corner that lies deepest is not in front of it.
 LAW bool reaches_plane(vec3 lower, vec3 upper, vec3 normal, vec3 point) {
     vec3 corner =
         vec3(normal.x > 0.0f ? lower.x : upper.x, normal.y > 0.0f ? lower.y : upper.y, normal.z > 0.0f ? lower.z : upper.z);

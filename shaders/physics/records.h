@@ -109,6 +109,10 @@ struct CellEntry {  // the same, in the order of buckets, then of bodies
     vec3 upper;  // m
     uint level;
 };
+struct Candidate {
+    uint owner;  // the body that found the pair
+    uint other;
+};
 struct Pair {
     uint a, b;      // bodies, a < b
     uint kind;      // KIND_*

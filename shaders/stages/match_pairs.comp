@@ -1,4 +1,4 @@
-// Finds each pair's contact in the last step and says which kernel it needs.
+// Puts each body's pairs in the order of the other body, finds their contacts in the last step and says which kernel they need.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -26,15 +26,20 @@ uint contact_before(uint owner, uint other) {
 void main() {
     uint i = thread();
     if (i >= COUNTS.pairs) return;
-    Pair pair = pairs[i];
+    Candidate candidate = candidates[i];
+    uint place = pair_starts[candidate.owner];
+    uint last = pair_starts[candidate.owner + 1u];
+    for (uint k = place; k < last; ++k)
+        if (candidates[k].other < candidate.other) ++place;
+    Pair pair = Pair(min(candidate.owner, candidate.other), max(candidate.owner, candidate.other), 0u, NONE);
     // Bodies change level with their speed, and then the other one owns the pair.
-    uint previous = contact_before(pair.a, pair.b);
-    if (previous == NONE) previous = contact_before(pair.b, pair.a);
-    pairs[i].previous = previous;
+    pair.previous = contact_before(pair.a, pair.b);
+    if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);
     Traits ta = traits[pair.a], tb = traits[pair.b];
     bool kept = false;
-    if (previous != NONE)
-        kept = is_kept(contacts_before[previous], impulses_before[previous], ta, poses[pair.a], velocities[pair.a], tb,
+    if (pair.previous != NONE)
+        kept = is_kept(contacts_before[pair.previous], impulses_before[pair.previous], ta, poses[pair.a], velocities[pair.a], tb,
                        poses[pair.b], velocities[pair.b]);
-    pairs[i].kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
+    pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
+    pairs[place] = pair;
 }

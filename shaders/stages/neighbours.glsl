@@ -8,24 +8,23 @@ void look_through_large(uint body, Traits own, Bounds around) {
     for (uint k = cells[PARAMETERS.buckets - 1u]; k < cells[PARAMETERS.buckets]; ++k) {
         uint other = cell_entries[k].body;
         if (own.large != 0u && other <= body) continue;
+        CellEntry entry = cell_entries[k];
+        if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         Traits theirs = traits[other];
         if (!can_touch(own, theirs)) continue;
-        CellEntry entry = cell_entries[k];
-        bool near;
+        bool near = true;
         if (theirs.shape == SHAPE_PLANE)
             near = reaches_plane(around.lower, around.upper, theirs.size, poses[other].position);
         else if (own.shape == SHAPE_PLANE)
             near = reaches_plane(entry.lower, entry.upper, own.size, poses[body].position);
-        else
-            near = boxes_overlap(around.lower, around.upper, entry.lower, entry.upper);
         if (near) found(other);
     }
 }
 
-// Three cells along x are one run of buckets, which may wrap round the end of the grid's entries.
-void look_through_row(uint body, Traits own, Bounds around, ivec3 middle, uint level) {
-    uint low = bucket_of(middle - ivec3(1, 0, 0), level, PARAMETERS.buckets);
-    uint high = bucket_of(middle + ivec3(1, 0, 0), level, PARAMETERS.buckets);
+// The cells along x are one run of buckets, which may wrap round the end of the grid's entries.
+void look_through_row(uint body, bool moves, Bounds around, ivec3 from, int last_x, uint level) {
+    uint low = bucket_of(from, level, PARAMETERS.buckets);
+    uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
     uint end = cells[PARAMETERS.buckets - 1u];
     uint first = low == 0u ? 0u : cells[low - 1u];
     uint entries = low <= high ? cells[high] - first : end - first + cells[high];
@@ -35,8 +34,8 @@ void look_through_row(uint body, Traits own, Bounds around, ivec3 middle, uint l
         if (entry.level != level || !owns_pair(body, around.level, entry.body, level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
-        if (cell.y != middle.y || cell.z != middle.z) continue;  // another row whose buckets happen to be the same
-        if (can_touch(own, traits[entry.body])) found(entry.body);
+        if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
+        if (moves || traits[entry.body].motion == MOTION_DYNAMIC) found(entry.body);
     }
 }
 
@@ -47,9 +46,10 @@ void look_around(uint body) {
     if (own.large != 0u) return;
     for (uint level = around.level; level < LEVELS && (COUNTS.levels >> level) != 0u; ++level) {
         if (((COUNTS.levels >> level) & 1u) == 0u) continue;
-        ivec3 cell = cell_of(around.lower, around.upper, level, PARAMETERS.inverse_cell);
-        for (int z = -1; z <= 1; ++z)
-            for (int y = -1; y <= 1; ++y) look_through_row(body, own, around, cell + ivec3(0, y, z), level);
+        CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);
+        for (int z = range.first.z; z <= range.last.z; ++z)
+            for (int y = range.first.y; y <= range.last.y; ++y)
+                look_through_row(body, own.motion == MOTION_DYNAMIC, around, ivec3(range.first.x, y, z), range.last.x, level);
     }
 }
 

@@ -34,6 +34,7 @@
     X(25, slot_sides, SlotSidesTable, uint, slots) /* which side of which contact owns a slot: 2 * contact + side */             \
     X(26, constraints, ConstraintsTable, Constraint, contacts)                                                                   \
     X(27, slots, SlotsTable, Slot, slots)                                                                                        \
-    X(28, block_sums, BlockSumsTable, uint, blocks)
+    X(28, block_sums, BlockSumsTable, uint, blocks)                                                                              \
+    X(29, candidates, CandidatesTable, Candidate, pairs) /* what each body found near it, in any order */
 
 #endif

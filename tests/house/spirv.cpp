@@ -85,6 +85,10 @@ const std::map<std::string, Record>& records() {
             all["CellEntry"] = {sizeof(R), {M(lower), M(body), M(upper), M(level)}};
         }
         {
+            using R = Candidate;
+            all["Candidate"] = {sizeof(R), {M(owner), M(other)}};
+        }
+        {
             using R = Pair;
             all["Pair"] = {sizeof(R), {M(a), M(b), M(kind), M(previous)}};
         }

@@ -1,0 +1,194 @@
+// The demos as the program gives them out: exported scenes run alike, reports are whole, nothing overlaps at the start.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compute/scene_json.h"
+#include "shaders/physics/arithmetic.h"
+#include "tests/program/program.h"
+
+using nlohmann::json;
+using scree::Body;
+using scree::vec3;
+using scree::program::Outcome;
+using scree::program::Place;
+using scree::program::run_scree;
+using scree::program::says;
+
+namespace {
+
+std::vector<std::string> demo_names() {
+    std::istringstream lines(run_scree("list").output);
+    std::vector<std::string> names;
+    std::string line;
+    std::getline(lines, line);  // the heading
+    while (std::getline(lines, line)) names.push_back(line.substr(0, line.find(' ')));
+    return names;
+}
+
+std::string few_bodies(const std::string& name) {
+    return name == "pile" || name == "mix" || name == "avalanche" ? " --bodies 300" : "";
+}
+
+std::string hash_of_run(const std::string& scene) {
+    const Outcome outcome = run_scree("run " + scene + " --backend cpu --steps 5 --quiet --report -");
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 0);
+    return json::parse(outcome.output).at("state_hash");
+}
+
+// The farthest extent of a body along a direction, from its centre.
+double extent(const Body& body, vec3 along) {
+    if (const auto* sphere = std::get_if<scree::Sphere>(&body.shape)) return sphere->radius;
+    const vec3 inside = scree::physics::rotate_back(body.orientation, along);
+    if (const auto* capsule = std::get_if<scree::Capsule>(&body.shape))
+        return capsule->radius + std::abs(inside.y) * capsule->half_height;
+    const vec3 h = std::get<scree::Box>(body.shape).half_extents;
+    return std::abs(inside.x) * h.x + std::abs(inside.y) * h.y + std::abs(inside.z) * h.z;
+}
+
+// Whether some direction parts two bodies (or nearly so: they may touch). The candidates are the bodies' axes, the axes' cross
+// products and the line of centres, which suffices for boxes and is too strict for nothing that the demos place.
+bool parted(const Body& a, const Body& b) {
+    std::vector<vec3> directions = {b.position - a.position};
+    const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    for (const vec3& axis : axes) {
+        directions.push_back(scree::physics::rotate(a.orientation, axis));
+        directions.push_back(scree::physics::rotate(b.orientation, axis));
+        for (const vec3& other : axes) {
+            directions.push_back(
+                glm::cross(scree::physics::rotate(a.orientation, axis), scree::physics::rotate(b.orientation, other)));
+        }
+    }
+    return std::any_of(directions.begin(), directions.end(), [&](vec3 along) {
+        if (glm::length(along) < 1e-4f) return false;
+        along = glm::normalize(along);
+        return std::abs(glm::dot(b.position - a.position, along)) + 1e-4 > extent(a, along) + extent(b, along);
+    });
+}
+
+bool above(const Body& body, const scree::Plane& plane) {
+    return glm::dot(body.position, plane.normal) - plane.offset + 1e-4 > extent(body, -plane.normal);
+}
+
+}  // namespace
+
+TEST_CASE("program: list names the demos, help teaches, the version is told", "[program]") {
+    const std::vector<std::string> names = demo_names();
+    for (const char* name :
+         {"rest", "stack", "tower", "wall", "pyramid", "seesaw", "slopes", "cradle", "dominoes", "pile", "mix", "avalanche"}) {
+        REQUIRE(std::count(names.begin(), names.end(), name) == 1);
+    }
+    const Outcome help = run_scree("--help");
+    REQUIRE(help.status == 0);
+    for (const char* command : {"list", "devices", "run", "compare", "check", "bench", "export", "Exit status"})
+        REQUIRE(says(help.output, command));
+    REQUIRE(run_scree("run --help").status == 0);
+    REQUIRE(says(run_scree("--version").output, "scree "));
+}
+
+TEST_CASE("program: an exported scene runs to the hash of its demo", "[program]") {
+    const Place place;
+    for (const std::string& name : demo_names()) {
+        INFO(name);
+        const std::string file = (place / (name + ".json")).string();
+        REQUIRE(run_scree("export " + name + few_bodies(name) + " -o '" + file + "'").status == 0);
+        REQUIRE(hash_of_run("'" + file + "'") == hash_of_run(name + few_bodies(name)));
+        const std::string again = (place / "again.json").string();
+        REQUIRE(run_scree("export '" + file + "' -o '" + again + "'").status == 0);
+    }
+}
+
+TEST_CASE("program: no bodies of a demo overlap at the start", "[program]") {
+    for (const std::string& name : demo_names()) {
+        const Outcome exported = run_scree("export " + name + few_bodies(name));
+        REQUIRE(exported.status == 0);
+        const scree::Scene scene = scree::checked(scree::scene_from_json(exported.output).scene);
+        REQUIRE(scene.bodies.size() > 1);
+        std::size_t overlaps = 0;
+        for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+            for (std::size_t j = 0; j < scene.bodies.size(); ++j) {
+                const Body &a = scene.bodies[i], &b = scene.bodies[j];
+                if (a.motion != scree::Motion::dynamic || (j <= i && b.motion == scree::Motion::dynamic)) continue;
+                const auto* plane = std::get_if<scree::Plane>(&b.shape);
+                if (plane ? above(a, *plane) : parted(a, b)) continue;
+                if (overlaps++ == 0) UNSCOPED_INFO("bodies " << i << " and " << j);
+            }
+        }
+        INFO(name);
+        REQUIRE(overlaps == 0);
+    }
+}
+
+TEST_CASE("program: a report has every key, and says the same on every run", "[program]") {
+    const Place place;
+    const std::string file = (place / "report.json").string();
+    REQUIRE(run_scree("run mix --bodies 200 --backend cpu --steps 30 --quiet --report '" + file + "'").status == 0);
+    const json report = json::parse(place.read("report.json"));
+    for (const char* key :
+         {"demo",        "backend",   "device",     "bodies",       "steps",          "dt",        "substeps",
+          "ms_per_step", "stages",    "manifolds",  "points",       "penetration",    "max_speed", "kinetic_energy",
+          "momentum",    "drift_max", "not_finite", "below_ground", "buffer_growths", "state_hash"}) {
+        INFO(key);
+        REQUIRE(report.contains(key));
+    }
+    for (const char* key : {"mean", "median", "p95", "min"}) REQUIRE(report["ms_per_step"][key].get<double>() > 0);
+    REQUIRE(report["penetration"].contains("mean"));
+    REQUIRE(report["penetration"].contains("max"));
+    REQUIRE(report["momentum"].size() == 3);
+    REQUIRE(report["bodies"] == 205);  // and a ground and four walls
+    REQUIRE(report["steps"] == 30);
+    REQUIRE(report["dt"].get<double>() == Approx(1.0 / 60));
+    REQUIRE(report["stages"].size() > 5);
+    REQUIRE(run_scree("run mix --bodies 200 --backend cpu --threads 1 --steps 30 --quiet --report '" + file + "'").status == 0);
+    REQUIRE(json::parse(place.read("report.json"))["state_hash"] == report["state_hash"]);
+}
+
+TEST_CASE("program: check holds a demo to its promise, and a run that is too short is not judged", "[program]") {
+    const Outcome kept = run_scree("check rest slopes --backend cpu --quiet");
+    INFO(kept.output);
+    REQUIRE(kept.status == 0);
+    REQUIRE(says(kept.output, "acceleration of the rolling sphere"));
+    REQUIRE(says(kept.output, "promises kept"));
+    const Outcome brief = run_scree("run stack --backend cpu --steps 10");
+    REQUIRE(brief.status == 0);
+    REQUIRE(says(brief.output, "not judged"));
+    // One substep cannot carry forty boxes: the promise is missed, and the status says so.
+    const Outcome missed = run_scree("run tower --backend cpu --substeps 1");
+    INFO(missed.output);
+    REQUIRE(missed.status == 1);
+    REQUIRE(says(missed.output, "MISS"));
+}
+
+TEST_CASE("program: every demo has a promise", "[program]") {
+    for (const std::string& name : demo_names()) {
+        const Outcome run = run_scree("run " + name + few_bodies(name) + " --backend cpu --steps 1");
+        INFO(name);
+        REQUIRE(run.status == 0);
+        REQUIRE(says(run.output, "The promise was not judged"));
+    }
+}
+
+TEST_CASE("program: bench writes a table and CSV with a row for every stage", "[program]") {
+    const Place place;
+    const Outcome bench =
+        run_scree("bench pile --bodies 50,200 --steps 3 --warmup 1 --backend cpu --csv '" + (place / "b.csv").string() + "'");
+    INFO(bench.errors);
+    REQUIRE(bench.status == 0);
+    REQUIRE(says(bench.output, "us/body"));
+    const std::string csv = place.read("b.csv");
+    REQUIRE(says(csv, "demo,device,bodies,manifolds,points,buffer_bytes,stage,ms_per_step"));
+    REQUIRE(std::count(csv.begin(), csv.end(), '\n') > 20);
+}
+
+TEST_CASE("program: the schema is JSON and knows every key of an exported scene", "[program]") {
+    const Outcome schema = run_scree("export --schema");
+    REQUIRE(schema.status == 0);
+    const json known = json::parse(schema.output);
+    const json scene = json::parse(run_scree("export avalanche --bodies 50").output);
+    for (const auto& [key, value] : scene.items()) REQUIRE(known["properties"].contains(key));
+    for (const json& body : scene["bodies"]) {
+        for (const auto& [key, value] : body.items()) REQUIRE(known["$defs"]["body"]["properties"].contains(key));
+    }
+}

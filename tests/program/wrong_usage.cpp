@@ -1,0 +1,170 @@
+// What the program says to wrong usage and wrong input: the place, the cause, the cure; status 2; and nothing left behind.
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <thread>
+
+#include "tests/program/program.h"
+
+using scree::program::Outcome;
+using scree::program::Place;
+using scree::program::run_scree;
+using scree::program::says;
+
+namespace {
+
+void require_refused(const Outcome& outcome, const std::vector<std::string>& words) {
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 2);
+    REQUIRE(outcome.output.empty());
+    for (const std::string& word : words) {
+        INFO(word);
+        REQUIRE(says(outcome.errors, word));
+    }
+    REQUIRE(says(outcome.errors, "scree: "));
+    REQUIRE_FALSE(says(outcome.errors, "terminate called"));
+}
+
+void require_scene_refused(const std::string& text, const std::vector<std::string>& words) {
+    const Place place;
+    const std::string file = place.write("scene.json", text);
+    const Outcome outcome = run_scree("run '" + file + "' --backend cpu --steps 1");
+    require_refused(outcome, words);
+    REQUIRE(says(outcome.errors, file + ": "));
+}
+
+std::string scene_with(const std::string& body) {
+    return "{\"bodies\": [{\"shape\": {\"sphere\": {\"radius\": 1}}},\n" + body + "]}";
+}
+
+}  // namespace
+
+TEST_CASE("program: an unknown demo is answered with the nearest and with scree list", "[program]") {
+    require_refused(run_scree("run avalanch"), {"unknown demo \"avalanch\"", "nearest: \"avalanche\"", "scree list"});
+    require_refused(run_scree("check pyramit"), {"nearest: \"pyramid\""});
+    require_refused(run_scree("export nothing-like-it"), {"unknown demo", "scree list"});
+}
+
+TEST_CASE("program: an unknown option or value is answered with what is known", "[program]") {
+    require_refused(run_scree("run wall --backend vulcan"), {"--backend", "\"vulcan\"", "nearest: \"vulkan\"", "cpu"});
+    require_refused(run_scree("run wall --colour speed"), {"--colour", "--help"});
+    require_refused(run_scree("run wall --color sped"), {"--color", "speed"});
+    require_refused(run_scree("run wall --size 12by9"), {"12by9", "WIDTHxHEIGHT"});
+    require_refused(run_scree("run wall --size 8x8"), {"between 16 and 16384"});
+    require_refused(run_scree("run wall --color-range 5:1"), {"LOW must be below HIGH"});
+    require_refused(run_scree("run wall --steps 0"), {"--steps"});
+    require_refused(run_scree("run wall --rate nan"), {"--rate", "between 10 and 1000"});
+    require_refused(run_scree("run wall --seconds nan"), {"--seconds"});
+    require_refused(run_scree("run wall --color-range nan:1"), {"nan"});
+    require_refused(run_scree("run wall --steps 5 --seconds 1"), {"--s"});
+    require_refused(run_scree("run pile --bodies many"), {"\"many\" is not a number"});
+    require_refused(run_scree("run pile --bodies -5"), {"--bodies", "at least 1"});
+    require_refused(run_scree("run wall --bodies 100"), {"wall", "fixed number", "avalanche"});
+    require_refused(run_scree("run wall --fps 120"), {"--fps 120", "--rate"});
+    require_refused(run_scree(""), {"--help"});
+}
+
+TEST_CASE("program: a scene file that is not there or not JSON is refused with line and column", "[program]") {
+    require_refused(run_scree("run no/such/scene.json"), {"no/such/scene.json", "No such file"});
+    require_scene_refused("{\"bodies\": [\n  {\"shape\": }\n]}", {"line 2, column 13", "not valid JSON"});
+    require_scene_refused("", {"line 1, column 1"});
+    require_scene_refused("[]", {"must be an object"});
+    require_scene_refused("{}", {"bodies"});
+}
+
+TEST_CASE("program: a scene file with a wrong key or value is refused with its JSON pointer", "[program]") {
+    require_scene_refused(scene_with(R"({"shape": {"cone": {"radius": 1}}})"),
+                          {"/bodies/1/shape: unknown shape \"cone\"; known: box, capsule, sphere, plane"});
+    require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "frictoin": 1})"),
+                          {"/bodies/1/frictoin: unknown key \"frictoin\"; nearest: \"friction\""});
+    require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "position": [0, NaN, 0]})"),
+                          {"line 2", "NaN", "must be finite"});
+    require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "position": [0, 1e999, 0]})"),
+                          {"line 2", "1e999", "3.4e38"});
+    require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1e39}}})"), {"/bodies/1/shape/sphere/radius", "3.4e38"});
+    require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 0}}, "name": "dot"})"),
+                          {"/bodies/1/shape/sphere/radius: must be between 0.001 and 100000 m, is 0", "(body \"dot\")"});
+    require_scene_refused(scene_with(R"({"shape": {"box": {"half_extents": [1, -0.5, 1]}}})"),
+                          {"/bodies/1/shape/box/half_extents/1: must be between 0.001 and 100000 m, is -0.5"});
+    require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "orientation": [0, 0, 0, 0]})"),
+                          {"/bodies/1/orientation", "length 0"});
+    require_scene_refused(scene_with(R"({"shape": {"plane": {}}})"), {"/bodies/1/motion", "fixed"});
+    require_scene_refused(R"({"bodies": [], "joints": [{}]})", {"/joints", "not supported yet"});
+}
+
+TEST_CASE("program: more bodies than fit into memory are refused before they are made, with what would fit", "[program]") {
+    require_refused(run_scree("run pile --bodies 900G"), {"--bodies 900000000000", "beyond memory", "GB", "enough for about"});
+    const Place place;
+    std::string text = "{\"bodies\": [";
+    for (int i = 0; i < 150000; ++i) text += std::string(i ? "," : "") + "{\"shape\":{\"sphere\":{\"radius\":1}}}\n";
+    const std::string file = place.write("large.json", text + "]}");
+    require_refused(run_scree("run '" + file + "' --backend cpu --steps 1", "ulimit -v 400000;"), {file, "/bodies", "memory"});
+}
+
+TEST_CASE("program: a frames folder, video or report that cannot be written is refused before the run", "[program]") {
+    const Place place;
+    const std::string file = place.write("file", "in the way");
+    require_refused(run_scree("run rest --frames '" + file + "/frames'"), {file});
+    require_refused(run_scree("run rest --video '" + file + "/clip.mp4'"), {file});
+    require_refused(run_scree("run rest --report '" + file + "/r.json'"), {file, "make it first"});
+    REQUIRE(place.read("file") == "in the way");
+}
+
+TEST_CASE("program: a device that is not there is refused with those that are", "[program]") {
+    require_refused(run_scree("run rest --device 99"), {"99", "there are"});
+    require_refused(run_scree("run rest --backend cpu --device 0"), {"--device", "--threads"});
+}
+
+TEST_CASE("program: without ffmpeg a video is refused with the package to install", "[program]") {
+    const Place place;
+    const std::string video = (place / "clip.mp4").string();
+    require_refused(run_scree("run rest --steps 1 --video '" + video + "'", "PATH=/nowhere"),
+                    {"ffmpeg", "apt-get install ffmpeg"});
+    REQUIRE_FALSE(std::filesystem::exists(video));
+}
+
+TEST_CASE("program: without a Vulkan driver a run goes on with the processor and says so", "[program]") {
+    const std::string none = "VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json";
+    const Outcome run = run_scree("run rest --steps 2", none);
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    REQUIRE(says(run.errors, "simulating on the processor"));
+    require_refused(run_scree("run rest --steps 2 --backend vulkan", none), {"mesa-vulkan-drivers"});
+    require_refused(run_scree("run rest --steps 2 --frames frames-nowhere --backend cpu", none), {"mesa-vulkan-drivers"});
+    require_refused(run_scree("devices", none), {"mesa-vulkan-drivers"});
+}
+
+TEST_CASE("program: Ctrl-C ends a long run with whole pictures, no report, and status 130", "[program]") {
+    const Place place;
+    const std::string at = place.path().string();
+    const std::string start =
+        "--seconds 10000 --size 320x180 --frames '" + at + "/frames' --video '" + at + "/clip.mp4' --report '" + at + "/r.json'";
+    // The shell gives the program's number to the file, so that it can be sent the signal.
+    std::thread interrupter([&] {
+        for (int i = 0; i < 600 && !std::filesystem::exists(place / "frames/frame_000003.png"); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        const int process = std::atoi(place.read("pid").c_str());
+        if (process > 0) ::kill(process, SIGINT);
+    });
+    const Outcome outcome = run_scree("run dominoes --backend cpu " + start, "echo $$ >'" + at + "/pid'; exec");
+    interrupter.join();
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 130);
+    REQUIRE(says(outcome.errors, "interrupted after"));
+    REQUIRE_FALSE(std::filesystem::exists(place / "r.json"));
+    for (const auto& entry : std::filesystem::directory_iterator(place.path())) {
+        INFO(entry.path());
+        const std::string name = entry.path().filename().string();
+        REQUIRE((name == "frames" || name == "pid" || name == "clip.mp4"));
+        if (name == "clip.mp4") REQUIRE(says(place.read(name), "moov"));  // the index, written last
+    }
+    for (const auto& entry : std::filesystem::directory_iterator(place / "frames")) {
+        INFO(entry.path());
+        REQUIRE(entry.path().extension() == ".png");
+        const std::string bytes = place.read("frames/" + entry.path().filename().string());
+        REQUIRE(bytes.size() > 20);
+        REQUIRE(bytes.substr(bytes.size() - 8, 4) == "IEND");
+    }
+}
