@@ -14,7 +14,7 @@ namespace scree {
 namespace {
 
 // Levels of the grid with fewer bodies than this are cheaper to look through than to look up.
-constexpr std::size_t few_bodies = 8;
+constexpr std::size_t few_bodies = 24;
 constexpr std::size_t most_large = 64;
 
 float width_of(const physics::Traits& traits) {

@@ -21,7 +21,9 @@ struct Valley {
         : columns(std::max(6, static_cast<int>(std::lround(1.45 * std::cbrt(static_cast<double>(count)))))),
           length(cell * static_cast<float>(columns)),
           half_width(0.5f * length + 0.3f),
+          layers(std::ceil(static_cast<float>(count) / static_cast<float>(columns * columns))),
           thickness(0.06f * length),
+          wall(cell * (layers + 0.5f)),
           tread(0.15f * length),
           riser(0.13f * length),
           incline(42 * degrees) {}
@@ -31,7 +33,11 @@ struct Valley {
     float surface(float x) const { return terrace_top() + (edge() - x) * std::tan(incline); }
 
     int columns;  // of stones, along the slope and across
-    float length, half_width, thickness, tread, riser;
+    float length, half_width;
+    float layers;  // of stones
+    float thickness;
+    float wall;  // height above the incline: as high as the stones lie
+    float tread, riser;
     float incline;  // rad
 };
 
@@ -45,15 +51,17 @@ void add_walls(Scene& scene, vec3 centre, vec3 half, float friction, vec4 turn, 
 void add_valley(Scene& scene, const Valley& v) {
     const float t = v.thickness, friction = 0.25f;
     scene.bodies.push_back(ground(0.7f));
-    // The incline's surface passes through (edge, terrace_top); it goes on past the last stone, and a wall behind keeps them in.
+    // The incline's surface passes through (edge, terrace_top) and goes on past the last stone, where an upright wall keeps them
+    // in.
     const vec3 out(std::sin(v.incline), std::cos(v.incline), 0), down(std::cos(v.incline), -std::sin(v.incline), 0);
     const float half_length = 0.5f * (v.length / std::cos(v.incline) + 2 * cell);
     const vec4 turn = turned({0, 0, 1}, -v.incline);
     const vec3 middle = vec3(v.edge(), v.terrace_top(), 0) - down * half_length;
     scene.bodies.push_back(fixed_box(middle - out * t, {half_length, t, v.half_width}, friction, turn));
-    add_walls(scene, middle + out * t, {half_length, 2 * t, 0.4f * t}, friction, turn, v);
+    add_walls(scene, middle + out * (0.5f * (v.wall - t)), {half_length, 0.5f * (v.wall + t), 0.4f * t}, friction, turn, v);
+    const float back = v.edge() - v.length - 0.1f, back_wall = 0.5f * (v.wall / std::cos(v.incline) + t);
     scene.bodies.push_back(
-        fixed_box(middle - down * (half_length + 0.4f * t) + out * t, {0.4f * t, 2 * t, v.half_width}, friction, turn));
+        fixed_box({back - 0.4f * t, v.surface(back) - t + back_wall, 0}, {0.4f * t, back_wall, v.half_width}, friction));
     for (int i = 0; i < terraces; ++i) {
         const float top = v.riser * static_cast<float>(terraces - i);
         const float x = v.edge() + v.tread * (static_cast<float>(i) + 0.5f);
@@ -101,8 +109,7 @@ DemoScene avalanche(const DemoOptions& options) {
         stone.friction = 0.35f;
         scene.bodies.push_back(stone);
     }
-    const float layers = std::ceil(static_cast<float>(options.bodies) / static_cast<float>(side * side));
-    const float back = v.edge() - v.length, top = v.surface(back) + cell * (layers + 1), run_out = 0.95f * v.length;
+    const float back = v.edge() - v.length, top = v.surface(back) + cell * (v.layers + 1), run_out = 0.95f * v.length;
     const vec3 low(back, 0, -v.half_width), high(run_out, top, v.half_width);
     std::vector<vec3> seen;
     for (const float z : {-v.half_width, v.half_width}) {

@@ -13,15 +13,15 @@ namespace {
 constexpr float largest_reach = 0.42f;  // m
 constexpr float cell = 2 * largest_reach;
 
-// `count` bodies in a lattice above a pit that is about as wide as the lattice is high.
+// `count` bodies in a lattice above a pit that is twice as wide as the lattice is high: one sees into it.
 DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), float smallest_reach) {
     const std::size_t count = options.bodies;
-    const int side = std::max(2, static_cast<int>(std::ceil(std::cbrt(static_cast<double>(count)))));
+    const int side = std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * static_cast<double>(count)))));
     Scene scene;
     scene.bodies.reserve(count + 5);
     scene.bodies.push_back(ground());
     const float half = 0.5f * cell * static_cast<float>(side) + 0.1f;
-    const float wall = 0.9f * cell * static_cast<float>(side);
+    const float wall = 0.4f * cell * static_cast<float>(side);
     add_pit(scene, {half, wall, half}, 0.5f);
     Random random(options.seed);
     float top = 0;
@@ -38,12 +38,12 @@ DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), f
     const vec3 low(-outside, 0, -outside), high(outside, top, outside);
     const float seconds = 8 + 0.2f * static_cast<float>(side);  // the higher the lattice, the longer it falls and settles
     return {std::move(scene),
-            view_of(low, high, 35, 32),
+            view_of(low, high, 35, 38),
             low,
             high,
             seconds,
-            Promise(all_within({-half, -0.01f, -half}, {half, wall + cell, half}), penetration_below(0.05),
-                    energy_never_rises(0.01), end_speed_below(0.5))
+            Promise(all_within({-half, -0.01f, -half}, {half, 2 * wall, half}), penetration_below(0.05), energy_never_rises(0.01),
+                    end_speed_below(0.5))
                 .watching_energy()};
 }
 

@@ -29,7 +29,7 @@ Body random_mixed(float reach, Random& random) {
         const float radius = shrunk * reach * random.between(0.4f, 0.6f);
         body.shape = Capsule{radius, shrunk * reach - radius};
     }
-    body.rolling_resistance = 0.12f * reach;  // round bodies come to rest as stones do
+    body.rolling_resistance = 0.05f * reach;  // round bodies come to rest as stones do
     return body;
 }
 
