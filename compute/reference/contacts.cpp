@@ -94,11 +94,11 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
                                                state.impulses_before[pair.previous], physics::match_radius(ta, tb));
         }
         impulse.separation = physics::separations_of(manifold);
-        c = physics::constraint_of(contact, ta, ma, tb, mb, c.slot_a, c.slot_b, p);
+        c = physics::constraint_of(contact, ta, tb, c.slot_a, c.slot_b, p);
         c.pair = index;
 
         const physics::Couple now = velocities_of(state, c);
-        const float carrying = physics::carries(c, impulse, now, p);
+        const float carrying = physics::carries(c, impulse, now, ma, mb, p);
         hand_out(state, c, now, now, physics::warm_start(c, impulse, physics::at_rest(), ma, mb), carrying);
     });
 }
@@ -123,7 +123,8 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         state.impulses[i] = physics::without_blows(after.impulse, c.count);
         physics::Couple guess = physics::at_rest();
         if (!last) guess = physics::warm_start(c, state.impulses[i], guess, ma, mb);
-        hand_out(state, c, before, after.couple, guess, physics::carries(c, state.impulses[i], after.couple, state.fixed()));
+        hand_out(state, c, before, after.couple, guess,
+                 physics::carries(c, state.impulses[i], after.couple, ma, mb, state.fixed()));
     });
 }
 

@@ -16,6 +16,8 @@
 //
 // Both bodies feel an impulse at the same point, although they move on through the substeps: the lever arm of one is fixed, that
 // of the other follows from the present distance d between the centres. So angular momentum is exact to rounding.
+// A body that flies past another leaves it within the step: once the way along the surface is longer than the other is
+// thick, the points hang in the air beside it, and the contact pushes no more until the next step finds it anew.
 #ifndef SCREE_PHYSICS_BLOCK_H
 #define SCREE_PHYSICS_BLOCK_H
 
@@ -50,12 +52,48 @@ LAW Levers levers_of(Constraint c, vec3 arm, vec3 d) {
     return levers;
 }
 
-// An impulse on B at the lever arms r, its opposite on A; the masses are those lent (split_a, split_b).
-LAW Couple pushed(Couple v, Levers r, vec3 impulse, Mass a, float split_a, Mass b, float split_b) {
-    v.a.linear = v.a.linear - impulse * (a.inverse_mass * split_a);
-    v.a.angular = v.a.angular - turned_by(a, cross3(r.a, impulse)) * split_a;
-    v.b.linear = v.b.linear + impulse * (b.inverse_mass * split_b);
-    v.b.angular = v.b.angular + turned_by(b, cross3(r.b, impulse)) * split_b;
+// A direction in which the two bodies push each other at a point, with what it does to them. The effective mass and the velocity
+// changes come from the same lever arms, those of now: masses from the step's start would, where a body flies past another,
+// give it more than it can take.
+struct Row {
+    vec3 direction;
+    float give_a;  // 1/mass of A felt along it: 1/m + (r x u).I^-1 (r x u), 1/kg
+    vec3 arm_a;    // r x u, m
+    float give_b;
+    vec3 arm_b;
+    float pad0;
+    vec3 turn_a;  // I^-1 (r x u)
+    float pad1;
+    vec3 turn_b;
+    float pad2;
+};
+LAW Row row_of(Levers r, vec3 direction, Mass a, Mass b) {
+    Row row;
+    row.direction = direction;
+    row.arm_a = cross3(r.a, direction);
+    row.arm_b = cross3(r.b, direction);
+    row.turn_a = turned_by(a, row.arm_a);
+    row.turn_b = turned_by(b, row.arm_b);
+    row.give_a = a.inverse_mass + dot3(row.arm_a, row.turn_a);
+    row.give_b = b.inverse_mass + dot3(row.arm_b, row.turn_b);
+    row.pad0 = 0.0f;
+    row.pad1 = 0.0f;
+    row.pad2 = 0.0f;
+    return row;
+}
+LAW float mass_along(Row row, Mass a, Mass b) {
+    return reciprocal(row.give_a * a.split + row.give_b * b.split);
+}
+// Velocity of B against A along the row.
+LAW float speed_along(Row row, Couple v) {
+    return dot3(row.direction, v.b.linear - v.a.linear) + (dot3(row.arm_b, v.b.angular) - dot3(row.arm_a, v.a.angular));
+}
+// An impulse along the row on B, its opposite on A; the bodies are those lent (split_a, split_b).
+LAW Couple pushed(Couple v, Row row, float impulse, Mass a, float split_a, Mass b, float split_b) {
+    v.a.linear = v.a.linear - row.direction * (impulse * a.inverse_mass * split_a);
+    v.a.angular = v.a.angular - row.turn_a * (impulse * split_a);
+    v.b.linear = v.b.linear + row.direction * (impulse * b.inverse_mass * split_b);
+    v.b.angular = v.b.angular + row.turn_b * (impulse * split_b);
     return v;
 }
 LAW Couple twisted(Couple v, vec3 impulse, Mass a, float split_a, Mass b, float split_b) {
@@ -63,11 +101,6 @@ LAW Couple twisted(Couple v, vec3 impulse, Mass a, float split_a, Mass b, float 
     v.b.angular = v.b.angular + turned_by(b, impulse) * split_b;
     return v;
 }
-// Velocity of B against A at a point.
-LAW vec3 closing(Couple v, Levers r) {
-    return (v.b.linear + cross3(v.b.angular, r.b)) - (v.a.linear + cross3(v.a.angular, r.a));
-}
-
 LAW float round_gap(Constraint c, vec3 d) {
     return length3((d + c.centre) - xyz(c.arms[0])) - (c.radius_a + c.radius_b);
 }
@@ -77,7 +110,7 @@ LAW Constraint at_present(Constraint c, vec3 d) {
     vec3 core = xyz(c.arms[0]);
     c.normal = unit3((d + c.centre) - core, c.normal);
     vec3 arm = core + c.normal * (c.radius_a + 0.5f * round_gap(c, d));
-    c.arms[0] = vec4(arm, c.arms[0].w);
+    c.arms[0] = vec4(arm, 0.0f);
     c.centre = arm;
     c.anchor = ANCHOR_A;
     return c;
@@ -114,21 +147,26 @@ LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     if (c.reach > 0.0f) {
         float spin = dot3(c.normal, s.couple.b.angular - s.couple.a.angular);
         float before = s.impulse.twist;
-        s.impulse.twist =
-            clamped(before - spin * reciprocal(c.twist_a * a.split + c.twist_b * b.split), -most * c.reach, most * c.reach);
+        float give = dot3(c.normal, turned_by(a, c.normal)) * a.split + dot3(c.normal, turned_by(b, c.normal)) * b.split;
+        s.impulse.twist = clamped(before - spin * reciprocal(give), -most * c.reach, most * c.reach);
         s.couple = twisted(s.couple, c.normal * (s.impulse.twist - before), a, a.split, b, b.split);
     }
     vec3 t1 = tangent(c.normal);
     vec3 t2 = cross3(c.normal, t1);
     Levers r = levers_of(c, c.centre, s.impulse.d);
-    vec3 slip = closing(s.couple, r);
-    float slip1 = dot3(t1, slip), slip2 = dot3(t2, slip);
-    vec3 k = c.slide_a * a.split + c.slide_b * b.split;
-    float inverse = reciprocal(k.x * k.z - k.y * k.y);
-    vec3 wanted = t1 * ((k.z * slip1 - k.y * slip2) * inverse) + t2 * ((k.x * slip2 - k.y * slip1) * inverse);
+    Row row1 = row_of(r, t1, a, b);
+    Row row2 = row_of(r, t2, a, b);
+    float k11 = row1.give_a * a.split + row1.give_b * b.split;
+    float k12 = dot3(row2.arm_a, row1.turn_a) * a.split + dot3(row2.arm_b, row1.turn_b) * b.split;
+    float k22 = row2.give_a * a.split + row2.give_b * b.split;
+    float slip1 = speed_along(row1, s.couple), slip2 = speed_along(row2, s.couple);
+    float inverse = reciprocal(k11 * k22 - k12 * k12);
+    vec3 wanted = t1 * ((k22 * slip1 - k12 * slip2) * inverse) + t2 * ((k11 * slip2 - k12 * slip1) * inverse);
     vec3 before = s.impulse.friction;
     s.impulse.friction = shortened(before - wanted, most);
-    s.couple = pushed(s.couple, r, s.impulse.friction - before, a, a.split, b, b.split);
+    vec3 change = s.impulse.friction - before;
+    s.couple = pushed(s.couple, row1, dot3(t1, change), a, a.split, b, b.split);
+    s.couple = pushed(s.couple, row2, dot3(t2, change), a, a.split, b, b.split);
     return s;
 }
 
@@ -140,12 +178,13 @@ LAW Solved with_friction(Constraint c, Solved s, float normal, Mass a, Mass b) {
 // The biased pass: normal impulses against the soft spring, or exactly up to touching where the bodies are still apart.
 LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
     c = at_present(c, impulse.d);
+    bool gone = impulse.slipped > c.leave;
     float normal = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
-        Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
-        float mass = reciprocal(c.arms[k].w * a.split + c.give_b[k] * b.split);
-        float speed = dot3(c.normal, closing(v, r));
+        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
+        float mass = mass_along(row, a, b);
+        float speed = speed_along(row, v);
         float separation = impulse.separation[k];
         float before = impulse.normal[k];
         float change;
@@ -158,10 +197,10 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
         if (c.restitution > 0.0f && impulse.approach[k] == 0.0f && before == 0.0f && speed < -parameters.restitution_threshold &&
             separation + parameters.h * speed < 0.0f)
             impulse.approach[k] = speed;
-        float after = positive(before + change);
+        float after = gone ? 0.0f : positive(before + change);
         impulse.normal[k] = after;
         normal = normal + after;
-        v = pushed(v, r, c.normal * (after - before), a, a.split, b, b.split);
+        v = pushed(v, row, after - before, a, a.split, b, b.split);
     }
     Solved result;
     result.impulse = impulse;
@@ -174,32 +213,35 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
 LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count || c.anchor == ANCHOR_ROUND) break;
-        Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
-        impulse.separation[k] = impulse.separation[k] + parameters.h * dot3(c.normal, closing(v, r));
+        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
+        impulse.separation[k] = impulse.separation[k] + parameters.h * speed_along(row, v);
     }
-    impulse.d = impulse.d + (v.b.linear - v.a.linear) * parameters.h;
+    vec3 way = (v.b.linear - v.a.linear) * parameters.h;
+    impulse.d = impulse.d + way;
+    impulse.slipped = impulse.slipped + length3(way - c.normal * dot3(way, c.normal));
     if (c.anchor == ANCHOR_ROUND) impulse.separation.x = round_gap(c, impulse.d);
     c = at_present(c, impulse.d);
+    bool gone = impulse.slipped > c.leave;
     float normal = 0.0f;
     float slack = 2.0f * parameters.h * length3(parameters.gravity);
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
-        Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
-        float mass = reciprocal(c.arms[k].w * a.split + c.give_b[k] * b.split);
-        float speed = dot3(c.normal, closing(v, r));
+        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
+        float mass = mass_along(row, a, b);
+        float speed = speed_along(row, v);
         float target = impulse.separation[k] > 0.0f ? impulse.separation[k] * parameters.inverse_h : 0.0f;
         if (impulse.approach[k] < 0.0f) {
             target = c.restitution * impulse.approach[k];
             if (speed > -0.97f * target - slack) impulse.approach[k] = 0.0f;
         }
         float before = impulse.normal[k];
-        float after = positive(before - mass * (speed + target));
+        float after = gone ? 0.0f : positive(before - mass * (speed + target));
         // A blow about to fall is left to the next substep, which sees how fast it is.
         if (c.restitution > 0.0f && impulse.approach[k] == 0.0f && before == 0.0f && speed < -parameters.restitution_threshold)
             after = 0.0f;
         impulse.normal[k] = after;
         normal = normal + after;
-        v = pushed(v, r, c.normal * (after - before), a, a.split, b, b.split);
+        v = pushed(v, row, after - before, a, a.split, b, b.split);
     }
     Solved result;
     result.impulse = impulse;
@@ -232,20 +274,23 @@ LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
     c = at_present(c, impulse.d);
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
-        v = pushed(v, levers_of(c, xyz(c.arms[k]), impulse.d), c.normal * impulse.normal[k], a, 1.0f, b, 1.0f);
+        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
+        v = pushed(v, row, impulse.normal[k], a, 1.0f, b, 1.0f);
     }
-    v = pushed(v, levers_of(c, c.centre, impulse.d), impulse.friction, a, 1.0f, b, 1.0f);
+    Row row = row_of(levers_of(c, c.centre, impulse.d), impulse.friction, a, b);
+    v = pushed(v, row, 1.0f, a, 1.0f, b, 1.0f);
     return twisted(v, impulse.rolling + c.normal * impulse.twist, a, 1.0f, b, 1.0f);
 }
 
 // Whether the contact carries or will in the next substep, gravity included.
-LAW float carries(Constraint c, Impulse impulse, Couple v, Parameters parameters) {
+LAW float carries(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
+    if (impulse.slipped > c.leave) return 0.0f;
     c = at_present(c, impulse.d);
     float fall = 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
         if (impulse.normal[k] > 0.0f) return 1.0f;
-        float speed = dot3(c.normal, closing(v, levers_of(c, xyz(c.arms[k]), impulse.d)));
+        float speed = speed_along(row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b), v);
         if (impulse.separation[k] + parameters.h * speed < fall) return 1.0f;
     }
     return 0.0f;

@@ -34,7 +34,7 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.friction = vec3(0.0f);
     impulse.twist = 0.0f;
     impulse.rolling = vec3(0.0f);
-    impulse.pad0 = 0.0f;
+    impulse.slipped = 0.0f;
     impulse.d = d;
     impulse.pad1 = 0.0f;
     return impulse;
@@ -107,17 +107,6 @@ LAW vec4 separations_of(Manifold manifold) {
     return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
 }
 
-// 1/mass that a push along u at the lever arm r meets: 1/m + (r x u).I^-1 (r x v), with v = u for the effective mass itself.
-LAW float give(Mass mass, vec3 r, vec3 u) {
-    vec3 arm = cross3(r, u);
-    return mass.inverse_mass + dot3(arm, turned_by(mass, arm));
-}
-LAW vec3 slide_give(Mass mass, vec3 r, vec3 t1, vec3 t2) {
-    vec3 arm2 = cross3(r, t2);
-    vec3 turn1 = turned_by(mass, cross3(r, t1));
-    return vec3(give(mass, r, t1), dot3(arm2, turn1), give(mass, r, t2));
-}
-
 // The points stay with the rounder body, or with the thinner one: a ball rolls on, a small box slides on over a big one, and the
 // contact goes with it. Between two round bodies the point and the normal follow both.
 LAW bool is_round(Traits traits) {
@@ -144,8 +133,7 @@ LAW vec3 patch_centre(Contact contact, Parameters parameters) {
     return centre * reciprocal(weights);
 }
 
-LAW Constraint constraint_of(Contact contact, Traits ta, Mass a, Traits tb, Mass b, uint slot_a, uint slot_b,
-                             Parameters parameters) {
+LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a, uint slot_b, Parameters parameters) {
     Constraint c;
     c.a = contact.a;
     c.b = contact.b;
@@ -160,30 +148,22 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Mass a, Traits tb, Mass
     c.anchor = anchor_of(contact, ta, tb);
     c.radius_a = ta.size.x;
     c.radius_b = tb.size.x;
-    c.pad = 0u;
-    c.give_b = vec4(0.0f);
+    c.leave = c.anchor == ANCHOR_ROUND ? 1.0e30f : thickness(ta);
+    if (c.anchor == ANCHOR_A) c.leave = thickness(tb);
     vec3 centre = patch_centre(contact, parameters);
     float reach = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {
         c.arms[k] = vec4(0.0f);
         if (k >= contact.count) continue;
         vec3 arm = xyz(contact.points[k]);
-        vec3 from_b = arm - contact.d;
-        c.arms[k] = vec4(c.anchor == ANCHOR_B ? from_b : arm, give(a, arm, contact.normal));
-        c.give_b[k] = give(b, from_b, contact.normal);
+        c.arms[k] = vec4(c.anchor == ANCHOR_B ? arm - contact.d : arm, 0.0f);
         reach = reach + length3(arm - centre);
     }
     c.reach = contact.count > 1u ? reach * reciprocal(float(contact.count)) : 0.0f;
-    vec3 t1 = tangent(contact.normal);
-    vec3 t2 = cross3(contact.normal, t1);
-    c.slide_a = slide_give(a, centre, t1, t2);
-    c.slide_b = slide_give(b, centre - contact.d, t1, t2);
-    c.twist_a = dot3(contact.normal, turned_by(a, contact.normal));
-    c.twist_b = dot3(contact.normal, turned_by(b, contact.normal));
     c.centre = c.anchor == ANCHOR_B ? centre - contact.d : centre;
     if (c.anchor == ANCHOR_ROUND) {
         vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
-        c.arms[0] = vec4(centre - half_gap - contact.normal * c.radius_a, c.arms[0].w);
+        c.arms[0] = vec4(centre - half_gap - contact.normal * c.radius_a, 0.0f);
         c.centre = (centre - contact.d) + half_gap + contact.normal * c.radius_b;
     }
     return c;

@@ -139,8 +139,8 @@ struct Impulse {
     vec3 friction;    // in the tangent plane, world, on B, N s
     float twist;      // about the normal, N m s
     vec3 rolling;     // world, on B, N m s
-    float pad0;
-    vec3 d;  // centre of B minus centre of A now, m: where both bodies feel the same point
+    float slipped;    // way of B along A's surface in this step, m
+    vec3 d;           // centre of B minus centre of A now, m: where both bodies feel the same point
     float pad1;
 };
 
@@ -155,23 +155,16 @@ struct Constraint {
     uint slot_a, slot_b;  // where their velocity changes go; NONE for a body that contacts do not move
     vec3 normal;          // unit, world, from A to B
     float friction;       // Coulomb coefficient of the pair
-    // xyz: from the anchor's centre to the point, m (ANCHOR_ROUND: from A's centre to the centre of A's curvature);
-    // w: 1/mass of A felt there along the normal, 1/kg
-    vec4 arms[4];
-    vec4 give_b;               // per point: 1/mass of B felt along the normal, 1/kg; 0 with arms.w = 0 for an unused point
-    vec3 centre;               // of the friction patch, as the arms, m (ANCHOR_ROUND: of B's curvature, from B's centre)
-    float twist_a;             // 1/inertia of A about the normal, 1/(kg m^2)
-    vec3 slide_a;              // 1/mass of A in the tangent plane at the patch: (11, 12, 22), 1/kg
-    float twist_b;             // of B
-    vec3 slide_b;              // of B
+    vec4 arms[4];  // xyz: from the anchor's centre to the point, m (ANCHOR_ROUND: from A's centre to the centre of A's curvature)
+    vec3 centre;   // of the friction patch, as the arms, m (ANCHOR_ROUND: of B's curvature, from B's centre)
+    float reach;   // mean distance of the points from the patch's centre, m: lever arm of twisting friction
     float rolling_resistance;  // of the pair, m
-    float reach;               // mean distance of the points from the patch's centre, m: lever arm of twisting friction
     float restitution;         // of the pair
     uint count;                // points
-    uint pair;                 // whose manifold it is
     uint anchor;               // ANCHOR_*
     float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m
-    uint pad;
+    uint pair;                 // whose manifold it is
+    float leave;               // way after which the points have left the body that they slide over, m
 };
 struct Slot {       // what one contact did to one body; a body sums its slots in order
     vec3 linear;    // m/s

@@ -23,14 +23,14 @@ void main() {
         impulse = inherited(contact, contacts_before[pair.previous], impulses_before[pair.previous], match_radius(ta, tb));
     }
     impulse.separation = separations_of(manifolds[pair_index]);
-    Constraint constraint = constraint_of(contact, ta, ma, tb, mb, constraints[i].slot_a, constraints[i].slot_b, PARAMETERS);
+    Constraint constraint = constraint_of(contact, ta, tb, constraints[i].slot_a, constraints[i].slot_b, PARAMETERS);
     constraint.pair = pair_index;
 
     Couple guess = warm_start(constraint, impulse, at_rest(), ma, mb);
     Couple now;
     now.a = velocities[pair.a];
     now.b = velocities[pair.b];
-    float carrying = carries(constraint, impulse, now, PARAMETERS);
+    float carrying = carries(constraint, impulse, now, ma, mb, PARAMETERS);
     contacts[i] = contact;
     constraints[i] = constraint;
     impulses[i] = impulse;

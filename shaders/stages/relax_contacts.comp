@@ -18,7 +18,7 @@ void main() {
     impulses[i] = impulse;
     Couple guess = at_rest();
     if (push.pass == 0u) guess = warm_start(c, impulse, guess, ma, mb);
-    float carrying = carries(c, impulse, after.couple, PARAMETERS);
+    float carrying = carries(c, impulse, after.couple, ma, mb, PARAMETERS);
     if (c.slot_a != NONE) slots[c.slot_a] = slot_of(before.a, after.couple.a, ma.split, guess.a, carrying);
     if (c.slot_b != NONE) slots[c.slot_b] = slot_of(before.b, after.couple.b, mb.split, guess.b, carrying);
 }

@@ -1,0 +1,45 @@
+// Every demo, small: the same bits on both processors, and nothing overlapping at its start.
+#include <catch2/catch.hpp>
+
+#include "compute/lockstep.h"
+#include "compute/world.h"
+#include "demos/demos.h"
+#include "host/device.h"
+
+using namespace scree;
+
+namespace {
+
+demos::DemoScene small(const demos::Demo& demo) {
+    demos::DemoOptions options;
+    options.bodies = demo.takes_bodies ? 120 : 0;
+    return demos::build(demo, options);
+}
+
+}  // namespace
+
+TEST_CASE("every demo gives the same bits on both processors, and validation stays silent") {
+    host::DeviceOptions options;
+    options.validation = true;
+    const auto device = host::Device::open(options);
+    for (const demos::Demo& demo : demos::all_demos()) {
+        const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, device, 1, 40);
+        INFO(demo.name << ": step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element
+                       << "], " << result.detail);
+        CHECK(result.equal);
+    }
+    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
+
+TEST_CASE("no demo begins with bodies inside each other or inside what holds them") {
+    for (const demos::Demo& demo : demos::all_demos()) {
+        for (const std::size_t bodies : {std::size_t{0}, std::size_t{2000}}) {
+            demos::DemoOptions options;
+            options.bodies = demo.takes_bodies ? bodies : 0;
+            World world(demos::build(demo, options).scene, {}, 1);
+            world.step();
+            INFO(demo.name << " with " << world.scene().bodies.size() << " bodies");
+            CHECK(world.statistics().penetration_max < 0.01);
+        }
+    }
+}

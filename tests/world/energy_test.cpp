@@ -1,0 +1,49 @@
+// Energy: contacts take it or hand it on, whatever the speed; nothing explodes.
+#include <catch2/catch.hpp>
+
+#include "compute/world.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+
+TEST_CASE("bodies that fly past and into each other fast never gain energy") {
+    for (const float speed : {5.0f, 25.0f, 60.0f}) {
+        for (const float restitution : {0.0f, 0.5f}) {
+            Scene scene = tests::swarm(64, restitution, 3);
+            for (Body& body : scene.bodies) {
+                body.velocity *= speed / 2;
+                body.rolling_resistance = 0.02f;
+            }
+            World world(scene, {}, 1);
+            const double start = world.statistics().kinetic_energy;
+            double last = start;
+            for (int step = 0; step < 120; ++step) {
+                world.step();
+                const Statistics now = world.statistics();
+                INFO("speed " << speed << ", restitution " << restitution << ", step " << step << ": " << last << " J to "
+                              << now.kinetic_energy << " J");
+                REQUIRE(now.not_finite == 0);
+                // Bodies that a fast one has entered are pushed apart: that much may come back.
+                REQUIRE(now.kinetic_energy < last + 0.02 * start);
+                last = now.kinetic_energy;
+            }
+            REQUIRE(last < 0.9 * start);
+        }
+    }
+}
+
+TEST_CASE("a heap that collapses never gains energy") {
+    World world(tests::heap(200), {}, 1);
+    Statistics before = world.statistics();
+    const double start = before.kinetic_energy + before.potential_energy;
+    double last = start;
+    for (int step = 0; step < 240; ++step) {
+        world.step();
+        const Statistics now = world.statistics();
+        const double energy = now.kinetic_energy + now.potential_energy;
+        INFO("step " << step);
+        REQUIRE(energy < last + 1e-3 * start);
+        last = energy;
+    }
+    REQUIRE(last < 0.5 * start);
+}
