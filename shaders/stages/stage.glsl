@@ -8,9 +8,9 @@
 
 layout(local_size_x_id = 0) in;
 
-#define SCREE_DECLARE(binding_index, name, block, record, length) \
+#define SCREE_DECLARE(binding_index, name, block, record, length)   \
     layout(std430, set = 0, binding = binding_index) buffer block { \
-        record name[]; \
+        record name[];                                              \
     };
 SCREE_TABLES(SCREE_DECLARE)
 

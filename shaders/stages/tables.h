@@ -31,7 +31,7 @@
     X(22, first_contacts, FirstContactsTable, uint, bodies_and_end) /* of those that a body owns */                              \
     X(23, first_contacts_before, FirstContactsBeforeTable, uint, bodies_and_end)                                                 \
     X(24, slot_ends, SlotEndsTable, uint, bodies_and_end) /* counted, scanned, and after filling the end of each body's slots */ \
-    X(25, slot_sides, SlotSidesTable, uint, slots) /* which side of which contact owns a slot: 2 * contact + side */             \
+    X(25, slot_sides, SlotSidesTable, uint, slots)        /* which side of which contact owns a slot: 2 * contact + side */      \
     X(26, constraints, ConstraintsTable, Constraint, contacts)                                                                   \
     X(27, slots, SlotsTable, Slot, slots)                                                                                        \
     X(28, block_sums, BlockSumsTable, uint, blocks)                                                                              \
