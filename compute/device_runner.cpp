@@ -231,9 +231,8 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts,          traits,          poses,
-                          velocities, contacts_before, impulses_before, first_contacts_before,
-                          contacts,   impulses,        first_contacts};
+    const auto lasting = {parameters,           counts, traits, poses, velocities, actions, contacts_before, impulses_before,
+                          first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
@@ -246,17 +245,30 @@ void DeviceRunner::fetch_bodies() {
     for (const Table table : {Table::counts, Table::poses, Table::velocities}) read(table, state_->raw(table));
 }
 
+void DeviceRunner::fetch_contacts() {
+    for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
+}
+
 void DeviceRunner::fetch() {
     fetch_bodies();
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
-        const TableInfo& info = table_infos()[i];
-        if (info.length == Length::blocks || table == Table::parameters || table == Table::actions) continue;
-        state_->make(table);
-        const bool before = table == Table::contacts_before || table == Table::impulses_before;
-        const std::size_t items = before ? state_->allocated(info.length) : state_->live(info.length);
-        if (items) read(table, state_->raw(table).first(items * info.record_bytes));
+        if (table_infos()[i].length == Length::blocks || table == Table::parameters || table == Table::actions) continue;
+        if (table == Table::contacts_before || table == Table::impulses_before) {
+            state_->make(table);
+            read(table, state_->raw(table));
+        } else {
+            fetch_live(table);
+        }
     }
+}
+
+// The items that mean something at present. `counts` must be here already.
+void DeviceRunner::fetch_live(Table table) {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    state_->make(table);
+    const std::size_t items = state_->live(info.length);
+    if (items) read(table, state_->raw(table).first(items * info.record_bytes));
 }
 
 std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device) {

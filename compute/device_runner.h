@@ -28,6 +28,7 @@ public:
     void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
     bool step() override;
     void fetch_bodies() override;
+    void fetch_contacts() override;
     void fetch() override;
     StageTimes stage_times() const override { return clock_.means(); }
 
@@ -41,7 +42,7 @@ public:
     void run_stage(std::size_t index);
     void read(Table table, std::span<std::byte> bytes) const;
     void write(Table table, std::span<const std::byte> bytes);
-    // Fills with 0xCD every table that a step must not read before it has written it.
+    // Fills with 0xCD every table that the step now begun must not read before it has written it.
     void poison();
 
 private:
@@ -52,6 +53,7 @@ private:
     void record();
     void record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const;
     void send_inputs();
+    void fetch_live(Table table);
 
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;

@@ -34,7 +34,7 @@ std::vector<Stage> plan(int substeps) {
     scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
     s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
     s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}});
-    s.push_back({"count_pairs", Over::bodies, count_pairs, {pair_starts}});
+    s.push_back({"count_pairs", Over::bodies, count_pairs, {pair_starts, counts}});
     scan(s, "pairs", Over::body_blocks, pair_starts, scan_pairs_spine, scan_pairs_offsets);
     s.push_back({"fill_pairs", Over::bodies, fill_pairs, {}});
     s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});

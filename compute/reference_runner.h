@@ -19,6 +19,7 @@ public:
     void attach(State& state) override;
     bool step() override;
     void fetch_bodies() override {}
+    void fetch_contacts() override {}
     void fetch() override {}
     StageTimes stage_times() const override { return clock_.means(); }
 

@@ -28,8 +28,10 @@ public:
     // Runs one step with the state's parameters and actions. False: a list would have outgrown its buffer; the bodies are as
     // before, and State::counts says what is needed.
     virtual bool step() = 0;
-    // Brings counts, poses and velocities, or every table, back into the attached state.
+    // Brings back into the attached state: counts, poses and velocities; the contacts of the last step (after the former); every
+    // table.
     virtual void fetch_bodies() = 0;
+    virtual void fetch_contacts() = 0;
     virtual void fetch() = 0;
     virtual StageTimes stage_times() const = 0;  // means over the steps since attach
 };

@@ -24,4 +24,7 @@ struct Settings {
     std::uint32_t contacts_at_first = 0;  // 0: from the number of bodies
 };
 
+// The settings, if every one is in its range; else throws std::invalid_argument naming the one that is not.
+Settings checked(const Settings& settings);
+
 }  // namespace scree

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
@@ -213,7 +214,12 @@ void State::turn_over() {
 
 void State::grow() {
     const physics::Counts c = counted();
-    const auto with_room = [](std::uint32_t need) { return need + need / 2; };
+    const auto with_room = [](std::uint64_t need) {
+        constexpr std::uint64_t most = 1u << 31;
+        if (need > most)
+            throw std::length_error("more than 2,147,483,648 pairs of bodies overlap: they must not all lie in one place");
+        return static_cast<std::uint32_t>(std::min(need + need / 2, most));
+    };
     if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_room(c.required_pairs);
     if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);
     counted().overflow = 0;

@@ -48,6 +48,8 @@ void add_contacts(const State& state, Statistics& s) {
     double depth = 0;
     s.manifolds = state.counted().contacts;
     for (std::size_t i = 0; i < s.manifolds; ++i) {
+        // The points of a body that flew past its partner in the last step hang in the air.
+        if (state.impulses[i].slipped > state.constraints[i].leave) continue;
         const physics::uint count = state.contacts[i].count;
         s.points += count;
         for (physics::uint k = 0; k < count; ++k) {

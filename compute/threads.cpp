@@ -2,6 +2,7 @@
 #include "compute/threads.h"
 
 #include <tbb/blocked_range.h>
+#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
@@ -11,7 +12,12 @@
 namespace scree {
 
 struct Threads::Arena {
-    explicit Arena(int threads) : arena(threads) {}
+    explicit Arena(int threads)
+        : limit(tbb::global_control::max_allowed_parallelism,
+                std::max(static_cast<std::size_t>(threads),
+                         tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
+          arena(threads) {}
+    tbb::global_control limit;  // else more threads than cores would silently be as many as cores
     tbb::task_arena arena;
 };
 

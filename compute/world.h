@@ -1,6 +1,6 @@
 // A world: a scene being simulated, on the CPU or on a Vulkan device, with the same bits on either.
 //
-//     scree::World world(scene);          // the best device there is
+//     scree::World world(scene);          // on the CPU, with all cores
 //     for (int i = 0; i < 600; ++i) world.step();
 //     for (const scree::BodyState& body : world.bodies()) ...
 #pragma once
@@ -52,8 +52,9 @@ public:
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
 
-    // Advances by `count` steps of 1/rate seconds. Grows buffers as needed; throws only when memory ends (std::bad_alloc or the
-    // device's own error), and then the state is that of the last whole step.
+    // Advances by `count` steps of 1/rate seconds. Grows buffers as needed; throws only when memory ends (std::bad_alloc,
+    // std::length_error or the device's own error). Then the bodies are as after the last whole step, but for the impulses of the
+    // one that failed, and can be read; a further step throws std::logic_error.
     void step(int count = 1);
 
     std::uint64_t steps() const;  // done so far

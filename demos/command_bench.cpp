@@ -13,6 +13,7 @@
 #include "demos/report.h"
 #include "demos/subject.h"
 #include "demos/table.h"
+#include "demos/writable.h"
 #include "host/file.h"
 
 namespace scree::demos {
@@ -49,7 +50,7 @@ Measurement measure(const SceneOptions& scene, const Options& options, const Mac
                       "steps", options.quiet);
     for (int i = 0; i < options.warmup + options.steps && !is_interrupted(); ++i) {
         const auto start = std::chrono::steady_clock::now();
-        world.step();
+        at_work([&] { world.step(); });
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
         if (i >= options.warmup) times.push_back(taken.count());
         progress.done(i + 1);
@@ -140,6 +141,7 @@ int bench(const Options& options) {
             scenes.push_back(scene);
         }
     }
+    require_writable_file("--csv", options.csv);
     const Machine machine = choose_machine(options.machine);
     if (!machine.remark.empty()) fmt::print(stderr, "scree: {}\n", machine.remark);
     std::vector<Measurement> all;
@@ -155,7 +157,7 @@ int bench(const Options& options) {
                table(by_stage(all)));
     print_spread(all);
     if (options.csv == "-") fmt::print("\n{}", csv(long_form(all)));
-    if (!options.csv.empty() && options.csv != "-") host::write_atomically(options.csv, csv(long_form(all)));
+    if (!options.csv.empty() && options.csv != "-") at_work([&] { host::write_atomically(options.csv, csv(long_form(all))); });
     return done;
 }
 

@@ -48,12 +48,14 @@ std::vector<Row> judged(const SceneOptions& scene, const Machine& machine, bool 
     Recorder recorder(world, *subject.promise);
     const int steps = scene.step_count(subject.seconds);
     Progress progress(subject.name, steps, "steps", quiet);
-    for (int i = 0; i < steps && !is_interrupted(); ++i) {
-        world.step();
-        recorder.after_step(world);
-        progress.done(i + 1);
-    }
-    return subject.promise->judge(recorder.finish(world));
+    return at_work([&] {
+        for (int i = 0; i < steps && !is_interrupted(); ++i) {
+            world.step();
+            recorder.after_step(world);
+            progress.done(i + 1);
+        }
+        return subject.promise->judge(recorder.finish(world));
+    });
 }
 
 int check(const Options& options) {

@@ -26,11 +26,13 @@ int compare(const Options& options) {
     const Machine machine = choose_machine(options.machine);
     const int steps = options.scene.step_count(1);
     std::optional<Progress> progress(std::in_place, subject.name, steps, "steps", options.quiet);
-    const LockstepResult result = compare_in_lockstep(subject.scene, options.scene.settings(), machine.device,
-                                                      options.machine.threads, steps, [&](int done_steps) {
-                                                          progress->done(done_steps);
-                                                          return !is_interrupted();
-                                                      });
+    const LockstepResult result = at_work([&] {
+        return compare_in_lockstep(subject.scene, options.scene.settings(), machine.device, options.machine.threads, steps,
+                                   [&](int done_steps) {
+                                       progress->done(done_steps);
+                                       return !is_interrupted();
+                                   });
+    });
     progress.reset();
     if (is_interrupted()) {
         fmt::print(stderr, "scree: interrupted\n");
@@ -42,8 +44,9 @@ int compare(const Options& options) {
                    machine.device->report().name, steps, hash_text(result.hash));
         return done;
     }
-    fmt::print("{}: processor and {} differ first in step {}, stage {}, buffer {}, element {}: {}\n", subject.name,
-               machine.device->report().name, result.step, result.stage, result.buffer, result.element, result.detail);
+    fmt::print("{}: processor and {} differ first in step {} (counted from 1), stage {}, buffer {}, element {}: {}\n",
+               subject.name, machine.device->report().name, result.step + 1, result.stage, result.buffer, result.element,
+               result.detail);
     return promise_missed;
 }
 

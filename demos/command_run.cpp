@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <filesystem>
 
 #include "demos/commands.h"
 #include "demos/failure.h"
@@ -12,6 +11,7 @@
 #include "demos/progress.h"
 #include "demos/report.h"
 #include "demos/subject.h"
+#include "demos/writable.h"
 #include "host/file.h"
 
 namespace scree::demos {
@@ -36,18 +36,14 @@ void require_writable(const Options& options) {
         throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
                                      options.scene.rate));
     }
-    if (options.report.empty() || options.report == "-") return;
-    const std::filesystem::path path(options.report), folder = path.has_parent_path() ? path.parent_path() : ".";
-    if (!std::filesystem::is_directory(folder)) {
-        throw UsageError(fmt::format("--report {}: there is no folder {}; make it first", options.report, folder.string()));
-    }
+    require_writable_file("--report", options.report);
 }
 
 void step_timed(World& world, RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
     world.step();
     const double seconds = seconds_since(start);
-    if (world.steps() == 1) report.first_step_seconds = seconds;
+    if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
     if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
     report.step_ms.push_back(seconds * 1e3);
 }
@@ -93,28 +89,20 @@ void conclude(const Options& options, const Subject& subject, const RunReport& r
     }
 }
 
-int run(const Options& options) {
-    const auto start = std::chrono::steady_clock::now();
-    require_writable(options);
-    const Subject subject = load_subject(options.scene);
-    const Machine machine = choose_machine(options.machine);
-    if (!machine.remark.empty() && !options.quiet) fmt::print(stderr, "scree: {}\n", machine.remark);
-    World world(subject.scene, options.scene.settings(), machine.make_runner());
-    std::optional<Pictures> pictures;
-    if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
-    std::optional<Recorder> recorder;
-    if (subject.promise) recorder.emplace(world, *subject.promise);
-
-    RunReport report;
-    if (!simulate(options, subject, world, pictures ? &*pictures : nullptr, recorder ? &*recorder : nullptr, report)) {
-        const int frames = pictures ? pictures->count() : 0;
-        pictures.reset();  // what was drawn is written whole, and the video ends there
-        fmt::print(stderr, "scree: interrupted after {} steps{}\n", world.steps(),
-                   frames ? fmt::format(", {} pictures", frames) : "");
-        return interrupted;
+// What was drawn is written whole, and the video ends there.
+int end_early(World& world, Pictures* pictures) {
+    const int frames = pictures ? pictures->count() : 0;
+    try {
+        if (pictures) pictures->finish();
+    } catch (const std::exception& error) {
+        fmt::print(stderr, "scree: {}\n", error.what());
     }
-    if (pictures) pictures->finish();
-    report.name = subject.name;
+    fmt::print(stderr, "scree: interrupted after {} steps{}\n", world.steps(),
+               frames ? fmt::format(", {} pictures", frames) : "");
+    return interrupted;
+}
+
+void measure(World& world, RunReport& report) {
     report.backend = world.runner().backend();
     report.device = world.runner().device();
     report.steps = world.steps();
@@ -124,12 +112,36 @@ int run(const Options& options) {
     report.buffer_growths = world.buffer_growths();
     report.buffer_bytes = world.buffer_bytes();
     report.state_hash = world.state_hash();
+}
+
+int work(const Options& options, const Subject& subject, const Machine& machine, World& world, Pictures* pictures,
+         RunReport& report) {
+    std::optional<Recorder> recorder;
+    if (subject.promise) recorder.emplace(world, *subject.promise);
+    Recorder* const records = recorder ? &*recorder : nullptr;
+    if (!simulate(options, subject, world, pictures, records, report)) return end_early(world, pictures);
+    if (pictures) pictures->finish();
+    report.name = subject.name;
     report.frames = pictures ? pictures->count() : 0;
-    judge(subject, world, recorder ? &*recorder : nullptr, report);
-    report.seconds_total = seconds_since(start);
+    measure(world, report);
+    judge(subject, world, records, report);
+    report.seconds_total = seconds_since(report.started);
+    report.peak_memory_bytes = peak_memory();
     machine.require_valid();
     conclude(options, subject, report);
     return all_pass(report.rows) ? done : promise_missed;
+}
+
+int run(const Options& options) {
+    RunReport report;
+    require_writable(options);
+    const Subject subject = load_subject(options.scene);
+    const Machine machine = choose_machine(options.machine);
+    if (!machine.remark.empty() && !options.quiet) fmt::print(stderr, "scree: {}\n", machine.remark);
+    World world(subject.scene, options.scene.settings(), machine.make_runner());
+    std::optional<Pictures> pictures;
+    if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
+    return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
 }
 
 }  // namespace

@@ -15,8 +15,7 @@ void Machine::require_valid() const {
     if (!device || !options.validate) return;
     const std::vector<std::string> messages = device->validation_messages();
     if (messages.empty()) return;
-    throw std::runtime_error("Vulkan validation: " + std::to_string(messages.size()) +
-                             " messages, the first: " + messages.front());
+    throw WorkFailed("Vulkan validation: " + std::to_string(messages.size()) + " messages, the first: " + messages.front());
 }
 
 Machine choose_machine(const MachineOptions& options) {

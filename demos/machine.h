@@ -19,7 +19,7 @@ struct Machine {
     std::string remark;                    // why it is not what one might expect; may be empty
 
     std::unique_ptr<Runner> make_runner() const;
-    // Throws std::runtime_error with what the validation layers said, if they were asked for and said anything.
+    // Throws WorkFailed with what the validation layers said, if they were asked for and said anything.
     void require_valid() const;
 };
 

@@ -19,11 +19,11 @@ constexpr const char* examples = R"(Examples:
   scree compare mix --steps 60                          processor and GPU, bit by bit
   scree check                                           does everything that should stand, stand?
 
-Exit status: 0 done, 1 the work failed its promise, 2 wrong usage or input, 130 interrupted.)";
+Exit status: 0 done, 1 the work failed or missed its promise, 2 wrong usage or input, 130 interrupted.)";
 
-int tell(const std::string& message) {
+int tell(const std::string& message, int status = scree::demos::wrong_usage) {
     fmt::print(stderr, "scree: {}\n", message);
-    return scree::demos::wrong_usage;
+    return status;
 }
 
 }  // namespace
@@ -46,13 +46,15 @@ int main(int argc, char** argv) {
     demos::add_export(program, status);
     try {
         program.parse(argc, argv);
-        if (std::fflush(stdout) != 0) return tell("the output cannot be written");
+        if (std::fflush(stdout) != 0) return tell("the output cannot be written", demos::promise_missed);
     } catch (const CLI::Success& help) {
         return program.exit(help);
     } catch (const CLI::ParseError& error) {
         return tell(std::string(error.what()) + "\nscree --help and scree COMMAND --help say more");
     } catch (const std::bad_alloc&) {
         return tell("beyond memory: the scene does not fit; ask for fewer --bodies");
+    } catch (const demos::WorkFailed& error) {
+        return tell(error.what(), demos::promise_missed);
     } catch (const std::exception& error) {
         return tell(error.what());
     }

@@ -31,14 +31,15 @@ std::pair<std::string, std::string> halves(const std::string& word, char mark, c
 
 void set_size(PictureOptions& options, const std::string& word) {
     const auto [width, height] = halves(word, 'x', "--size", "WIDTHxHEIGHT");
-    for (const std::string& side : {width, height}) {
+    const auto pixels_of = [](const std::string& side) {
         const double pixels = number_of(side, "--size");
         if (pixels != std::floor(pixels) || pixels < 16 || pixels > 16384) {
             throw CLI::ValidationError("--size", "each side must be a whole number of pixels between 16 and 16384, is " + side);
         }
-    }
-    options.width = std::stoi(width);
-    options.height = std::stoi(height);
+        return static_cast<int>(pixels);
+    };
+    options.width = pixels_of(width);
+    options.height = pixels_of(height);
 }
 
 void set_range(PictureOptions& options, const std::string& word) {

@@ -2,6 +2,7 @@
 #include "demos/report.h"
 
 #include <fmt/format.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -20,9 +21,23 @@ Spread spread_of(std::vector<double> step_ms) {
     return {mean, (step_ms[(n - 1) / 2] + step_ms[n / 2]) / 2, step_ms[(n * 95 + 99) / 100 - 1], step_ms.front()};
 }
 
+std::size_t peak_memory() {
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+}
+
 std::string hash_text(std::uint64_t hash) {
     return fmt::format("{:016x}", hash);
 }
+
+namespace {
+
+double per_body(const RunReport& r, std::size_t bytes) {
+    return r.statistics.bodies ? static_cast<double>(bytes) / static_cast<double>(r.statistics.bodies) : 0.0;
+}
+
+}  // namespace
 
 std::string json_of(const RunReport& r) {
     const Spread ms = spread_of(r.step_ms);
@@ -55,7 +70,9 @@ std::string json_of(const RunReport& r) {
         {"below_ground", s.below_ground},
         {"buffer_growths", r.buffer_growths},
         {"buffer_bytes", r.buffer_bytes},
-        {"bytes_per_body", s.bodies ? static_cast<double>(r.buffer_bytes) / static_cast<double>(s.bodies) : 0.0},
+        {"bytes_per_body", per_body(r, r.buffer_bytes)},
+        {"peak_memory_bytes", r.peak_memory_bytes},
+        {"peak_memory_per_body", per_body(r, r.peak_memory_bytes)},
         {"first_step_seconds", r.first_step_seconds},
         {"seconds_total", r.seconds_total},
         {"frames", r.frames},
@@ -74,11 +91,13 @@ std::string summary_of(const RunReport& r) {
     const auto line = [&text](const char* what, const std::string& value) { text += fmt::format("  {:<16}{}\n", what, value); };
     line("time per step",
          fmt::format("{} (median {}, 95% below {})", duration(ms.mean / 1e3), duration(ms.median / 1e3), duration(ms.p95 / 1e3)));
+    line("first step", fmt::format("after {}", duration(r.first_step_seconds)));
     line("contacts", fmt::format("{} pairs touch, in {} points", s.manifolds, s.points));
     line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
     line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
     line("greatest drift", fmt::format("{:.4g} m", s.drift_max));
-    line("buffers", fmt::format("{:.1f} MB, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6, r.buffer_growths));
+    line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
+                                per_body(r, r.buffer_bytes), r.buffer_growths));
     line("state hash", hash_text(r.state_hash));
     if (r.frames > 0) line("pictures", fmt::format("{}, {} in all", r.frames, duration(r.seconds_total)));
     if (r.rows.empty()) return text;

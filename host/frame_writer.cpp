@@ -9,6 +9,8 @@
 #include <functional>
 #include <mutex>
 #include <optional>
+#include <string>
+#include <system_error>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -27,7 +29,12 @@ struct Job {
 class Line {
 public:
     Line(std::size_t longest, int threads, std::function<void(const Job&)> work) : longest_(longest), work_(std::move(work)) {
-        for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+        try {
+            for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+        } catch (const std::system_error& error) {
+            close();  // those that started wait for frames
+            throw ImageError(std::string("frames: no thread to encode them: ") + error.what());
+        }
     }
     ~Line() { close(); }
     Line(const Line&) = delete;

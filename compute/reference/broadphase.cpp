@@ -102,10 +102,12 @@ void order_cells(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void count_pairs(State& state, const Threads& threads, std::uint32_t) {
+    std::atomic_ref coarse(state.counted().pairs_coarse);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         std::uint32_t count = 0;
         for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t) { ++count; });
         state.pair_starts[i] = count;
+        coarse.fetch_add((count + 255) / 256, std::memory_order_relaxed);
     });
 }
 

@@ -24,13 +24,9 @@ physics::Couple velocities_of(const State& state, const physics::Constraint& c) 
     return {state.velocities[c.a], state.velocities[c.b]};
 }
 
-// What the contact did to the lent bodies, handed to the whole ones.
-void hand_out(State& state, const physics::Constraint& c, const physics::Couple& before, const physics::Couple& after,
-              const physics::Couple& guess, float carrying) {
-    if (c.slot_a != physics::NONE)
-        state.slots[c.slot_a] = physics::slot_of(before.a, after.a, state.masses[c.a].split, guess.a, carrying);
-    if (c.slot_b != physics::NONE)
-        state.slots[c.slot_b] = physics::slot_of(before.b, after.b, state.masses[c.b].split, guess.b, carrying);
+void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying);
 }
 
 }  // namespace
@@ -99,18 +95,18 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
 
         const physics::Couple now = velocities_of(state, c);
         const float carrying = physics::carries(c, impulse, now, ma, mb, p);
-        hand_out(state, c, now, now, physics::warm_start(c, impulse, physics::at_rest(), ma, mb), carrying);
+        hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying);
     });
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const physics::Constraint& c = state.constraints[i];
+        const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
         const physics::Couple before = velocities_of(state, c);
-        const physics::Solved after =
-            physics::solved(c, state.impulses[i], before, state.masses[c.a], state.masses[c.b], state.fixed());
+        const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = after.impulse;
-        hand_out(state, c, before, after.couple, physics::at_rest(), 0);
+        hand_out(state, c, physics::shares_of(before, after.couple, ma, mb), 0);
     });
 }
 
@@ -121,10 +117,9 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = physics::without_blows(after.impulse, c.count);
-        physics::Couple guess = physics::at_rest();
-        if (!last) guess = physics::warm_start(c, state.impulses[i], guess, ma, mb);
-        hand_out(state, c, before, after.couple, guess,
-                 physics::carries(c, state.impulses[i], after.couple, ma, mb, state.fixed()));
+        physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
+        if (!last) share = physics::warm_start(c, state.impulses[i], share, ma, mb);
+        hand_out(state, c, share, physics::carries(c, state.impulses[i], after.couple, ma, mb, state.fixed()));
     });
 }
 

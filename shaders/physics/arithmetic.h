@@ -92,7 +92,7 @@ LAW vec3 rotate(vec4 q, vec3 v) {
     vec3 t = cross3(u, v) * 2.0f;
     return v + t * q.w + cross3(u, t);
 }
-// The body's y axis in the world. Written out, because products with a literal zero are not the same everywhere: see below.
+// The body's y axis in the world. Written out, because products with a literal zero are not the same everywhere (above).
 LAW vec3 upright(vec4 q) {
     return vec3(2.0f * (q.x * q.y - q.w * q.z), 1.0f - 2.0f * (q.x * q.x + q.z * q.z), 2.0f * (q.y * q.z + q.w * q.x));
 }

@@ -11,7 +11,7 @@
 // mass. Each substep has a biased pass, moves the bodies, and has a pass without bias that takes back the spring's velocity.
 // Restitution rides in that second pass instead of a pass of its own after the last substep: what approached faster than
 // the threshold leaves with e times that speed in the substep of the impact (a split body answers in part, and in full over the
-// next ones), so a bounce loses no part of a step's flight (a step of 1/60 s cost 3% of the energy at 5 m/s) and an impact runs
+// next ones), so a bounce loses no part of a step's flight (g dt / v of its energy, 3% at 5 m/s and 60 Hz) and an impact runs
 // on through a row of balls.
 //
 // Both bodies feel an impulse at the same point, although they move on through the substeps: the lever arm of one is fixed, that
@@ -22,85 +22,10 @@
 #define SCREE_PHYSICS_BLOCK_H
 
 #include "shaders/physics/contact.h"
+#include "shaders/physics/row.h"
 
 LAWS_BEGIN
 
-struct Couple {
-    Velocity a, b;
-};
-LAW Couple at_rest() {
-    Couple couple;
-    couple.a.linear = vec3(0.0f);
-    couple.a.rest_y = 0.0f;
-    couple.a.angular = vec3(0.0f);
-    couple.a.rest_z = 0.0f;
-    couple.b = couple.a;
-    return couple;
-}
-struct Levers {
-    vec3 a;
-    float pad0;
-    vec3 b;
-    float pad1;
-};
-LAW Levers levers_of(Constraint c, vec3 arm, vec3 d) {
-    Levers levers;
-    levers.a = c.anchor == ANCHOR_B ? arm + d : arm;
-    levers.b = c.anchor == ANCHOR_B ? arm : arm - d;
-    levers.pad0 = 0.0f;
-    levers.pad1 = 0.0f;
-    return levers;
-}
-
-// A direction in which the two bodies push each other at a point, with what it does to them. The effective mass and the velocity
-// changes come from the same lever arms, those of now: masses from the step's start would, where a body flies past another,
-// give it more than it can take.
-struct Row {
-    vec3 direction;
-    float give_a;  // 1/mass of A felt along it: 1/m + (r x u).I^-1 (r x u), 1/kg
-    vec3 arm_a;    // r x u, m
-    float give_b;
-    vec3 arm_b;
-    float pad0;
-    vec3 turn_a;  // I^-1 (r x u)
-    float pad1;
-    vec3 turn_b;
-    float pad2;
-};
-LAW Row row_of(Levers r, vec3 direction, Mass a, Mass b) {
-    Row row;
-    row.direction = direction;
-    row.arm_a = cross3(r.a, direction);
-    row.arm_b = cross3(r.b, direction);
-    row.turn_a = turned_by(a, row.arm_a);
-    row.turn_b = turned_by(b, row.arm_b);
-    row.give_a = a.inverse_mass + dot3(row.arm_a, row.turn_a);
-    row.give_b = b.inverse_mass + dot3(row.arm_b, row.turn_b);
-    row.pad0 = 0.0f;
-    row.pad1 = 0.0f;
-    row.pad2 = 0.0f;
-    return row;
-}
-LAW float mass_along(Row row, Mass a, Mass b) {
-    return reciprocal(row.give_a * a.split + row.give_b * b.split);
-}
-// Velocity of B against A along the row.
-LAW float speed_along(Row row, Couple v) {
-    return dot3(row.direction, v.b.linear - v.a.linear) + (dot3(row.arm_b, v.b.angular) - dot3(row.arm_a, v.a.angular));
-}
-// An impulse along the row on B, its opposite on A; the bodies are those lent (split_a, split_b).
-LAW Couple pushed(Couple v, Row row, float impulse, Mass a, float split_a, Mass b, float split_b) {
-    v.a.linear = v.a.linear - row.direction * (impulse * a.inverse_mass * split_a);
-    v.a.angular = v.a.angular - row.turn_a * (impulse * split_a);
-    v.b.linear = v.b.linear + row.direction * (impulse * b.inverse_mass * split_b);
-    v.b.angular = v.b.angular + row.turn_b * (impulse * split_b);
-    return v;
-}
-LAW Couple twisted(Couple v, vec3 impulse, Mass a, float split_a, Mass b, float split_b) {
-    v.a.angular = v.a.angular - turned_by(a, impulse) * split_a;
-    v.b.angular = v.b.angular + turned_by(b, impulse) * split_b;
-    return v;
-}
 LAW float round_gap(Constraint c, vec3 d) {
     return length3((d + c.centre) - xyz(c.arms[0])) - (c.radius_a + c.radius_b);
 }
@@ -130,10 +55,12 @@ LAW Solved rolled(Constraint c, Solved s, float normal, Mass a, Mass b) {
     k.yy = a.yy * a.split + b.yy * b.split;
     k.yz = a.yz * a.split + b.yz * b.split;
     k.zz = a.zz * a.split + b.zz * b.split;
-    vec3 x = vec3(k.xx, k.xy, k.xz), y = vec3(k.xy, k.yy, k.yz), z = vec3(k.xz, k.yz, k.zz);
+    // In units of its trace: the determinant of a small body's tensor is beyond what a float holds.
+    float unit = reciprocal((k.xx + k.yy) + k.zz);
+    vec3 x = vec3(k.xx, k.xy, k.xz) * unit, y = vec3(k.xy, k.yy, k.yz) * unit, z = vec3(k.xz, k.yz, k.zz) * unit;
     vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
     float determinant = reciprocal(dot3(x, yz));
-    vec3 spin = s.couple.b.angular - s.couple.a.angular;
+    vec3 spin = (s.couple.b.angular - s.couple.a.angular) * unit;
     vec3 wanted = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
     vec3 before = s.impulse.rolling;
     s.impulse.rolling = shortened(before - wanted, c.rolling_resistance * normal);
@@ -157,9 +84,12 @@ LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     Row row1 = row_of(r, t1, a, b);
     Row row2 = row_of(r, t2, a, b);
     float k11 = row1.give_a * a.split + row1.give_b * b.split;
-    float k12 = dot3(row2.arm_a, row1.turn_a) * a.split + dot3(row2.arm_b, row1.turn_b) * b.split;
     float k22 = row2.give_a * a.split + row2.give_b * b.split;
-    float slip1 = speed_along(row1, s.couple), slip2 = speed_along(row2, s.couple);
+    float unit = reciprocal(k11 + k22);
+    k11 = k11 * unit;
+    k22 = k22 * unit;
+    float k12 = (dot3(row2.arm_a, row1.turn_a) * a.split + dot3(row2.arm_b, row1.turn_b) * b.split) * unit;
+    float slip1 = speed_along(row1, s.couple) * unit, slip2 = speed_along(row2, s.couple) * unit;
     float inverse = reciprocal(k11 * k22 - k12 * k12);
     vec3 wanted = t1 * ((k22 * slip1 - k12 * slip2) * inverse) + t2 * ((k11 * slip2 - k12 * slip1) * inverse);
     vec3 before = s.impulse.friction;
@@ -269,7 +199,7 @@ LAW Impulse without_blows(Impulse impulse, uint count) {
     return impulse;
 }
 
-// What last substep's impulses do to whole bodies: the guess with which the next substep begins.
+// v, and what last substep's impulses do to whole bodies: the guess with which the next substep begins.
 LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
     c = at_present(c, impulse.d);
     for (uint k = 0u; k < 4u; ++k) {
@@ -296,13 +226,21 @@ LAW float carries(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
     return 0.0f;
 }
 
-// A body's share of what its lent part went through: (after - before) / split.
-LAW Slot slot_of(Velocity before, Velocity after, float split, Velocity guess, float carrying) {
-    float share = reciprocal(split);
+// The whole bodies' shares of what the lent ones went through: (after - before) / split. The next warm start is added to it.
+LAW Couple shares_of(Couple before, Couple after, Mass a, Mass b) {
+    float share_a = reciprocal(a.split), share_b = reciprocal(b.split);
+    Couple share = before;
+    share.a.linear = (after.a.linear - before.a.linear) * share_a;
+    share.a.angular = (after.a.angular - before.a.angular) * share_a;
+    share.b.linear = (after.b.linear - before.b.linear) * share_b;
+    share.b.angular = (after.b.angular - before.b.angular) * share_b;
+    return share;
+}
+LAW Slot slot_of(Velocity share, float carrying) {
     Slot slot;
-    slot.linear = (after.linear - before.linear) * share + guess.linear;
+    slot.linear = share.linear;
     slot.carries = carrying;
-    slot.angular = (after.angular - before.angular) * share + guess.angular;
+    slot.angular = share.angular;
     slot.pad = 0.0f;
     return slot;
 }

@@ -13,9 +13,7 @@ LAW uint feature_of(uint features, uint point) {
     return (features >> (8u * point)) & 0xFFu;
 }
 
-// ---- last step's impulses to this step's points
-// Smallest half width, m: what lengths on a
-// body are measured against.
+// Smallest half width, m: what lengths on a body are measured against.
 LAW float thickness(Traits traits) {
     if (traits.shape == SHAPE_PLANE) return 1.0e30f;
     return traits.shape == SHAPE_BOX ? smaller(traits.size.x, smaller(traits.size.y, traits.size.z)) : traits.size.x;
@@ -40,21 +38,20 @@ LAW Impulse no_impulse(vec3 d) {
     return impulse;
 }
 
-// Old points' values to new points: the nearest unused old point within `radius` of each new one, measured on A; the feature id
+// For each new point the old one that it was, or NONE: the nearest unused one within `radius`, measured on A; the feature id
 // breaks ties only, because ids flicker while points stay. A single point is its successor wherever it went: a wheel's contact
 // travels round the wheel.
-LAW vec4 matched(Contact now, Contact before, vec4 values, float radius) {
-    vec4 found = vec4(0.0f);
+LAW uvec4 matches_of(Contact now, Contact before, float radius) {
+    uvec4 matches = uvec4(NONE);
     if (now.count == 1u && before.count == 1u) {
-        found.x = values.x;
-        return found;
+        matches.x = 0u;
+        return matches;
     }
     uint taken = 0u;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= now.count) break;
         vec3 anchor = rotate_back(now.turn_a, xyz(now.points[k]));
         float nearest = radius * radius;
-        uint best = NONE;
         for (uint j = 0u; j < 4u; ++j) {
             if (j >= before.count) break;
             vec3 apart = anchor - rotate_back(before.turn_a, xyz(before.points[j]));
@@ -62,21 +59,22 @@ LAW vec4 matched(Contact now, Contact before, vec4 values, float radius) {
             if (feature_of(now.features, k) != feature_of(before.features, j)) score = score + 1.0e-8f;
             if (score < nearest && ((taken >> j) & 1u) == 0u) {
                 nearest = score;
-                best = j;
+                matches[k] = j;
             }
         }
-        if (best != NONE) {
-            found[k] = values[best];
-            taken = taken | (1u << best);
-        }
+        if (matches[k] != NONE) taken = taken | (1u << matches[k]);
     }
-    return found;
+    return matches;
 }
 
 LAW Impulse inherited(Contact now, Contact before, Impulse was, float radius) {
     Impulse impulse = no_impulse(now.d);
-    impulse.normal = matched(now, before, was.normal, radius);
-    impulse.approach = matched(now, before, was.approach, radius);
+    uvec4 matches = matches_of(now, before, radius);
+    for (uint k = 0u; k < 4u; ++k) {
+        if (matches[k] == NONE) continue;
+        impulse.normal[k] = was.normal[matches[k]];
+        impulse.approach[k] = was.approach[matches[k]];
+    }
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {
         impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
@@ -86,7 +84,6 @@ LAW Impulse inherited(Contact now, Contact before, Impulse was, float radius) {
     return impulse;
 }
 
-// ---- made ready
 LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b) {
     Contact contact;
     contact.a = pair.a;

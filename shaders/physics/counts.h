@@ -22,9 +22,10 @@ LAW uint spans_of(uint pairs) {
 }
 
 LAW Counts with_pairs(Counts counts, uint total, Parameters parameters) {
-    if (total > parameters.pair_capacity) {
+    bool uncountable = counts.pairs_coarse > 0x800000u + parameters.bodies;  // 2^31 pairs; the host refuses to grow that far
+    if (total > parameters.pair_capacity || uncountable) {
         counts.overflow = counts.overflow | OVERFLOW_PAIRS;
-        counts.required_pairs = total;
+        counts.required_pairs = uncountable ? 0xFFFFFFFFu : total;
     }
     counts.pairs = counts.overflow == 0u ? total : 0u;
     counts.arguments[WORK_PAIRS] = work_for(counts.pairs, parameters);
@@ -56,6 +57,7 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
 // At the start of a step, and with overflow still set: nothing to do for anyone.
 LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.levels = 0u;
+    counts.pairs_coarse = 0u;
     for (uint k = 0u; k < 12u; ++k) counts.kind_first[k] = 0u;
     for (uint k = 0u; k < 16u; ++k) counts.arguments[k] = work_for(0u, parameters);
     counts = with_pairs(counts, 0u, parameters);

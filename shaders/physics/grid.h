@@ -29,6 +29,8 @@ LAW uint level_of(float extent, float inverse_cell) {
 
 LAW ivec3 cell_at(vec3 point, uint level, float inverse_cell) {
     vec3 scaled = point * (inverse_cell * power_of_two(-int(level)));
+    vec3 far = vec3(1.0e9f);  // all that is lost lies in one cell: an int must hold its number
+    scaled = larger3(smaller3(scaled, far), -far);
     return ivec3(int(floor(scaled.x)), int(floor(scaled.y)), int(floor(scaled.z)));
 }
 LAW ivec3 cell_of(vec3 lower, vec3 upper, uint level, float inverse_cell) {

@@ -102,6 +102,8 @@ LAW Velocity accelerated(Velocity velocity, Velocity change, Load load, Traits t
 
 LAW vec4 turned(vec4 orientation, vec3 angular, float h) {
     vec3 half_turn = angular * (0.5f * h);
+    // The quaternion's angle is the arctangent of this; the next term of the tangent's series makes up for it.
+    half_turn = half_turn * (1.0f + 0.33333333f * dot3(half_turn, half_turn));
     vec3 axis = vec3(orientation.x, orientation.y, orientation.z);
     vec3 spin = half_turn * orientation.w + cross3(half_turn, axis);
     return unit_quaternion(orientation + vec4(spin, -dot3(half_turn, axis)));

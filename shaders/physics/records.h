@@ -222,8 +222,8 @@ struct Counts {  // what the device counts in a step
     uint levels;    // bit l: some body is on level l of the grid
     uint overflow;  // OVERFLOW_*; while not 0 no stage changes the bodies
     uint required_pairs, required_contacts;
-    uint steps;  // whole steps done
-    uint pad;
+    uint steps;           // whole steps done
+    uint pairs_coarse;    // pairs in units of 256, each body's rounded up: it does not wrap where their number does
     uint kind_first[12];  // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uvec4 arguments[16];  // per WORK_*: workgroups x, y, z, and threads
 };

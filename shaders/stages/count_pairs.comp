@@ -15,4 +15,5 @@ void main() {
     if (i >= PARAMETERS.bodies) return;
     look_around(i);
     pair_starts[i] = pairs_found;
+    if (pairs_found > 0u) atomicAdd(COUNTS.pairs_coarse, (pairs_found + 255u) >> 8);
 }

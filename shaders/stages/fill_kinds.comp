@@ -12,7 +12,11 @@ void main() {
     for (uint k = 0u; k < KINDS; ++k) next[k] = kind_starts[k * spans + i];
     uint last = min((i + 1u) * SPAN, COUNTS.pairs);
     for (uint pair = i * SPAN; pair < last; ++pair) binned[next[pairs[pair].kind]++] = pair;
-    if (i == 0u)
-        for (uint k = 0u; k < KINDS; ++k)
-            COUNTS = with_kinds(COUNTS, k, kind_starts[k * spans], kind_starts[(k + 1u) * spans], PARAMETERS);
+    if (i > 0u) return;
+    Counts mine = COUNTS;
+    for (uint k = 0u; k < KINDS; ++k)
+        mine = with_kinds(mine, k, kind_starts[k * spans], kind_starts[(k + 1u) * spans], PARAMETERS);
+    // Only what no other thread reads.
+    COUNTS.kind_first = mine.kind_first;
+    COUNTS.arguments = mine.arguments;
 }

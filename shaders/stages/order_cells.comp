@@ -4,18 +4,16 @@
 
 #include "shaders/stages/stage.glsl"
 
+#define SORT_GET(i) cell_entries[i].body
+#define SORT_SET(i, value) cell_entries[i].body = value
+#include "shaders/stages/sort.glsl"
+
 void main() {
     uint i = thread();
     if (i > PARAMETERS.buckets) return;
     uint first = i == 0u ? 0u : cells[i - 1u];
     uint last = cells[i];
-    for (uint k = first + 1u; k < last; ++k) {
-        uint body = cell_entries[k].body;
-        uint hole = k;
-        for (; hole > first && cell_entries[hole - 1u].body > body; --hole)
-            cell_entries[hole].body = cell_entries[hole - 1u].body;
-        cell_entries[hole].body = body;
-    }
+    sort_range(first, last - first);
     for (uint k = first; k < last; ++k) {
         Bounds around = bounds[cell_entries[k].body];
         cell_entries[k].lower = around.lower;

@@ -26,7 +26,6 @@ void main() {
     Constraint constraint = constraint_of(contact, ta, tb, constraints[i].slot_a, constraints[i].slot_b, PARAMETERS);
     constraint.pair = pair_index;
 
-    Couple guess = warm_start(constraint, impulse, at_rest(), ma, mb);
     Couple now;
     now.a = velocities[pair.a];
     now.b = velocities[pair.b];
@@ -34,6 +33,7 @@ void main() {
     contacts[i] = contact;
     constraints[i] = constraint;
     impulses[i] = impulse;
-    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(now.a, now.a, 1.0f, guess.a, carrying);
-    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(now.b, now.b, 1.0f, guess.b, carrying);
+    Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
+    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(share.a, carrying);
+    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(share.b, carrying);
 }

@@ -16,9 +16,9 @@ void main() {
     Solved after = relaxed(c, impulses[i], before, ma, mb, PARAMETERS);
     Impulse impulse = without_blows(after.impulse, c.count);
     impulses[i] = impulse;
-    Couple guess = at_rest();
-    if (push.pass == 0u) guess = warm_start(c, impulse, guess, ma, mb);
+    Couple share = shares_of(before, after.couple, ma, mb);
+    if (push.pass == 0u) share = warm_start(c, impulse, share, ma, mb);
     float carrying = carries(c, impulse, after.couple, ma, mb, PARAMETERS);
-    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(before.a, after.couple.a, ma.split, guess.a, carrying);
-    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(before.b, after.couple.b, mb.split, guess.b, carrying);
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, carrying);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, carrying);
 }

@@ -21,6 +21,7 @@ void main() {
         total += partial[gl_WorkGroupSize.x - 1u];
         barrier();
     }
+    barrier();  // the total may change what the others count to
     if (gl_LocalInvocationID.x == 0u) {
         SCAN_TOTAL(total);
     }

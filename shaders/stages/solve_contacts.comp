@@ -15,7 +15,7 @@ void main() {
     before.b = velocities[c.b];
     Solved after = solved(c, impulses[i], before, ma, mb, PARAMETERS);
     impulses[i] = after.impulse;
-    Couple none = at_rest();
-    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(before.a, after.couple.a, ma.split, none.a, 0.0f);
-    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(before.b, after.couple.b, mb.split, none.b, 0.0f);
+    Couple share = shares_of(before, after.couple, ma, mb);
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, 0.0f);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, 0.0f);
 }

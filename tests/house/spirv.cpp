@@ -147,7 +147,7 @@ const std::map<std::string, Record>& records() {
             using R = Counts;
             all["Counts"] = {sizeof(R),
                              {M(pairs), M(contacts), M(levels), M(overflow), M(required_pairs), M(required_contacts), M(steps),
-                              M(pad), M(kind_first), M(arguments)}};
+                              M(pairs_coarse), M(kind_first), M(arguments)}};
         }
         return all;
     }();

@@ -1,4 +1,5 @@
 // Energy: contacts take it or hand it on, whatever the speed; nothing explodes.
+#include <algorithm>
 #include <catch2/catch.hpp>
 
 #include "compute/world.h"
@@ -16,18 +17,22 @@ TEST_CASE("bodies that fly past and into each other fast never gain energy") {
             }
             World world(scene, {}, 1);
             const double start = world.statistics().kinetic_energy;
-            double last = start;
+            double last = start, least = start, rise = 0;
             for (int step = 0; step < 120; ++step) {
                 world.step();
                 const Statistics now = world.statistics();
                 INFO("speed " << speed << ", restitution " << restitution << ", step " << step << ": " << last << " J to "
                               << now.kinetic_energy << " J");
                 REQUIRE(now.not_finite == 0);
-                // Bodies that a fast one has entered are pushed apart: that much may come back.
-                REQUIRE(now.kinetic_energy < last + 0.02 * start);
+                // Bodies that a fast one has entered are pushed apart: that much may come back, in all and not in every step.
                 last = now.kinetic_energy;
+                rise = std::max(rise, last - least);
+                least = std::min(least, last);
+                REQUIRE(last < least + 0.02 * start);
             }
             REQUIRE(last < 0.9 * start);
+            WARN("MEASURE swarm " << speed << " " << restitution << " rise/start " << rise / start << " end/start "
+                                  << last / start);
         }
     }
 }
@@ -36,14 +41,17 @@ TEST_CASE("a heap that collapses never gains energy") {
     World world(tests::heap(200), {}, 1);
     Statistics before = world.statistics();
     const double start = before.kinetic_energy + before.potential_energy;
-    double last = start;
+    double last = start, least = start, rise = 0;
     for (int step = 0; step < 240; ++step) {
         world.step();
         const Statistics now = world.statistics();
         const double energy = now.kinetic_energy + now.potential_energy;
         INFO("step " << step);
-        REQUIRE(energy < last + 1e-3 * start);
         last = energy;
+        rise = std::max(rise, last - least);
+        least = std::min(least, last);
+        REQUIRE(last < least + 1e-3 * start);
     }
+    WARN("MEASURE heap rise/start " << rise / start << " end/start " << last / start);
     REQUIRE(last < 0.5 * start);
 }

@@ -1,4 +1,4 @@
-// The heap and the swarm.
+// The heap, the swarm, the packed lattice and the bodies apart.
 #include "tests/world/heaps.h"
 
 #include <cmath>
@@ -16,15 +16,28 @@ Body some_body(int i, float size, Noise& noise) {
     return body;
 }
 
+Body ground() {
+    Body body;
+    body.motion = Motion::fixed;
+    body.shape = Plane{};
+    return body;
+}
+
+// As wide as it is high, 2 * half in every direction.
+Body even_body(int i, float half) {
+    Body body;
+    if (i % 3 == 0) body.shape = Box{vec3(half)};
+    if (i % 3 == 1) body.shape = Sphere{half};
+    if (i % 3 == 2) body.shape = Capsule{0.6f * half, 0.4f * half};
+    return body;
+}
+
 }  // namespace
 
 Scene heap(int count, std::uint32_t seed) {
     Noise noise(seed);
     Scene scene;
-    Body ground;
-    ground.motion = Motion::fixed;
-    ground.shape = Plane{};
-    scene.bodies.push_back(ground);
+    scene.bodies.push_back(ground());
     const int side = std::max(1, static_cast<int>(std::cbrt(static_cast<float>(count))));
     for (int i = 0; i < count; ++i) {
         Body body = some_body(i, 0.3f + 0.15f * noise(), noise);
@@ -49,6 +62,37 @@ Scene swarm(int count, float restitution, std::uint32_t seed) {
         body.velocity = body.position * -0.5f + noise.vector() * 2.0f;
         body.angular_velocity = noise.vector() * 3.0f;
         body.restitution = restitution;
+        scene.bodies.push_back(body);
+    }
+    return scene;
+}
+
+Scene packed(int count, std::uint32_t seed) {
+    constexpr float half = 0.4f, spacing = 2 * half - 0.002f;
+    Noise noise(seed);
+    Scene scene;
+    scene.bodies.push_back(ground());
+    const int side = std::max(1, static_cast<int>(std::cbrt(static_cast<float>(count))));
+    for (int i = 0; i < count; ++i) {
+        Body body = even_body(i, half);
+        const vec3 cell(i % side, i / (side * side), i / side % side);
+        body.position = cell * spacing + noise.vector() * 0.001f + vec3(0, half - 0.002f, 0);
+        body.friction = 0.4f + 0.2f * noise();
+        body.rolling_resistance = i % 7 == 0 ? 0.01f : 0;
+        scene.bodies.push_back(body);
+    }
+    return scene;
+}
+
+Scene apart(int count, float height, std::uint32_t seed) {
+    Noise noise(seed);
+    Scene scene;
+    scene.bodies.push_back(ground());
+    const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(count))));
+    for (int i = 0; i < count; ++i) {
+        Body body = even_body(i, 0.3f + 0.1f * noise());
+        const float half = std::holds_alternative<Box>(body.shape) ? std::get<Box>(body.shape).half_extents.y : 0.4f;
+        body.position = vec3(1.8f * static_cast<float>(i % side), half + height, 1.8f * static_cast<float>(i / side));
         scene.bodies.push_back(body);
     }
     return scene;

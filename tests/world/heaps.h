@@ -1,4 +1,5 @@
-// Scenes for tests of whole worlds: a heap of mixed bodies on the ground, and bodies flying into each other in free space.
+// Scenes for tests of whole worlds: heaps of mixed bodies on the ground, bodies apart, bodies flying into each other in free
+// space.
 #pragma once
 
 #include <cstdint>
@@ -30,5 +31,13 @@ Scene heap(int count, std::uint32_t seed = 1);
 
 // `count` bodies flying towards a common centre without gravity, bouncing with the given restitution.
 Scene swarm(int count, float restitution, std::uint32_t seed = 1);
+
+// `count` boxes, spheres and capsules in a lattice on the ground that touch all their neighbours, by up to a few millimetres too
+// much: as many contacts as bodies and more, from the first step on.
+Scene packed(int count, std::uint32_t seed = 1);
+
+// `count` such bodies side by side on the ground, a metre from each other and `height` (m) above it, each alone with the ground.
+// At height 0: exactly `count` contacts from the first step on.
+Scene apart(int count, float height = 0, std::uint32_t seed = 1);
 
 }  // namespace scree::tests

@@ -1,0 +1,37 @@
+// Sorts a short range by one thread: SORT_GET(i) and SORT_SET(i, value), which the stage defines, read and write a uint.
+//
+// Few items: insertion. Thousands (a plate that carries a heap, a world in one cell): heap sort, which no arrangement slows down.
+#ifndef SCREE_STAGES_SORT_GLSL
+#define SCREE_STAGES_SORT_GLSL
+
+void sink(uint first, uint root, uint count) {
+    uint value = SORT_GET(first + root);
+    for (uint child = 2u * root + 1u; child < count; child = 2u * root + 1u) {
+        if (child + 1u < count && SORT_GET(first + child + 1u) > SORT_GET(first + child)) ++child;
+        if (SORT_GET(first + child) <= value) break;
+        SORT_SET(first + root, SORT_GET(first + child));
+        root = child;
+    }
+    SORT_SET(first + root, value);
+}
+
+void sort_range(uint first, uint count) {
+    if (count <= 32u) {
+        for (uint k = first + 1u; k < first + count; ++k) {
+            uint value = SORT_GET(k);
+            uint hole = k;
+            for (; hole > first && SORT_GET(hole - 1u) > value; --hole) SORT_SET(hole, SORT_GET(hole - 1u));
+            SORT_SET(hole, value);
+        }
+        return;
+    }
+    for (uint root = count >> 1; root > 0u; --root) sink(first, root - 1u, count);
+    for (uint end = count - 1u; end > 0u; --end) {
+        uint largest = SORT_GET(first);
+        SORT_SET(first, SORT_GET(first + end));
+        SORT_SET(first + end, largest);
+        sink(first, 0u, end);
+    }
+}
+
+#endif

@@ -1,0 +1,159 @@
+// Contacts that are kept from step to step: what rests keeps its own, what slides, tips or is struck lets go.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <optional>
+#include <variant>
+
+#include "compute/reference_runner.h"
+#include "compute/state.h"
+
+using namespace scree;
+
+namespace {
+
+// A scene walked on the CPU with its tables in reach.
+class Walk {
+public:
+    explicit Walk(const Scene& scene) : state(checked(scene), {}, 64, true), runner_(1) { runner_.attach(state); }
+    void step(int count = 1) {
+        for (int i = 0; i < count; ++i) REQUIRE(runner_.step());
+    }
+    const physics::Contact* between(std::uint32_t a, std::uint32_t b) const {
+        for (std::size_t i = 0; i < state.counted().contacts; ++i) {
+            if (state.contacts[i].a == a && state.contacts[i].b == b) return &state.contacts[i];
+        }
+        return nullptr;
+    }
+    // Steps since the contact was made; none where they do not touch.
+    std::optional<unsigned> age(std::uint32_t a, std::uint32_t b) const {
+        const physics::Contact* contact = between(a, b);
+        return contact ? std::optional<unsigned>(contact->age) : std::nullopt;
+    }
+
+    State state;
+
+private:
+    ReferenceRunner runner_;
+};
+
+Body ground() {
+    Body body;
+    body.motion = Motion::fixed;
+    body.shape = Plane{};
+    return body;
+}
+Body resting(Shape shape, float height, vec3 where = vec3(0)) {
+    Body body;
+    body.shape = shape;
+    body.position = where + vec3(0, height, 0);
+    return body;
+}
+
+}  // namespace
+
+TEST_CASE("a box at rest keeps its contact, on the ground and on another box") {
+    Scene scene;
+    scene.bodies = {ground(), resting(Box{}, 0.5f), resting(Box{}, 1.5f)};
+    Walk walk(scene);
+    walk.step(30);
+    const physics::Contact below = *walk.between(0, 1), above = *walk.between(1, 2);
+    walk.step(60);
+    REQUIRE(walk.age(0, 1) == below.age + 60);
+    REQUIRE(walk.age(1, 2) == above.age + 60);
+    REQUIRE(above.age >= 20);
+    const physics::Contact after = *walk.between(1, 2);
+    REQUIRE(after.count == 4);
+    REQUIRE(after.normal == above.normal);
+    for (int k = 0; k < 4; ++k) REQUIRE(after.points[k] == above.points[k]);
+}
+
+TEST_CASE("a box that slides, slowly or fast, lets go of its contact") {
+    for (const float speed : {0.2f, 3.0f}) {
+        Scene scene;
+        scene.bodies = {ground(), resting(Box{}, 0.5f)};
+        scene.bodies[0].friction = 0.0f;
+        scene.bodies[1].velocity = {speed, 0, 0};
+        Walk walk(scene);
+        for (int i = 0; i < 30; ++i) {
+            walk.step();
+            CAPTURE(speed, i);
+            REQUIRE(walk.age(0, 1) == 0u);
+        }
+    }
+}
+
+TEST_CASE("a box that creeps lets go once the marks lie too far apart") {
+    Scene scene;
+    scene.bodies = {ground(), resting(Box{}, 0.5f)};
+    scene.bodies[0].friction = 0.0f;
+    scene.bodies[1].velocity = {0.02f, 0, 0};  // half a second for 1% of the half width, less fast than what slides
+    Walk walk(scene);
+    unsigned oldest = 0;
+    int let_go = 0;
+    for (int i = 0; i < 90; ++i) {
+        walk.step();
+        REQUIRE(walk.age(0, 1).has_value());
+        let_go += i > 0 && *walk.age(0, 1) == 0;
+        oldest = std::max(oldest, *walk.age(0, 1));
+    }
+    REQUIRE(let_go >= 3);
+    REQUIRE(let_go <= 8);
+    REQUIRE(oldest >= 10);
+    REQUIRE(oldest <= 17);  // 5 mm at 0.02 m/s are 15 steps
+}
+
+TEST_CASE("a box that tips lets go of its contact, and makes a lasting one once it lies") {
+    Scene scene;
+    scene.bodies = {ground(), resting(Box{vec3(0.2f, 1.0f, 0.2f)}, 1.0f)};
+    scene.bodies[1].friction = 2.0f;
+    Walk walk(scene);
+    walk.step(30);
+    REQUIRE(walk.age(0, 1) > 20u);
+    walk.state.velocities[1].angular = {0, 0, -1.2f};  // about its right foot
+    walk.state.velocities[1].linear = {1.2f, 0.24f, 0};
+    walk.step();
+    int upright = 0;
+    for (int i = 0; i < 30; ++i) {
+        walk.step();
+        if (walk.state.poses[1].position.y < 0.3f) break;
+        ++upright;
+        REQUIRE(walk.age(0, 1).value_or(0) == 0u);
+    }
+    REQUIRE(upright > 10);
+    walk.step(240);
+    REQUIRE(walk.state.poses[1].position.y < 0.21f);  // it lies
+    REQUIRE(walk.age(0, 1) > 60u);
+}
+
+TEST_CASE("a box that is struck lets go of its contact, and only it does") {
+    Scene scene;
+    scene.bodies = {ground(), resting(Box{}, 0.5f), resting(Box{}, 0.5f, {5, 0, 0})};
+    Body hammer = resting(Sphere{0.3f}, 0.6f, {-1.9f, 0, 0});
+    hammer.velocity = {4, 0, 0};
+    hammer.gravity_scale = 0;
+    scene.bodies.push_back(hammer);
+    Walk walk(scene);
+    // Its surface has 1.1 m to go, 16.5 steps.
+    walk.step(12);
+    REQUIRE(walk.age(0, 1) >= 8u);
+    walk.step(8);
+    REQUIRE(walk.state.velocities[1].linear.x > 0.1f);
+    REQUIRE(walk.age(0, 1).value_or(0) == 0u);
+    REQUIRE(walk.age(0, 2) >= 16u);
+}
+
+TEST_CASE("a ball's contact is never kept, even at rest; a lying capsule's is") {
+    Scene scene;
+    scene.bodies = {ground(), resting(Sphere{0.5f}, 0.5f), resting(Capsule{0.3f, 0.5f}, 0.3f, {3, 0, 0}),
+                    resting(Box{}, 0.5f, {6, 0, 0}), resting(Sphere{0.2f}, 1.2f, {6, 0, 0})};
+    const float half = std::sqrt(0.5f);
+    scene.bodies[2].orientation = {half, 0, 0, half};
+    Walk walk(scene);
+    for (int i = 0; i < 60; ++i) {
+        walk.step();
+        REQUIRE(walk.age(0, 1) == 0u);
+        REQUIRE(walk.age(3, 4) == 0u);
+    }
+    REQUIRE(walk.age(0, 2) > 40u);
+    REQUIRE(walk.age(0, 3) > 40u);
+}
