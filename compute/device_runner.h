@@ -36,6 +36,9 @@ public:
     const host::Buffer& traits() const { return buffer(Table::traits); }
     const host::Buffer& poses() const { return buffer(Table::poses); }
     const host::Buffer& velocities() const { return buffer(Table::velocities); }
+    const host::Buffer& counts() const { return buffer(Table::counts); }
+    const host::Buffer& contacts() const { return buffer(Table::contacts); }
+    const host::Buffer& impulses() const { return buffer(Table::impulses); }
 
     // For the comparison with another runner: a step stage by stage, and what a stage wrote.
     void begin_step();

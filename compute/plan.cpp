@@ -57,7 +57,7 @@ std::vector<Stage> plan(int substeps) {
         const std::uint32_t last = substep == substeps;
         s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}});
         s.push_back({"solve_contacts", Over::contacts, solve_contacts, {impulses, slots}});
-        s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses}});
+        s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
         s.push_back({"relax_contacts", Over::contacts, relax_contacts, {impulses, slots}, last});
     }
     s.push_back({"end_step", Over::bodies, end_step, {velocities, counts}});

@@ -109,8 +109,8 @@ DemoScene avalanche(const DemoOptions& options) {
         stone.friction = 0.35f;
         scene.bodies.push_back(stone);
     }
-    const float back = v.edge() - v.length, top = v.surface(back) + cell * (v.layers + 1), run_out = 0.95f * v.length;
-    const vec3 low(back, 0, -v.half_width), high(run_out, top, v.half_width);
+    const float back = v.edge() - v.length, top = v.surface(back) + cell * (v.layers + 1), run_out = 0.5f * v.length;
+    const vec3 low(back, 0, -v.half_width), high(2 * run_out, top, v.half_width);
     std::vector<vec3> seen;
     for (const float z : {-v.half_width, v.half_width}) {
         for (const vec3& point : {vec3(back, top, z), vec3(v.edge(), v.terrace_top(), z), vec3(run_out, 0, z)})
@@ -121,7 +121,7 @@ DemoScene avalanche(const DemoOptions& options) {
     const float far = 20 * v.length;
     return {
         std::move(scene),
-        view_of(seen, 50, 22),
+        view_of(seen, 66, 24),
         low,
         high,
         seconds,

@@ -191,6 +191,15 @@ void add_options(CLI::App& command, PictureOptions& options) {
             "LOW:HIGH in the unit of --color (default: from 0 to what a typical body would have after falling over the scene's "
             "height)")
         ->group(group);
+    command
+        .add_option(
+            "--show", options.show,
+            "what else to draw, a list parted by commas: contacts (their points, and along the normal how hard they push)")
+        ->check(one_of({"contacts"}))
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->group(group);
     command.add_flag("!--no-legend", options.legend, "no scale and caption in the picture")->group(group);
 }
 

@@ -42,7 +42,9 @@ struct PictureOptions {
     std::string color = "momentum", color_map = "plasma";
     std::optional<std::pair<float, float>> color_range;
     bool legend = true;
+    std::vector<std::string> show;  // besides the bodies: "contacts"
 
+    bool shows_contacts() const { return !show.empty(); }
     bool wanted() const { return !frames.empty() || !video.empty(); }
 };
 

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include "compute/device_runner.h"
+#include "compute/state.h"
 #include "demos/color_range.h"
+#include "demos/failure.h"
 #include "host/canvas.h"
 #include "host/frame_writer.h"
 #include "shaders/physics/records.h"
@@ -24,43 +26,27 @@ host::ShapeInstances instances_of(const Scene& scene) {
     return instances;
 }
 
-// What a canvas reads of a body that the processor simulates.
-physics::Traits traits_of(const Body& body) {
-    physics::Traits traits{};
-    traits.shape = static_cast<std::uint32_t>(body.shape.index());  // as SHAPE_*
-    traits.motion = static_cast<std::uint32_t>(body.motion);        // as MOTION_*
-    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) traits.size = vec3(sphere->radius, 0, 0);
-    if (const auto* capsule = std::get_if<Capsule>(&body.shape)) traits.size = vec3(capsule->radius, capsule->half_height, 0);
-    if (const auto* box = std::get_if<Box>(&body.shape)) traits.size = box->half_extents;
-    if (const auto* plane = std::get_if<Plane>(&body.shape)) traits.size = plane->normal;
-    if (body.motion != Motion::dynamic) return traits;
-    const MassProperties mass = mass_properties(body.shape, body.density);
-    traits.inverse_mass = 1 / mass.mass;
-    traits.inverse_inertia = 1.0f / mass.inertia;
-    return traits;
-}
-
 // The bodies of a world on the processor, copied to a device to be drawn.
 struct Copies {
     host::Buffer traits, poses, velocities;
 
-    Copies(const std::shared_ptr<host::Device>& device, const Scene& scene) {
-        const std::size_t count = scene.bodies.size();
-        traits = host::Buffer(device, "drawn traits", std::max<std::size_t>(count, 1) * sizeof(physics::Traits));
-        poses = host::Buffer(device, "drawn poses", std::max<std::size_t>(count, 1) * sizeof(physics::Pose));
-        velocities = host::Buffer(device, "drawn velocities", std::max<std::size_t>(count, 1) * sizeof(physics::Velocity));
-        std::vector<physics::Traits> values;
-        values.reserve(count);
-        for (const Body& body : scene.bodies) values.push_back(traits_of(body));
-        if (count) traits.write(values.data(), count * sizeof(physics::Traits));
+    Copies(const std::shared_ptr<host::Device>& device, const World& world) {
+        const State start(world.scene(), world.settings(), 1, false);
+        const auto copy = [&](const char* name, Table table) {
+            host::Buffer buffer(device, name, start.raw(table).size());
+            buffer.write(start.raw(table).data(), buffer.bytes());
+            return buffer;
+        };
+        traits = copy("drawn traits", Table::traits);
+        poses = copy("drawn poses", Table::poses);
+        velocities = copy("drawn velocities", Table::velocities);
     }
     void update(const World& world) {
         const std::vector<BodyState> bodies = world.bodies();
         std::vector<physics::Pose> at(bodies.size());
         std::vector<physics::Velocity> moving(bodies.size());
         for (std::size_t i = 0; i < bodies.size(); ++i) {
-            const auto* plane = std::get_if<Plane>(&world.scene().bodies[i].shape);
-            at[i] = {plane ? plane->normal * plane->offset : bodies[i].position, 0, bodies[i].orientation};
+            at[i] = {bodies[i].position, 0, bodies[i].orientation};
             moving[i] = {bodies[i].velocity, 0, bodies[i].angular_velocity, 0};
         }
         if (bodies.empty()) return;
@@ -87,6 +73,19 @@ host::ColorScale scale_of(const PictureOptions& options, const Subject& subject)
     return scale;
 }
 
+host::CanvasOptions canvas_of(const PictureOptions& options, const World& world) {
+    host::CanvasOptions canvas;
+    canvas.width = options.width;
+    canvas.height = options.height;
+    canvas.legend = options.legend;
+    canvas.marks = options.shows_contacts();
+    // What a body's weight gives it in a substep.
+    const Settings& settings = world.settings();
+    const float weight = glm::length(world.scene().gravity) / (settings.rate * static_cast<float>(settings.substeps));
+    if (weight > 0) canvas.mark_push = weight;
+    return canvas;
+}
+
 }  // namespace
 
 struct Pictures::Interior {
@@ -101,11 +100,24 @@ struct Pictures::Interior {
     std::string name;
     vec3 low, high;
     double fps;
+    bool shows_contacts;
 
     host::BodyTables tables() {
-        if (runner) return {&runner->traits(), &runner->poses(), &runner->velocities()};
+        if (runner) {
+            return {&runner->traits(),   &runner->poses(),    &runner->velocities(),
+                    &runner->contacts(), &runner->impulses(), shows_contacts ? contact_count() : 0};
+        }
         copies->update(world);
         return {&copies->traits, &copies->poses, &copies->velocities};
+    }
+    std::uint32_t contact_count() const {
+        physics::Counts counts{};
+        runner->counts().read(&counts, sizeof counts);
+        return counts.contacts;
+    }
+    std::string caption() const {
+        const std::string contacts = shows_contacts ? fmt::format("{} contacts, ", contact_count()) : "";
+        return fmt::format("{}\n{} bodies, {}{:.2f} s", name, world.scene().bodies.size(), contacts, world.time());
     }
 };
 
@@ -121,8 +133,14 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
                              subject.name,
                              subject.low,
                              subject.high,
-                             options.fps}) {
+                             options.fps,
+                             options.shows_contacts()}) {
     Interior& in = *interior_;
+    if (in.shows_contacts && !in.runner) {
+        throw UsageError(
+            "--show contacts: contacts are drawn where a Vulkan device keeps them, but this run is on the processor: use "
+            "--backend vulkan");
+    }
     host::FrameWriterOptions writer;
     writer.folder = options.frames;
     writer.video = options.video;
@@ -130,12 +148,8 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
     writer.width = options.width;
     writer.height = options.height;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    if (!in.runner) in.copies.emplace(in.device, world.scene());
-    host::CanvasOptions canvas;
-    canvas.width = options.width;
-    canvas.height = options.height;
-    canvas.legend = options.legend;
-    in.canvas.emplace(in.device, instances_of(world.scene()), in.tables(), canvas);
+    if (!in.runner) in.copies.emplace(in.device, world);
+    in.canvas.emplace(in.device, instances_of(world.scene()), in.tables(), canvas_of(options, world));
 }
 
 Pictures::~Pictures() = default;
@@ -146,8 +160,7 @@ void Pictures::after_step() {
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.writer->frames() / in.fps) return;
     in.canvas->set_tables(in.tables());
-    const std::string caption = fmt::format("{}\n{} bodies, {:.2f} s", in.name, in.world.scene().bodies.size(), in.world.time());
-    in.writer->add(in.canvas->draw(in.camera, in.scale, caption, in.low, in.high));
+    in.writer->add(in.canvas->draw(in.camera, in.scale, in.caption(), in.low, in.high));
 }
 
 void Pictures::finish() {

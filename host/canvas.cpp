@@ -90,6 +90,13 @@ void Canvas::Interior::draw_picture(std::uint32_t quad_count) {
     draw_meshes(capsule_mesh, capsules);
     draw_run(plane, 12, planes);
     draw_run(sky, 3, {0, 1});
+    if (options.marks) {
+        const std::uint32_t hidden = 1, shown = 0;
+        vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof hidden, &hidden);
+        draw_run(hidden_marks, 4, {0, mark_count});
+        vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof shown, &shown);
+        draw_run(marks, 4, {0, mark_count});
+    }
     if (smoothing != VK_NULL_HANDLE) {
         vk.vkCmdEndRenderPass(commands);
         info.renderPass = smoothing_pass;

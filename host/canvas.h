@@ -29,6 +29,10 @@ struct BodyTables {
     const Buffer* traits = nullptr;      // Traits
     const Buffer* poses = nullptr;       // Pose
     const Buffer* velocities = nullptr;  // Velocity
+    // For CanvasOptions::marks: where bodies touch, and how hard they push.
+    const Buffer* touches = nullptr;  // Contact
+    const Buffer* pushes = nullptr;   // Impulse
+    std::uint32_t touch_count = 0;    // records of both that mean something
 };
 
 // Which bodies have which shape: their indices in the tables, fixed for a run.
@@ -42,6 +46,10 @@ struct CanvasOptions {
     int samples = 0;      // a pixel: 4, or 1 with stairs smoothed afterwards; 0: 1 on a processor, where 4 are slow
     bool shadows = true;  // of the sun, and the darkening between bodies
     bool legend = true;   // the colour scale and the caption in the picture
+    bool marks = false;   // on the points where bodies touch, with lines that tell how hard they push; the bodies grow paler
+    // Speed that a push gives to the lighter body, m/s, when its line is half the thinner body's half width long; lines grow as
+    // the square root.
+    float mark_push = 0.02f;
     vec3 toward_sun{-0.52f, 0.74f, 0.43f};  // any length
 };
 

@@ -114,6 +114,7 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.pixel.z = 20 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
     frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
+    frame.marks = vec4(options.marks ? 1.0f : 0.0f, options.mark_push, 0, 0);
     frame.maps = vec4(sun_map.texel, sky_map.texel, 1.0f / SUN_MAP_SIZE, 1.0f / SKY_MAP_SIZE);
     return frame;
 }

@@ -6,10 +6,12 @@
 
 #include "host/canvas.h"
 #include "host/canvas_objects.h"
+#include "host/canvas_passes.h"
 
 namespace scree::host {
 
-constexpr std::uint32_t MOST_QUADS = 1024;  // of the legend and the caption; what is more is not drawn
+constexpr std::uint32_t MOST_QUADS = 1024;     // of the legend and the caption; what is more is not drawn
+constexpr std::uint32_t MARKS_OF_A_TOUCH = 4;  // as many points as a Contact has room for
 
 struct ShadowMap {
     Surface surface;
@@ -48,6 +50,8 @@ struct Canvas::Interior {
     VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
     VkPipeline round = VK_NULL_HANDLE, box = VK_NULL_HANDLE, plane = VK_NULL_HANDLE, sky = VK_NULL_HANDLE;
     VkPipeline smoothing = VK_NULL_HANDLE, overlay = VK_NULL_HANDLE;
+    VkPipeline marks = VK_NULL_HANDLE, hidden_marks = VK_NULL_HANDLE;
+    std::uint32_t mark_count = 0;
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
 
@@ -57,6 +61,7 @@ struct Canvas::Interior {
     void make_samplers();
     void make_shadow_maps();
     void make_picture();
+    void make_marks(PipelineShape shape);
     void make_commands();
     void upload_glyphs();
     void write_set(const BodyTables& tables);

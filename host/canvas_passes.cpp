@@ -38,6 +38,55 @@ VkRenderPass make_pass(Objects& objects, std::span<const VkAttachmentDescription
     return objects.make(vk.vkCreateRenderPass, vk.vkDestroyRenderPass, info, "vkCreateRenderPass");
 }
 
+// What all pipelines have alike, and what their shape says of the rest. Points to itself: not to be moved.
+struct FixedState {
+    VkPipelineVertexInputStateCreateInfo input{};  // empty: corners come from the body buffers
+    VkPipelineInputAssemblyStateCreateInfo assembly{};
+    VkViewport viewport{};
+    VkRect2D scissor{};
+    VkPipelineViewportStateCreateInfo view{};
+    VkPipelineRasterizationStateCreateInfo raster{};
+    VkPipelineMultisampleStateCreateInfo samples{};
+    VkPipelineDepthStencilStateCreateInfo depth{};
+    VkPipelineColorBlendAttachmentState target{};
+    VkPipelineColorBlendStateCreateInfo blend{};
+
+    explicit FixedState(const PipelineShape& shape) {
+        input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
+        assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
+        assembly.topology = shape.strip ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        viewport = {0, 0, static_cast<float>(shape.width), static_cast<float>(shape.height), 0, 1};
+        scissor.extent = {static_cast<std::uint32_t>(shape.width), static_cast<std::uint32_t>(shape.height)};
+        view.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
+        view.viewportCount = view.scissorCount = 1;
+        view.pViewports = &viewport;
+        view.pScissors = &scissor;
+        raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
+        raster.polygonMode = VK_POLYGON_MODE_FILL;
+        raster.cullMode = shape.cull;
+        raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
+        raster.lineWidth = 1;
+        samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
+        samples.rasterizationSamples = static_cast<VkSampleCountFlagBits>(shape.samples);
+        depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
+        depth.depthTestEnable = VK_TRUE;
+        depth.depthWriteEnable = shape.writes_depth ? VK_TRUE : VK_FALSE;
+        depth.depthCompareOp = shape.depth;
+        target.blendEnable = shape.blends ? VK_TRUE : VK_FALSE;
+        target.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
+        target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
+        // The picture's alpha stays: what blends is smooth already, and smooth.frag looks for stairs in the alpha.
+        target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
+        target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
+        target.colorWriteMask = 0xF;
+        blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
+        blend.attachmentCount = shape.colors ? 1 : 0;
+        blend.pAttachments = &target;
+    }
+    FixedState(const FixedState&) = delete;
+    FixedState& operator=(const FixedState&) = delete;
+};
+
 }  // namespace
 
 VkRenderPass make_shadow_pass(Objects& objects) {
@@ -112,57 +161,18 @@ VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape) {
     stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
     if (shape.fragment != nullptr) stages[1].module = objects.shader(shape.fragment);
 
-    // Corners come from the body buffers: there is no vertex input.
-    VkPipelineVertexInputStateCreateInfo input{};
-    input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
-    VkPipelineInputAssemblyStateCreateInfo assembly{};
-    assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-    assembly.topology = shape.strip ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
-    const VkViewport viewport{0, 0, static_cast<float>(shape.width), static_cast<float>(shape.height), 0, 1};
-    const VkRect2D scissor{{0, 0}, {static_cast<std::uint32_t>(shape.width), static_cast<std::uint32_t>(shape.height)}};
-    VkPipelineViewportStateCreateInfo view{};
-    view.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
-    view.viewportCount = 1;
-    view.pViewports = &viewport;
-    view.scissorCount = 1;
-    view.pScissors = &scissor;
-    VkPipelineRasterizationStateCreateInfo raster{};
-    raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
-    raster.polygonMode = VK_POLYGON_MODE_FILL;
-    raster.cullMode = shape.cull;
-    raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
-    raster.lineWidth = 1;
-    VkPipelineMultisampleStateCreateInfo samples{};
-    samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
-    samples.rasterizationSamples = static_cast<VkSampleCountFlagBits>(shape.samples);
-    VkPipelineDepthStencilStateCreateInfo depth{};
-    depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
-    depth.depthTestEnable = VK_TRUE;
-    depth.depthWriteEnable = shape.writes_depth ? VK_TRUE : VK_FALSE;
-    depth.depthCompareOp = shape.depth;
-    VkPipelineColorBlendAttachmentState target{};
-    target.blendEnable = shape.blends ? VK_TRUE : VK_FALSE;
-    target.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
-    target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-    target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-    target.colorWriteMask = 0xF;
-    VkPipelineColorBlendStateCreateInfo blend{};
-    blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-    blend.attachmentCount = shape.colors ? 1 : 0;
-    blend.pAttachments = &target;
-
+    const FixedState fixed(shape);
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
     info.stageCount = shape.fragment != nullptr ? 2 : 1;
     info.pStages = stages.data();
-    info.pVertexInputState = &input;
-    info.pInputAssemblyState = &assembly;
-    info.pViewportState = &view;
-    info.pRasterizationState = &raster;
-    info.pMultisampleState = &samples;
-    info.pDepthStencilState = &depth;
-    info.pColorBlendState = &blend;
+    info.pVertexInputState = &fixed.input;
+    info.pInputAssemblyState = &fixed.assembly;
+    info.pViewportState = &fixed.view;
+    info.pRasterizationState = &fixed.raster;
+    info.pMultisampleState = &fixed.samples;
+    info.pDepthStencilState = &fixed.depth;
+    info.pColorBlendState = &fixed.blend;
     info.layout = shape.layout;
     info.renderPass = shape.pass;
     VkPipeline pipeline = VK_NULL_HANDLE;

@@ -83,6 +83,7 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
             const Sum sum = sum_of_slots(state, i);
             velocity.linear += sum.change.linear;
             velocity.angular += sum.change.angular;
+            state.loads[i].blows = sum.carrying;
         }
         const physics::Moved after = physics::moved(state.poses[i], velocity, traits, state.fixed().h);
         state.poses[i] = after.pose;

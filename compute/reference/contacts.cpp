@@ -106,14 +106,15 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = after.impulse;
-        hand_out(state, c, physics::shares_of(before, after.couple, ma, mb), 0);
+        hand_out(state, c, physics::shares_of(before, after.couple, ma, mb), physics::blow_of(after.impulse));
     });
 }
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
+        const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a]);
+        const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b]);
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = physics::without_blows(after.impulse, c.count);

@@ -10,9 +10,10 @@
 // Softness (Catto, Soft Constraints, GDC 2011; Solver2D, 2024): penetration is a damped spring, solved implicitly, with the split
 // mass. Each substep has a biased pass, moves the bodies, and has a pass without bias that takes back the spring's velocity.
 // Restitution rides in that second pass instead of a pass of its own after the last substep: what approached faster than
-// the threshold leaves with e times that speed in the substep of the impact (a split body answers in part, and in full over the
-// next ones), so a bounce loses no part of a step's flight (g dt / v of its energy, 3% at 5 m/s and 60 Hz) and an impact runs
-// on through a row of balls.
+// the threshold leaves with e times that speed in the substep of the impact, so a bounce loses no part of a step's flight (g dt /
+// v of its energy, 3% at 5 m/s and 60 Hz) and an impact runs on through a row of balls. For that one pass a struck body is shared
+// among the contacts that strike it alone: with the usual over-relaxed share, what it merely lies on would take part of the
+// bounce, and two blows at once would throw it back too fast.
 //
 // Both bodies feel an impulse at the same point, although they move on through the substeps: the lever arm of one is fixed, that
 // of the other follows from the present distance d between the centres. So angular momentum is exact to rounding.
@@ -109,6 +110,7 @@ LAW Solved with_friction(Constraint c, Solved s, float normal, Mass a, Mass b) {
 LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
     c = at_present(c, impulse.d);
     bool gone = impulse.slipped > c.leave;
+    impulse.approach = vec4(0.0f);
     float normal = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
@@ -124,7 +126,7 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
             float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -parameters.push_speed);
             change = -mass * (parameters.mass_scale * speed + bias) - parameters.impulse_scale * before;
         }
-        if (c.restitution > 0.0f && impulse.approach[k] == 0.0f && before == 0.0f && speed < -parameters.restitution_threshold &&
+        if (c.restitution > 0.0f && before == 0.0f && speed < -parameters.restitution_threshold &&
             separation + parameters.h * speed < 0.0f)
             impulse.approach[k] = speed;
         float after = gone ? 0.0f : positive(before + change);
@@ -153,17 +155,13 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Para
     c = at_present(c, impulse.d);
     bool gone = impulse.slipped > c.leave;
     float normal = 0.0f;
-    float slack = 2.0f * parameters.h * length3(parameters.gravity);
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
         Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
         float mass = mass_along(row, a, b);
         float speed = speed_along(row, v);
         float target = impulse.separation[k] > 0.0f ? impulse.separation[k] * parameters.inverse_h : 0.0f;
-        if (impulse.approach[k] < 0.0f) {
-            target = c.restitution * impulse.approach[k];
-            if (speed > -0.97f * target - slack) impulse.approach[k] = 0.0f;
-        }
+        if (impulse.approach[k] < 0.0f) target = c.restitution * impulse.approach[k];
         float before = impulse.normal[k];
         float after = gone ? 0.0f : positive(before - mass * (speed + target));
         // A blow about to fall is left to the next substep, which sees how fast it is.
@@ -177,6 +175,16 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Para
     result.impulse = impulse;
     result.couple = v;
     return with_friction(c, result, normal, a, b);
+}
+
+LAW float blow_of(Impulse impulse) {
+    vec4 a = impulse.approach;
+    return a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f ? 1.0f : 0.0f;
+}
+// The mass as it is shared in the pass without bias.
+LAW Mass shared_for(Impulse impulse, Mass mass, Load load) {
+    if (blow_of(impulse) > 0.0f) mass.split = larger(1.0f, load.blows);
+    return mass;
 }
 
 // The impulse of a blow is spent: the next substep must not begin with it.

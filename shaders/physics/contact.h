@@ -73,7 +73,6 @@ LAW Impulse inherited(Contact now, Contact before, Impulse was, float radius) {
     for (uint k = 0u; k < 4u; ++k) {
         if (matches[k] == NONE) continue;
         impulse.normal[k] = was.normal[matches[k]];
-        impulse.approach[k] = was.approach[matches[k]];
     }
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {

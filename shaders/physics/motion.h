@@ -12,7 +12,7 @@ LAW Load gravity_load(Traits traits, Parameters parameters) {
     load.acceleration = traits.motion == MOTION_DYNAMIC ? parameters.gravity * traits.gravity_scale : vec3(0.0f);
     load.pad0 = 0.0f;
     load.angular_acceleration = vec3(0.0f);
-    load.pad1 = 0.0f;
+    load.blows = 0.0f;
     return load;
 }
 

@@ -69,7 +69,6 @@ LAW Contact aged(Contact contact) {
 LAW Impulse continued(Contact contact, Impulse was) {
     Impulse impulse = no_impulse(contact.d);
     impulse.normal = was.normal;
-    impulse.approach = was.approach;
     impulse.friction = was.friction;
     impulse.twist = was.twist;
     impulse.rolling = was.rolling;

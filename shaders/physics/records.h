@@ -60,7 +60,7 @@ struct Load {
     vec3 acceleration;  // gravity and forces, m/s^2, over the whole step
     float pad0;
     vec3 angular_acceleration;  // rad/s^2
-    float pad1;
+    float blows;                // contacts that struck the body in this substep and throw it back
 };
 
 // What the user asks of one body for one step; at most one record a body (the host adds up).

@@ -35,8 +35,7 @@ vec3 name_color(uint body) {
     return mix(vec3(0.10), vec3(0.75), c * c);
 }
 
-// rgb: the colour; a: how far up the scale, from 0 to 1.
-vec4 body_color(uint body) {
+vec4 full_color(uint body) {
     uint motion = traits[body].motion;
     if (motion == MOTION_FIXED) return vec4(STONE, 0.0);
     if (motion == MOTION_KINEMATIC) return vec4(KINEMATIC, 0.0);
@@ -47,6 +46,13 @@ vec4 body_color(uint body) {
     float x = frame.scale.z > 0.5 ? log(max(q, 1e-30)) : q;
     float t = clamp((x - frame.scale.x) / (frame.scale.y - frame.scale.x), 0.0, 1.0);
     return vec4(map_color(t), t);
+}
+
+// rgb: the colour; a: how far up the scale, from 0 to 1. Under marks all are paler, so that those stand out.
+vec4 body_color(uint body) {
+    vec4 color = full_color(body);
+    float grey = dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
+    return vec4(mix(color.rgb, vec3(0.08 + 0.5 * grey), 0.45 * frame.marks.x), color.a * (1.0 - frame.marks.x));
 }
 #endif
 

@@ -38,6 +38,7 @@ struct Frame {
     vec4 scale;            // low, high (logarithms when logarithmic), 1 when logarithmic, COLOR_BY_*
     vec4 maps;             // shadow map texel, m; sky map texel, m; the same as parts of the maps
     vec4 pixel;            // width of a pixel at 1 m, m; depth of the sky map, m; height over which its darkening halves, m
+    vec4 marks;            // 1 with marks, else 0; push whose line is half the thinner body's half width, m/s
     vec4 colors[MAP_ENTRIES];  // the colour map, linear light
 };
 

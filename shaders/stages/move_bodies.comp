@@ -15,9 +15,10 @@ void main() {
     if (body.motion == MOTION_FIXED) return;
     Velocity velocity = velocities[i];
     if (body.motion == MOTION_DYNAMIC) {
-        Velocity change = gather(i).change;
-        velocity.linear = velocity.linear + change.linear;
-        velocity.angular = velocity.angular + change.angular;
+        Gathered sum = gather(i);
+        velocity.linear = velocity.linear + sum.change.linear;
+        velocity.angular = velocity.angular + sum.change.angular;
+        loads[i].blows = sum.carrying;
     }
     Moved after = moved(poses[i], velocity, body, PARAMETERS.h);
     poses[i] = after.pose;

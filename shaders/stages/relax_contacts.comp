@@ -9,12 +9,14 @@ void main() {
     uint i = thread();
     if (i >= COUNTS.contacts) return;
     Constraint c = constraints[i];
-    Mass ma = masses[c.a], mb = masses[c.b];
+    Impulse impulse = impulses[i];
+    Mass ma = shared_for(impulse, masses[c.a], loads[c.a]);
+    Mass mb = shared_for(impulse, masses[c.b], loads[c.b]);
     Couple before;
     before.a = velocities[c.a];
     before.b = velocities[c.b];
-    Solved after = relaxed(c, impulses[i], before, ma, mb, PARAMETERS);
-    Impulse impulse = without_blows(after.impulse, c.count);
+    Solved after = relaxed(c, impulse, before, ma, mb, PARAMETERS);
+    impulse = without_blows(after.impulse, c.count);
     impulses[i] = impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
     if (push.pass == 0u) share = warm_start(c, impulse, share, ma, mb);

@@ -16,6 +16,7 @@ void main() {
     Solved after = solved(c, impulses[i], before, ma, mb, PARAMETERS);
     impulses[i] = after.impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
-    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, 0.0f);
-    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, 0.0f);
+    float blow = blow_of(after.impulse);
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, blow);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, blow);
 }

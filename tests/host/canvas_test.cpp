@@ -11,6 +11,8 @@
 
 using namespace scree::host;
 using glm::vec3;
+using scree::physics::Contact;
+using scree::physics::Impulse;
 using scree::physics::Pose;
 using scree::physics::Traits;
 using scree::physics::Velocity;
@@ -43,6 +45,22 @@ public:
         std::vector<std::uint32_t>* const lists[] = {&shapes_.spheres, &shapes_.capsules, &shapes_.boxes, &shapes_.planes};
         lists[shape]->push_back(index);
     }
+    // Between the last two bodies.
+    void add_touch(vec3 point, vec3 normal, float push) {
+        Contact touch{};
+        touch.b = static_cast<std::uint32_t>(traits_.size()) - 1;
+        touch.a = touch.b - 1;
+        touch.count = 1;
+        touch.normal = normal;
+        touch.d = poses_[touch.b].position - poses_[touch.a].position;
+        touch.points[0] = glm::vec4(point - poses_[touch.a].position, 0);
+        touch.turn_a = poses_[touch.a].orientation;
+        touch.turn_b = poses_[touch.b].orientation;
+        touches_.push_back(touch);
+        Impulse impulse{};
+        impulse.normal.x = push;
+        pushes_.push_back(impulse);
+    }
     void add_ground() { add(scree::physics::SHAPE_PLANE, {0, 1, 0}, vec3(0), vec3(0), 0); }
 
     Canvas canvas(const CanvasOptions& options) {
@@ -53,7 +71,17 @@ public:
         table(device, traits_table_, traits_);
         table(device, poses_table_, poses_);
         table(device, velocities_table_, velocities_);
-        return Canvas(device, shapes_, {&traits_table_, &poses_table_, &velocities_table_}, options);
+        BodyTables tables{&traits_table_, &poses_table_, &velocities_table_};
+        if (options.marks) {
+            tables.touch_count = static_cast<std::uint32_t>(touches_.size());
+            touches_.emplace_back().count = 4;  // behind the last one that means something
+            pushes_.resize(touches_.size());
+            table(device, touches_table_, touches_);
+            table(device, pushes_table_, pushes_);
+            tables.touches = &touches_table_;
+            tables.pushes = &pushes_table_;
+        }
+        return Canvas(device, shapes_, tables, options);
     }
     Image picture(const CanvasOptions& options, const Camera& camera, const ColorScale& scale = {},
                   const std::string& caption = "") {
@@ -71,7 +99,9 @@ private:
     std::vector<Pose> poses_;
     std::vector<Velocity> velocities_;
     ShapeInstances shapes_;
-    Buffer traits_table_, poses_table_, velocities_table_;
+    std::vector<Contact> touches_;
+    std::vector<Impulse> pushes_;
+    Buffer traits_table_, poses_table_, velocities_table_, touches_table_, pushes_table_;
 };
 
 struct Pixel {
@@ -234,6 +264,38 @@ TEST_CASE("the ends of the legend's bar are the ends of the map", "[canvas]") {
     require_no_messages();
 }
 
+TEST_CASE("a mark lies on the point where two bodies touch, and its line along the normal", "[canvas]") {
+    CanvasOptions options = small(GENERATE(1, 4));
+    options.marks = true;
+    const bool behind = GENERATE(false, true);
+    CAPTURE(options.samples, behind);
+    Stage plain, stage;
+    for (Stage* each : {&plain, &stage}) {
+        if (behind) each->add(scree::physics::SHAPE_BOX, {2, 1.5f, 0.1f}, {0, 2, 4}, vec3(0), 0);
+        each->add(scree::physics::SHAPE_BOX, vec3(1), {-1, 2, 0});
+        each->add(scree::physics::SHAPE_BOX, vec3(1), {1, 2, 0});
+    }
+    stage.add_touch({0, 2.5f, 1}, {1, 0, 0}, 4 * options.mark_push);
+    const Image without = plain.picture(options, AHEAD);
+    const Image with = stage.picture(options, AHEAD);
+    const auto change = [&](int x, int y) {
+        const Pixel a = at(with, x, y), b = at(without, x, y);
+        return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+    };
+    // A metre at 9 m is 100 / (9 tan 20) = 30.5 pixels, and the line half a metre to either side.
+    const int x = 160, y = 100 - 15;
+    const Pixel mark = at(with, x, y);
+    CHECK(change(x, y) > (behind ? 10 : 100));
+    if (!behind) CHECK(mark.g > std::max(mark.r, mark.b));
+    if (behind) CHECK(change(x, y) < 100);  // faint
+    CHECK(change(x + 13, y) > 6);
+    CHECK(change(x - 13, y) > 6);
+    CHECK(change(x + 20, y) == 0);
+    CHECK(change(x, y + 8) == 0);
+    CHECK(change(x, y - 8) == 0);
+    require_no_messages();
+}
+
 TEST_CASE("the same state gives the same pixels", "[canvas]") {
     const int samples = GENERATE(1, 4);
     const auto draw = [&] {
@@ -283,4 +345,8 @@ TEST_CASE("a canvas refuses what it cannot draw", "[canvas]") {
     flat.low = flat.high = 1;
     CHECK_THROWS_AS(stage.picture(small(1), AHEAD, flat), std::invalid_argument);
     CHECK_THROWS_AS(Canvas(validated_device(), {}, {}, small(1)), std::invalid_argument);
+    Buffer table(validated_device(), "a table", 1024);
+    CanvasOptions marks = small(1);
+    marks.marks = true;
+    CHECK_THROWS_WITH(Canvas(validated_device(), {}, {&table, &table, &table}, marks), Catch::Contains("marks"));
 }

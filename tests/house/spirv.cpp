@@ -60,7 +60,7 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Load;
-            all["Load"] = {sizeof(R), {M(acceleration), M(pad0), M(angular_acceleration), M(pad1)}};
+            all["Load"] = {sizeof(R), {M(acceleration), M(pad0), M(angular_acceleration), M(blows)}};
         }
         {
             using R = Action;

@@ -126,10 +126,29 @@ TEST_CASE("program: a report has every key, and says the same on every run", "[p
     const std::string file = (place / "report.json").string();
     REQUIRE(run_scree("run mix --bodies 200 --backend cpu --steps 30 --quiet --report '" + file + "'").status == 0);
     const json report = json::parse(place.read("report.json"));
-    for (const char* key :
-         {"demo",        "backend",   "device",     "bodies",       "steps",          "dt",        "substeps",
-          "ms_per_step", "stages",    "manifolds",  "points",       "penetration",    "max_speed", "kinetic_energy",
-          "momentum",    "drift_max", "not_finite", "below_ground", "buffer_growths", "state_hash"}) {
+    for (const char* key : {"demo",
+                            "backend",
+                            "device",
+                            "bodies",
+                            "steps",
+                            "dt",
+                            "substeps",
+                            "ms_per_step",
+                            "stages",
+                            "manifolds",
+                            "points",
+                            "penetration",
+                            "max_speed",
+                            "kinetic_energy",
+                            "momentum",
+                            "drift_max",
+                            "not_finite",
+                            "below_ground",
+                            "buffer_growths",
+                            "state_hash",
+                            "first_step_seconds",
+                            "peak_memory_bytes",
+                            "peak_memory_per_body"}) {
         INFO(key);
         REQUIRE(report.contains(key));
     }
@@ -137,12 +156,33 @@ TEST_CASE("program: a report has every key, and says the same on every run", "[p
     REQUIRE(report["penetration"].contains("mean"));
     REQUIRE(report["penetration"].contains("max"));
     REQUIRE(report["momentum"].size() == 3);
+    REQUIRE(report["first_step_seconds"].get<double>() > 0);
+    REQUIRE(report["first_step_seconds"].get<double>() <= report["seconds_total"].get<double>());
+    REQUIRE(report["peak_memory_per_body"].get<double>() == Approx(report["peak_memory_bytes"].get<double>() / 205));
     REQUIRE(report["bodies"] == 205);  // and a ground and four walls
     REQUIRE(report["steps"] == 30);
     REQUIRE(report["dt"].get<double>() == Approx(1.0 / 60));
     REQUIRE(report["stages"].size() > 5);
     REQUIRE(run_scree("run mix --bodies 200 --backend cpu --threads 1 --steps 30 --quiet --report '" + file + "'").status == 0);
     REQUIRE(json::parse(place.read("report.json"))["state_hash"] == report["state_hash"]);
+}
+
+TEST_CASE("program: the summary tells when the first step was done and what a body takes", "[program]") {
+    const Outcome run = run_scree("run rest --backend cpu --steps 2");
+    REQUIRE(run.status == 0);
+    REQUIRE(says(run.output, "first step      after "));
+    REQUIRE(says(run.output, "bytes per body"));
+}
+
+TEST_CASE("program: a size in another notation is the size of the pictures", "[program]") {
+    const Place place;
+    const Outcome run =
+        run_scree("run rest --backend cpu --steps 1 --quiet --size 1e2x64 --frames '" + place.path().string() + "'");
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    const std::string png = place.read("frame_000000.png");
+    REQUIRE(png.size() > 24);
+    REQUIRE(png.substr(16, 8) == std::string("\0\0\0\x64\0\0\0\x40", 8));  // IHDR: width, height
 }
 
 TEST_CASE("program: check holds a demo to its promise, and a run that is too short is not judged", "[program]") {

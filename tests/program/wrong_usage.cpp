@@ -38,6 +38,32 @@ std::string scene_with(const std::string& body) {
     return "{\"bodies\": [{\"shape\": {\"sphere\": {\"radius\": 1}}},\n" + body + "]}";
 }
 
+// An encoder in the place of ffmpeg, found first.
+void write_encoder(const Place& place, const std::string& script) {
+    std::filesystem::permissions(place.write("ffmpeg", "#!/bin/sh\n" + script + "\n"), std::filesystem::perms::owner_all);
+}
+std::string with_encoder_of(const Place& place) {
+    return "PATH='" + place.path().string() + "':\"$PATH\"; export PATH;";
+}
+
+// A long run with frames, a video and a report, ended by Ctrl-C when some pictures are there.
+Outcome run_until_pictures(const Place& place, const std::string& before = "") {
+    const std::string at = place.path().string();
+    const std::string start =
+        "--seconds 10000 --size 320x180 --frames '" + at + "/frames' --video '" + at + "/clip.mp4' --report '" + at + "/r.json'";
+    // The shell gives the program's number to the file, so that it can be sent the signal.
+    std::thread interrupter([&] {
+        for (int i = 0; i < 600 && !std::filesystem::exists(place / "frames/frame_000003.png"); ++i) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        }
+        const int process = std::atoi(place.read("pid").c_str());
+        if (process > 0) ::kill(process, SIGINT);
+    });
+    const Outcome outcome = run_scree("run dominoes --backend cpu " + start, before + " echo $$ >'" + at + "/pid'; exec");
+    interrupter.join();
+    return outcome;
+}
+
 }  // namespace
 
 TEST_CASE("program: an unknown demo is answered with the nearest and with scree list", "[program]") {
@@ -108,6 +134,9 @@ TEST_CASE("program: a frames folder, video or report that cannot be written is r
     require_refused(run_scree("run rest --frames '" + file + "/frames'"), {file});
     require_refused(run_scree("run rest --video '" + file + "/clip.mp4'"), {file});
     require_refused(run_scree("run rest --report '" + file + "/r.json'"), {file, "make it first"});
+    require_refused(run_scree("run rest --report '" + place.path().string() + "'"), {"--report", "is a folder"});
+    require_refused(run_scree("run rest --report /proc/report.json"), {"--report", "/proc", "no file can be made"});
+    require_refused(run_scree("bench rest --csv '" + place.path().string() + "'"), {"--csv", "is a folder"});
     REQUIRE(place.read("file") == "in the way");
 }
 
@@ -135,21 +164,32 @@ TEST_CASE("program: without a Vulkan driver a run goes on with the processor and
     require_refused(run_scree("devices", none), {"mesa-vulkan-drivers"});
 }
 
+TEST_CASE("program: an encoder that fails is a failure of the work, and leaves no video behind", "[program]") {
+    const Place place;
+    write_encoder(place, "exit 1");
+    const std::string video = (place / "clip.mp4").string();
+    const Outcome outcome =
+        run_scree("run rest --backend cpu --steps 2 --size 64x64 --video '" + video + "'", with_encoder_of(place));
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 1);
+    REQUIRE(says(outcome.errors, "ffmpeg failed"));
+    REQUIRE_FALSE(std::filesystem::exists(video));
+}
+
+TEST_CASE("program: Ctrl-C tells of a video that could not be written", "[program]") {
+    const Place place;
+    write_encoder(place, "cat >/dev/null; echo no space left >&2; exit 1");
+    const Outcome outcome = run_until_pictures(place, with_encoder_of(place));
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 130);
+    REQUIRE(says(outcome.errors, "no space left"));
+    REQUIRE(says(outcome.errors, "interrupted after"));
+    REQUIRE_FALSE(std::filesystem::exists(place / "clip.mp4"));
+}
+
 TEST_CASE("program: Ctrl-C ends a long run with whole pictures, no report, and status 130", "[program]") {
     const Place place;
-    const std::string at = place.path().string();
-    const std::string start =
-        "--seconds 10000 --size 320x180 --frames '" + at + "/frames' --video '" + at + "/clip.mp4' --report '" + at + "/r.json'";
-    // The shell gives the program's number to the file, so that it can be sent the signal.
-    std::thread interrupter([&] {
-        for (int i = 0; i < 600 && !std::filesystem::exists(place / "frames/frame_000003.png"); ++i) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(100));
-        }
-        const int process = std::atoi(place.read("pid").c_str());
-        if (process > 0) ::kill(process, SIGINT);
-    });
-    const Outcome outcome = run_scree("run dominoes --backend cpu " + start, "echo $$ >'" + at + "/pid'; exec");
-    interrupter.join();
+    const Outcome outcome = run_until_pictures(place);
     INFO(outcome.errors);
     REQUIRE(outcome.status == 130);
     REQUIRE(says(outcome.errors, "interrupted after"));

@@ -55,7 +55,7 @@ TEST_CASE("every stage gives the same bits on both processors, whatever the numb
         CAPTURE(bodies);
         const std::uint32_t contacts = contacts_walked(tests::packed(static_cast<int>(bodies)), watched, bodies > 1000 ? 4 : 10);
         REQUIRE(contacts >= bodies);
-        if (bodies > 1) REQUIRE(contacts > bodies);
+        if (bodies > 2) REQUIRE(contacts > bodies);
     }
 }
 

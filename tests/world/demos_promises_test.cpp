@@ -61,8 +61,12 @@ TEST_CASE("heaps of a hundred bodies keep their promises") {
     check_kept(heaps);
 }
 
-TEST_CASE("the wall and the pyramid keep their promises", "[long]") {
-    check_kept(buildings);
+TEST_CASE("the wall keeps its promise", "[long]") {
+    check_kept({buildings[0]});
+}
+
+TEST_CASE("the pyramid keeps its promise", "[long]") {
+    check_kept({buildings[1]});
 }
 
 // The tower leans a little further than it should, 0.176 m of 0.16 m, and the verdict says so: a known miss, reported. When it

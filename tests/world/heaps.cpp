@@ -90,8 +90,8 @@ Scene apart(int count, float height, std::uint32_t seed) {
     scene.bodies.push_back(ground());
     const int side = static_cast<int>(std::ceil(std::sqrt(static_cast<float>(count))));
     for (int i = 0; i < count; ++i) {
-        Body body = even_body(i, 0.3f + 0.1f * noise());
-        const float half = std::holds_alternative<Box>(body.shape) ? std::get<Box>(body.shape).half_extents.y : 0.4f;
+        const float half = 0.3f + 0.1f * noise();
+        Body body = even_body(i, half);
         body.position = vec3(1.8f * static_cast<float>(i % side), half + height, 1.8f * static_cast<float>(i / side));
         scene.bodies.push_back(body);
     }

@@ -35,26 +35,42 @@ Scene reversed(Scene scene) {
 }  // namespace
 
 TEST_CASE("bodies named in another order land alike, body by body, where each falls alone") {
-    const Scene scene = tests::apart(40, 0.7f);
+    Scene scene = tests::apart(40, 0.7f);
+    tests::Noise noise(5);
+    for (Body& body : scene.bodies) {  // on a corner, an end, or rolling on
+        body.orientation = vec4(noise.vector() * 0.2f, 1);
+        body.rolling_resistance = 0.02f;
+    }
     World world(scene, {}, 1), mirror(reversed(scene), {}, 1);
-    world.step(180);
-    mirror.step(180);
+    world.step(240);
+    mirror.step(240);
     const auto bodies = world.bodies(), others = mirror.bodies();
     double worst = 0, fastest = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         worst = std::max<double>(worst, glm::length(bodies[i].position - others[others.size() - 1 - i].position));
         fastest = std::max<double>(fastest, glm::length(bodies[i].velocity));
     }
-    WARN("MEASURE apart worst " << worst << " fastest " << fastest);
+    REQUIRE(fastest < 1e-3);  // landed
+    REQUIRE(worst < 1e-3);
 }
 
 TEST_CASE("bodies named in another order come to rest in a heap of the same height and energy") {
-    const Scene scene = tests::heap(150);
+    Scene scene = tests::heap(150);
+    for (Body& body : scene.bodies) {  // so that none rolls away
+        body.restitution = 0;
+        body.rolling_resistance = 0.05f;
+        body.angular_damping = 1;
+    }
     World world(scene, {}, 1), mirror(reversed(scene), {}, 1);
     world.step(400);
     mirror.step(400);
     const Statistics one = world.statistics(), other = mirror.statistics();
-    WARN("MEASURE heap pot " << one.potential_energy << " " << other.potential_energy << " kin " << one.kinetic_energy << " "
-                             << other.kinetic_energy << " manifolds " << one.manifolds << " " << other.manifolds << " pen "
-                             << one.penetration_max << " " << other.penetration_max);
+    for (const Statistics* statistics : {&one, &other}) {
+        REQUIRE(statistics->kinetic_energy < 1e-3 * one.potential_energy);
+        REQUIRE(statistics->penetration_max < 0.02);
+        REQUIRE(statistics->below_ground == 0);
+    }
+    // What collapses is chaotic: only its shape as a whole is the same.
+    REQUIRE(other.potential_energy == Approx(one.potential_energy).epsilon(0.1));
+    REQUIRE(static_cast<double>(other.manifolds) == Approx(static_cast<double>(one.manifolds)).epsilon(0.1));
 }

@@ -112,14 +112,17 @@ TEST_CASE("a box that tips lets go of its contact, and makes a lasting one once 
     walk.state.velocities[1].angular = {0, 0, -1.2f};  // about its right foot
     walk.state.velocities[1].linear = {1.2f, 0.24f, 0};
     walk.step();
-    int upright = 0;
+    int upright = 0, made_anew = 0;
     for (int i = 0; i < 30; ++i) {
         walk.step();
         if (walk.state.poses[1].position.y < 0.3f) break;
         ++upright;
-        REQUIRE(walk.age(0, 1).value_or(0) == 0u);
+        const unsigned age = walk.age(0, 1).value_or(0);
+        REQUIRE(age <= 6);  // its foot is still, but after 5 degrees, at 1 rad/s, the contact is made anew
+        made_anew += age == 0;
     }
     REQUIRE(upright > 10);
+    REQUIRE(made_anew >= 3);
     walk.step(240);
     REQUIRE(walk.state.poses[1].position.y < 0.21f);  // it lies
     REQUIRE(walk.age(0, 1) > 60u);
@@ -137,7 +140,7 @@ TEST_CASE("a box that is struck lets go of its contact, and only it does") {
     walk.step(12);
     REQUIRE(walk.age(0, 1) >= 8u);
     walk.step(8);
-    REQUIRE(walk.state.velocities[1].linear.x > 0.1f);
+    REQUIRE(walk.state.velocities[1].linear.x > 0.05f);
     REQUIRE(walk.age(0, 1).value_or(0) == 0u);
     REQUIRE(walk.age(0, 2) >= 16u);
 }

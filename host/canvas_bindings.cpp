@@ -1,0 +1,114 @@
+// Which buffers and images the picture shaders read.
+#include <stdexcept>
+
+#include "host/canvas_interior.h"
+
+namespace scree::host {
+namespace {
+
+// As in shaders/render: bodies and frame, the two shadow maps, the legend and its letters, the meshes, the picture to be
+// smoothed, where bodies touch and how they push.
+enum Binding : std::uint32_t {
+    TRAITS,
+    POSES,
+    VELOCITIES,
+    INSTANCES,
+    FRAME,
+    SUN_MAP,
+    SKY_MAP,
+    QUADS,
+    GLYPHS,
+    DIRECTIONS,
+    SCENE,
+    TOUCHES,
+    PUSHES
+};
+constexpr std::uint32_t BINDINGS = PUSHES + 1;
+
+constexpr bool is_sampler(std::uint32_t binding) {
+    return binding == SUN_MAP || binding == SKY_MAP || binding == GLYPHS || binding == SCENE;
+}
+
+}  // namespace
+
+void Canvas::Interior::make_layout() {
+    const VulkanFunctions& vk = device->vk();
+    std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
+    std::uint32_t samplers = 0;
+    for (std::uint32_t i = 0; i < BINDINGS; ++i) {
+        bindings[i].binding = i;
+        bindings[i].descriptorType =
+            is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        bindings[i].descriptorCount = 1;
+        bindings[i].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+        samplers += is_sampler(i) ? 1 : 0;
+    }
+    VkDescriptorSetLayoutCreateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set_info.bindingCount = BINDINGS;
+    set_info.pBindings = bindings.data();
+    set_layout =
+        objects.make(vk.vkCreateDescriptorSetLayout, vk.vkDestroyDescriptorSetLayout, set_info, "vkCreateDescriptorSetLayout");
+    const VkPushConstantRange push{VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof(std::uint32_t)};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set_layout;
+    info.pushConstantRangeCount = 1;
+    info.pPushConstantRanges = &push;
+    layout = objects.make(vk.vkCreatePipelineLayout, vk.vkDestroyPipelineLayout, info, "vkCreatePipelineLayout");
+
+    const std::array sizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, samplers},
+                           VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, BINDINGS - samplers}};
+    VkDescriptorPoolCreateInfo pool_info{};
+    pool_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool_info.maxSets = 1;
+    pool_info.poolSizeCount = static_cast<std::uint32_t>(sizes.size());
+    pool_info.pPoolSizes = sizes.data();
+    VkDescriptorSetAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    allocation.descriptorPool =
+        objects.make(vk.vkCreateDescriptorPool, vk.vkDestroyDescriptorPool, pool_info, "vkCreateDescriptorPool");
+    allocation.descriptorSetCount = 1;
+    allocation.pSetLayouts = &set_layout;
+    check(vk.vkAllocateDescriptorSets(device->handle(), &allocation, &set), "vkAllocateDescriptorSets");
+}
+
+void Canvas::Interior::write_set(const BodyTables& tables) {
+    if (tables.traits == nullptr || tables.poses == nullptr || tables.velocities == nullptr || !*tables.traits ||
+        !*tables.poses || !*tables.velocities) {
+        throw std::invalid_argument("canvas: a table of the bodies is missing");
+    }
+    const bool touching =
+        options.marks && tables.touches != nullptr && tables.pushes != nullptr && *tables.touches && *tables.pushes;
+    if (options.marks && !touching) throw std::invalid_argument("canvas: a table for the marks is missing");
+    mark_count = touching ? MARKS_OF_A_TOUCH * tables.touch_count : 0;
+    const std::array<const Buffer*, BINDINGS> buffers{tables.traits, tables.poses, tables.velocities, &instances, &frame, nullptr,
+                                                      nullptr, &quads, nullptr, &directions, nullptr,
+                                                      // Without marks nothing reads these, but a descriptor must name something.
+                                                      touching ? tables.touches : &instances,
+                                                      touching ? tables.pushes : &instances};
+    std::array<VkDescriptorBufferInfo, BINDINGS> buffer_infos{};
+    std::array<VkDescriptorImageInfo, BINDINGS> image_infos{};
+    std::array<VkWriteDescriptorSet, BINDINGS> writes{};
+    constexpr VkImageLayout depth_layout = VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL;
+    image_infos[SUN_MAP] = {depth_sampler, shadow_maps[0].surface.view, depth_layout};
+    image_infos[SKY_MAP] = {depth_sampler, shadow_maps[1].surface.view, depth_layout};
+    image_infos[GLYPHS] = {linear_sampler, glyphs.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    // Without smoothing nothing reads the scene, but a descriptor must name something.
+    image_infos[SCENE] = {linear_sampler, options.samples == 1 ? scene.view : glyphs.view,
+                          VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
+    for (std::uint32_t i = 0; i < BINDINGS; ++i) {
+        writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        writes[i].dstSet = set;
+        writes[i].dstBinding = i;
+        writes[i].descriptorCount = 1;
+        writes[i].descriptorType = is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        if (buffers[i] != nullptr) buffer_infos[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        writes[i].pBufferInfo = &buffer_infos[i];
+        writes[i].pImageInfo = &image_infos[i];
+    }
+    device->vk().vkUpdateDescriptorSets(device->handle(), BINDINGS, writes.data(), 0, nullptr);
+}
+
+}  // namespace scree::host

@@ -1,0 +1,90 @@
+// Marks on the points where bodies touch: squares in pixels, stretched along the normal by the line that tells the push.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_BODIES
+#include "shaders/render/scene.h"
+
+layout(std430, set = 0, binding = 11) readonly buffer TouchTable {
+    Contact touches[];
+};
+layout(std430, set = 0, binding = 12) readonly buffer PushTable {
+    Impulse pushes[];
+};
+layout(push_constant) uniform Pass {
+    uint hidden;  // 1 for what lies behind bodies, drawn faintly
+};
+layout(location = 0) out vec2 out_at;          // along the line and across it, pixels from the point
+layout(location = 1) flat out vec4 out_shape;  // half the line; radius of the disc; half width of the line; rim; pixels
+layout(location = 2) flat out vec4 out_color;
+
+const vec3 PUSHING = vec3(0.16, 1.0, 0.42);
+const vec3 IDLE = vec3(0.42, 0.55, 0.62);
+const float LONGEST = 0.95;  // half a line, of the thinner body's half width: lines of a stack do not meet
+
+float thickness(Traits t) {
+    if (t.shape == SHAPE_PLANE) return 1e30;
+    return t.shape == SHAPE_BOX ? min(t.size.x, min(t.size.y, t.size.z)) : t.size.x;
+}
+bool is_round(Traits t) {
+    return t.shape == SHAPE_SPHERE || t.shape == SHAPE_CAPSULE;
+}
+// By how much a body has turned since.
+vec3 turned_on(vec4 before, vec4 now, vec3 arm) {
+    return turned(now, turned_back(before, arm));
+}
+
+// Where the point is now, relative to the eye. It rides on both bodies, but does not roll with a round one.
+vec3 point_now(Contact touch, uint k, Traits a, Traits b) {
+    vec3 arm = touch.points[k].xyz;
+    vec3 on_a = poses[touch.a].position - frame.eye.xyz;
+    vec3 on_b = poses[touch.b].position - frame.eye.xyz;
+    if (is_round(a) != is_round(b)) return is_round(a) ? on_a + arm : on_b + arm - touch.d;
+    if (is_round(a)) return 0.5 * (on_a + arm + on_b + arm - touch.d);
+    return 0.5 * (on_a + turned_on(touch.turn_a, poses[touch.a].orientation, arm) + on_b +
+                  turned_on(touch.turn_b, poses[touch.b].orientation, arm - touch.d));
+}
+
+vec2 pixels_of(vec4 clip) {
+    return (clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.ray_right.w, frame.ray_down.w);
+}
+
+void main() {
+    gl_Position = vec4(0, 0, -1, 1);  // outside, until there is something to draw
+    out_at = vec2(0.0);
+    out_shape = out_color = vec4(0.0);
+    Contact touch = touches[gl_InstanceIndex / 4];
+    uint k = uint(gl_InstanceIndex % 4);
+    if (k >= touch.count) return;
+    Traits a = traits[touch.a], b = traits[touch.b];
+    vec3 point = point_now(touch, k, a, b);
+    vec4 clip = frame.view_projection * vec4(point, 1.0);
+    float near = frame.ray_corner.w;
+    if (clip.w < 2.0 * near) return;
+    vec2 middle = pixels_of(clip);
+
+    float size = min(thickness(a), thickness(b));
+    float push = pushes[gl_InstanceIndex / 4].normal[k] * max(a.inverse_mass, b.inverse_mass);
+    // Lengths grow as the square root: a heap's lowest points bear hundreds of times what its highest do.
+    float half_length = size * min(0.25 * sqrt(push / frame.marks.y), LONGEST);
+    vec4 end_clip = frame.view_projection * vec4(point + touch.normal * half_length, 1.0);
+    vec2 line = end_clip.w < near ? vec2(0.0) : pixels_of(end_clip) - middle;
+    float unit = frame.ray_down.w / 720.0;
+    vec2 along = length(line) > 1e-3 ? normalize(line) : vec2(0, 1);
+
+    bool pushing = push > 0.0;
+    float disc = clamp(0.15 * size / (clip.w * frame.pixel.x), 1.3 * unit, 5.5 * unit) * (pushing ? 1.0 : 0.75);
+    // The disc covers nothing of the line, unless one looks along it.
+    float seen = clamp(length(line) * clip.w * frame.pixel.x / max(half_length, 1e-6), 0.0, 1.0);
+    float half_line = min(length(line) + disc * seen, 0.25 * frame.ray_down.w);
+    float rim = clamp(0.35 * disc, 0.7, 1.6 * unit);
+    out_shape = vec4(half_line, disc, clamp(0.32 * disc, 0.5, 1.4 * unit), rim);
+    out_color = vec4(pushing ? PUSHING : IDLE, hidden != 0u ? 0.16 : 1.0);
+
+    vec2 corner = vec2((gl_VertexIndex & 1) * 2 - 1, (gl_VertexIndex >> 1) * 2 - 1);
+    vec2 reach = vec2(max(half_line + out_shape.z, disc), disc) + rim + 1.0;
+    out_at = corner * reach;
+    vec2 at = middle + along * out_at.x + vec2(-along.y, along.x) * out_at.y;
+    // In front of the bodies that touch here, as deep as the point lies between them; behind all others.
+    float nearer = max(length(point) - 0.4 * size, 0.5 * length(point)) / length(point);
+    gl_Position = vec4(at / vec2(frame.ray_right.w, frame.ray_down.w) * 2.0 - 1.0, min(near / (clip.w * nearer), 1.0), 1.0);
+}
