@@ -9,6 +9,7 @@
 #include "demos/failure.h"
 #include "demos/interrupt.h"
 #include "demos/machine.h"
+#include "demos/message.h"
 #include "demos/progress.h"
 #include "demos/report.h"
 #include "demos/subject.h"
@@ -143,12 +144,12 @@ int bench(const Options& options) {
     }
     require_writable_file("--csv", options.csv);
     const Machine machine = choose_machine(options.machine);
-    if (!machine.remark.empty()) fmt::print(stderr, "scree: {}\n", machine.remark);
+    if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     std::vector<Measurement> all;
     for (const SceneOptions& scene : scenes) {
         all.push_back(measure(scene, options, machine));
         if (is_interrupted()) {
-            fmt::print(stderr, "scree: interrupted in {}\n", scene.name);
+            say("scree: interrupted in {}\n", scene.name);
             return interrupted;
         }
     }

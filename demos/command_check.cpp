@@ -8,6 +8,7 @@
 #include "demos/failure.h"
 #include "demos/interrupt.h"
 #include "demos/machine.h"
+#include "demos/message.h"
 #include "demos/progress.h"
 #include "demos/subject.h"
 #include "demos/table.h"
@@ -61,13 +62,13 @@ std::vector<Row> judged(const SceneOptions& scene, const Machine& machine, bool 
 int check(const Options& options) {
     const std::vector<SceneOptions> scenes = scenes_of(options);
     const Machine machine = choose_machine(options.machine);
-    if (!machine.remark.empty()) fmt::print(stderr, "scree: {}\n", machine.remark);
+    if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     std::vector<Cells> rows = {verdict_heading({"scene"})};
     std::size_t missed = 0;
     for (const SceneOptions& scene : scenes) {
         const std::vector<Row> verdicts = judged(scene, machine, options.quiet);
         if (is_interrupted()) {
-            fmt::print(stderr, "scree: interrupted in {}\n", scene.name);
+            say("scree: interrupted in {}\n", scene.name);
             return interrupted;
         }
         for (const Row& row : verdicts) rows.push_back(verdict(row, {scene.name}));

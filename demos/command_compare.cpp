@@ -6,6 +6,7 @@
 #include "demos/failure.h"
 #include "demos/interrupt.h"
 #include "demos/machine.h"
+#include "demos/message.h"
 #include "demos/progress.h"
 #include "demos/report.h"
 #include "demos/subject.h"
@@ -35,7 +36,7 @@ int compare(const Options& options) {
     });
     progress.reset();
     if (is_interrupted()) {
-        fmt::print(stderr, "scree: interrupted\n");
+        say("scree: interrupted\n");
         return interrupted;
     }
     machine.require_valid();

@@ -43,7 +43,9 @@ void add_export(CLI::App& program, int&) {
     command->add_option_function<std::string>(
         "--bodies", [options](const std::string& word) { options->scene.bodies = count_of(word); },
         "how many; 10k and 1M are understood");
-    command->add_option("--seed", options->scene.seed, "of the random numbers that a demo is built with");
+    command->add_option_function<std::string>(
+        "--seed", [options](const std::string& word) { options->scene.seed = seed_of(word); },
+        "of the random numbers that a demo is built with");
     command->add_flag("--schema", options->schema, "write the JSON Schema of scene files instead");
     command->callback([options] { write_out(*options); });
 }

@@ -1,12 +1,15 @@
 // scree run: simulates a demo or a scene file, with pictures and a report, and holds it to its promise.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 
 #include "demos/commands.h"
 #include "demos/failure.h"
 #include "demos/interrupt.h"
 #include "demos/machine.h"
+#include "demos/message.h"
 #include "demos/pictures.h"
 #include "demos/progress.h"
 #include "demos/report.h"
@@ -84,8 +87,7 @@ void conclude(const Options& options, const Subject& subject, const RunReport& r
     }
     if (all_pass(report.rows) || !options.quiet) return;
     for (const Row& row : report.rows) {
-        if (!row.pass)
-            fmt::print(stderr, "scree: {}: {}: promised {}, measured {}\n", subject.name, row.what, row.promised, row.measured);
+        if (!row.pass) say("scree: {}: {}: promised {}, measured {}\n", subject.name, row.what, row.promised, row.measured);
     }
 }
 
@@ -95,10 +97,9 @@ int end_early(World& world, Pictures* pictures) {
     try {
         if (pictures) pictures->finish();
     } catch (const std::exception& error) {
-        fmt::print(stderr, "scree: {}\n", error.what());
+        say("scree: {}\n", error.what());
     }
-    fmt::print(stderr, "scree: interrupted after {} steps{}\n", world.steps(),
-               frames ? fmt::format(", {} pictures", frames) : "");
+    say("scree: interrupted after {} steps{}\n", world.steps(), frames ? fmt::format(", {} pictures", frames) : "");
     return interrupted;
 }
 
@@ -132,12 +133,25 @@ int work(const Options& options, const Subject& subject, const Machine& machine,
     return all_pass(report.rows) ? done : promise_missed;
 }
 
+// The limit is a setting, so a scene alone cannot be wrong about it.
+void note_clamped_speeds(const Scene& scene, const Settings& settings) {
+    const auto count = std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+        const vec3 v = body.velocity;  // squares of the greatest floats need a double
+        return body.motion == Motion::dynamic && std::hypot(static_cast<double>(v.x), static_cast<double>(v.y),
+                                                            static_cast<double>(v.z)) > static_cast<double>(settings.max_speed);
+    });
+    if (count == 0) return;
+    say("scree: note: {} faster than {:g} m/s and {} slowed to that\n",
+        count == 1 ? "1 body starts" : fmt::format("{} bodies start", count), settings.max_speed, count == 1 ? "is" : "are");
+}
+
 int run(const Options& options) {
     RunReport report;
     require_writable(options);
     const Subject subject = load_subject(options.scene);
     const Machine machine = choose_machine(options.machine);
-    if (!machine.remark.empty() && !options.quiet) fmt::print(stderr, "scree: {}\n", machine.remark);
+    if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
+    if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
     World world(subject.scene, options.scene.settings(), machine.make_runner());
     std::optional<Pictures> pictures;
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);

@@ -3,7 +3,7 @@
 
 namespace scree::demos {
 
-void listen_for_interrupt();  // SIGINT and SIGTERM
+void listen_for_interrupt();  // SIGINT, SIGTERM and SIGHUP; a second one ends the program at once
 bool is_interrupted();
 
 }  // namespace scree::demos

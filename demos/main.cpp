@@ -1,12 +1,14 @@
 // The program scree: reads the command line, runs a command, and turns what went wrong into one message and an exit status.
-#include <fmt/format.h>
+#include <fcntl.h>
 
 #include <cstdio>
 #include <new>
+#include <system_error>
 
 #include "demos/commands.h"
 #include "demos/failure.h"
 #include "demos/interrupt.h"
+#include "demos/message.h"
 
 namespace {
 
@@ -22,14 +24,30 @@ constexpr const char* examples = R"(Examples:
 Exit status: 0 done, 1 the work failed or missed its promise, 2 wrong usage or input, 130 interrupted.)";
 
 int tell(const std::string& message, int status = scree::demos::wrong_usage) {
-    fmt::print(stderr, "scree: {}\n", message);
+    scree::demos::say("scree: {}\n", message);
     return status;
+}
+
+// Where a standard stream is closed, the next file opened would take its number, and with it what is meant for the stream.
+void occupy_closed_streams() {
+    for (int stream = 0; stream < 3; ++stream) {
+        if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDONLY);
+    }
+}
+
+std::string cause_of(const CLI::App& program, const CLI::ParseError& error) {
+    if (!program.get_subcommands().empty() || program.remaining_size() == 0) return error.what();
+    const std::string word = program.remaining().front();
+    std::string known;
+    for (const CLI::App* command : program.get_subcommands(nullptr)) known += (known.empty() ? "" : ", ") + command->get_name();
+    return fmt::format("unknown {} \"{}\"; the commands are {}", word.starts_with('-') ? "option" : "command", word, known);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
     namespace demos = scree::demos;
+    occupy_closed_streams();
     demos::listen_for_interrupt();
     int status = demos::done;
     CLI::App program(
@@ -50,11 +68,13 @@ int main(int argc, char** argv) {
     } catch (const CLI::Success& help) {
         return program.exit(help);
     } catch (const CLI::ParseError& error) {
-        return tell(std::string(error.what()) + "\nscree --help and scree COMMAND --help say more");
+        return tell(cause_of(program, error) + "\nscree --help and scree COMMAND --help say more");
     } catch (const std::bad_alloc&) {
         return tell("beyond memory: the scene does not fit; ask for fewer --bodies");
     } catch (const demos::WorkFailed& error) {
         return tell(error.what(), demos::promise_missed);
+    } catch (const std::system_error& error) {
+        return tell(error.what(), demos::promise_missed);  // a stream that takes no more, a thread that cannot start
     } catch (const std::exception& error) {
         return tell(error.what());
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 #include "demos/pictures.h"
@@ -17,6 +18,9 @@ namespace {
 double number_of(const std::string& word, const char* option, const char* such_as = "") {
     double value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error == std::errc::result_out_of_range) {
+        throw CLI::ValidationError(option, fmt::format("the number {} is out of range", word));
+    }
     if (error != std::errc() || end != word.data() + word.size() || !std::isfinite(value)) {
         throw CLI::ValidationError(option, fmt::format("\"{}\" is not a number{}", word, such_as));
     }
@@ -44,8 +48,15 @@ void set_size(PictureOptions& options, const std::string& word) {
 
 void set_range(PictureOptions& options, const std::string& word) {
     const auto [low, high] = halves(word, ':', "--color-range", "LOW:HIGH");
-    options.color_range = {static_cast<float>(number_of(low, "--color-range")),
-                           static_cast<float>(number_of(high, "--color-range"))};
+    const auto bound_of = [](const std::string& bound) {
+        const double value = number_of(bound, "--color-range");
+        if (std::abs(value) > static_cast<double>(std::numeric_limits<float>::max())) {
+            throw CLI::ValidationError("--color-range",
+                                       fmt::format("the number {} is out of range, which ends at 3.4e38", bound));
+        }
+        return static_cast<float>(value);
+    };
+    options.color_range = {bound_of(low), bound_of(high)};
     if (!(options.color_range->first < options.color_range->second)) {
         throw CLI::ValidationError("--color-range", "LOW must be below HIGH, is " + word);
     }
@@ -104,6 +115,16 @@ std::size_t count_of(const std::string& word) {
         throw CLI::ValidationError("--bodies", fmt::format("must be a whole number of at least 1, is \"{}\"", word));
     }
     return static_cast<std::size_t>(value);
+}
+
+std::uint64_t seed_of(const std::string& word) {
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seed);
+    if (error != std::errc() || end != word.data() + word.size()) {
+        throw CLI::ValidationError("--seed", fmt::format("must be a whole number between 0 and {}, is \"{}\"",
+                                                         std::numeric_limits<std::uint64_t>::max(), word));
+    }
+    return seed;
 }
 
 std::vector<std::size_t> counts_of(const std::string& list) {
@@ -169,7 +190,11 @@ void add_options(CLI::App& command, SceneOptions& options) {
             "--bodies", [&options](const std::string& word) { options.bodies = count_of(word); },
             "how many; 10k and 1M are understood")
         ->group("What");
-    command.add_option("--seed", options.seed, "of the random numbers that a demo is built with")->group("What");
+    command
+        .add_option_function<std::string>(
+            "--seed", [&options](const std::string& word) { options.seed = seed_of(word); },
+            "of the random numbers that a demo is built with")
+        ->group("What");
 }
 
 void add_options(CLI::App& command, PictureOptions& options) {

@@ -54,6 +54,7 @@ void add_options(CLI::App& command, PictureOptions& options);
 
 // "10k", "1M", "250" and the like. Throws CLI::ValidationError.
 std::size_t count_of(const std::string& word);
+std::uint64_t seed_of(const std::string& word);               // throws the same
 std::vector<std::size_t> counts_of(const std::string& list);  // parted by commas
 
 // The word of `known` that is nearest to `word` by changed letters; "" if none is near.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "demos/message.h"
+
 namespace scree::demos {
 
 std::string duration(double seconds) {
@@ -22,7 +24,7 @@ Progress::Progress(std::string what, long total, const char* unit, bool quiet)
     : what_(std::move(what)), total_(std::max(total, 1L)), unit_(unit), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
-    if (shown_ && terminal_) fmt::print(stderr, "\r\033[K");
+    if (shown_ && terminal_) say("\r\033[K");
 }
 
 void Progress::done(long count) {
@@ -42,13 +44,13 @@ void Progress::show(long count, double seconds) {
     const std::string text =
         fmt::format("{} {:3.0f}%  {}/{} {}  {:.3g}/s  {}", what_, 100 * part, count, total_, unit_, rate, left);
     if (!terminal_) {
-        fmt::print(stderr, "{}\n", text);
+        say("{}\n", text);
         return;
     }
     constexpr int width = 24;
     const int filled = std::clamp(static_cast<int>(part * width), 0, width);
-    fmt::print(stderr, "\r\033[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
-               std::string(static_cast<std::size_t>(width - filled), '.'), text);
+    say("\r\033[K[{}{}] {}", std::string(static_cast<std::size_t>(filled), '#'),
+        std::string(static_cast<std::size_t>(width - filled), '.'), text);
     std::fflush(stderr);
 }
 

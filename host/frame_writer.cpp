@@ -93,6 +93,15 @@ private:
     std::vector<std::jthread> threads_;
 };
 
+// Frames of an earlier run would stand behind the last of a shorter one, as if they were its own.
+void require_no_frames(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with("frame_") || !name.ends_with(".png")) continue;
+        throw ImageError(folder.string() + ": holds frames already, such as " + name + "; name another folder, or remove them");
+    }
+}
+
 int encoders(int asked) {
     if (asked > 0) return asked;
     return std::thread::hardware_concurrency() > 4 ? 2 : 1;
@@ -110,7 +119,10 @@ struct FrameWriter::Interior {
 FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::make_unique<Interior>()) {
     interior_->options = options;
     const auto longest = static_cast<std::size_t>(std::max(options.waiting, 1));
-    if (!options.folder.empty()) require_writable_folder(options.folder);
+    if (!options.folder.empty()) {
+        require_writable_folder(options.folder);
+        require_no_frames(options.folder);
+    }
     if (!options.video.empty()) {
         interior_->video = std::make_unique<Video>(options.video, options.width, options.height, options.frames_per_second);
         interior_->film =

@@ -20,7 +20,8 @@ struct FrameWriterOptions {
 
 class FrameWriter {
 public:
-    // Makes the folder. Throws ImageError now for what can be known now: an unwritable place, no ffmpeg.
+    // Makes the folder. Throws ImageError now for what can be known now: an unwritable place, frames that are there already,
+    // no ffmpeg.
     explicit FrameWriter(const FrameWriterOptions& options);
     ~FrameWriter();  // finishes what waits, and stays silent about errors
     FrameWriter(const FrameWriter&) = delete;

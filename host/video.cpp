@@ -31,6 +31,25 @@ std::string find_ffmpeg() {
     throw ImageError("ffmpeg not found: apt-get install ffmpeg, or leave out --video");
 }
 
+// The file that links lead to, so that it is replaced and not the link. Throws ImageError unless that is a file or nothing yet.
+std::filesystem::path target_of(const std::filesystem::path& path) {
+    namespace fs = std::filesystem;
+    const auto refuse = [&](const char* why) {
+        throw ImageError(path.string() + ": " + why + "; name a file such as scree.mp4");
+    };
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_directory(status)) refuse("is a folder");
+    if (fs::is_regular_file(status)) return fs::canonical(path);
+    if (fs::exists(status)) refuse("is not a regular file, and only such can be replaced by a whole video");
+    fs::path target = path;
+    for (int links = 0; fs::is_symlink(target, ignored); ++links) {  // to what is not there yet
+        if (links == 40) refuse("is a link that leads in a circle");
+        target = target.parent_path() / fs::read_symlink(target);
+    }
+    return target;
+}
+
 // Writing to a program that has ended raises SIGPIPE; this turns it into an error of write() for this thread alone.
 class PipeSignalHeld {
 public:
@@ -59,7 +78,7 @@ private:
 }  // namespace
 
 struct Video::Interior {
-    std::filesystem::path path, partial;
+    std::filesystem::path path, target, partial;
     int width = 0, height = 0;
     pid_t process = -1;
     int pipe = -1;    // to ffmpeg's input
@@ -150,11 +169,12 @@ Video::Video(const std::filesystem::path& path, int width, int height, double fr
     if (width < 2 || height < 2 || !(frames_per_second > 0)) {
         throw ImageError(path.string() + ": a video needs at least 2 x 2 pixels and a positive frame rate");
     }
+    const std::filesystem::path target = target_of(path);
     const std::string program = find_ffmpeg();
-    require_writable_folder(path.parent_path());
-    if (std::filesystem::is_directory(path)) throw ImageError(path.string() + ": is a folder; name a file such as scree.mp4");
+    require_writable_folder(target.parent_path());
     interior_->path = path;
-    interior_->partial = path.string() + ".part" + std::to_string(::getpid());
+    interior_->target = target;
+    interior_->partial = target.string() + ".part" + std::to_string(::getpid());
     interior_->width = width;
     interior_->height = height;
     interior_->start(program, frames_per_second);
@@ -188,7 +208,7 @@ void Video::finish() {
     const int status = interior_->wait();
     if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) interior_->fail();
     std::error_code error;
-    std::filesystem::rename(interior_->partial, interior_->path, error);
+    std::filesystem::rename(interior_->partial, interior_->target, error);
     if (error) throw ImageError(interior_->path.string() + ": cannot be written: " + error.message());
 }
 

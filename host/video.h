@@ -11,7 +11,7 @@ namespace scree::host {
 class Video {
 public:
     // Starts ffmpeg (H.264, readable by browsers). Throws ImageError at once when ffmpeg is missing or the folder is not
-    // writable. An odd width or height loses its last column or row.
+    // writable, or when the path is there and not a file. An odd width or height loses its last column or row.
     Video(const std::filesystem::path& path, int width, int height, double frames_per_second);
     ~Video();  // an unfinished video is removed
     Video(const Video&) = delete;

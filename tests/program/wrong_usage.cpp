@@ -1,5 +1,6 @@
 // What the program says to wrong usage and wrong input: the place, the cause, the cure; status 2; and nothing left behind.
 #include <signal.h>
+#include <sys/stat.h>
 
 #include <catch2/catch.hpp>
 #include <chrono>
@@ -80,6 +81,10 @@ TEST_CASE("program: an unknown option or value is answered with what is known", 
     require_refused(run_scree("run wall --size 8x8"), {"between 16 and 16384"});
     require_refused(run_scree("run wall --color-range 5:1"), {"LOW must be below HIGH"});
     require_refused(run_scree("run wall --steps 0"), {"--steps"});
+    require_refused(run_scree("run wall --color-range -5:1e39"), {"--color-range", "1e39 is out of range"});
+    require_refused(run_scree("run wall --seed -1"), {"--seed", "\"-1\""});
+    require_refused(run_scree("export wall --seed 18446744073709551616"), {"--seed", "between 0 and 18446744073709551615"});
+    require_refused(run_scree("foo"), {"unknown command \"foo\"", "run, compare, check"});
     require_refused(run_scree("run wall --rate nan"), {"--rate", "between 10 and 1000"});
     require_refused(run_scree("run wall --seconds nan"), {"--seconds"});
     require_refused(run_scree("run wall --color-range nan:1"), {"nan"});
@@ -138,6 +143,61 @@ TEST_CASE("program: a frames folder, video or report that cannot be written is r
     require_refused(run_scree("run rest --report /proc/report.json"), {"--report", "/proc", "no file can be made"});
     require_refused(run_scree("bench rest --csv '" + place.path().string() + "'"), {"--csv", "is a folder"});
     REQUIRE(place.read("file") == "in the way");
+}
+
+TEST_CASE("program: a video that would replace what is no file is refused before the run", "[program]") {
+    const Place place;
+    const std::string pipe = (place / "pipe").string();
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    require_refused(run_scree("run rest --steps 1 --video '" + pipe + "'"), {pipe, "not a regular file", "scree.mp4"});
+    REQUIRE(std::filesystem::is_fifo(pipe));
+    require_refused(run_scree("run rest --steps 1 --video /dev/null"), {"/dev/null", "not a regular file"});
+    require_refused(run_scree("run rest --steps 1 --video '" + place.path().string() + "'"), {"is a folder"});
+}
+
+TEST_CASE("program: through a link, the video that it leads to is written", "[program]") {
+    const Place place;
+    write_encoder(place, "for last; do :; done; cat >/dev/null; echo video >\"$last\"");
+    place.write("old.mp4", "old");
+    std::filesystem::create_symlink("old.mp4", place / "link.mp4");
+    std::filesystem::create_symlink("new.mp4", place / "early.mp4");
+    for (const char* name : {"link.mp4", "early.mp4"}) {
+        const Outcome run = run_scree("run rest --backend cpu --steps 1 --size 64x64 --video '" + (place / name).string() + "'",
+                                      with_encoder_of(place));
+        INFO(run.errors);
+        REQUIRE(run.status == 0);
+        REQUIRE(std::filesystem::is_symlink(place / name));
+    }
+    REQUIRE(place.read("old.mp4") == "video\n");
+    REQUIRE(place.read("new.mp4") == "video\n");
+}
+
+TEST_CASE("program: frames are not mixed with those of an earlier run", "[program]") {
+    const Place place;
+    place.write("frame_000007.png", "earlier");
+    require_refused(run_scree("run rest --steps 1 --frames '" + place.path().string() + "'"),
+                    {place.path().string(), "frame_000007.png", "another folder", "remove"});
+    REQUIRE(place.read("frame_000007.png") == "earlier");
+}
+
+TEST_CASE("program: closed streams change no status", "[program]") {
+    const auto status_of = [](const std::string& words) {
+        const int code = std::system(("'" SCREE_PROGRAM_PATH "' " + words).c_str());
+        return WIFEXITED(code) ? WEXITSTATUS(code) : 128 + WTERMSIG(code);
+    };
+    REQUIRE(status_of("run nosuch 2>&-") == 2);
+    REQUIRE(status_of("run rest --backend cpu --steps 1 2>&- >/dev/null") == 0);
+    REQUIRE(status_of("run rest --backend cpu --steps 1 >&- 2>/dev/null") == 1);
+    REQUIRE(status_of("list >&- 2>&-") == 1);
+}
+
+TEST_CASE("program: a body that starts too fast is noted", "[program]") {
+    const Place place;
+    const std::string file = place.write("fast.json", scene_with(R"({"shape": {"sphere": {"radius": 1}}, "position": [9, 0, 0],
+        "velocity": [300, 300, 0]})"));
+    const Outcome run = run_scree("run '" + file + "' --backend cpu --steps 1");
+    INFO(run.errors);
+    REQUIRE(says(run.errors, "note: 1 body starts faster than 400 m/s and is slowed to that"));
 }
 
 TEST_CASE("program: a device that is not there is refused with those that are", "[program]") {
