@@ -101,6 +101,8 @@ LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     return s;
 }
 
+// In both passes: in the one without bias alone, where a warm start is answered only once, over-relaxed splitting overshoots
+// for a share above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
 LAW Solved with_friction(Constraint c, Solved s, float normal, Mass a, Mass b) {
     if (c.rolling_resistance > 0.0f) s = rolled(c, s, normal, a, b);
     return rubbed(c, s, normal, a, b);

@@ -4,7 +4,8 @@
 // contact was made, and only the separation is measured anew, between the points' marks on either body. The frozen arms
 // take away the sideways shift of the load that makes a column of soft contacts buckle, and what is the same in every step
 // can come to true rest. The price: the two forces of a contact act up to the tolerance apart, and a resting pair's
-// angular momentum is exact only to that. So the tolerance is small against the bodies, and what slides, rolls or tips lets go.
+// angular momentum is exact only to that. So the tolerance is small against the bodies: what slides or rolls lets go at once,
+// what tips after 5 degrees.
 #ifndef SCREE_PHYSICS_PERSISTENCE_H
 #define SCREE_PHYSICS_PERSISTENCE_H
 
