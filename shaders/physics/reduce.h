@@ -29,26 +29,37 @@ LAW float merit(uint step, vec4 a, vec4 b, vec4 c, float area_abc, vec4 p) {
     return larger(beyond_ab, larger(beyond_bc, beyond_ca));
 }
 
-// The bits of the overlay's corners below the ceiling (m) that are worth keeping: the lowest (to within `flat_within`, m), the
-// farthest from it, the one that spans the largest triangle with these, and the one farthest outside of that. All, if there are
-// no more than four.
+// The bits of the overlay's corners below the ceiling (m) that are worth keeping: the lowest (of those as low to within
+// `flat_within`, m, the farthest from the rectangle's middle), the farthest from it, the one that spans the largest triangle with
+// these, and the one farthest outside of that. All, if there are no more than four. Were the first just any low one, it could be
+// where two sides that are all but parallel cross: in the middle of a face's edge, and a corner would go without support.
 LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
     uint present = 0u;
     uint count = 0u;
     uint chosen = 0u;
-    vec4 a = vec4(1.0e30f, 0.0f, 0.0f, 0.0f);
+    float lowest = ceiling;
     for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
         vec4 p = overlay_corner(overlay, k);
         if (p.w >= 0.0f && p.x < ceiling) {
             present = present | (1u << k);
             count = count + 1u;
-            if (p.x < a.x - flat_within) {
+            lowest = smaller(lowest, p.x);
+        }
+    }
+    if (count <= 4u) return present;
+    vec4 a = vec4(0.0f);
+    float farthest = -1.0f;
+    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
+        if ((present & (1u << k)) != 0u) {
+            vec4 p = overlay_corner(overlay, k);
+            float away = p.y * p.y + p.z * p.z;
+            if (p.x <= lowest + flat_within && REDUCE_BIAS * away > farthest) {
                 a = p;
+                farthest = away;
                 chosen = 1u << k;
             }
         }
     }
-    if (count <= 4u) return present;
     vec4 b = a;
     vec4 c = a;
     float area_abc = 0.0f;
