@@ -94,7 +94,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c.pair = index;
 
         const physics::Couple now = velocities_of(state, c);
-        const float carrying = physics::carries(c, impulse, now, ma, mb, p);
+        const float carrying = physics::carries(c, impulse, now, p);
         hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying);
     });
 }
@@ -120,7 +120,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         state.impulses[i] = physics::without_blows(after.impulse, c.count);
         physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
         if (!last) share = physics::warm_start(c, state.impulses[i], share, ma, mb);
-        hand_out(state, c, share, physics::carries(c, state.impulses[i], after.couple, ma, mb, state.fixed()));
+        hand_out(state, c, share, physics::carries(c, state.impulses[i], after.couple, state.fixed()));
     });
 }
 

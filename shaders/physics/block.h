@@ -113,6 +113,8 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
     c = at_present(c, impulse.d);
     bool gone = impulse.slipped > c.leave;
     impulse.approach = vec4(0.0f);
+    // What overlaps many bodies is pushed by all of them at once, and pushes add up from layer to layer.
+    float push_speed = parameters.push_speed * reciprocal(larger(a.split, b.split));
     float normal = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
@@ -125,7 +127,7 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
         if (separation > 0.0f) {
             change = -mass * (speed + separation * parameters.inverse_h);
         } else {
-            float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -parameters.push_speed);
+            float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -push_speed);
             change = -mass * (parameters.mass_scale * speed + bias) - parameters.impulse_scale * before;
         }
         if (c.restitution > 0.0f && before == 0.0f && speed < -parameters.restitution_threshold &&
@@ -147,8 +149,8 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
 LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count || c.anchor == ANCHOR_ROUND) break;
-        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
-        impulse.separation[k] = impulse.separation[k] + parameters.h * speed_along(row, v);
+        Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
+        impulse.separation[k] = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
     }
     vec3 way = (v.b.linear - v.a.linear) * parameters.h;
     impulse.d = impulse.d + way;
@@ -212,25 +214,36 @@ LAW Impulse without_blows(Impulse impulse, uint count) {
 // v, and what last substep's impulses do to whole bodies: the guess with which the next substep begins.
 LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
     c = at_present(c, impulse.d);
-    for (uint k = 0u; k < 4u; ++k) {
+    float normal = impulse.normal.x;
+    vec3 moment = xyz(c.arms[0]) * impulse.normal.x;
+    for (uint k = 1u; k < 4u; ++k) {
         if (k >= c.count) break;
-        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
-        v = pushed(v, row, impulse.normal[k], a, 1.0f, b, 1.0f);
+        normal = normal + impulse.normal[k];
+        moment = moment + xyz(c.arms[k]) * impulse.normal[k];
     }
-    Row row = row_of(levers_of(c, c.centre, impulse.d), impulse.friction, a, b);
-    v = pushed(v, row, 1.0f, a, 1.0f, b, 1.0f);
-    return twisted(v, impulse.rolling + c.normal * impulse.twist, a, 1.0f, b, 1.0f);
+    // All points push along the normal, so their moments about a body come to one.
+    vec3 across = impulse.d * normal;
+    vec3 push = c.normal * normal + impulse.friction;
+    vec3 twist = impulse.rolling + c.normal * impulse.twist;
+    Levers r = levers_of(c, c.centre, impulse.d);
+    vec3 about_a = cross3(c.anchor == ANCHOR_B ? moment + across : moment, c.normal) + cross3(r.a, impulse.friction) + twist;
+    vec3 about_b = cross3(c.anchor == ANCHOR_B ? moment : moment - across, c.normal) + cross3(r.b, impulse.friction) + twist;
+    v.a.linear = v.a.linear - push * a.inverse_mass;
+    v.a.angular = v.a.angular - turned_by(a, about_a);
+    v.b.linear = v.b.linear + push * b.inverse_mass;
+    v.b.angular = v.b.angular + turned_by(b, about_b);
+    return v;
 }
 
 // Whether the contact carries or will in the next substep, gravity included.
-LAW float carries(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
+LAW float carries(Constraint c, Impulse impulse, Couple v, Parameters parameters) {
     if (impulse.slipped > c.leave) return 0.0f;
     c = at_present(c, impulse.d);
     float fall = 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count) break;
         if (impulse.normal[k] > 0.0f) return 1.0f;
-        float speed = speed_along(row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b), v);
+        float speed = dot3(c.normal, velocity_at(levers_of(c, xyz(c.arms[k]), impulse.d), v));
         if (impulse.separation[k] + parameters.h * speed < fall) return 1.0f;
     }
     return 0.0f;

@@ -24,6 +24,11 @@ LAW Levers levers_of(Constraint c, vec3 arm, vec3 d) {
     return levers;
 }
 
+// Velocity of B against A at a point.
+LAW vec3 velocity_at(Levers r, Couple v) {
+    return (v.b.linear - v.a.linear) + (cross3(v.b.angular, r.b) - cross3(v.a.angular, r.a));
+}
+
 // A direction in which the two bodies push each other at a point, with what it does to them. The effective mass and the velocity
 // changes come from the same lever arms, those of now: masses from the step's start would, where a body flies past another,
 // give it more than it can take.

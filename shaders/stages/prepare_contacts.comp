@@ -29,7 +29,7 @@ void main() {
     Couple now;
     now.a = velocities[pair.a];
     now.b = velocities[pair.b];
-    float carrying = carries(constraint, impulse, now, ma, mb, PARAMETERS);
+    float carrying = carries(constraint, impulse, now, PARAMETERS);
     contacts[i] = contact;
     constraints[i] = constraint;
     impulses[i] = impulse;

@@ -20,7 +20,7 @@ void main() {
     impulses[i] = impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
     if (push.pass == 0u) share = warm_start(c, impulse, share, ma, mb);
-    float carrying = carries(c, impulse, after.couple, ma, mb, PARAMETERS);
+    float carrying = carries(c, impulse, after.couple, PARAMETERS);
     if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, carrying);
     if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, carrying);
 }
