@@ -9,7 +9,8 @@
 
 #include "compute/scene.h"
 #include "compute/scene_json.h"
-#include "demos/promise.h"
+#include "demos/claims.h"
+#include "demos/script.h"
 
 namespace scree::demos {
 
@@ -24,6 +25,8 @@ struct DemoScene {
     vec3 low, high;  // corners of where it happens, m
     float seconds;   // until the promise can be judged
     Promise promise;
+    bool sleeping = true;     // bodies at rest may fall asleep; scenes that shall stand awake say no
+    Script before_step = {};  // what happens during the run; a scene file cannot say it
 };
 
 struct Demo {
@@ -32,6 +35,7 @@ struct Demo {
     std::size_t bodies;  // dynamic bodies by default
     bool takes_bodies;   // --bodies changes how many
     DemoScene (*build)(const DemoOptions&);
+    bool trial = false;  // made for the stability suite: listed after those made to be looked at, and checked at full size
 };
 
 const std::vector<Demo>& all_demos();

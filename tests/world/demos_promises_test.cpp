@@ -1,12 +1,11 @@
 // Every demo is held to its promise on the CPU, small where it may be small.
 #include <algorithm>
 #include <catch2/catch.hpp>
-#include <cmath>
 #include <string>
 #include <vector>
 
-#include "compute/world.h"
 #include "demos/demos.h"
+#include "demos/suite.h"
 
 using namespace scree;
 
@@ -22,15 +21,7 @@ std::vector<demos::Row> verdict_of(const std::string& name) {
     REQUIRE(demo);
     demos::DemoOptions options;
     options.bodies = demo->takes_bodies ? 100 : 0;
-    const demos::DemoScene scene = demos::build(*demo, options);
-    World world(scene.scene, {}, 1);
-    demos::Recorder recorder(world, scene.promise);
-    const long steps = std::lround(scene.seconds * world.settings().rate);
-    for (long i = 0; i < steps; ++i) {
-        world.step();
-        recorder.after_step(world);
-    }
-    return scene.promise.judge(recorder.finish(world));
+    return demos::run_trial(*demo, options, make_reference_runner(1)).rows;
 }
 
 void check_kept(const std::vector<std::string>& names) {
