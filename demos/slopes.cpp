@@ -91,7 +91,7 @@ DemoScene slopes(const DemoOptions&) {
     const double rolling = along / (1 + mass.inertia.y / (mass.mass * shape.radius * shape.radius));
     promise.also(accelerates("rolling capsule", watched.size() - 1, rolling));
     const vec3 low(-8, 0, -5.2f), high(8.2f, 5.2f, 5.2f);
-    return {std::move(scene), view_of(low, high, 38, 22), low, high, 3, std::move(promise).watching(watched)};
+    return awake({std::move(scene), view_of(low, high, 38, 22), low, high, 3, std::move(promise).watching(watched)});
 }
 
 }  // namespace scree::demos
