@@ -19,6 +19,8 @@ struct Settings {
     float max_speed = 400;               // m/s, velocities are clamped to it
     float max_turn = 0.785f;             // rad per substep, angular velocity is clamped to it
 
+    bool sleeping = true;  // bodies at rest fall asleep
+
     // Where the buffers start. They grow when a step needs more, and no result depends on it.
     std::uint32_t pairs_at_first = 0;     // 0: from the number of bodies
     std::uint32_t contacts_at_first = 0;  // 0: from the number of bodies

@@ -28,7 +28,7 @@ int compare(const Options& options) {
     const int steps = options.scene.step_count(1);
     std::optional<Progress> progress(std::in_place, subject.name, steps, "steps", options.quiet);
     const LockstepResult result = at_work([&] {
-        return compare_in_lockstep(subject.scene, options.scene.settings(), machine.device, options.machine.threads, steps,
+        return compare_in_lockstep(subject.scene, subject.settings(options.scene), machine.device, options.machine.threads, steps,
                                    [&](int done_steps) {
                                        progress->done(done_steps);
                                        return !is_interrupted();
@@ -65,7 +65,8 @@ void add_compare(CLI::App& program, int& status) {
     command->add_flag("--validate", options->machine.validate, "check every Vulkan call with the validation layers (slow)");
     command->add_flag("--quiet,-q", options->quiet, "no progress");
     command->footer(
-        "Compares one simulated second unless --steps or --seconds says otherwise. Exit status 1 if anything differs.");
+        "Compares one simulated second unless --steps or --seconds says otherwise. What some scenes do during a run (a blow, a\n"
+        "change of settings) is left out. Exit status 1 if anything differs.");
     command->callback([options, &status] { status = compare(*options); });
 }
 

@@ -1,4 +1,4 @@
-// scree list: the demos, a line each.
+// scree list: the demos and the trials, a line each.
 #include <fmt/format.h>
 
 #include "demos/commands.h"
@@ -7,15 +7,22 @@
 
 namespace scree::demos {
 
+namespace {
+
+std::string overview(const char* heading, bool trials) {
+    std::vector<Cells> rows = {{heading, "bodies", "", "what it shows"}};
+    for (const Demo& demo : all_demos()) {
+        if (demo.trial != trials) continue;
+        rows.push_back({demo.name, std::to_string(demo.bodies), demo.takes_bodies ? "--bodies" : "", demo.line});
+    }
+    return table(rows);
+}
+
+}  // namespace
+
 void add_list(CLI::App& program, int&) {
-    CLI::App* command = program.add_subcommand("list", "The demos, a line each");
-    command->callback([] {
-        std::vector<Cells> rows = {{"demo", "bodies", "", "what it shows"}};
-        for (const Demo& demo : all_demos()) {
-            rows.push_back({demo.name, std::to_string(demo.bodies), demo.takes_bodies ? "--bodies" : "", demo.line});
-        }
-        fmt::print("{}", table(rows));
-    });
+    CLI::App* command = program.add_subcommand("list", "The demos, and the trials of the stability suite, a line each");
+    command->callback([] { fmt::print("{}\n{}", overview("demo", false), overview("trial", true)); });
 }
 
 }  // namespace scree::demos

@@ -12,6 +12,7 @@
 #include "demos/message.h"
 #include "demos/pictures.h"
 #include "demos/progress.h"
+#include "demos/recorder.h"
 #include "demos/report.h"
 #include "demos/subject.h"
 #include "demos/writable.h"
@@ -42,10 +43,14 @@ void require_writable(const Options& options) {
     require_writable_file("--report", options.report);
 }
 
-void step_timed(World& world, RunReport& report) {
+double step_alone(World& world) {
     const auto start = std::chrono::steady_clock::now();
     world.step();
-    const double seconds = seconds_since(start);
+    return seconds_since(start);
+}
+
+void step_timed(World& world, Recorder* recorder, RunReport& report) {
+    const double seconds = recorder ? recorder->step() : step_alone(world);
     if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
     if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
     report.step_ms.push_back(seconds * 1e3);
@@ -59,19 +64,20 @@ bool simulate(const Options& options, const Subject& subject, World& world, Pict
     if (pictures) pictures->after_step();
     for (int i = 0; i < steps; ++i) {
         if (is_interrupted()) return false;
-        step_timed(world, report);
-        if (recorder) recorder->after_step(world);
+        step_timed(world, recorder, report);
         if (pictures) pictures->after_step();
         progress.done(i + 1);
     }
     return !is_interrupted();
 }
 
-void judge(const Subject& subject, World& world, Recorder* recorder, RunReport& report) {
+void hold_to_promise(const Subject& subject, World& world, Recorder* recorder, RunReport& report) {
     report.statistics = world.statistics();
     const bool long_enough = world.time() >= subject.seconds - 0.5 / static_cast<double>(world.settings().rate);
     report.judged = recorder && long_enough;
-    report.rows = report.judged ? subject.promise->judge(recorder->finish(world)) : soundness(report.statistics);
+    Trace sound;
+    sound.statistics = report.statistics;
+    report.rows = report.judged ? subject.promise->judge(recorder->finish()) : judge(soundness(), sound);
 }
 
 void conclude(const Options& options, const Subject& subject, const RunReport& report) {
@@ -118,14 +124,14 @@ void measure(World& world, RunReport& report) {
 int work(const Options& options, const Subject& subject, const Machine& machine, World& world, Pictures* pictures,
          RunReport& report) {
     std::optional<Recorder> recorder;
-    if (subject.promise) recorder.emplace(world, *subject.promise);
+    if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
     Recorder* const records = recorder ? &*recorder : nullptr;
     if (!simulate(options, subject, world, pictures, records, report)) return end_early(world, pictures);
     if (pictures) pictures->finish();
     report.name = subject.name;
     report.frames = pictures ? pictures->count() : 0;
     measure(world, report);
-    judge(subject, world, records, report);
+    hold_to_promise(subject, world, records, report);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();
     machine.require_valid();
@@ -152,7 +158,7 @@ int run(const Options& options) {
     const Machine machine = choose_machine(options.machine);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
-    World world(subject.scene, options.scene.settings(), machine.make_runner());
+    World world(subject.scene, subject.settings(options.scene), machine.make_runner());
     std::optional<Pictures> pictures;
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });

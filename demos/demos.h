@@ -9,7 +9,8 @@
 
 #include "compute/scene.h"
 #include "compute/scene_json.h"
-#include "demos/promise.h"
+#include "demos/claims.h"
+#include "demos/script.h"
 
 namespace scree::demos {
 
@@ -24,6 +25,8 @@ struct DemoScene {
     vec3 low, high;  // corners of where it happens, m
     float seconds;   // until the promise can be judged
     Promise promise;
+    bool sleeping = true;     // bodies at rest may fall asleep; scenes that shall stand awake say no
+    Script before_step = {};  // what happens during the run; a scene file cannot say it
 };
 
 struct Demo {
@@ -32,11 +35,13 @@ struct Demo {
     std::size_t bodies;  // dynamic bodies by default
     bool takes_bodies;   // --bodies changes how many
     DemoScene (*build)(const DemoOptions&);
+    bool trial = false;  // made for the stability suite: listed after those made to be looked at, and checked at full size
 };
 
 const std::vector<Demo>& all_demos();
 const Demo* find_demo(std::string_view name);            // null if there is none
 DemoScene build(const Demo& demo, DemoOptions options);  // bodies 0: the default
+DemoScene awake(DemoScene scene);                        // nobody falls asleep in it
 
 DemoScene rest(const DemoOptions&);
 DemoScene stack(const DemoOptions&);
@@ -50,5 +55,17 @@ DemoScene dominoes(const DemoOptions&);
 DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
+
+DemoScene stack20(const DemoOptions&);
+DemoScene stack80(const DemoOptions&);
+DemoScene smallstack(const DemoOptions&);
+DemoScene heavytop(const DemoOptions&);
+DemoScene pyramid100(const DemoOptions&);
+DemoScene cards(const DemoOptions&);
+DemoScene jenga(const DemoOptions&);
+DemoScene tray(const DemoOptions&);
+DemoScene pile1m(const DemoOptions&);
+DemoScene mix1m(const DemoOptions&);
+DemoScene overlap(const DemoOptions&);
 
 }  // namespace scree::demos

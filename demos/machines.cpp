@@ -39,17 +39,13 @@ DemoScene seesaw(const DemoOptions&) {
     scene.bodies.push_back(ground());
     const std::size_t level = add_seesaw(scene, -1.2f, 1000, 1000);
     const std::size_t tipped = add_seesaw(scene, 1.2f, 1000, 2500);
-    const Claim stays_level = [level](const Trace& trace) {
-        return below("slant with equal weights", std::abs(slant(trace.end[level])), 1, "degrees");
-    };
-    const Claim heavier_down = [tipped](const Trace& trace) {
-        const double down = slant(trace.end[tipped]);
-        Row row = below("", down, 25, "degrees");
-        return Row{"slant toward the heavier weight", "5 to 25 degrees", row.measured, down >= 5 && down <= 25};
-    };
+    const Claim stays_level = at_most("slant with equal weights", 1, "degrees", "of the plank at the end",
+                                      [level](const Trace& trace) { return std::abs(slant(trace.end[level])); });
+    const Claim heavier_down = between("slant toward the heavier weight", 5, 25, "degrees", "of the plank at the end",
+                                       [tipped](const Trace& trace) { return slant(trace.end[tipped]); });
     const vec3 low(-2.6f, 0, -1.9f), high(2.6f, 1.7f, 1.9f);
-    return {
-        std::move(scene), view_of(low, high, 22, 20), low, high, 6, Promise(stays_level, heavier_down, penetration_below(0.01))};
+    return awake({std::move(scene), view_of(low, high, 22, 20), low, high, 6,
+                  Promise(stays_level, heavier_down, penetration_below(0.01))});
 }
 
 // Free of gravity and friction, an arm's length above the floor. The gaps are wider than a contact is made ahead, so the blow
@@ -71,18 +67,17 @@ DemoScene cradle(const DemoOptions&) {
         spheres.push_back(scene.bodies.size());
         scene.bodies.push_back(sphere);
     }
-    const Claim passes_on = [last = spheres.back()](const Trace& trace) {
-        const double part = trace.end[last].velocity.x / speed;
-        return Row{"speed of the last, of the first's", "at least 0.97", below("", part, 1, "").measured,
-                   part >= 0.97 && part <= 1.03};
-    };
-    const Claim others_rest = [spheres](const Trace& trace) {
-        double fastest = 0;
-        for (std::size_t i = 0; i + 1 < spheres.size(); ++i) {
-            fastest = std::max<double>(fastest, glm::length(trace.end[spheres[i]].velocity));
-        }
-        return below("speed of the others, of the first's", fastest / speed, 0.03, "");
-    };
+    const Claim passes_on =
+        between("speed of the last, of the first's", 0.97, 1.03, "", "at the end",
+                [spheres](const Trace& trace) { return static_cast<double>(trace.end[spheres.back()].velocity.x) / speed; });
+    const Claim others_rest =
+        at_most("speed of the others, of the first's", 0.03, "", "of the fastest at the end", [spheres](const Trace& trace) {
+            double fastest = 0;
+            for (std::size_t i = 0; i + 1 < spheres.size(); ++i) {
+                fastest = std::max<double>(fastest, glm::length(trace.end[spheres[i]].velocity));
+            }
+            return fastest / speed;
+        });
     const vec3 low(-5, 0, -0.6f), high(5, 1.6f, 0.6f);
     return {std::move(scene), view_of(low, high, 20, 16), low, high, 3, Promise(passes_on, others_rest)};
 }
@@ -111,11 +106,12 @@ DemoScene dominoes(const DemoOptions& options) {
     const vec3 middle((low.x + high.x) / 2, 0, (low.z + high.z) / 2);
     low -= middle;
     high -= middle;
-    const Claim all_fall = [](const Trace& trace) {
-        std::size_t standing = 0;
-        for (std::size_t i = 1; i < trace.end.size(); ++i) standing += !(tilt(trace.end[i], {0, 1, 0}) > 45);
-        return below("dominoes left standing", static_cast<double>(standing), 0, "");
-    };
+    const Claim all_fall =
+        at_most("dominoes left standing", 0, "", "less than 45 degrees from upright at the end", [](const Trace& trace) {
+            std::size_t standing = 0;
+            for (std::size_t i = 1; i < trace.end.size(); ++i) standing += !(tilt(trace.end[i], {0, 1, 0}) > 45);
+            return static_cast<double>(standing);
+        });
     return {std::move(scene), view_of(low, high, 25, 28), low, high, 14, Promise(all_fall, penetration_below(0.02))};
 }
 

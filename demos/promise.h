@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -10,84 +11,109 @@
 
 namespace scree::demos {
 
+// What is remembered of a run. Small: what a promise has not asked for is not kept.
+struct Trace {
+    struct Moment {
+        double time = 0;                // s
+        std::vector<BodyState> bodies;  // the watched ones, in the promise's order; or all, in a snapshot
+    };
+    struct Sample {
+        double time = 0;  // s
+        Statistics statistics;
+    };
+    Scene scene;       // as checked; for a claim that reads shapes and materials
+    double rate = 60;  // steps per second
+    std::vector<BodyState> start, end;
+    Statistics statistics;            // at the end
+    std::vector<Moment> moments;      // of the watched bodies
+    std::vector<Moment> snapshots;    // of all bodies, one for each time that the promise asks for
+    std::vector<Sample> samples;      // of sums and extremes over the world
+    std::vector<float> step_seconds;  // what each step took by the clock; differs from machine to machine
+};
+
 // One line of a verdict.
 struct Row {
     std::string what, promised, measured;
     bool pass = false;
+    double value = 0;  // measured, in `unit`
+    double low = 0, high = 0;
+    std::string unit;
 };
 
-// What is remembered of a run.
-struct Trace {
-    struct Moment {
-        double time = 0;                // s
-        std::vector<BodyState> bodies;  // the watched ones, in the promise's order
-    };
-    Scene scene;  // as checked; for a promise that reads shapes and materials
-    std::vector<BodyState> start, end;
-    Statistics statistics;  // at the end
-    std::vector<Moment> moments;
-    std::vector<double> energies;  // J, kinetic and potential, every half second, if the promise asks for them
+// What is promised of one measured value: that it lies between two limits, both included.
+struct Claim {
+    std::string what;      // is measured
+    std::string promised;  // the limits in words
+    double low, high;
+    std::string unit;  // may be empty
+    std::string how;   // it is measured
+    std::function<double(const Trace&)> measure;
+
+    Row operator()(const Trace& trace) const;  // a value that is not a number passes nothing
 };
 
-using Claim = std::function<Row(const Trace&)>;
+using Measure = std::function<double(const Trace&)>;
+Claim at_most(std::string what, double limit, std::string unit, std::string how, Measure measure);
+Claim at_least(std::string what, double limit, std::string unit, std::string how, Measure measure);
+Claim between(std::string what, double low, double high, std::string unit, std::string how, Measure measure);
+Claim close_to(std::string what, double expected, double tolerance, std::string unit, std::string how, Measure measure);
+
 using Indices = std::vector<std::size_t>;
+constexpr double every_step = std::numeric_limits<double>::infinity();  // as a number of looks per second
+
+// When to look: so often a second between two times, s.
+struct Span {
+    double per_second, from, to;
+
+    Span(double looks_per_second = every_step, double begin = 0, double finish = std::numeric_limits<double>::infinity())
+        : per_second(looks_per_second), from(begin), to(finish) {}
+    bool holds(std::uint64_t step, double rate) const;
+};
 
 // At least one claim, so that no demo is without.
 class Promise {
 public:
     template <class... More>
-    explicit Promise(Claim first, More... more) : claims_{std::move(first), Claim(std::move(more))...} {}
+    explicit Promise(Claim first, More... more) : claims_{std::move(first), std::move(more)...} {}
 
     void also(Claim claim) { claims_.push_back(std::move(claim)); }
-    Promise&& watching(Indices bodies) && {
+    // The states of some bodies.
+    Promise&& watching(Indices bodies, Span span = 30) && {
         watched_ = std::move(bodies);
+        watch_ = span;
         return std::move(*this);
     }
-    Promise&& watching_energy() && {
-        watches_energy_ = true;
+    // Sums and extremes over the world: cheap beside a step, not beside nothing. Spans add up.
+    Promise&& sampling(Span span) && {
+        sampled_.push_back(span);
         return std::move(*this);
     }
+    Promise&& watching_energy() && { return std::move(*this).sampling(2); }
+    // The states of all bodies at these times, s.
+    Promise&& keeping(std::vector<double> times) && {
+        kept_ = std::move(times);
+        return std::move(*this);
+    }
+    const std::vector<Claim>& claims() const { return claims_; }
     const Indices& watched() const { return watched_; }
-    bool watches_energy() const { return watches_energy_; }
+    bool watches(std::uint64_t step, double rate) const { return !watched_.empty() && watch_.holds(step, rate); }
+    bool samples(std::uint64_t step, double rate) const;
+    bool keeps(std::uint64_t step, double rate) const;
 
-    // Every claim, and what holds for any run: all bodies finite, none behind a plane.
+    // Every claim, and what holds for any run.
     std::vector<Row> judge(const Trace& trace) const;
 
 private:
     std::vector<Claim> claims_;
     Indices watched_;
-    bool watches_energy_ = false;
+    Span watch_;
+    std::vector<Span> sampled_;
+    std::vector<double> kept_;  // s
 };
 
-// What holds for any run.
-std::vector<Row> soundness(const Statistics& statistics);
+// What holds for any run: all bodies finite, none behind a plane.
+std::vector<Claim> soundness();
+std::vector<Row> judge(const std::vector<Claim>& claims, const Trace& trace);
 bool all_pass(const std::vector<Row>& rows);
-
-// Fills a trace while a world runs.
-class Recorder {
-public:
-    Recorder(const World& world, const Promise& promise);
-    void after_step(const World& world);
-    Trace finish(const World& world);
-
-private:
-    const Promise& promise_;
-    Trace trace_;
-    std::uint64_t stride_, energy_stride_;  // steps
-};
-
-// ---- claims, each a measured value against its limit
-// -----------------------------------------------------------------------------
-Row below(std::string what, double measured, double limit, const char* unit);
-Row within(std::string what, double measured, double expected, double tolerance, const char* unit);
-
-Claim drift_below(double limit);        // m, of any dynamic body from its start
-Claim end_speed_below(double limit);    // m/s, of any dynamic body at the end
-Claim penetration_below(double limit);  // m, the deepest point at the end
-Claim energy_never_rises(double part);  // by more than this part of the energy that the run has turned into heat
-// No dynamic body left the box between these corners.
-Claim all_within(vec3 low, vec3 high);
-// The angle between a body's own axis and the vertical, degrees.
-double tilt(const BodyState& body, vec3 axis);
 
 }  // namespace scree::demos

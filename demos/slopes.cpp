@@ -46,17 +46,16 @@ double acceleration(const Trace& trace, std::size_t slot) {
     return 0;
 }
 
-Claim accelerates(std::string what, std::size_t slot, double expected) {
-    return [what = std::move(what), slot, expected](const Trace& trace) {
-        return within("acceleration of the " + what, acceleration(trace, slot), expected, 0.01 * expected, "m/s^2");
-    };
+Claim accelerates(const std::string& what, std::size_t slot, double expected) {
+    return close_to("acceleration of the " + what, expected, 0.01 * expected, "m/s^2",
+                    "velocity gained down the incline from half a second to the end",
+                    [slot](const Trace& trace) { return acceleration(trace, slot); });
 }
 
-Claim sticks(std::string what, std::size_t body) {
-    return [what = std::move(what), body](const Trace& trace) {
-        const double creep = glm::length(trace.end[body].position - trace.start[body].position);
-        return below("creep of the " + what, creep, 0.001, "m");
-    };
+Claim sticks(const std::string& what, std::size_t body) {
+    return at_most("creep of the " + what, 0.001, "m", "from its start to the end", [body](const Trace& trace) {
+        return static_cast<double>(glm::length(trace.end[body].position - trace.start[body].position));
+    });
 }
 
 }  // namespace
@@ -92,7 +91,7 @@ DemoScene slopes(const DemoOptions&) {
     const double rolling = along / (1 + mass.inertia.y / (mass.mass * shape.radius * shape.radius));
     promise.also(accelerates("rolling capsule", watched.size() - 1, rolling));
     const vec3 low(-8, 0, -5.2f), high(8.2f, 5.2f, 5.2f);
-    return {std::move(scene), view_of(low, high, 38, 22), low, high, 3, std::move(promise).watching(watched)};
+    return awake({std::move(scene), view_of(low, high, 38, 22), low, high, 3, std::move(promise).watching(watched)});
 }
 
 }  // namespace scree::demos

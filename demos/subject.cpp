@@ -98,6 +98,12 @@ void require_memory_for(std::size_t bodies) {
                                  static_cast<double>(bodies) * bytes_per_body / 1e9, free_memory()));
 }
 
+Settings Subject::settings(const SceneOptions& options) const {
+    Settings settings = options.settings();
+    settings.sleeping = settings.sleeping && sleeping;
+    return settings;
+}
+
 Subject load_subject(const SceneOptions& options) {
     const Demo* demo = find_demo(options.name);
     if (!demo && is_file_name(options.name)) {
@@ -121,7 +127,15 @@ Subject load_subject(const SceneOptions& options) {
     }
     require_memory_for(options.bodies);
     DemoScene built = build(*demo, {options.bodies, options.seed});
-    return {demo->name, std::move(built.scene), built.viewpoint, built.low, built.high, built.seconds, std::move(built.promise)};
+    return {demo->name,
+            std::move(built.scene),
+            built.viewpoint,
+            built.low,
+            built.high,
+            built.seconds,
+            std::move(built.promise),
+            built.sleeping,
+            std::move(built.before_step)};
 }
 
 }  // namespace scree::demos

@@ -8,6 +8,7 @@
 #include "compute/scene_json.h"
 #include "demos/options.h"
 #include "demos/promise.h"
+#include "demos/script.h"
 
 namespace scree::demos {
 
@@ -18,6 +19,10 @@ struct Subject {
     vec3 low, high;  // corners of where it happens, m
     double seconds = 10;
     std::optional<Promise> promise;  // a scene file has none
+    bool sleeping = true;
+    Script before_step;
+
+    Settings settings(const SceneOptions& options) const;  // what the user asks, as far as the scene allows it
 };
 
 // Throws UsageError naming the nearest demo, the place of a mistake in a file, or how many bodies would fit into the memory.

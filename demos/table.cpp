@@ -55,7 +55,7 @@ std::string csv(const std::vector<Cells>& rows) {
 }
 
 Cells verdict_heading(Cells before) {
-    for (const char* word : {"what", "promised", "measured", ""}) before.emplace_back(word);
+    for (const char* word : {"promise", "limit", "measured", ""}) before.emplace_back(word);
     return before;
 }
 
