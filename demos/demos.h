@@ -55,4 +55,14 @@ DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
 
+DemoScene onset(const DemoOptions&);
+DemoScene hold(const DemoOptions&);
+DemoScene steep(const DemoOptions&);
+DemoScene rolling(const DemoOptions&);
+DemoScene bounce(const DemoOptions&);
+DemoScene tumbling(const DemoOptions&);
+DemoScene swarm(const DemoOptions&);
+DemoScene shots(const DemoOptions&);
+DemoScene strikes(const DemoOptions&);
+
 }  // namespace scree::demos

@@ -1,0 +1,117 @@
+// Trials of fast bodies: thousands of shots at walls thinner than the way of one step, at plates and at bodies that can move.
+#include <algorithm>
+#include <cmath>
+
+#include "demos/building.h"
+#include "demos/closed_forms.h"
+#include "demos/demos.h"
+#include "demos/random.h"
+#include "shaders/physics/arithmetic.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr float fastest = 300, slowest = 5;  // m/s
+constexpr float half_size = 0.05f;           // m, of every shot: spheres and boxes 0.1 m wide
+constexpr float cell = 1.5f;                 // m, a shooter's share of the front
+constexpr float shot_seconds = 0.4f;         // the slowest and most slanted shot arrives after 0.2 s
+
+// Every second one a box, turned and spinning at random; the whole range of speeds, half of them above 100 m/s.
+Body some_shot(std::size_t index, Random& random) {
+    Body body;
+    if (index % 2 == 0) {
+        body.shape = Sphere{half_size};
+    } else {
+        body.shape = Box{vec3(half_size)};
+        body.orientation = random.orientation();
+    }
+    body.angular_velocity = {random.between(-20, 20), random.between(-20, 20), random.between(-20, 20)};
+    body.friction = 0.3f;
+    body.restitution = index % 4 < 2 ? 0.5f : 0.0f;
+    return body;
+}
+float some_speed(Random& random) {
+    const float part = random.unit();
+    return part < 0.5f ? slowest + (100 - slowest) * 2 * part : 100 + (fastest - 100) * (2 * part - 1);
+}
+// A direction toward -z, slanted at most so far that it moves `sideways` m sideways for one forward.
+vec3 some_aim(float sideways, Random& random) {
+    const vec3 aim(random.between(-sideways, sideways), random.between(-sideways, sideways), -1);
+    return glm::normalize(aim);
+}
+vec3 some_place(float half, Random& random) {
+    return vec3(random.between(-half, half), random.between(-half, half), 0);
+}
+
+struct Front {
+    int columns, rows;
+    vec3 middle(std::size_t index) const {
+        const int column = static_cast<int>(index) % columns, row = static_cast<int>(index) / columns;
+        return cell * vec3(static_cast<float>(column) - 0.5f * static_cast<float>(columns - 1),
+                           static_cast<float>(row) - 0.5f * static_cast<float>(rows - 1), 0);
+    }
+    vec3 corner(float depth) const {
+        return vec3(0.5f * cell * static_cast<float>(columns), 0.5f * cell * static_cast<float>(rows), depth);
+    }
+};
+Front front_for(std::size_t count) {
+    const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count) * 16 / 9))));
+    return {columns, (static_cast<int>(count) + columns - 1) / columns};
+}
+
+DemoScene finish(Scene scene, const Front& front, std::string what, std::vector<Shot> shots) {
+    const vec3 high = front.corner(2);
+    return {std::move(scene), view_of(-high, high, 30, 15), -high, high, shot_seconds, Promise(none_through(what, shots))};
+}
+
+}  // namespace
+
+// A wall 0.05 m thick, in pieces that meet, each with its own shooter at most 1 m before it.
+DemoScene shots(const DemoOptions& options) {
+    constexpr float thin = 0.025f;
+    const Front front = front_for(options.bodies);
+    Random random(options.seed);
+    Scene scene;
+    scene.gravity = vec3(0);
+    std::vector<Shot> shots;
+    for (std::size_t i = 0; i < options.bodies; ++i) {
+        const std::size_t piece = scene.bodies.size();
+        scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, 0.3f));
+        Body shot = some_shot(i, random);
+        const vec3 aim = some_aim(1, random);
+        shot.position = front.middle(i) + some_place(0.2f, random) - aim * (random.between(0.12f, 0.45f) / -aim.z);
+        shot.velocity = aim * some_speed(random);
+        shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
+        scene.bodies.push_back(shot);
+    }
+    return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots));
+}
+
+// Plates 0.04 m thick that can move, of 50 and of 4 times the mass of a shot, and resting spheres as large as the shots.
+DemoScene strikes(const DemoOptions& options) {
+    constexpr float thin = 0.02f;
+    const Front front = front_for(options.bodies);
+    Random random(options.seed);
+    Scene scene;
+    scene.gravity = vec3(0);
+    std::vector<Shot> shots;
+    for (std::size_t i = 0; i < options.bodies; ++i) {
+        const bool plate = i % 3 != 2;
+        Body target = box_at(front.middle(i), {0.5f, 0.5f, thin});
+        target.density = i % 3 == 0 ? 1250.0f : 100.0f;
+        if (!plate) target.shape = Sphere{half_size};
+        if (!plate) target.density = 1000;
+        Body shot = some_shot(i / 3, random);
+        const vec3 aim = some_aim(plate ? 0.5f : 0, random);
+        const vec3 place = some_place(plate ? 0.1f : 0.2f * half_size, random);
+        shot.position = target.position + place - aim * random.between(0.2f, 0.5f);
+        shot.velocity = aim * some_speed(random);
+        shots.push_back({scene.bodies.size() + 1, scene.bodies.size(), {0, 0, 1}, plate ? thin : 0, plate});
+        scene.bodies.push_back(target);
+        scene.bodies.push_back(shot);
+    }
+    return finish(std::move(scene), front, "shots at thin plates and small bodies", std::move(shots));
+}
+
+}  // namespace scree::demos
