@@ -15,7 +15,6 @@ namespace {
 constexpr float fastest = 300, slowest = 5;  // m/s
 constexpr float half_size = 0.05f;           // m, of every shot: spheres and boxes 0.1 m wide
 constexpr float cell = 1.5f;                 // m, a shooter's share of the front
-constexpr float shot_seconds = 0.4f;         // the slowest and most slanted shot arrives after 0.2 s
 
 // Every second one a box, turned and spinning at random; the whole range of speeds, half of them above 100 m/s.
 Body some_shot(std::size_t index, Random& random) {
@@ -60,14 +59,15 @@ Front front_for(std::size_t count) {
     return {columns, (static_cast<int>(count) + columns - 1) / columns};
 }
 
-DemoScene finish(Scene scene, const Front& front, std::string what, std::vector<Shot> shots) {
+DemoScene finish(Scene scene, const Front& front, const std::string& what, std::vector<Shot> shots, float seconds) {
     const vec3 high = front.corner(2);
-    return {std::move(scene), view_of(-high, high, 30, 15), -high, high, shot_seconds, Promise(none_through(what, shots))};
+    return {std::move(scene), view_of(-high, high, 30, 15), -high, high, seconds, Promise(none_through(what, std::move(shots)))};
 }
 
 }  // namespace
 
-// A wall 0.05 m thick, in pieces that meet, each with its own shooter at most 1 m before it.
+// A wall 0.05 m thick, in pieces that meet, each with its own shooter close before it: the slowest and most slanted shot arrives
+// after 0.2 s.
 DemoScene shots(const DemoOptions& options) {
     constexpr float thin = 0.025f;
     const Front front = front_for(options.bodies);
@@ -85,33 +85,38 @@ DemoScene shots(const DemoOptions& options) {
         shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
         scene.bodies.push_back(shot);
     }
-    return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots));
+    return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), 0.4f);
 }
 
-// Plates 0.04 m thick that can move, of 50 and of 4 times the mass of a shot, and resting spheres as large as the shots.
+// What can move: plates 0.04 m thick, of 50 kg and of 4 kg, a sphere and a box as large as the shots, of 0.5 and 1 kg. They are
+// hit so near the middle that nothing that happens in the tenth of a second turns them far or lets a shot slip past them.
 DemoScene strikes(const DemoOptions& options) {
-    constexpr float thin = 0.02f;
+    constexpr float thin = 0.02f, gentlest = 20;
     const Front front = front_for(options.bodies);
     Random random(options.seed);
     Scene scene;
     scene.gravity = vec3(0);
     std::vector<Shot> shots;
     for (std::size_t i = 0; i < options.bodies; ++i) {
-        const bool plate = i % 3 != 2;
+        const bool plate = i % 4 < 2, heavy = i % 4 == 0;
+        Body shot = some_shot(plate ? i / 4 : i, random);
         Body target = box_at(front.middle(i), {0.5f, 0.5f, thin});
-        target.density = i % 3 == 0 ? 1250.0f : 100.0f;
-        if (!plate) target.shape = Sphere{half_size};
-        if (!plate) target.density = 1000;
-        Body shot = some_shot(i / 3, random);
+        target.density = heavy ? 1250.0f : 100.0f;
+        if (!plate) {  // like meets like, face to face
+            shot.orientation = vec4(0, 0, 0, 1);
+            shot.angular_velocity = vec3(0);
+            target.shape = shot.shape;
+            target.density = shot.density;
+        }
         const vec3 aim = some_aim(plate ? 0.5f : 0, random);
-        const vec3 place = some_place(plate ? 0.1f : 0.2f * half_size, random);
-        shot.position = target.position + place - aim * random.between(0.2f, 0.5f);
-        shot.velocity = aim * some_speed(random);
+        const vec3 mark = target.position + some_place(heavy ? 0.1f : 0.01f, random);
+        shot.position = mark - aim * random.between(0.2f, 0.5f);
+        shot.velocity = aim * std::max(gentlest, some_speed(random));
         shots.push_back({scene.bodies.size() + 1, scene.bodies.size(), {0, 0, 1}, plate ? thin : 0, plate});
         scene.bodies.push_back(target);
         scene.bodies.push_back(shot);
     }
-    return finish(std::move(scene), front, "shots at thin plates and small bodies", std::move(shots));
+    return finish(std::move(scene), front, "shots at thin plates and small bodies", std::move(shots), 0.1f);
 }
 
 }  // namespace scree::demos
