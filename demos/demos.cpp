@@ -19,6 +19,19 @@ const std::vector<Demo>& all_demos() {
         {"pile", "boxes fall into a pit and come to rest", 1000, true, pile},
         {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
         {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
+
+        {"stack20", "twenty boxes stand", 20, false, stack20, true},
+        {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
+        {"smallstack", "ten boxes of 0.2 m stand", 10, false, smallstack, true},
+        {"heavytop", "ten boxes carry one that weighs as much as a hundred", 11, false, heavytop, true},
+        {"pyramid100", "a pyramid of 5,050 boxes stands", 5050, false, pyramid100, true},
+        {"cards", "a house of cards, three storeys high, stands", 15, false, cards, true},
+        {"jenga", "a tower of eighteen layers of three blocks stands", 54, false, jenga, true},
+        {"tray", "a plate lighter than any of 500 boxes carries them all", 501, false, tray, true},
+        {"pile1m", "boxes of 1 m lie still in a pit, fall asleep, and wake where a ball strikes", 10000, true, pile1m, true},
+        {"mix1m", "spheres, capsules and boxes of about 1 m lie still in a pit", 10000, true, mix1m, true},
+        {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},
+
         {"onset", "boxes begin to slide at the angle atan(mu)", 18, false, onset, true},
         {"hold", "boxes below that angle do not creep", 9, false, hold, true},
         {"steep", "boxes slide and round bodies roll down a steep incline as the formulas say", 9, false, steep, true},
@@ -41,6 +54,11 @@ const Demo* find_demo(std::string_view name) {
 DemoScene build(const Demo& demo, DemoOptions options) {
     if (options.bodies == 0 || !demo.takes_bodies) options.bodies = demo.bodies;
     return demo.build(options);
+}
+
+DemoScene awake(DemoScene scene) {
+    scene.sleeping = false;
+    return scene;
 }
 
 }  // namespace scree::demos

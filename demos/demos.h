@@ -41,6 +41,7 @@ struct Demo {
 const std::vector<Demo>& all_demos();
 const Demo* find_demo(std::string_view name);            // null if there is none
 DemoScene build(const Demo& demo, DemoOptions options);  // bodies 0: the default
+DemoScene awake(DemoScene scene);                        // nobody falls asleep in it
 
 DemoScene rest(const DemoOptions&);
 DemoScene stack(const DemoOptions&);
@@ -55,6 +56,17 @@ DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
 
+DemoScene stack20(const DemoOptions&);
+DemoScene stack80(const DemoOptions&);
+DemoScene smallstack(const DemoOptions&);
+DemoScene heavytop(const DemoOptions&);
+DemoScene pyramid100(const DemoOptions&);
+DemoScene cards(const DemoOptions&);
+DemoScene jenga(const DemoOptions&);
+DemoScene tray(const DemoOptions&);
+DemoScene pile1m(const DemoOptions&);
+DemoScene mix1m(const DemoOptions&);
+DemoScene overlap(const DemoOptions&);
 DemoScene onset(const DemoOptions&);
 DemoScene hold(const DemoOptions&);
 DemoScene steep(const DemoOptions&);

@@ -45,8 +45,8 @@ DemoScene seesaw(const DemoOptions&) {
     const Claim heavier_down = between("slant toward the heavier weight", 5, 25, "degrees", "of the plank at the end",
                                        [tipped](const Trace& trace) { return slant(trace.end[tipped]); });
     const vec3 low(-2.6f, 0, -1.9f), high(2.6f, 1.7f, 1.9f);
-    return {
-        std::move(scene), view_of(low, high, 22, 20), low, high, 6, Promise(stays_level, heavier_down, penetration_below(0.01))};
+    return awake({std::move(scene), view_of(low, high, 22, 20), low, high, 6,
+                  Promise(stays_level, heavier_down, penetration_below(0.01))});
 }
 
 namespace {

@@ -63,9 +63,10 @@ constexpr double every_step = std::numeric_limits<double>::infinity();  // as a 
 
 // When to look: so often a second between two times, s.
 struct Span {
-    double per_second = every_step;
-    double from = 0, to = std::numeric_limits<double>::infinity();
+    double per_second, from, to;
 
+    Span(double looks_per_second = every_step, double begin = 0, double finish = std::numeric_limits<double>::infinity())
+        : per_second(looks_per_second), from(begin), to(finish) {}
     bool holds(std::uint64_t step, double rate) const;
 };
 
@@ -76,10 +77,10 @@ public:
     explicit Promise(Claim first, More... more) : claims_{std::move(first), std::move(more)...} {}
 
     void also(Claim claim) { claims_.push_back(std::move(claim)); }
-    // The states of some bodies, so often a second.
-    Promise&& watching(Indices bodies, double per_second = 30) && {
+    // The states of some bodies.
+    Promise&& watching(Indices bodies, Span span = 30) && {
         watched_ = std::move(bodies);
-        watch_ = {per_second};
+        watch_ = span;
         return std::move(*this);
     }
     // Sums and extremes over the world: cheap beside a step, not beside nothing. Spans add up.
@@ -87,7 +88,7 @@ public:
         sampled_.push_back(span);
         return std::move(*this);
     }
-    Promise&& watching_energy() && { return std::move(*this).sampling({2}); }
+    Promise&& watching_energy() && { return std::move(*this).sampling(2); }
     // The states of all bodies at these times, s.
     Promise&& keeping(std::vector<double> times) && {
         kept_ = std::move(times);

@@ -56,7 +56,7 @@ DemoScene slopes(const DemoOptions&) {
     watched.push_back(add_numbered(scene, index++, capsule, 0.3f, 0.6f));
     promise.also(accelerates("rolling capsule", watched.size() - 1, incline.along() * going_part(capsule)));
     const vec3 low(-8, 0, -5.2f), high(8.2f, 5.2f, 5.2f);
-    return {std::move(scene), view_of(low, high, 38, 22), low, high, 3, std::move(promise).watching(watched)};
+    return awake({std::move(scene), view_of(low, high, 38, 22), low, high, 3, std::move(promise).watching(watched)});
 }
 
 }  // namespace scree::demos

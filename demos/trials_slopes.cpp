@@ -11,8 +11,6 @@ namespace scree::demos {
 
 namespace {
 
-constexpr bool awake = false;  // what rests must stay by friction, not by sleep
-
 const vec3 flat(0.3f, 0.1f, 0.3f), cube(0.25f, 0.25f, 0.25f);
 
 // Boxes of every friction, each on an incline of its own, at `part` of the angle atan(mu) at which it begins to slide. Above it,
@@ -38,12 +36,12 @@ public:
             }
         }
     }
-    // Moves all of it, so that the middle lies over the origin.
+    // Moves all of it, so that the middle lies over the origin. What rests must stay by friction, not by sleep.
     DemoScene finish(Promise promise, float seconds) && {
         const float middle = (next_ - 1.3f) / 2, width = middle + 0.7f;
         for (Body& body : scene.bodies) body.position.z -= middle;
         const vec3 low(-half_length_, 0, -width), high(half_length_, 1.6f * half_length_, width);
-        return {std::move(scene), view_of(low, high, 55, 25), low, high, seconds, std::move(promise).watching(watched), awake};
+        return awake({std::move(scene), view_of(low, high, 55, 25), low, high, seconds, std::move(promise).watching(watched)});
     }
 
     Scene scene;
@@ -137,8 +135,8 @@ DemoScene rolling(const DemoOptions&) {
     }
     for (Body& body : scene.bodies) body.position.z -= (z - 1.8f - 8) / 2;
     const vec3 low(-2.6f, 0, -11), high(2.6f, 1.6f, 11);
-    return {
-        std::move(scene), view_of(low, high, 60, 30), low, high, 11, Promise(all_roll_to_rest("round bodies", bodies, 5)), awake};
+    Promise promise(all_roll_to_rest("round bodies", bodies, 5));
+    return awake({std::move(scene), view_of(low, high, 60, 30), low, high, 11, std::move(promise)});
 }
 
 }  // namespace scree::demos
