@@ -13,8 +13,9 @@ namespace scree::demos {
 namespace {
 
 constexpr float fastest = 300, slowest = 5;  // m/s
-constexpr float half_size = 0.05f;           // m, of every shot: spheres and boxes 0.1 m wide
-constexpr float cell = 1.5f;                 // m, a shooter's share of the front
+constexpr float wall_friction = 0.3f;
+constexpr float half_size = 0.05f;  // m, of every shot: spheres and boxes 0.1 m wide
+constexpr float cell = 1.5f;        // m, a shooter's share of the front
 
 // Every second one a box, turned and spinning at random; the whole range of speeds, half of them above 100 m/s.
 Body some_shot(std::size_t index, Random& random) {
@@ -66,10 +67,25 @@ DemoScene finish(Scene scene, const Front& front, const std::string& what, std::
 
 }  // namespace
 
+namespace {
+
+// More wall around the pieces, as wide as the way of the fastest shot: one that does not bounce slides along it.
+void add_margin(Scene& scene, const Front& front, float half_thickness, float seconds) {
+    const vec3 inner = front.corner(half_thickness);
+    const float half = fastest * seconds / 2;
+    for (const float side : {-1.0f, 1.0f}) {
+        scene.bodies.push_back(
+            fixed_box({side * (inner.x + half), 0, 0}, {half, inner.y + 2 * half, half_thickness}, wall_friction));
+        scene.bodies.push_back(fixed_box({0, side * (inner.y + half), 0}, {inner.x, half, half_thickness}, wall_friction));
+    }
+}
+
+}  // namespace
+
 // A wall 0.05 m thick, in pieces that meet, each with its own shooter close before it: the slowest and most slanted shot arrives
 // after 0.2 s.
 DemoScene shots(const DemoOptions& options) {
-    constexpr float thin = 0.025f;
+    constexpr float thin = 0.025f, seconds = 0.4f;
     const Front front = front_for(options.bodies);
     Random random(options.seed);
     Scene scene;
@@ -77,7 +93,7 @@ DemoScene shots(const DemoOptions& options) {
     std::vector<Shot> shots;
     for (std::size_t i = 0; i < options.bodies; ++i) {
         const std::size_t piece = scene.bodies.size();
-        scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, 0.3f));
+        scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, wall_friction));
         Body shot = some_shot(i, random);
         const vec3 aim = some_aim(1, random);
         shot.position = front.middle(i) + some_place(0.2f, random) - aim * (random.between(0.12f, 0.45f) / -aim.z);
@@ -85,11 +101,12 @@ DemoScene shots(const DemoOptions& options) {
         shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
         scene.bodies.push_back(shot);
     }
-    return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), 0.4f);
+    add_margin(scene, front, thin, seconds);
+    return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
 }
 
-// What can move: plates 0.04 m thick, of 50 kg and of 4 kg, a sphere and a box as large as the shots, of 0.5 and 1 kg. They are
-// hit so near the middle that nothing that happens in the tenth of a second turns them far or lets a shot slip past them.
+// What can move: plates 0.04 m thick, of 50 kg and of 4 kg, a sphere and a box as large as the shots, of 0.5 and 1 kg. What
+// bounces goes away from its target's middle whatever it turns to; what sticks to a plate hits it straight and turns with it.
 DemoScene strikes(const DemoOptions& options) {
     constexpr float thin = 0.02f, gentlest = 20;
     const Front front = front_for(options.bodies);
@@ -98,8 +115,9 @@ DemoScene strikes(const DemoOptions& options) {
     scene.gravity = vec3(0);
     std::vector<Shot> shots;
     for (std::size_t i = 0; i < options.bodies; ++i) {
-        const bool plate = i % 4 < 2, heavy = i % 4 == 0;
-        Body shot = some_shot(plate ? i / 4 : i, random);
+        const bool plate = i % 4 < 2, heavy = i % 4 == 0, sticking = plate && i % 8 < 4;
+        Body shot = some_shot(plate ? (sticking ? 0 : i / 8) : i, random);
+        shot.restitution = sticking ? 0.0f : 0.5f;
         Body target = box_at(front.middle(i), {0.5f, 0.5f, thin});
         target.density = heavy ? 1250.0f : 100.0f;
         if (!plate) {  // like meets like, face to face
@@ -108,11 +126,11 @@ DemoScene strikes(const DemoOptions& options) {
             target.shape = shot.shape;
             target.density = shot.density;
         }
-        const vec3 aim = some_aim(plate ? 0.5f : 0, random);
+        const vec3 aim = some_aim(plate && !sticking ? 0.5f : 0, random);
         const vec3 mark = target.position + some_place(heavy ? 0.1f : 0.01f, random);
         shot.position = mark - aim * random.between(0.2f, 0.5f);
         shot.velocity = aim * std::max(gentlest, some_speed(random));
-        shots.push_back({scene.bodies.size() + 1, scene.bodies.size(), {0, 0, 1}, plate ? thin : 0, plate});
+        shots.push_back({scene.bodies.size() + 1, scene.bodies.size(), {0, 0, 1}, plate ? thin : 0, sticking});
         scene.bodies.push_back(target);
         scene.bodies.push_back(shot);
     }
