@@ -46,6 +46,7 @@ vec3 some_place(float half, Random& random) {
 
 struct Front {
     int columns, rows;
+    std::size_t places() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
     vec3 middle(std::size_t index) const {
         const int column = static_cast<int>(index) % columns, row = static_cast<int>(index) / columns;
         return cell * vec3(static_cast<float>(column) - 0.5f * static_cast<float>(columns - 1),
@@ -91,9 +92,12 @@ DemoScene shots(const DemoOptions& options) {
     Scene scene;
     scene.gravity = vec3(0);
     std::vector<Shot> shots;
-    for (std::size_t i = 0; i < options.bodies; ++i) {
-        const std::size_t piece = scene.bodies.size();
+    const auto add_piece = [&](std::size_t i) {
         scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, wall_friction));
+        return scene.bodies.size() - 1;
+    };
+    for (std::size_t i = 0; i < options.bodies; ++i) {
+        const std::size_t piece = add_piece(i);
         Body shot = some_shot(i, random);
         const vec3 aim = some_aim(1, random);
         shot.position = front.middle(i) + some_place(0.2f, random) - aim * (random.between(0.12f, 0.45f) / -aim.z);
@@ -101,6 +105,7 @@ DemoScene shots(const DemoOptions& options) {
         shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
         scene.bodies.push_back(shot);
     }
+    for (std::size_t i = options.bodies; i < front.places(); ++i) add_piece(i);  // no hole in the last row
     add_margin(scene, front, thin, seconds);
     return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
 }
@@ -126,7 +131,8 @@ DemoScene strikes(const DemoOptions& options) {
             target.shape = shot.shape;
             target.density = shot.density;
         }
-        const vec3 aim = some_aim(plate && !sticking ? 0.5f : 0, random);
+        const bool box = std::holds_alternative<Box>(shot.shape);
+        const vec3 aim = some_aim(plate && !sticking && !box ? 0.5f : 0, random);
         const vec3 mark = target.position + some_place(heavy ? 0.1f : 0.01f, random);
         shot.position = mark - aim * random.between(0.2f, 0.5f);
         shot.velocity = aim * std::max(gentlest, some_speed(random));
