@@ -23,7 +23,7 @@ const std::vector<Demo>& all_demos() {
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
         {"smallstack", "ten boxes of 0.2 m stand", 10, false, smallstack, true},
-        {"heavytop", "ten boxes carry one that weighs as much as a hundred", 11, false, heavytop, true},
+        {"heavytop", "nine boxes carry one that weighs as much as a hundred", 10, false, heavytop, true},
         {"pyramid100", "a pyramid of 5,050 boxes stands", 5050, false, pyramid100, true},
         {"cards", "a house of cards, three storeys high, stands", 15, false, cards, true},
         {"jenga", "a tower of eighteen layers of three blocks stands", 54, false, jenga, true},

@@ -18,12 +18,13 @@ using scree::program::says;
 
 namespace {
 
+// Those made to be looked at; the trials are listed after an empty line.
 std::vector<std::string> demo_names() {
     std::istringstream lines(run_scree("list").output);
     std::vector<std::string> names;
     std::string line;
     std::getline(lines, line);  // the heading
-    while (std::getline(lines, line)) names.push_back(line.substr(0, line.find(' ')));
+    while (std::getline(lines, line) && !line.empty()) names.push_back(line.substr(0, line.find(' ')));
     return names;
 }
 
@@ -80,6 +81,9 @@ TEST_CASE("program: list names the demos, help teaches, the version is told", "[
          {"rest", "stack", "tower", "wall", "pyramid", "seesaw", "slopes", "cradle", "dominoes", "pile", "mix", "avalanche"}) {
         REQUIRE(std::count(names.begin(), names.end(), name) == 1);
     }
+    const Outcome list = run_scree("list");
+    REQUIRE(says(list.output, "\n\ntrial "));
+    for (const char* name : {"\nstack20 ", "\npyramid100 ", "\njenga "}) REQUIRE(says(list.output, name));
     const Outcome help = run_scree("--help");
     REQUIRE(help.status == 0);
     for (const char* command : {"list", "devices", "run", "compare", "check", "bench", "export", "Exit status"})
@@ -199,6 +203,27 @@ TEST_CASE("program: check holds a demo to its promise, and a run that is too sho
     INFO(missed.output);
     REQUIRE(missed.status == 1);
     REQUIRE(says(missed.output, "MISS"));
+}
+
+TEST_CASE("program: check takes patterns, lists what is promised, and reports as JSON", "[program]") {
+    const Outcome list = run_scree("check --list 'sees*' rest");
+    REQUIRE(list.status == 0);
+    for (const char* words : {"slant with equal weights", "at most 1 degrees", "how it is measured", "greatest drift"})
+        REQUIRE(says(list.output, words));
+    const Place place;
+    const std::string file = (place / "check.json").string();
+    const Outcome check = run_scree("check 're?t' crad --backend cpu --quiet --report '" + file + "'");
+    INFO(check.errors);
+    REQUIRE(check.status == 0);
+    const json report = json::parse(place.read("check.json"));
+    REQUIRE(report["scenes"].size() == 2);
+    REQUIRE(report["scenes"][0]["scene"] == "rest");
+    REQUIRE(report["kept"] == report["of"]);
+    REQUIRE(says(check.output, report["scenes"][1]["state_hash"].get<std::string>()));
+    const Outcome again = run_scree("check cradle --backend cpu --threads 1 --quiet --report -");
+    REQUIRE(json::parse(again.output)["scenes"][0]["state_hash"] == report["scenes"][1]["state_hash"]);
+    const Outcome run = run_scree("run cradle --backend cpu --quiet --report -");
+    REQUIRE(json::parse(run.output)["state_hash"] == report["scenes"][1]["state_hash"]);
 }
 
 TEST_CASE("program: every demo has a promise", "[program]") {
