@@ -14,7 +14,7 @@ const std::vector<Demo>& all_demos() {
         {"pyramid", "a pyramid of 465 boxes stands", 465, false, pyramid},
         {"seesaw", "equal weights balance; unequal weights tip", 6, false, seesaw},
         {"slopes", "bodies slide, stick and roll down inclines as the formulas say", 8, false, slopes},
-        {"cradle", "five spheres in a row pass on a blow", 5, false, cradle},
+        {"cradle", "five spheres in a row pass on a blow", 10, false, cradle},
         {"dominoes", "a winding row of dominoes falls, to the last", 60, false, dominoes},
         {"pile", "boxes fall into a pit and come to rest", 1000, true, pile},
         {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
@@ -31,6 +31,16 @@ const std::vector<Demo>& all_demos() {
         {"pile1m", "boxes of 1 m lie still in a pit, fall asleep, and wake where a ball strikes", 10000, true, pile1m, true},
         {"mix1m", "spheres, capsules and boxes of about 1 m lie still in a pit", 10000, true, mix1m, true},
         {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},
+
+        {"onset", "boxes begin to slide at the angle atan(mu)", 18, false, onset, true},
+        {"hold", "boxes below that angle do not creep", 9, false, hold, true},
+        {"steep", "boxes slide and round bodies roll down a steep incline as the formulas say", 9, false, steep, true},
+        {"rolling", "rolling resistance brings round bodies to rest where the formula says", 12, false, rolling, true},
+        {"bounce", "bodies bounce to e^2 of the height of their fall", 15, false, bounce, true},
+        {"tumbling", "free boxes turn over and keep angular momentum and energy", 3, false, tumbling, true},
+        {"swarm", "bodies colliding in empty space keep their momentum", 64, false, swarm, true},
+        {"shots", "fast spheres and boxes do not pass a thin wall", 10000, true, shots, true},
+        {"strikes", "fast spheres and boxes do not pass thin plates or small bodies", 1500, true, strikes, true},
     };
     return demos;
 }

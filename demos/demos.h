@@ -67,5 +67,14 @@ DemoScene tray(const DemoOptions&);
 DemoScene pile1m(const DemoOptions&);
 DemoScene mix1m(const DemoOptions&);
 DemoScene overlap(const DemoOptions&);
+DemoScene onset(const DemoOptions&);
+DemoScene hold(const DemoOptions&);
+DemoScene steep(const DemoOptions&);
+DemoScene rolling(const DemoOptions&);
+DemoScene bounce(const DemoOptions&);
+DemoScene tumbling(const DemoOptions&);
+DemoScene swarm(const DemoOptions&);
+DemoScene shots(const DemoOptions&);
+DemoScene strikes(const DemoOptions&);
 
 }  // namespace scree::demos

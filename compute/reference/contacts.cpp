@@ -24,6 +24,11 @@ physics::Couple velocities_of(const State& state, const physics::Constraint& c) 
     return {state.velocities[c.a], state.velocities[c.b]};
 }
 
+// Asked for only where a blow may be thrown back.
+vec3 pull(const State& state, const physics::Constraint& c) {
+    return c.restitution > 0 ? physics::pull_of(state.loads[c.a], state.loads[c.b]) : vec3(0);
+}
+
 void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying) {
     if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying);
     if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying);
@@ -104,7 +109,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
         const physics::Couple before = velocities_of(state, c);
-        const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, state.fixed());
+        const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         state.impulses[i] = after.impulse;
         hand_out(state, c, physics::shares_of(before, after.couple, ma, mb), physics::blow_of(after.impulse));
     });
@@ -116,7 +121,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a]);
         const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b]);
         const physics::Couple before = velocities_of(state, c);
-        const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, state.fixed());
+        const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         state.impulses[i] = physics::without_blows(after.impulse, c.count);
         physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
         if (!last) share = physics::warm_start(c, state.impulses[i], share, ma, mb);

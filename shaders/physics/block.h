@@ -9,11 +9,7 @@
 //
 // Softness (Catto, Soft Constraints, GDC 2011; Solver2D, 2024): penetration is a damped spring, solved implicitly, with the split
 // mass. Each substep has a biased pass, moves the bodies, and has a pass without bias that takes back the spring's velocity.
-// Restitution rides in that second pass instead of a pass of its own after the last substep: what approached faster than
-// the threshold leaves with e times that speed in the substep of the impact, so a bounce loses no part of a step's flight (g dt /
-// v of its energy, 3% at 5 m/s and 60 Hz) and an impact runs on through a row of balls. For that one pass a struck body is shared
-// among the contacts that strike it alone: with the usual over-relaxed share, what it merely lies on would take part of the
-// bounce, and two blows at once would throw it back too fast.
+// Impacts are thrown back in that second pass (blow.h).
 //
 // Both bodies feel an impulse at the same point, although they move on through the substeps: the lever arm of one is fixed, that
 // of the other follows from the present distance d between the centres. So angular momentum is exact to rounding.
@@ -22,6 +18,7 @@
 #ifndef SCREE_PHYSICS_BLOCK_H
 #define SCREE_PHYSICS_BLOCK_H
 
+#include "shaders/physics/blow.h"
 #include "shaders/physics/contact.h"
 #include "shaders/physics/row.h"
 
@@ -109,34 +106,36 @@ LAW Solved with_friction(Constraint c, Solved s, float normal, Mass a, Mass b) {
 }
 
 // The biased pass: normal impulses against the soft spring, or exactly up to touching where the bodies are still apart.
-LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
+LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     c = at_present(c, impulse.d);
     bool gone = impulse.slipped > c.leave;
     impulse.approach = vec4(0.0f);
     // What overlaps many bodies is pushed by all of them at once, and pushes add up from layer to layer.
     float push_speed = parameters.push_speed * reciprocal(larger(a.split, b.split));
+    if (c.restitution > 0.0f) impulse.approach = approaches(c, impulse, v, a, b, pull, parameters);
     float normal = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= c.count) break;
-        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
-        float mass = mass_along(row, a, b);
-        float speed = speed_along(row, v);
-        float separation = impulse.separation[k];
-        float before = impulse.normal[k];
-        float change;
-        if (separation > 0.0f) {
-            change = -mass * (speed + separation * parameters.inverse_h);
-        } else {
-            float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -push_speed);
-            change = -mass * (parameters.mass_scale * speed + bias) - parameters.impulse_scale * before;
+    uint sweeps = sweeps_of(c, impulse);
+    for (uint sweep = 0u; sweep < sweeps; ++sweep) {
+        normal = 0.0f;
+        for (uint k = 0u; k < 4u; ++k) {
+            if (k >= c.count) break;
+            Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
+            float mass = mass_along(row, a, b);
+            float speed = speed_along(row, v);
+            float separation = impulse.separation[k];
+            float before = impulse.normal[k];
+            float change;
+            if (separation > 0.0f) {
+                change = -mass * (speed + separation * parameters.inverse_h);
+            } else {
+                float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -push_speed);
+                change = -mass * (parameters.mass_scale * speed + bias) - parameters.impulse_scale * before;
+            }
+            float after = gone ? 0.0f : positive(before + change);
+            impulse.normal[k] = after;
+            normal = normal + after;
+            v = pushed(v, row, after - before, a, a.split, b, b.split);
         }
-        if (c.restitution > 0.0f && before == 0.0f && speed < -parameters.restitution_threshold &&
-            separation + parameters.h * speed < 0.0f)
-            impulse.approach[k] = speed;
-        float after = gone ? 0.0f : positive(before + change);
-        impulse.normal[k] = after;
-        normal = normal + after;
-        v = pushed(v, row, after - before, a, a.split, b, b.split);
     }
     Solved result;
     result.impulse = impulse;
@@ -146,7 +145,7 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Param
 
 // The pass without bias, after the bodies have moved with `v`: separations follow, what the spring added is taken back, impacts
 // are thrown back, friction acts.
-LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Parameters parameters) {
+LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= c.count || c.anchor == ANCHOR_ROUND) break;
         Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
@@ -159,56 +158,31 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, Para
     c = at_present(c, impulse.d);
     bool gone = impulse.slipped > c.leave;
     float normal = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= c.count) break;
-        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
-        float mass = mass_along(row, a, b);
-        float speed = speed_along(row, v);
-        float target = impulse.separation[k] > 0.0f ? impulse.separation[k] * parameters.inverse_h : 0.0f;
-        if (impulse.approach[k] < 0.0f) target = c.restitution * impulse.approach[k];
-        float before = impulse.normal[k];
-        float after = gone ? 0.0f : positive(before - mass * (speed + target));
-        // A blow about to fall is left to the next substep, which sees how fast it is.
-        if (c.restitution > 0.0f && impulse.approach[k] == 0.0f && before == 0.0f && speed < -parameters.restitution_threshold)
-            after = 0.0f;
-        impulse.normal[k] = after;
-        normal = normal + after;
-        v = pushed(v, row, after - before, a, a.split, b, b.split);
+    uint sweeps = sweeps_of(c, impulse);
+    for (uint sweep = 0u; sweep < sweeps; ++sweep) {
+        normal = 0.0f;
+        for (uint k = 0u; k < 4u; ++k) {
+            if (k >= c.count) break;
+            Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
+            float mass = mass_along(row, a, b);
+            float speed = speed_along(row, v);
+            float target = impulse.separation[k] > 0.0f ? impulse.separation[k] * parameters.inverse_h : 0.0f;
+            if (impulse.approach[k] < 0.0f) target = thrown_back(c, impulse.approach[k], pull, parameters);
+            float before = impulse.normal[k];
+            float after = gone ? 0.0f : positive(before - mass * (speed + target));
+            // A blow about to fall is left to the next substep, which sees how fast it is.
+            if (c.restitution > 0.0f && impulse.approach[k] == 0.0f && before == 0.0f &&
+                speed < -parameters.restitution_threshold)
+                after = 0.0f;
+            impulse.normal[k] = after;
+            normal = normal + after;
+            v = pushed(v, row, after - before, a, a.split, b, b.split);
+        }
     }
     Solved result;
     result.impulse = impulse;
     result.couple = v;
     return with_friction(c, result, normal, a, b);
-}
-
-LAW float blow_of(Impulse impulse) {
-    vec4 a = impulse.approach;
-    return a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f ? 1.0f : 0.0f;
-}
-// The mass as it is shared in the pass without bias.
-LAW Mass shared_for(Impulse impulse, Mass mass, Load load) {
-    if (blow_of(impulse) > 0.0f) mass.split = larger(1.0f, load.blows);
-    return mass;
-}
-
-// The impulse of a blow is spent: the next substep must not begin with it.
-LAW Impulse without_blows(Impulse impulse, uint count) {
-    bool blow = false;
-    float normal = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= count) break;
-        if (impulse.approach[k] < 0.0f) {
-            impulse.normal[k] = 0.0f;
-            blow = true;
-        }
-        normal = normal + impulse.normal[k];
-    }
-    if (blow && normal == 0.0f) {
-        impulse.friction = vec3(0.0f);
-        impulse.twist = 0.0f;
-        impulse.rolling = vec3(0.0f);
-    }
-    return impulse;
 }
 
 // v, and what last substep's impulses do to whole bodies: the guess with which the next substep begins.

@@ -77,7 +77,8 @@ LAW Impulse inherited(Contact now, Contact before, Impulse was, float radius) {
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {
         impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
-        impulse.twist = was.twist;
+        // A single point has no patch to twist on: nothing would ever take an old twist back.
+        if (now.count > 1u) impulse.twist = was.twist;
         impulse.rolling = was.rolling;
     }
     return impulse;

@@ -15,7 +15,8 @@ void main() {
     Couple before;
     before.a = velocities[c.a];
     before.b = velocities[c.b];
-    Solved after = relaxed(c, impulse, before, ma, mb, PARAMETERS);
+    vec3 pull = c.restitution > 0.0f ? pull_of(loads[c.a], loads[c.b]) : vec3(0.0f);
+    Solved after = relaxed(c, impulse, before, ma, mb, pull, PARAMETERS);
     impulse = without_blows(after.impulse, c.count);
     impulses[i] = impulse;
     Couple share = shares_of(before, after.couple, ma, mb);

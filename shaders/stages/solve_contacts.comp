@@ -13,7 +13,8 @@ void main() {
     Couple before;
     before.a = velocities[c.a];
     before.b = velocities[c.b];
-    Solved after = solved(c, impulses[i], before, ma, mb, PARAMETERS);
+    vec3 pull = c.restitution > 0.0f ? pull_of(loads[c.a], loads[c.b]) : vec3(0.0f);
+    Solved after = solved(c, impulses[i], before, ma, mb, pull, PARAMETERS);
     impulses[i] = after.impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
     float blow = blow_of(after.impulse);

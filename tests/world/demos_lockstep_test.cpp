@@ -38,7 +38,9 @@ TEST_CASE("no demo but one begins with bodies inside each other or inside what h
         for (const std::size_t bodies : {std::size_t{0}, std::size_t{2000}}) {
             demos::DemoOptions options;
             options.bodies = demo.takes_bodies ? bodies : 0;
-            World world(demos::build(demo, options).scene, {}, 1);
+            Scene scene = demos::build(demo, options).scene;
+            for (Body& body : scene.bodies) body.velocity = vec3(0);  // in a step a shot is far from where it began
+            World world(scene, {}, 1);
             world.step();
             INFO(demo.name << " with " << world.scene().bodies.size() << " bodies");
             CHECK(world.statistics().penetration_max < 0.01);
