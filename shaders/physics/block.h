@@ -98,9 +98,15 @@ LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     return s;
 }
 
+LAW bool rubs(Impulse impulse) {
+    vec3 f = impulse.friction, r = impulse.rolling;
+    return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
+}
+
 // In both passes: in the one without bias alone, where a warm start is answered only once, over-relaxed splitting overshoots
 // for a share above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
 LAW Solved with_friction(Constraint c, Solved s, float normal, Mass a, Mass b) {
+    if (normal == 0.0f && !rubs(s.impulse)) return s;
     if (c.rolling_resistance > 0.0f) s = rolled(c, s, normal, a, b);
     return rubbed(c, s, normal, a, b);
 }
@@ -119,18 +125,17 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
         normal = 0.0f;
         for (uint k = 0u; k < 4u; ++k) {
             if (k >= c.count) break;
-            Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
-            float mass = mass_along(row, a, b);
-            float speed = speed_along(row, v);
+            Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
+            float speed = dot3(c.normal, velocity_at(r, v));
             float separation = impulse.separation[k];
             float before = impulse.normal[k];
-            float change;
-            if (separation > 0.0f) {
-                change = -mass * (speed + separation * parameters.inverse_h);
-            } else {
-                float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -push_speed);
-                change = -mass * (parameters.mass_scale * speed + bias) - parameters.impulse_scale * before;
-            }
+            float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -push_speed);
+            float excess = parameters.mass_scale * speed + bias;
+            if (separation > 0.0f) excess = speed + separation * parameters.inverse_h;
+            if (before == 0.0f && (gone || excess >= 0.0f)) continue;  // a third of all contacts are merely near
+            Row row = row_of(r, c.normal, a, b);
+            float change = -mass_along(row, a, b) * excess;
+            if (separation <= 0.0f) change = change - parameters.impulse_scale * before;
             float after = gone ? 0.0f : positive(before + change);
             impulse.normal[k] = after;
             normal = normal + after;
@@ -163,17 +168,18 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3
         normal = 0.0f;
         for (uint k = 0u; k < 4u; ++k) {
             if (k >= c.count) break;
-            Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
-            float mass = mass_along(row, a, b);
-            float speed = speed_along(row, v);
+            Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
+            float speed = dot3(c.normal, velocity_at(r, v));
             float target = impulse.separation[k] > 0.0f ? impulse.separation[k] * parameters.inverse_h : 0.0f;
             if (impulse.approach[k] < 0.0f) target = thrown_back(c, impulse.approach[k], pull, parameters);
             float before = impulse.normal[k];
-            float after = gone ? 0.0f : positive(before - mass * (speed + target));
+            if (before == 0.0f && (gone || speed + target >= 0.0f)) continue;
             // A blow about to fall is left to the next substep, which sees how fast it is.
-            if (c.restitution > 0.0f && impulse.approach[k] == 0.0f && before == 0.0f &&
+            if (before == 0.0f && impulse.approach[k] == 0.0f && c.restitution > 0.0f &&
                 speed < -parameters.restitution_threshold)
-                after = 0.0f;
+                continue;
+            Row row = row_of(r, c.normal, a, b);
+            float after = gone ? 0.0f : positive(before - mass_along(row, a, b) * (speed + target));
             impulse.normal[k] = after;
             normal = normal + after;
             v = pushed(v, row, after - before, a, a.split, b, b.split);
@@ -195,6 +201,7 @@ LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
         normal = normal + impulse.normal[k];
         moment = moment + xyz(c.arms[k]) * impulse.normal[k];
     }
+    if (normal == 0.0f && !rubs(impulse)) return v;
     // All points push along the normal, so their moments about a body come to one.
     vec3 across = impulse.d * normal;
     vec3 push = c.normal * normal + impulse.friction;
