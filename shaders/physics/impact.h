@@ -51,17 +51,22 @@ LAW float arc_along(Course course, vec3 normal) {
 
 // What gaps of a pair mean, m.
 struct Limits {
-    float touch;  // so near, they touch: the next step has their contact and finds it before they overlap
-    float slop;   // less than this below 0, the contact has done its work
-    float depth;  // by how much more those that touch may enter each other
+    float touch;   // so near, they touch: the next step has their contact and finds it before they overlap
+    float slop;    // what counts as no change
+    float depth;   // how far they may enter each other
     float pad;
 };
-LAW Limits limits_of(Traits a, Traits b, Parameters parameters) {
-    float size = smaller(thickness(a), thickness(b));
+// `held`: they had a contact in this step. Then they are where it has left them, softness and all, and are stopped only as one is
+// driven half way through the other; a narrower limit would hold bodies of a dense flow while the rest goes on into them.
+LAW Limits limits_of(Traits a, Traits b, bool held, Parameters parameters) {
+    float of_a = thickness(a), of_b = thickness(b);
+    float half_way = 0.5f * (of_a + of_b);
+    if (a.shape == SHAPE_PLANE) half_way = 0.5f * of_b;
+    if (b.shape == SHAPE_PLANE) half_way = 0.5f * of_a;
     Limits limits;
     limits.touch = 0.1f * parameters.speculative;
-    limits.slop = smaller(0.05f * size, limits.touch);
-    limits.depth = smaller(0.5f * size, parameters.speculative);
+    limits.slop = smaller(0.05f * smaller(of_a, of_b), limits.touch);
+    limits.depth = held ? half_way : limits.slop;
     limits.pad = 0.0f;
     return limits;
 }
@@ -84,14 +89,16 @@ LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bo
     for (uint k = 0u; k < IMPACT_ROUNDS; ++k) {
         Gap gap = gap_between(ta, pose_on(a, t), tb, pose_on(b, t));
         bool touched = k == 0u && gap.distance <= limits.touch;
-        if (touched) aim = smaller(gap.distance, 0.0f) - limits.depth;
-        if (touched) met = true;
+        if (touched) {
+            met = true;
+            aim = smaller(-limits.depth, gap.distance - limits.slop);
+        }
         if (!met && gap.distance <= aim + tolerance) {
             met = true;
             impact.normal = gap.normal;
             impact.fraction = t;
             if (until_touch) return impact;
-            aim = -limits.slop;
+            aim = -limits.depth;
         }
         if (met && gap.distance <= aim + 0.1f * limits.slop) {
             // Found on the way: stop where they came to touch. Driven in from the start: stop here.
@@ -143,7 +150,7 @@ LAW bool will_meet(vec3 normal, Traits ta, Pose a, Velocity va, Load la, Traits 
                    Parameters parameters) {
     Course ca = course_of(ta, a.position, a.orientation, foreseen(a, va, la, parameters), 1.0f);
     Course cb = course_of(tb, b.position, b.orientation, foreseen(b, vb, lb, parameters), 1.0f);
-    Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, parameters), true);
+    Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, false, parameters), true);
     return impact.fraction <= 1.0f && dot3(impact.normal, normal) > SAME_NORMAL;
 }
 
