@@ -45,7 +45,8 @@ std::vector<Stage> plan(int substeps) {
     for (std::uint32_t kind = 0; kind < std::size(kind_names); ++kind)
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
     s.push_back({"collide_kept", Over::kind, collide_kept, {manifolds, touching}, physics::KIND_KEPT});
-    s.push_back({"foresee_impacts", Over::flights, foresee_impacts, {touching}});
+    s.push_back({"foresee_impacts", Over::flights, foresee_impacts, {touching, flights}});
+    s.push_back({"drop_passers", Over::flights, drop_passers, {touching}});
     // contacts: who shares a body with whom, what they inherit
     scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
     s.push_back({"list_contacts", Over::pairs, list_contacts, {slot_ends}});

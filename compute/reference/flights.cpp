@@ -36,7 +36,21 @@ void foresee_impacts(State& state, const Threads& threads, std::uint32_t) {
         const bool holds = physics::is_near(manifold, state.touching[i], p) ||
                            physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a], state.loads[a],
                                               state.traits[b], state.poses[b], state.velocities[b], state.loads[b], p);
-        if (!holds) state.touching[i] = 0;
+        if (!holds) {
+            state.touching[i] |= physics::DOUBTFUL;
+        } else if (physics::is_blow(manifold.normal, state.velocities[a], state.velocities[b], p)) {
+            for (const std::uint32_t body : {a, b}) std::atomic_ref(state.flights[body].struck).store(1, std::memory_order_relaxed);
+        }
+    });
+}
+
+void drop_passers(State& state, const Threads& threads, std::uint32_t) {
+    if (!some_fast(state)) return;
+    threads.for_each(state.counted().pairs, [&](std::size_t i) {
+        physics::uint& points = state.touching[i];
+        if (points < physics::DOUBTFUL) return;
+        const bool foreseen = !state.flights[state.pairs[i].a].struck && !state.flights[state.pairs[i].b].struck;
+        points = foreseen ? 0 : points - physics::DOUBTFUL;
     });
 }
 

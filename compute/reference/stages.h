@@ -41,6 +41,7 @@ SCREE_STAGE(relax_contacts);
 
 // flights.cpp
 SCREE_STAGE(foresee_impacts);
+SCREE_STAGE(drop_passers);
 SCREE_STAGE(find_impacts);  // pass: the round
 SCREE_STAGE(stop_bodies);
 

@@ -75,8 +75,8 @@ LAW Flight flight_of(Pose pose) {
     flight.orientation = pose.orientation;
     flight.stops[0] = floatBitsToUint(NEVER);
     flight.stops[1] = floatBitsToUint(NEVER);
+    flight.struck = 0u;
     flight.pad1 = 0u;
-    flight.pad2 = 0u;
     return flight;
 }
 LAW Flight stopped_at(Flight flight, float fraction) {

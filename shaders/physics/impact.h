@@ -145,7 +145,13 @@ LAW bool is_near(Manifold manifold, uint count, Parameters parameters) {
         if (k < count && manifold.points[k].w <= 0.1f * parameters.speculative) near = true;
     return near;
 }
-// Whether the two will meet in this step, and about as the contact says that was made ahead of it.
+// What becomes of a contact made ahead, while nothing else strikes the two: they meet about as it says; or they pass each other, or
+// touch elsewhere, and then it would push where nothing is.
+CONSTANT uint DOUBTFUL = 0x80000000u;  // with the number of its points
+// Whether a contact will change the course of its bodies by more than foresight may be wrong.
+LAW bool is_blow(vec3 normal, Velocity a, Velocity b, Parameters parameters) {
+    return dot3(normal, b.linear - a.linear) < -parameters.restitution_threshold;
+}
 LAW bool will_meet(vec3 normal, Traits ta, Pose a, Velocity va, Load la, Traits tb, Pose b, Velocity vb, Load lb,
                    Parameters parameters) {
     Course ca = course_of(ta, a.position, a.orientation, foreseen(a, va, la, parameters), 1.0f);

@@ -180,7 +180,8 @@ struct Flight {     // of a body through the step
     vec4 orientation;  // at the start
     uint stops[2];     // bits of the fraction of the step at which it is stopped; NEVER for a body that is not. Rounds of search
                        // read one of them and write the other
-    uint pad1, pad2;
+    uint struck;       // 1: something will strike it in this step and change its course
+    uint pad1;
 };
 
 // ---- the step itself

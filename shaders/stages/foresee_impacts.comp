@@ -1,4 +1,5 @@
-// Drops the contacts ahead of fast pairs that will pass each other, or touch elsewhere: these are stopped where they come to touch.
+// Looks ahead for the contacts of fast pairs: which will strike their bodies, and which are doubtful because the two pass each other
+// or touch elsewhere.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -12,6 +13,12 @@ void main() {
     Traits ta = traits[a], tb = traits[b];
     Velocity va = velocities[a], vb = velocities[b];
     if (!will_be_fast(ta, va, PARAMETERS) && !will_be_fast(tb, vb, PARAMETERS)) return;
-    if (is_near(manifolds[i], touching[i], PARAMETERS)) return;
-    if (!will_meet(manifolds[i].normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS)) touching[i] = 0u;
+    vec3 normal = manifolds[i].normal;
+    if (!is_near(manifolds[i], touching[i], PARAMETERS) &&
+        !will_meet(normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS)) {
+        touching[i] = touching[i] | DOUBTFUL;
+    } else if (is_blow(normal, va, vb, PARAMETERS)) {
+        atomicOr(flights[a].struck, 1u);
+        atomicOr(flights[b].struck, 1u);
+    }
 }

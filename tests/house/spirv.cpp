@@ -115,7 +115,7 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Flight;
-            all["Flight"] = {sizeof(R), {M(position), M(pad0), M(orientation), M(stops), M(pad1), M(pad2)}};
+            all["Flight"] = {sizeof(R), {M(position), M(pad0), M(orientation), M(stops), M(struck), M(pad1)}};
         }
         {
             using R = Parameters;
