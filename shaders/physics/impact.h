@@ -148,9 +148,10 @@ LAW bool is_near(Manifold manifold, uint count, Parameters parameters) {
 // What becomes of a contact made ahead, while nothing else strikes the two: they meet about as it says; or they pass each other, or
 // touch elsewhere, and then it would push where nothing is.
 CONSTANT uint DOUBTFUL = 0x80000000u;  // with the number of its points
-// Whether a contact will change the course of its bodies by more than foresight may be wrong.
+// Whether a contact will change the course of its bodies by more than foresight may be wrong: at a quarter of the speed at which
+// bodies bounce, 4 mm in a step of 1/60 s. At the whole of it, an avalanche lost contacts that it needed and clotted.
 LAW bool is_blow(vec3 normal, Velocity a, Velocity b, Parameters parameters) {
-    return dot3(normal, b.linear - a.linear) < -parameters.restitution_threshold;
+    return dot3(normal, b.linear - a.linear) < -0.25f * parameters.restitution_threshold;
 }
 LAW bool will_meet(vec3 normal, Traits ta, Pose a, Velocity va, Load la, Traits tb, Pose b, Velocity vb, Load lb,
                    Parameters parameters) {
