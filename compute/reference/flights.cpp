@@ -30,16 +30,20 @@ void foresee_impacts(State& state, const Threads& threads, std::uint32_t) {
     const physics::Parameters& p = state.fixed();
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         const auto [a, b, kind, previous] = state.pairs[i];
-        const auto fast = [&](std::uint32_t body) { return physics::will_be_fast(state.traits[body], state.velocities[body], p); };
+        const auto fast = [&](std::uint32_t body) {
+            return physics::will_be_fast(state.traits[body], state.velocities[body], p);
+        };
         if (state.touching[i] == 0 || !(fast(a) || fast(b))) return;
         const physics::Manifold& manifold = state.manifolds[i];
-        const bool holds = physics::is_near(manifold, state.touching[i], p) ||
-                           physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a], state.loads[a],
-                                              state.traits[b], state.poses[b], state.velocities[b], state.loads[b], p);
+        const bool holds =
+            physics::is_near(manifold, state.touching[i], p) ||
+            physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a], state.loads[a],
+                               state.traits[b], state.poses[b], state.velocities[b], state.loads[b], p);
         if (!holds) {
             state.touching[i] |= physics::DOUBTFUL;
         } else if (physics::is_blow(manifold.normal, state.velocities[a], state.velocities[b], p)) {
-            for (const std::uint32_t body : {a, b}) std::atomic_ref(state.flights[body].struck).store(1, std::memory_order_relaxed);
+            for (const std::uint32_t body : {a, b})
+                std::atomic_ref(state.flights[body].struck).store(1, std::memory_order_relaxed);
         }
     });
 }
@@ -80,7 +84,8 @@ void stop_bodies(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const float stop = physics::stop_of(state.flights[i]);
         if (stop >= 1) return;
-        const physics::Halted after = physics::halted(state.flights[i], state.poses[i], state.velocities[i], state.loads[i], stop);
+        const physics::Halted after =
+            physics::halted(state.flights[i], state.poses[i], state.velocities[i], state.loads[i], stop);
         state.poses[i] = after.pose;
         state.velocities[i] = after.velocity;
     });

@@ -1,11 +1,11 @@
 // The way of a body through one step: whether it is so long that something could be passed unseen, and where it ends early.
 //
-// A body is fast if it moves by more than half of its thickness in a step. What is slower cannot pass anything whole: it enters it
-// by that much at most, and its contact pushes it back out of the side where it came in. Fast bodies are looked after three times:
-// contacts are made ahead only for those that will meet (shaders/stages/foresee_impacts.comp), after the last substep they are
-// stopped where their ways meet (find_impacts.comp), or where they leave the bounds in which their neighbours were searched. A
-// stopped body keeps its velocity and goes on in the next step, which finds its contact (the way of Box2D and Box3D, Erin Catto,
-// Continuous Collision, GDC 2013).
+// A body is fast if it moves by more than half of its thickness in a step. What is slower cannot pass anything whole: it enters
+// it by that much at most, and its contact pushes it back out of the side where it came in. Fast bodies are looked after three
+// times: contacts are made ahead only for those that will meet (shaders/stages/foresee_impacts.comp), after the last substep they
+// are stopped where their ways meet (find_impacts.comp), or where they leave the bounds in which their neighbours were searched.
+// A stopped body keeps its velocity and goes on in the next step, which finds its contact (the way of Box2D and Box3D, Erin
+// Catto, Continuous Collision, GDC 2013).
 #ifndef SCREE_PHYSICS_FLIGHT_H
 #define SCREE_PHYSICS_FLIGHT_H
 
@@ -17,8 +17,8 @@ LAWS_BEGIN
 // Fraction of a step at which a body is stopped that is not: more than 1, so that it is told from those that may be.
 CONSTANT float NEVER = 2.0f;
 
-// Rounds of search for what must stop. The first finds who meets whom, the second who runs into those that the first has stopped, and
-// so on: with fewer, bodies that fly in a row pass each other when the first of them is stopped.
+// Rounds of search for what must stop. The first finds who meets whom, the second who runs into those that the first has stopped,
+// and so on: with fewer, bodies that fly in a row pass each other when the first of them is stopped.
 CONSTANT uint FLIGHT_ROUNDS = 3u;
 
 // Smallest half width, m: what lengths on a body are measured against.
@@ -102,7 +102,8 @@ LAW float part_within(float way, float back, float ahead) {
     return room > 1.0e-9f ? room * reciprocal(length) : 0.0f;
 }
 // The fraction of its way after which a body leaves the bounds in which its neighbours were searched, by more than what it may go
-// unwatched; 1 if it stays within. What a ricochet or a blow sends elsewhere would else pass bodies that nobody has paired with it.
+// unwatched; 1 if it stays within. What a ricochet or a blow sends elsewhere would else pass bodies that nobody has paired with
+// it.
 LAW float seen_part(Traits traits, Flight flight, Pose end, Bounds bounds) {
     vec3 half_size = larger3(half_extents_of(traits, flight.orientation), half_extents_of(traits, end.orientation));
     half_size = half_size - vec3(unwatched_way(traits));
@@ -126,8 +127,8 @@ struct Halted {
     Pose pose;
     Velocity velocity;
 };
-// The body where it is stopped. Its velocity stays, but for what gravity and forces have done on the rest of its way, which is still
-// before it: v^2 - 2 a.x, so that waiting costs and gains no energy.
+// The body where it is stopped. Its velocity stays, but for what gravity and forces have done on the rest of its way, which is
+// still before it: v^2 - 2 a.x, so that waiting costs and gains no energy.
 LAW Halted halted(Flight flight, Pose end, Velocity velocity, Load load, float fraction) {
     Halted after;
     after.pose = pose_along(flight.position, end.position - flight.position, flight.orientation,

@@ -62,8 +62,8 @@ LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
     return (uint(cell.x) + (row ^ (row >> 13))) & (buckets - 1u);
 }
 
-// Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is fast
-// may not leave them, so the fall is in them too.
+// Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
+// fast may not leave them, so the fall is in them too.
 LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Parameters parameters) {
     vec3 half_size = half_extents_of(traits, pose.orientation);
     float reach = traits.size.x;

@@ -1,8 +1,8 @@
 // When two bodies meet on their ways through a step: conservative advancement.
 //
 // Both go on until the gap between them, at the speed at which it can close at most, could be gone; there it is measured anew
-// (Mirtich, Impulse-based Dynamic Simulation, PhD thesis, Berkeley 1996). The gap along a fixed axis never exceeds the distance, so
-// only the speed along the axis counts: what flies past is done with in a few rounds.
+// (Mirtich, Impulse-based Dynamic Simulation, PhD thesis, Berkeley 1996). The gap along a fixed axis never exceeds the distance,
+// so only the speed along the axis counts: what flies past is done with in a few rounds.
 #ifndef SCREE_PHYSICS_IMPACT_H
 #define SCREE_PHYSICS_IMPACT_H
 
@@ -19,14 +19,14 @@ CONSTANT float SAME_NORMAL = 0.95f;
 
 // A body's straight way through the step, or its part up to where it is stopped.
 struct Course {
-    vec3 start;       // m
-    float until;      // fraction at which it ends
-    vec3 way;         // m
-    float sweep;      // bound on the speed of its surface by turning, about an axis across the gap, m per step
+    vec3 start;   // m
+    float until;  // fraction at which it ends
+    vec3 way;     // m
+    float sweep;  // bound on the speed of its surface by turning, about an axis across the gap, m per step
     vec4 orientation;
-    vec4 turn;        // of the quaternion
-    vec3 axis;        // of the turn, unit
-    float most;       // bound on the same whatever the gap's direction, m per step
+    vec4 turn;   // of the quaternion
+    vec3 axis;   // of the turn, unit
+    float most;  // bound on the same whatever the gap's direction, m per step
 };
 LAW Course course_of(Traits traits, vec3 start, vec4 orientation, Pose end, float until) {
     Course course;
@@ -51,9 +51,9 @@ LAW float arc_along(Course course, vec3 normal) {
 
 // What gaps of a pair mean, m.
 struct Limits {
-    float touch;   // so near, they touch: the next step has their contact and finds it before they overlap
-    float slop;    // what counts as no change
-    float depth;   // how far they may enter each other
+    float touch;  // so near, they touch: the next step has their contact and finds it before they overlap
+    float slop;   // what counts as no change
+    float depth;  // how far they may enter each other
     float pad;
 };
 // `held`: they had a contact in this step. Then they are where it has left them, softness and all, and are stopped only as one is
@@ -145,8 +145,8 @@ LAW bool is_near(Manifold manifold, uint count, Parameters parameters) {
         if (k < count && manifold.points[k].w <= 0.1f * parameters.speculative) near = true;
     return near;
 }
-// What becomes of a contact made ahead, while nothing else strikes the two: they meet about as it says; or they pass each other, or
-// touch elsewhere, and then it would push where nothing is.
+// What becomes of a contact made ahead, while nothing else strikes the two: they meet about as it says; or they pass each other,
+// or touch elsewhere, and then it would push where nothing is.
 CONSTANT uint DOUBTFUL = 0x80000000u;  // with the number of its points
 // Whether a contact will change the course of its bodies by more than foresight may be wrong: at a quarter of the speed at which
 // bodies bounce, 4 mm in a step of 1/60 s. At the whole of it, an avalanche lost contacts that it needed and clotted.

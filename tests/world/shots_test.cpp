@@ -51,7 +51,8 @@ Scene shots(int count, float speed, bool tiles, std::uint32_t seed) {
         body.angular_velocity = noise.vector() * (i % 3 == 0 ? 60.0f : 5.0f);
         body.restitution = i % 5 == 0 ? 0.8f : 0;
         const float way = (0.75f + 0.75f * noise()) * body.velocity.x * dt;
-        body.position = vec3(-0.26f - way, 0.8f * (static_cast<float>(i % 16) - 7.5f), 0.8f * static_cast<float>(i / 16 % 16) - 6);
+        body.position =
+            vec3(-0.26f - way, 0.8f * (static_cast<float>(i % 16) - 7.5f), 0.8f * static_cast<float>(i / 16 % 16) - 6);
         scene.bodies.push_back(body);
     }
     return scene;
