@@ -71,9 +71,9 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         }
         if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
         const physics::Traits &ta = state.traits[bodies[0]], &tb = state.traits[bodies[1]];
-        const physics::Impact impact =
-            physics::impact_of(ta, course(state, bodies[0], stops[0]), tb, course(state, bodies[1], stops[1]),
-                               physics::limits_of(ta, tb, state.touching[i] > 0, state.fixed()), false);
+        const physics::Impact impact = physics::impact_of(
+            ta, course(state, bodies[0], stops[0]), tb, course(state, bodies[1], stops[1]),
+            physics::limits_of(ta, tb, physics::hold_of(state.touching[i], stops[0], stops[1]), state.fixed()), false);
         for (int side = 0; side < 2; ++side)
             if (stops[side] <= 1) lower(state.flights[bodies[side]].stops[next], physics::floatBitsToUint(impact.fraction));
     });

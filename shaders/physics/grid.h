@@ -126,7 +126,8 @@ LAW uint kind_of(uint shape_a, uint shape_b) {
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 
-// How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step.
+// How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step. Those of fast bodies
+// that will not meet are dropped again (impact.h).
 LAW float margin_of(Traits a, Velocity va, Traits b, Velocity vb, Parameters parameters) {
     float turning = length3(va.angular) * (a.shape == SHAPE_SPHERE ? 0.0f : length3(a.size)) +
                     length3(vb.angular) * (b.shape == SHAPE_SPHERE ? 0.0f : length3(b.size));

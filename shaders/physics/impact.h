@@ -14,6 +14,8 @@ LAWS_BEGIN
 
 // Rounds of advancement. Fewer, and bodies that spin beside each other are stopped although they would have passed.
 CONSTANT uint IMPACT_ROUNDS = 32u;
+// Of the thinner one's half width: how far a body may enter another that has been stopped before it.
+CONSTANT float FORSAKEN_DEPTH = 0.5f;
 // Cosine of the angle (18 degrees) by which a contact made ahead may differ from the one that the impact will need.
 CONSTANT float SAME_NORMAL = 0.95f;
 
@@ -56,9 +58,17 @@ struct Limits {
     float depth;  // how far they may enter each other
     float pad;
 };
-// `held`: they had a contact in this step. Then they are where it has left them, softness and all, and are stopped only as one is
-// driven half way through the other; a narrower limit would hold bodies of a dense flow while the rest goes on into them.
-LAW Limits limits_of(Traits a, Traits b, bool held, Parameters parameters) {
+// Pairs that had a contact in this step are where it has left them, softness and all, and are stopped only as one is driven half
+// way through the other; a narrower limit would hold bodies of a dense flow while the rest goes on into them. But once either is
+// stopped, the other runs into it in a way that the contact knew nothing of.
+CONSTANT uint UNHELD = 0u;    // no contact
+CONSTANT uint HELD = 1u;      // a contact, and both go their whole ways
+CONSTANT uint FORSAKEN = 2u;  // a contact, but one of them is stopped
+LAW uint hold_of(uint contact_points, float stop_a, float stop_b) {
+    if (contact_points == 0u) return UNHELD;
+    return stop_a < 1.0f || stop_b < 1.0f ? FORSAKEN : HELD;
+}
+LAW Limits limits_of(Traits a, Traits b, uint hold, Parameters parameters) {
     float of_a = thickness(a), of_b = thickness(b);
     float half_way = 0.5f * (of_a + of_b);
     if (a.shape == SHAPE_PLANE) half_way = 0.5f * of_b;
@@ -66,7 +76,9 @@ LAW Limits limits_of(Traits a, Traits b, bool held, Parameters parameters) {
     Limits limits;
     limits.touch = 0.1f * parameters.speculative;
     limits.slop = smaller(0.05f * smaller(of_a, of_b), limits.touch);
-    limits.depth = held ? half_way : limits.slop;
+    limits.depth = limits.slop;
+    if (hold == HELD) limits.depth = half_way;
+    if (hold == FORSAKEN) limits.depth = FORSAKEN_DEPTH * smaller(of_a, of_b);
     limits.pad = 0.0f;
     return limits;
 }
@@ -157,7 +169,7 @@ LAW bool will_meet(vec3 normal, Traits ta, Pose a, Velocity va, Load la, Traits 
                    Parameters parameters) {
     Course ca = course_of(ta, a.position, a.orientation, foreseen(a, va, la, parameters), 1.0f);
     Course cb = course_of(tb, b.position, b.orientation, foreseen(b, vb, lb, parameters), 1.0f);
-    Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, false, parameters), true);
+    Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, UNHELD, parameters), true);
     return impact.fraction <= 1.0f && dot3(impact.normal, normal) > SAME_NORMAL;
 }
 

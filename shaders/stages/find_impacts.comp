@@ -22,7 +22,8 @@ void main() {
     Traits ta = traits[a], tb = traits[b];
     Course ca = course_of(ta, flights[a].position, flights[a].orientation, poses[a], stop_a);
     Course cb = course_of(tb, flights[b].position, flights[b].orientation, poses[b], stop_b);
-    float fraction = impact_of(ta, ca, tb, cb, limits_of(ta, tb, touching[i] != 0u, PARAMETERS), false).fraction;
+    float fraction =
+        impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(touching[i], stop_a, stop_b), PARAMETERS), false).fraction;
     if (stop_a <= 1.0f) atomicMin(flights[a].stops[next], floatBitsToUint(fraction));
     if (stop_b <= 1.0f) atomicMin(flights[b].stops[next], floatBitsToUint(fraction));
 }

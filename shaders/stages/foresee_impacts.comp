@@ -1,5 +1,5 @@
-// Looks ahead for the contacts of fast pairs: which will strike their bodies, and which are doubtful because the two pass each other
-// or touch elsewhere.
+// Looks ahead for the contacts of fast pairs: which will strike their bodies, and which are doubtful because the two pass each
+// other or touch elsewhere.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

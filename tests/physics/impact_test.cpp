@@ -39,7 +39,7 @@ Parameters parameters() {
     return p;
 }
 Impact meet(const Traits& a, const Course& course_a, const Traits& b, const Course& course_b) {
-    return impact_of(a, course_a, b, course_b, limits_of(a, b, false, parameters()), false);
+    return impact_of(a, course_a, b, course_b, limits_of(a, b, UNHELD, parameters()), false);
 }
 
 const Traits ball = traits_of(SHAPE_SPHERE, vec3(0.1f, 0, 0));
@@ -123,7 +123,7 @@ TEST_CASE("no ways of random bodies through each other are missed, and none is s
             least = smaller(least, gap_between(a, pose_on(ca, t), b, pose_on(cb, t)).distance);
         }
         CAPTURE(i, fraction);
-        REQUIRE(least > -1.1f * limits_of(a, b, false, parameters()).slop);
+        REQUIRE(least > -1.1f * limits_of(a, b, UNHELD, parameters()).slop);
         late += fraction < 1 && least < 0.9f * touch;  // out of rounds between touching and entering
     }
     REQUIRE(met > 100);

@@ -73,7 +73,10 @@ TEST_CASE("fast balls drive thin plates and small balls before them and pass non
             Body bullet = body_of(Sphere{0.1f}, vec3(-0.22f - way, 0, 0) + aside, {speed, 0, 0});
             if (i % 2) bullet.shape = Box{vec3(0.08f)};
             const Scene scene = in_space({target, bullet});
-            World world(scene, {}, 1);
+            Settings settings;
+            settings.max_speed =
+                2000;  // what a blow is guessed to be goes beyond 400 m/s for a moment, and the limit takes momentum
+            World world(scene, settings, 1);
             const double before = momentum_along_x(scene, world);
             CAPTURE(speed, i);
             for (int step = 0; step < 6; ++step) {
