@@ -156,6 +156,9 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
         case Over::kind:
             indirect(physics::WORK_KIND + stage.pass);
             break;
+        case Over::flights:
+            indirect(physics::WORK_FLIGHTS);
+            break;
     }
 }
 

@@ -29,7 +29,7 @@ std::vector<Stage> plan(int substeps) {
     // what pushes the bodies, where they will be
     s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, counts}});
     s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads}});
-    s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts}});
+    s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts, flights}});
     // broadphase: who is near whom
     scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
     s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
@@ -45,6 +45,8 @@ std::vector<Stage> plan(int substeps) {
     for (std::uint32_t kind = 0; kind < std::size(kind_names); ++kind)
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
     s.push_back({"collide_kept", Over::kind, collide_kept, {manifolds, touching}, physics::KIND_KEPT});
+    s.push_back({"foresee_impacts", Over::flights, foresee_impacts, {touching, flights}});
+    s.push_back({"drop_passers", Over::flights, drop_passers, {touching}});
     // contacts: who shares a body with whom, what they inherit
     scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
     s.push_back({"list_contacts", Over::pairs, list_contacts, {slot_ends}});
@@ -60,7 +62,11 @@ std::vector<Stage> plan(int substeps) {
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
         s.push_back({"relax_contacts", Over::contacts, relax_contacts, {impulses, slots}, last});
     }
-    s.push_back({"end_step", Over::bodies, end_step, {velocities, counts}});
+    s.push_back({"end_step", Over::bodies, end_step, {velocities, flights, counts}});
+    // what is fast stops before it passes through something
+    for (std::uint32_t round = 0; round < physics::FLIGHT_ROUNDS; ++round)
+        s.push_back({"find_impacts", Over::flights, find_impacts, {flights}, round});
+    s.push_back({"stop_bodies", Over::bodies, stop_bodies, {poses, velocities}});
     return s;
 }
 // clang-format on

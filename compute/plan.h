@@ -24,7 +24,8 @@ enum class Over {
     kind_blocks,
     pair_blocks,
     contacts,
-    kind
+    kind,
+    flights
 };
 
 struct Stage {

@@ -52,10 +52,12 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
 }
 
 void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
-    std::atomic_ref levels(state.counted().levels);
+    std::atomic_ref levels(state.counted().levels), fast(state.counted().fast);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const physics::Traits& traits = state.traits[i];
-        state.bounds[i] = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.fixed());
+        state.bounds[i] = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.loads[i], state.fixed());
+        state.flights[i] = physics::flight_of(state.poses[i]);
+        if (physics::will_be_fast(traits, state.velocities[i], state.fixed())) fast.store(1, std::memory_order_relaxed);
         state.masses[i] = physics::mass_in_world(traits, state.poses[i].orientation, 1);
         std::atomic_ref(state.cells[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
         if (!traits.large) levels.fetch_or(1u << state.bounds[i].level, std::memory_order_relaxed);
@@ -96,13 +98,22 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
 void end_step(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     ++state.counted().steps;
+    std::atomic<bool> any_fast = false;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (state.traits[i].motion != physics::MOTION_DYNAMIC) return;
         const Sum sum = sum_of_slots(state, i);
         physics::Velocity& velocity = state.velocities[i];
         velocity.linear = physics::without_dust(velocity.linear + sum.change.linear);
         velocity.angular = physics::without_dust(velocity.angular + sum.change.angular);
+        const physics::Traits& traits = state.traits[i];
+        physics::Flight& flight = state.flights[i];
+        if (!physics::was_fast(traits, flight, state.poses[i])) return;
+        flight = physics::stopped_at(flight, physics::seen_part(traits, flight, state.poses[i], state.bounds[i]));
+        any_fast.store(true, std::memory_order_relaxed);
     });
+    if (!any_fast) return;
+    state.counted().fast = 1;
+    state.counted().arguments[physics::WORK_FLIGHTS] = state.counted().arguments[physics::WORK_PAIRS];
 }
 
 }  // namespace scree::reference

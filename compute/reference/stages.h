@@ -39,6 +39,12 @@ SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);
 
+// flights.cpp
+SCREE_STAGE(foresee_impacts);
+SCREE_STAGE(drop_passers);
+SCREE_STAGE(find_impacts);  // pass: the round
+SCREE_STAGE(stop_bodies);
+
 // scans.cpp: block sums are the devices' own affair; here the total is known in the spine, the offsets in the last stage.
 SCREE_STAGE(scan_nothing);
 SCREE_STAGE(scan_pairs_spine);

@@ -14,7 +14,7 @@
 // Both bodies feel an impulse at the same point, although they move on through the substeps: the lever arm of one is fixed, that
 // of the other follows from the present distance d between the centres. So angular momentum is exact to rounding.
 // A body that flies past another leaves it within the step: once the way along the surface is longer than the other is
-// thick, the points hang in the air beside it, and the contact pushes no more until the next step finds it anew.
+// wide, the points hang in the air beside it, and the contact pushes no more until the next step finds it anew.
 #ifndef SCREE_PHYSICS_BLOCK_H
 #define SCREE_PHYSICS_BLOCK_H
 
@@ -156,12 +156,12 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3
         Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
         impulse.separation[k] = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
     }
+    bool gone = impulse.slipped > c.leave;  // as in the biased pass: the blow of this substep is not taken back
     vec3 way = (v.b.linear - v.a.linear) * parameters.h;
     impulse.d = impulse.d + way;
     impulse.slipped = impulse.slipped + length3(way - c.normal * dot3(way, c.normal));
     if (c.anchor == ANCHOR_ROUND) impulse.separation.x = round_gap(c, impulse.d);
     c = at_present(c, impulse.d);
-    bool gone = impulse.slipped > c.leave;
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
     for (uint sweep = 0u; sweep < sweeps; ++sweep) {

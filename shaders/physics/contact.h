@@ -2,6 +2,7 @@
 #ifndef SCREE_PHYSICS_CONTACT_H
 #define SCREE_PHYSICS_CONTACT_H
 
+#include "shaders/physics/flight.h"
 #include "shaders/physics/motion.h"
 
 LAWS_BEGIN
@@ -11,12 +12,6 @@ LAW vec3 xyz(vec4 v) {
 }
 LAW uint feature_of(uint features, uint point) {
     return (features >> (8u * point)) & 0xFFu;
-}
-
-// Smallest half width, m: what lengths on a body are measured against.
-LAW float thickness(Traits traits) {
-    if (traits.shape == SHAPE_PLANE) return 1.0e30f;
-    return traits.shape == SHAPE_BOX ? smaller(traits.size.x, smaller(traits.size.y, traits.size.z)) : traits.size.x;
 }
 
 // How far a point may have wandered on a body and still be the same, m.
@@ -115,6 +110,14 @@ LAW uint anchor_of(Contact contact, Traits a, Traits b) {
     return thickness(b) < thickness(a) ? ANCHOR_B : ANCHOR_A;
 }
 
+// Half the least width of a body along its surface, seen against the normal, m: what slides further has left it.
+LAW float width_along(Traits traits, vec4 orientation, vec3 normal) {
+    if (traits.shape != SHAPE_BOX) return thickness(traits);
+    vec3 slant = absolute3(rotate_back(orientation, normal));
+    if (slant.x >= slant.y && slant.x >= slant.z) return smaller(traits.size.y, traits.size.z);
+    return slant.y >= slant.z ? smaller(traits.size.x, traits.size.z) : smaller(traits.size.x, traits.size.y);
+}
+
 // The friction patch lies where the points touch: those still ahead weigh less, so its centre moves smoothly as a body tips.
 LAW vec3 patch_centre(Contact contact, Parameters parameters) {
     vec3 centre;
@@ -145,8 +148,8 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a,
     c.anchor = anchor_of(contact, ta, tb);
     c.radius_a = ta.size.x;
     c.radius_b = tb.size.x;
-    c.leave = c.anchor == ANCHOR_ROUND ? 1.0e30f : thickness(ta);
-    if (c.anchor == ANCHOR_A) c.leave = thickness(tb);
+    c.leave = c.anchor == ANCHOR_ROUND ? 1.0e30f : width_along(ta, contact.turn_a, contact.normal);
+    if (c.anchor == ANCHOR_A) c.leave = width_along(tb, contact.turn_b, contact.normal);
     vec3 centre = patch_centre(contact, parameters);
     float reach = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {

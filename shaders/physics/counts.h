@@ -32,6 +32,7 @@ LAW Counts with_pairs(Counts counts, uint total, Parameters parameters) {
     counts.arguments[WORK_SPANS] = work_for(spans_of(counts.pairs), parameters);
     counts.arguments[WORK_KIND_BLOCKS] = scan_work_for(KINDS * spans_of(counts.pairs), parameters);
     counts.arguments[WORK_PAIR_BLOCKS] = scan_work_for(counts.pairs, parameters);
+    counts.arguments[WORK_FLIGHTS] = work_for(counts.fast != 0u ? counts.pairs : 0u, parameters);
     return counts;
 }
 
@@ -48,6 +49,7 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
         counts.required_contacts = total;
         counts.pairs = 0u;
         counts.arguments[WORK_PAIRS] = work_for(0u, parameters);
+        counts.arguments[WORK_FLIGHTS] = work_for(0u, parameters);
     }
     counts.contacts = counts.overflow == 0u ? total : 0u;
     counts.arguments[WORK_CONTACTS] = work_for(counts.contacts, parameters);
@@ -58,7 +60,8 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
 LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.levels = 0u;
     counts.pairs_coarse = 0u;
-    for (uint k = 0u; k < 12u; ++k) counts.kind_first[k] = 0u;
+    counts.fast = 0u;
+    for (uint k = 0u; k < 11u; ++k) counts.kind_first[k] = 0u;
     for (uint k = 0u; k < 16u; ++k) counts.arguments[k] = work_for(0u, parameters);
     counts = with_pairs(counts, 0u, parameters);
     return with_contacts(counts, 0u, parameters);

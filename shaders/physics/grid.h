@@ -8,6 +8,7 @@
 #define SCREE_PHYSICS_GRID_H
 
 #include "shaders/physics/arithmetic.h"
+#include "shaders/physics/flight.h"
 #include "shaders/physics/records.h"
 
 LAWS_BEGIN
@@ -61,19 +62,13 @@ LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
     return (uint(cell.x) + (row ^ (row >> 13))) & (buckets - 1u);
 }
 
-// Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it.
-LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Parameters parameters) {
-    vec3 half_size = vec3(traits.size.x);
+// Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
+// fast may not leave them, so the fall is in them too.
+LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Parameters parameters) {
+    vec3 half_size = half_extents_of(traits, pose.orientation);
     float reach = traits.size.x;
-    if (traits.shape == SHAPE_CAPSULE) {
-        vec3 axis = upright(pose.orientation) * traits.size.y;
-        half_size = half_size + absolute3(axis);
-        reach = traits.size.x + traits.size.y;
-    } else if (traits.shape == SHAPE_BOX) {
-        Axes axes = axes_of(pose.orientation);
-        half_size = absolute3(axes.x) * traits.size.x + absolute3(axes.y) * traits.size.y + absolute3(axes.z) * traits.size.z;
-        reach = length3(traits.size);
-    }
+    if (traits.shape == SHAPE_CAPSULE) reach = traits.size.x + traits.size.y;
+    if (traits.shape == SHAPE_BOX) reach = length3(traits.size);
     if (traits.shape == SHAPE_PLANE) {
         half_size = vec3(1.0e30f);
     } else if (traits.shape != SHAPE_SPHERE) {
@@ -86,6 +81,11 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Parameters par
     Bounds bounds;
     bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));
     bounds.upper = pose.position + half_size + larger3(way, vec3(0.0f));
+    if (will_be_fast(traits, velocity, parameters)) {
+        vec3 fall = way + load.acceleration * (parameters.dt * parameters.dt);
+        bounds.lower = smaller3(bounds.lower, pose.position - half_size + fall);
+        bounds.upper = larger3(bounds.upper, pose.position + half_size + fall);
+    }
     bounds.level = 0u;
     bounds.bucket = parameters.buckets;
     if (traits.large == 0u) {
@@ -126,7 +126,8 @@ LAW uint kind_of(uint shape_a, uint shape_b) {
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 
-// How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step.
+// How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step. Those of fast bodies
+// that will not meet are dropped again (impact.h).
 LAW float margin_of(Traits a, Velocity va, Traits b, Velocity vb, Parameters parameters) {
     float turning = length3(va.angular) * (a.shape == SHAPE_SPHERE ? 0.0f : length3(a.size)) +
                     length3(vb.angular) * (b.shape == SHAPE_SPHERE ? 0.0f : length3(b.size));

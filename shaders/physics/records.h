@@ -173,6 +173,17 @@ struct Slot {       // what one contact did to one body; a body sums its slots i
     float pad;
 };
 
+// ---- fast bodies
+struct Flight {     // of a body through the step
+    vec3 position;  // at the start, m
+    float pad0;
+    vec4 orientation;  // at the start
+    uint stops[2];     // bits of the fraction of the step at which it is stopped; NEVER for a body that is not. Rounds of search
+                       // read one of them and write the other
+    uint struck;       // 1: something will strike it in this step and change its course
+    uint pad1;
+};
+
 // ---- the step itself
 struct Parameters {  // fixed for a run
     vec3 gravity;    // m/s^2
@@ -213,7 +224,8 @@ CONSTANT uint WORK_SPANS = 1u;
 CONSTANT uint WORK_KIND_BLOCKS = 2u;
 CONSTANT uint WORK_PAIR_BLOCKS = 3u;
 CONSTANT uint WORK_CONTACTS = 4u;
-CONSTANT uint WORK_KIND = 5u;  // and the KINDS - 1 rows after it
+CONSTANT uint WORK_KIND = 5u;      // and the KINDS - 1 rows after it
+CONSTANT uint WORK_FLIGHTS = 15u;  // all pairs if some body is fast, else none
 CONSTANT uint OVERFLOW_PAIRS = 1u;
 CONSTANT uint OVERFLOW_CONTACTS = 2u;
 
@@ -224,7 +236,8 @@ struct Counts {  // what the device counts in a step
     uint required_pairs, required_contacts;
     uint steps;           // whole steps done
     uint pairs_coarse;    // pairs in units of 256, each body's rounded up: it does not wrap where their number does
-    uint kind_first[12];  // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint kind_first[11];  // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint fast;            // 1: some body will be fast in this step
     uvec4 arguments[16];  // per WORK_*: workgroups x, y, z, and threads
 };
 

@@ -35,6 +35,7 @@
     X(26, constraints, ConstraintsTable, Constraint, contacts)                                                                   \
     X(27, slots, SlotsTable, Slot, slots)                                                                                        \
     X(28, block_sums, BlockSumsTable, uint, blocks)                                                                              \
-    X(29, candidates, CandidatesTable, Candidate, pairs) /* what each body found near it, in any order */
+    X(29, candidates, CandidatesTable, Candidate, pairs) /* what each body found near it, in any order */                        \
+    X(30, flights, FlightsTable, Flight, bodies)
 
 #endif

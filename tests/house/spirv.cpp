@@ -114,6 +114,10 @@ const std::map<std::string, Record>& records() {
             all["Slot"] = {sizeof(R), {M(linear), M(carries), M(angular), M(pad)}};
         }
         {
+            using R = Flight;
+            all["Flight"] = {sizeof(R), {M(position), M(pad0), M(orientation), M(stops), M(struck), M(pad1)}};
+        }
+        {
             using R = Parameters;
             all["Parameters"] = {sizeof(R),
                                  {M(gravity),
@@ -147,7 +151,7 @@ const std::map<std::string, Record>& records() {
             using R = Counts;
             all["Counts"] = {sizeof(R),
                              {M(pairs), M(contacts), M(levels), M(overflow), M(required_pairs), M(required_contacts), M(steps),
-                              M(pairs_coarse), M(kind_first), M(arguments)}};
+                              M(pairs_coarse), M(kind_first), M(fast), M(arguments)}};
         }
         return all;
     }();

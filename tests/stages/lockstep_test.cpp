@@ -8,6 +8,7 @@
 #include "compute/device_runner.h"
 #include "compute/lockstep.h"
 #include "compute/world.h"
+#include "shaders/physics/flight.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -74,6 +75,29 @@ TEST_CASE("both processors stay alike while a heap collapses, with 1, 3 and 16 s
         Settings settings;
         settings.substeps = substeps;
         require_equal(compare_in_lockstep(tests::heap(100), settings, watched.device, 2, 60));
+    }
+}
+
+TEST_CASE("both processors stop fast bodies alike") {
+    const Watched watched;
+    for (const float faster : {10.0f, 60.0f}) {
+        Scene scene = tests::swarm(150, 0.5f);
+        for (Body& body : scene.bodies) body.velocity *= faster;
+        Body wall;
+        wall.motion = Motion::fixed;
+        wall.shape = Box{vec3(0.02f, 20, 20)};
+        wall.position.x = 6;
+        scene.bodies.push_back(wall);
+        Lockstep lockstep(scene, {}, watched.device, 1);
+        std::vector<physics::Flight> flights(scene.bodies.size());
+        int stopped = 0;
+        for (int step = 0; step < 30; ++step) {
+            lockstep.step();
+            require_equal(lockstep.result());
+            lockstep.device().read(Table::flights, std::as_writable_bytes(std::span(flights)));
+            for (const physics::Flight& flight : flights) stopped += physics::stop_of(flight) < 1;
+        }
+        REQUIRE(stopped > 50);
     }
 }
 

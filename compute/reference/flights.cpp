@@ -1,0 +1,94 @@
+// Reference stages of fast bodies: who meets whom on the way, and who is stopped where.
+#include <atomic>
+
+#include "compute/reference/stages.h"
+#include "shaders/physics/impact.h"
+
+namespace scree::reference {
+
+namespace {
+
+bool some_fast(const State& state) {
+    return state.counted().fast != 0 && state.counted().overflow == 0;
+}
+
+void lower(physics::uint& bits, physics::uint to) {
+    std::atomic_ref value(bits);
+    physics::uint was = value.load(std::memory_order_relaxed);
+    while (to < was && !value.compare_exchange_weak(was, to, std::memory_order_relaxed)) continue;
+}
+
+physics::Course course(const State& state, std::uint32_t body, float until) {
+    const physics::Flight& flight = state.flights[body];
+    return physics::course_of(state.traits[body], flight.position, flight.orientation, state.poses[body], until);
+}
+
+}  // namespace
+
+void foresee_impacts(State& state, const Threads& threads, std::uint32_t) {
+    if (!some_fast(state)) return;
+    const physics::Parameters& p = state.fixed();
+    threads.for_each(state.counted().pairs, [&](std::size_t i) {
+        const auto [a, b, kind, previous] = state.pairs[i];
+        const auto fast = [&](std::uint32_t body) {
+            return physics::will_be_fast(state.traits[body], state.velocities[body], p);
+        };
+        if (state.touching[i] == 0 || !(fast(a) || fast(b))) return;
+        const physics::Manifold& manifold = state.manifolds[i];
+        const bool holds =
+            physics::is_near(manifold, state.touching[i], p) ||
+            physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a], state.loads[a],
+                               state.traits[b], state.poses[b], state.velocities[b], state.loads[b], p);
+        if (!holds) {
+            state.touching[i] |= physics::DOUBTFUL;
+        } else if (physics::is_blow(manifold.normal, state.velocities[a], state.velocities[b], p)) {
+            for (const std::uint32_t body : {a, b})
+                std::atomic_ref(state.flights[body].struck).store(1, std::memory_order_relaxed);
+        }
+    });
+}
+
+void drop_passers(State& state, const Threads& threads, std::uint32_t) {
+    if (!some_fast(state)) return;
+    threads.for_each(state.counted().pairs, [&](std::size_t i) {
+        physics::uint& points = state.touching[i];
+        if (points < physics::DOUBTFUL) return;
+        const bool foreseen = !state.flights[state.pairs[i].a].struck && !state.flights[state.pairs[i].b].struck;
+        points = foreseen ? 0 : points - physics::DOUBTFUL;
+    });
+}
+
+void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
+    if (!some_fast(state)) return;
+    const std::size_t now = round % 2, next = 1 - now;
+    threads.for_each(state.counted().pairs, [&](std::size_t i) {
+        const std::uint32_t bodies[2] = {state.pairs[i].a, state.pairs[i].b};
+        float stops[2];
+        for (int side = 0; side < 2; ++side) {
+            physics::Flight& flight = state.flights[bodies[side]];
+            stops[side] = physics::uintBitsToFloat(flight.stops[now]);
+            if (round > 0) lower(flight.stops[next], flight.stops[now]);
+        }
+        if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
+        const physics::Traits &ta = state.traits[bodies[0]], &tb = state.traits[bodies[1]];
+        const physics::Impact impact = physics::impact_of(
+            ta, course(state, bodies[0], stops[0]), tb, course(state, bodies[1], stops[1]),
+            physics::limits_of(ta, tb, physics::hold_of(state.touching[i], stops[0], stops[1]), state.fixed()), false);
+        for (int side = 0; side < 2; ++side)
+            if (stops[side] <= 1) lower(state.flights[bodies[side]].stops[next], physics::floatBitsToUint(impact.fraction));
+    });
+}
+
+void stop_bodies(State& state, const Threads& threads, std::uint32_t) {
+    if (!some_fast(state)) return;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        const float stop = physics::stop_of(state.flights[i]);
+        if (stop >= 1) return;
+        const physics::Halted after =
+            physics::halted(state.flights[i], state.poses[i], state.velocities[i], state.loads[i], stop);
+        state.poses[i] = after.pose;
+        state.velocities[i] = after.velocity;
+    });
+}
+
+}  // namespace scree::reference

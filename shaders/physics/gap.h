@@ -1,0 +1,96 @@
+// How far two bodies are apart, and along which axis: the distance of round shapes, for two boxes a lower bound of it.
+#ifndef SCREE_PHYSICS_GAP_H
+#define SCREE_PHYSICS_GAP_H
+
+#include "shaders/physics/collide_box_box.h"
+#include "shaders/physics/collide_box_plane.h"
+#include "shaders/physics/collide_capsule_box.h"
+#include "shaders/physics/collide_capsule_capsule.h"
+#include "shaders/physics/collide_capsule_plane.h"
+#include "shaders/physics/collide_sphere_box.h"
+#include "shaders/physics/collide_sphere_capsule.h"
+#include "shaders/physics/collide_sphere_plane.h"
+#include "shaders/physics/collide_sphere_sphere.h"
+
+LAWS_BEGIN
+
+struct Gap {
+    vec3 normal;     // unit, world, from A to B
+    float distance;  // m, < 0 inside
+};
+
+LAW vec3 axis_towards(vec4 orientation, uint k, float side) {
+    Axes axes = axes_of(orientation);
+    vec3 axis = k == 0u ? axes.x : (k == 1u ? axes.y : axes.z);
+    return side < 0.0f ? -axis : axis;
+}
+
+// The widest of the fifteen separations: no distance is less, and none of them is positive where the boxes overlap.
+LAW Gap gap_of_boxes(Traits a, Pose pose_a, Traits b, Pose pose_b) {
+    BoxView view = view_of(pose_a, pose_b);
+    BoxView back = reversed(view);
+    vec3 faces_a = face_separations(view, a.size, b.size);
+    vec3 faces_b = face_separations(back, b.size, a.size);
+    EdgeAxis edge = best_edge_axis(view, a.size, b.size);
+    uint face_a = largest_of(faces_a);
+    uint face_b = largest_of(faces_b);
+    Gap gap;
+    gap.distance = coordinate(faces_a, face_a);
+    gap.normal = axis_towards(pose_a.orientation, face_a, coordinate(view.d, face_a));
+    if (coordinate(faces_b, face_b) > gap.distance) {
+        gap.distance = coordinate(faces_b, face_b);
+        gap.normal = -axis_towards(pose_b.orientation, face_b, coordinate(back.d, face_b));
+    }
+    if (edge.separation > gap.distance) {
+        gap.distance = edge.separation;
+        uint i = edge.k >= 6u ? 2u : (edge.k >= 3u ? 1u : 0u);
+        vec3 along_a = axis_towards(pose_a.orientation, i, 1.0f);
+        vec3 across = cross3(along_a, axis_towards(pose_b.orientation, edge.k - 3u * i, 1.0f));
+        across = unit3(across, tangent(along_a));
+        gap.normal = dot3(across, pose_b.position - pose_a.position) < 0.0f ? -across : across;
+    }
+    return gap;
+}
+
+LAW Gap gap_of_touch(Touch touch) {
+    Gap gap;
+    gap.normal = touch.manifold.normal;
+    gap.distance = deepest_of(touch);
+    return gap;
+}
+
+// The simpler shape first, as the laws of touching want it.
+LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b) {
+    float any = 1.0e30f;
+    if (a.shape == SHAPE_SPHERE) {
+        if (b.shape == SHAPE_SPHERE) return gap_of_touch(collide_sphere_sphere(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_CAPSULE) return gap_of_touch(collide_sphere_capsule(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_BOX) return gap_of_touch(collide_sphere_box(a, pose_a, b, pose_b, any));
+        return gap_of_touch(collide_sphere_plane(a, pose_a, b, pose_b, any));
+    }
+    if (a.shape == SHAPE_CAPSULE) {
+        if (b.shape == SHAPE_CAPSULE) return gap_of_touch(collide_capsule_capsule(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_BOX) return gap_of_touch(collide_capsule_box(a, pose_a, b, pose_b, any));
+        return gap_of_touch(collide_capsule_plane(a, pose_a, b, pose_b, any));
+    }
+    if (b.shape == SHAPE_BOX) return gap_of_boxes(a, pose_a, b, pose_b);
+    return gap_of_touch(collide_box_plane(a, pose_a, b, pose_b, any));
+}
+LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b) {
+    bool swap = a.shape > b.shape;
+    Traits first = a, second = b;
+    Pose first_pose = pose_a, second_pose = pose_b;
+    if (swap) {
+        first = b;
+        second = a;
+        first_pose = pose_b;
+        second_pose = pose_a;
+    }
+    Gap gap = gap_in_order(first, first_pose, second, second_pose);
+    if (swap) gap.normal = -gap.normal;
+    return gap;
+}
+
+LAWS_END
+
+#endif

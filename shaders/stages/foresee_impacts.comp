@@ -1,0 +1,24 @@
+// Looks ahead for the contacts of fast pairs: which will strike their bodies, and which are doubtful because the two pass each
+// other or touch elsewhere.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/impact.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= COUNTS.pairs || touching[i] == 0u) return;
+    uint a = pairs[i].a, b = pairs[i].b;
+    Traits ta = traits[a], tb = traits[b];
+    Velocity va = velocities[a], vb = velocities[b];
+    if (!will_be_fast(ta, va, PARAMETERS) && !will_be_fast(tb, vb, PARAMETERS)) return;
+    vec3 normal = manifolds[i].normal;
+    if (!is_near(manifolds[i], touching[i], PARAMETERS) &&
+        !will_meet(normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS)) {
+        touching[i] = touching[i] | DOUBTFUL;
+    } else if (is_blow(normal, va, vb, PARAMETERS)) {
+        atomicOr(flights[a].struck, 1u);
+        atomicOr(flights[b].struck, 1u);
+    }
+}

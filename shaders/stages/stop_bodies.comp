@@ -1,0 +1,16 @@
+// Puts the fast bodies that must stop back to where they do.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/flight.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.fast == 0u) return;
+    float stop = stop_of(flights[i]);
+    if (stop >= 1.0f) return;
+    Halted after = halted(flights[i], poses[i], velocities[i], loads[i], stop);
+    poses[i] = after.pose;
+    velocities[i] = after.velocity;
+}

@@ -1,0 +1,93 @@
+// Shots at a thin wall: nothing goes through, at any speed, angle, spin and shape.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "compute/world.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+
+namespace {
+
+constexpr float half_wall = 0.025f;  // m
+constexpr float dt = 1 / 60.0f;      // s
+
+Shape some_shape(int i) {
+    if (i % 4 == 0) return Sphere{0.1f};
+    if (i % 4 == 1) return Box{vec3(0.1f)};
+    if (i % 4 == 2) return Capsule{0.06f, 0.1f};
+    return Box{vec3(0.1f, 0.03f, 0.06f)};
+}
+
+// A wall across x at 0, in one piece or in tiles of half a metre.
+void build_wall(Scene& scene, bool tiles) {
+    Body piece;
+    piece.motion = Motion::fixed;
+    piece.shape = Box{vec3(half_wall, 100, 100)};
+    if (!tiles) {
+        scene.bodies.push_back(piece);
+        return;
+    }
+    piece.shape = Box{vec3(half_wall, 0.25f, 0.25f)};
+    for (int i = 0; i < 1600; ++i) {
+        piece.position = vec3(0, 0.5f * static_cast<float>(i % 40) - 9.75f, 0.5f * static_cast<float>(i / 40) - 9.75f);
+        scene.bodies.push_back(piece);
+    }
+}
+
+// `count` bodies of every shape before the wall, at most a step and a half from it, flying at it at up to 60 degrees.
+Scene shots(int count, float speed, bool tiles, std::uint32_t seed) {
+    tests::Noise noise(seed);
+    Scene scene;
+    build_wall(scene, tiles);
+    for (int i = 0; i < count; ++i) {
+        Body body;
+        body.shape = some_shape(i);
+        vec3 direction = noise.vector() * 1.7f;
+        direction.x = 1;
+        body.velocity = glm::normalize(direction) * speed;
+        body.orientation = vec4(noise.vector(), 0.7f);
+        body.angular_velocity = noise.vector() * (i % 3 == 0 ? 60.0f : 5.0f);
+        body.restitution = i % 5 == 0 ? 0.8f : 0;
+        const float way = (0.75f + 0.75f * noise()) * body.velocity.x * dt;
+        body.position =
+            vec3(-0.26f - way, 0.8f * (static_cast<float>(i % 16) - 7.5f), 0.8f * static_cast<float>(i / 16 % 16) - 6);
+        scene.bodies.push_back(body);
+    }
+    return scene;
+}
+
+// Bodies that have been deeper in the wall than its front, where there is a wall: beyond its edge they may go.
+int entered(const Scene& scene, int steps, float wall_reach) {
+    World world(scene, {}, 2);
+    std::vector<bool> in(scene.bodies.size());
+    std::vector<BodyState> before = world.bodies();
+    for (int step = 0; step < steps; ++step) {
+        world.step();
+        const std::vector<BodyState> now = world.bodies();
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            if (scene.bodies[i].motion != Motion::dynamic || now[i].position.x <= -half_wall) continue;
+            if (before[i].position.x > -half_wall) continue;
+            const vec3 way = now[i].position - before[i].position;
+            const vec3 at = before[i].position + way * (-(half_wall + before[i].position.x) / way.x);
+            if (std::max(std::abs(at.y), std::abs(at.z)) < wall_reach) in[i] = true;
+        }
+        before = now;
+    }
+    return static_cast<int>(std::count(in.begin(), in.end(), true));
+}
+
+}  // namespace
+
+TEST_CASE("no shot at a thin wall goes through") {
+    for (const bool tiles : {false, true}) {
+        for (const float speed : {1.0f, 3.0f, 6.0f, 12.0f, 25.0f, 50.0f, 100.0f, 150.0f, 220.0f, 300.0f}) {
+            int through = 0;
+            for (const std::uint32_t seed : {1u, 2u})
+                through += entered(shots(250, speed, tiles, seed + 10 * tiles), 30, tiles ? 9.9f : 99.9f);
+            CAPTURE(tiles, speed);
+            CHECK(through == 0);
+        }
+    }
+}
