@@ -34,6 +34,7 @@ std::vector<SceneOptions> scenes_of(const Options& options) {
     for (const std::string& name : names) {
         SceneOptions scene;
         scene.name = name;
+        scene.sleeping = false;  // what must stand must stand awake
         const Demo* demo = find_demo(name);
         if (demo && demo->takes_bodies) scene.bodies = std::min(demo->bodies, check_bodies);
         const Subject subject = load_subject(scene);  // an unknown name is told before minutes of work

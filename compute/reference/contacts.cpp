@@ -5,15 +5,17 @@
 
 #include "compute/reference/stages.h"
 #include "shaders/physics/block.h"
+#include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
+#include "shaders/physics/rest.h"
 
 namespace scree::reference {
 
 namespace {
 
 bool movable(const State& state, std::uint32_t body) {
-    return state.traits[body].motion == physics::MOTION_DYNAMIC;
+    return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
 }
 
 std::uint32_t taken(std::uint32_t& end) {
@@ -24,9 +26,11 @@ physics::Couple velocities_of(const State& state, const physics::Constraint& c) 
     return {state.velocities[c.a], state.velocities[c.b]};
 }
 
-void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying);
+// `quiet`: what A and B tell of their rest.
+void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying,
+              std::array<float, 2> quiet = {0, 0}) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying, quiet[1]);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying, quiet[0]);
 }
 
 }  // namespace
@@ -35,7 +39,13 @@ void list_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         if (state.touching[i] == 0) return;
         state.constraints[state.contact_starts[i]].pair = static_cast<std::uint32_t>(i);
-        for (const std::uint32_t body : {state.pairs[i].a, state.pairs[i].b})
+    });
+}
+
+void count_slots(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::Pair& pair = state.pairs[state.constraints[i].pair];
+        for (const std::uint32_t body : {pair.a, pair.b})
             if (movable(state, body)) taken(state.slot_ends[body]);
     });
 }
@@ -49,7 +59,10 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
         const physics::Pair& pair = state.pairs[c.pair];
         if (movable(state, pair.a)) state.slot_sides[taken(state.slot_ends[pair.a])] = 2 * contact;
         if (movable(state, pair.b)) state.slot_sides[taken(state.slot_ends[pair.b])] = 2 * contact + 1;
+        if (movable(state, pair.a) || movable(state, pair.b)) state.binned[taken(state.counted().solved)] = contact;
     });
+    physics::Counts& counts = state.counted();
+    counts.arguments[physics::WORK_SOLVED].x = physics::work_for(counts.solved, state.fixed()).x;
 }
 
 void order_slots(State& state, const Threads& threads, std::uint32_t) {
@@ -75,11 +88,11 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t index = c.pair;
         const physics::Pair& pair = state.pairs[index];
         const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
-        const physics::Mass &ma = state.masses[pair.a], &mb = state.masses[pair.b];
+        const physics::Mass ma = physics::met(c.slot_a, state.masses[pair.a]), mb = physics::met(c.slot_b, state.masses[pair.b]);
         const physics::Manifold& manifold = state.manifolds[index];
         physics::Contact& contact = state.contacts[i];
         physics::Impulse& impulse = state.impulses[i];
-        if (pair.kind == physics::KIND_KEPT) {
+        if (pair.kind >= physics::KIND_KEPT) {
             contact = physics::aged(state.contacts_before[pair.previous]);
             impulse = physics::continued(contact, state.impulses_before[pair.previous]);
         } else {
@@ -90,6 +103,15 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
                                                state.impulses_before[pair.previous], physics::match_radius(ta, tb));
         }
         impulse.separation = physics::separations_of(manifold);
+        const bool sleeps_a = ta.motion == physics::MOTION_DYNAMIC && c.slot_a == physics::NONE;
+        const bool sleeps_b = tb.motion == physics::MOTION_DYNAMIC && c.slot_b == physics::NONE;
+        if (pair.previous != physics::NONE)
+            contact.load = physics::load_of(sleeps_a || sleeps_b, state.contacts_before[pair.previous],
+                                            state.impulses_before[pair.previous]);
+        if (c.slot_a == physics::NONE && c.slot_b == physics::NONE) {
+            c = physics::idle_constraint(contact);
+            return;
+        }
         c = physics::constraint_of(contact, ta, tb, c.slot_a, c.slot_b, p);
         c.pair = index;
 
@@ -100,9 +122,10 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
-    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+    threads.for_each(state.counted().solved, [&](std::size_t k) {
+        const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
+        const physics::Mass ma = physics::met(c.slot_a, state.masses[c.a]), mb = physics::met(c.slot_b, state.masses[c.b]);
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = after.impulse;
@@ -111,16 +134,26 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
-    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+    threads.for_each(state.counted().solved, [&](std::size_t k) {
+        const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a]);
-        const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b]);
+        const auto mass_of = [&](std::uint32_t slot, std::uint32_t body) {
+            return physics::met(slot, physics::shared_for(state.impulses[i], state.masses[body], state.loads[body]));
+        };
+        const physics::Mass ma = mass_of(c.slot_a, c.a), mb = mass_of(c.slot_b, c.b);
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = physics::without_blows(after.impulse, c.count);
         physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
-        if (!last) share = physics::warm_start(c, state.impulses[i], share, ma, mb);
-        hand_out(state, c, share, physics::carries(c, state.impulses[i], after.couple, ma, mb, state.fixed()));
+        const float carrying = physics::carries(c, state.impulses[i], after.couple, ma, mb, state.fixed());
+        if (last) {
+            const auto told = [&](std::uint32_t body) {
+                return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
+            };
+            hand_out(state, c, share, carrying, {told(c.a), told(c.b)});
+        } else {
+            hand_out(state, c, physics::warm_start(c, state.impulses[i], share, ma, mb), carrying);
+        }
     });
 }
 

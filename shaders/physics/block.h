@@ -42,6 +42,20 @@ LAW Constraint at_present(Constraint c, vec3 d) {
     return c;
 }
 
+// A body's mass as a contact meets it: without a slot the body is not to be moved.
+LAW Mass met(uint slot, Mass mass) {
+    if (slot != NONE) return mass;
+    mass.xx = 0.0f;
+    mass.xy = 0.0f;
+    mass.xz = 0.0f;
+    mass.yy = 0.0f;
+    mass.yz = 0.0f;
+    mass.zz = 0.0f;
+    mass.inverse_mass = 0.0f;
+    mass.split = 1.0f;
+    return mass;
+}
+
 struct Solved {
     Impulse impulse;
     Couple couple;  // the lent bodies' velocities afterwards
@@ -246,12 +260,12 @@ LAW Couple shares_of(Couple before, Couple after, Mass a, Mass b) {
     share.b.angular = (after.b.angular - before.b.angular) * share_b;
     return share;
 }
-LAW Slot slot_of(Velocity share, float carrying) {
+LAW Slot slot_of(Velocity share, float carrying, float quiet) {
     Slot slot;
     slot.linear = share.linear;
     slot.carries = carrying;
     slot.angular = share.angular;
-    slot.pad = 0.0f;
+    slot.quiet = quiet;
     return slot;
 }
 LAW float split_of(float carrying, Parameters parameters) {

@@ -1,9 +1,10 @@
-// Each body's bounds over the coming step, its cell, and its inertia in the world.
+// Each body's bounds over the coming step, its cell, whether it stirs, and its inertia in the world.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/grid.h"
 #include "shaders/physics/motion.h"
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 void main() {
@@ -12,8 +13,17 @@ void main() {
     Traits body = traits[i];
     Pose pose = poses[i];
     Bounds around = bounds_of(body, pose, velocities[i], PARAMETERS);
-    bounds[i] = around;
     masses[i] = mass_in_world(body, pose.orientation, 1.0f);
     atomicAdd(cells[around.bucket], 1u);
     if (body.large == 0u) atomicOr(COUNTS.levels, 1u << around.level);
+    if (has_slept(rests[i], PARAMETERS.sleep_steps)) atomicOr(COUNTS.sleepers, 1u);
+    if (stirs(body.motion, velocities[i], rests[i], PARAMETERS.sleep_steps)) {
+        if (body.large == 0u)
+            atomicOr(COUNTS.levels_stirring, 1u << around.level);
+        else
+            atomicOr(COUNTS.large_stirring, 1u);
+    } else {
+        around.level |= STILL;
+    }
+    bounds[i] = around;
 }

@@ -1,8 +1,9 @@
-// Gathers the last relaxation; the step is done.
+// Gathers the last relaxation, and says who has come to rest; the step is done.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/motion.h"
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 // after the tables that it sums
@@ -12,8 +13,18 @@ void main() {
     uint i = thread();
     if (COUNTS.overflow != 0u) return;
     if (i == 0u) ++COUNTS.steps;
-    if (i >= PARAMETERS.bodies || traits[i].motion != MOTION_DYNAMIC) return;
-    Velocity change = gather(i).change;
-    velocities[i].linear = without_dust(velocities[i].linear + change.linear);
-    velocities[i].angular = without_dust(velocities[i].angular + change.angular);
+    if (i >= PARAMETERS.bodies || is_asleep(rests[i], PARAMETERS.sleep_steps)) return;
+    Traits body = traits[i];
+    if (body.motion != MOTION_DYNAMIC) return;
+    Gathered sum = gather(i);
+    Velocity velocity = velocities[i];
+    velocity.linear = without_dust(velocity.linear + sum.change.linear);
+    velocity.angular = without_dust(velocity.angular + sum.change.angular);
+    bool lies = sum.carrying > 0.0f && is_slow(body, velocity, rests[i], PARAMETERS);
+    rests[i] = rest_after(rests[i], lies, sum.told, PARAMETERS.sleep_steps);
+    if (is_asleep(rests[i], PARAMETERS.sleep_steps)) {
+        velocity.linear = vec3(0.0f);
+        velocity.angular = vec3(0.0f);
+    }
+    velocities[i] = velocity;
 }

@@ -1,0 +1,140 @@
+// When a body falls asleep, and what wakes it.
+//
+// A body that is slow, lies on something and is pushed by nobody counts its quiet steps; its count is never more than one above
+// that of a body it touches. So restlessness spreads through contacts by one body a step, and a body that has counted long
+// enough has nothing restless within that many contacts: it sleeps, without islands and without a word from the host. Asleep it
+// keeps every bit of its pose, is immovable to those who touch it, and only carries its contacts over from step to step.
+//
+// It wakes in the step in which something restless touches it, or when what an awake neighbour bears of it, or lays on it, has
+// changed since it fell asleep: that is how support withdrawn, and a weight added, reach a sleeper that stays put. A blow runs
+// further than one body within a step, so it shakes sleepers behind the one that was struck: these may move in this step, and
+// sleep on if it turns out that they hardly did.
+#ifndef SCREE_PHYSICS_REST_H
+#define SCREE_PHYSICS_REST_H
+
+#include "shaders/physics/contact.h"
+
+LAWS_BEGIN
+
+// The record of a body's rest: quiet steps at the step's start in the low 16 bits, then whether it was woken in this step, and
+// above how many contacts deep its waking still shakes others. The greater word is the one more awake.
+CONSTANT uint QUIET_BITS = 0xFFFFu;
+CONSTANT uint WOKEN = 0x10000u;
+CONSTANT uint SHAKING_SHIFT = 17u;
+CONSTANT uint NEVER = 0xFFFFFFFFu;  // for Parameters.sleep_steps: nobody sleeps
+
+// A blow passes through two contacts in a substep, and more slowly than that at the strength to move anything. With less than
+// the number of substeps a row of balls throws a blow back from its sleeping end.
+CONSTANT uint DEEPEST = 12u;
+CONSTANT float STRETCH_SPEED = 0.1f;  // of a body's half width in a second: a small body that moves so fast is not at rest
+CONSTANT float SHAKEN_SPEED = 0.5f;   // of the speed of sleep: whom a blow shook less sleeps on
+// Of the load in which a body fell asleep and its own weight: less, and jitter keeps heaps awake; more, and sleepers hold what
+// should tip.
+CONSTANT float LOAD_CHANGE = 0.05f;
+CONSTANT float TOUCH_DISTANCE = 0.25f;  // of the speculative distance: what comes nearer within a step touches
+CONSTANT float FOREVER = 65536.0f;      // quiet steps of what cannot move
+
+LAW uint quiet_steps(uint rest) {
+    return rest & QUIET_BITS;
+}
+// At the step's start; being woken does not change it.
+LAW bool has_slept(uint rest, uint sleep_steps) {
+    return quiet_steps(rest) >= sleep_steps;
+}
+LAW bool is_asleep(uint rest, uint sleep_steps) {
+    return rest <= QUIET_BITS && rest >= sleep_steps;
+}
+LAW uint woken(uint rest, uint depth) {
+    return quiet_steps(rest) | WOKEN | (depth << SHAKING_SHIFT);
+}
+LAW uint shaken(uint rest, uint depth) {
+    return (rest & (QUIET_BITS | WOKEN)) | (depth << SHAKING_SHIFT);
+}
+LAW uint shaking(uint rest) {
+    return rest >> SHAKING_SHIFT;
+}
+
+// Whether contacts and forces move a body in this step.
+LAW bool is_movable(uint motion, uint rest, uint sleep_steps) {
+    return motion == MOTION_DYNAMIC && !is_asleep(rest, sleep_steps);
+}
+LAW bool in_motion(Velocity v) {
+    return v.linear.x != 0.0f || v.linear.y != 0.0f || v.linear.z != 0.0f || v.angular.x != 0.0f || v.angular.y != 0.0f ||
+           v.angular.z != 0.0f;
+}
+// Whether a body may move, and therefore looks for others.
+LAW bool stirs(uint motion, Velocity velocity, uint rest, uint sleep_steps) {
+    if (motion == MOTION_KINEMATIC) return in_motion(velocity);
+    return is_movable(motion, rest, sleep_steps);
+}
+LAW bool is_restless(uint motion, uint rest) {
+    return motion != MOTION_DYNAMIC || quiet_steps(rest) == 0u;
+}
+
+// ---- falling asleep
+LAW float reach_of(Traits traits) {
+    if (traits.shape == SHAPE_BOX) return length3(traits.size);
+    return traits.shape == SHAPE_CAPSULE ? traits.size.x + traits.size.y : traits.size.x;
+}
+LAW bool is_slow(Traits traits, Velocity velocity, uint rest, Parameters parameters) {
+    float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * thickness(traits));
+    if (rest > QUIET_BITS && (rest & WOKEN) == 0u) limit = limit * SHAKEN_SPEED;
+    return length3(velocity.linear) + length3(velocity.angular) * reach_of(traits) < limit;
+}
+// What a body tells those who touch it: its quiet steps; less than none if it moves whatever it meets.
+LAW float told_quiet(uint motion, Velocity velocity, uint rest) {
+    if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? -1.0f : FOREVER;
+    return (rest & WOKEN) != 0u ? 0.0f : float(quiet_steps(rest));
+}
+// The record for the next step. `told`: the least of what the body's neighbours told, FOREVER if it has none that carry.
+LAW uint rest_after(uint rest, bool lies, float told, uint sleep_steps) {
+    if (!lies || told < 0.0f || sleep_steps == NEVER) return 0u;
+    uint own = (rest & WOKEN) != 0u ? 0u : quiet_steps(rest);
+    if (rest > QUIET_BITS && (rest & WOKEN) == 0u) return own;
+    uint least = uint(told);
+    least = (least < own ? least : own) + 1u;
+    return least < QUIET_BITS ? least : QUIET_BITS;
+}
+
+// ---- waking
+LAW float pressing(Impulse impulse) {
+    return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
+}
+// How fast two bodies approach where they touch within the step, m/s; < 0: they do not touch.
+LAW float approach_of(Manifold manifold, uint count, vec3 d, Velocity a, Velocity b, Parameters parameters) {
+    float fastest = -1.0f;
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= count) break;
+        vec3 arm = xyz(manifold.points[k]);
+        vec3 apart = (b.linear + cross3(b.angular, arm - d)) - (a.linear + cross3(a.angular, arm));
+        float speed = dot3(apart, manifold.normal);
+        if (manifold.points[k].w + parameters.dt * speed < TOUCH_DISTANCE * parameters.speculative)
+            fastest = larger(fastest, positive(-speed));
+    }
+    return fastest;
+}
+// How many contacts deep a blow wakes: one at the speed of sleep, three more each time it is twice as fast.
+LAW uint depth_of(float approach, Parameters parameters) {
+    float ratio = approach * reciprocal(parameters.sleep_speed);
+    if (ratio < 1.0f) return 1u;
+    uint depth = 2u + 3u * ((floatBitsToUint(ratio) >> 23) - 127u);
+    return depth < DEEPEST ? depth : DEEPEST;
+}
+// The load of a contact on a sleeper is that of the last step in which both bodies were awake.
+LAW float load_of(bool one_sleeps, Contact before, Impulse was) {
+    return one_sleeps ? before.load : pressing(was);
+}
+LAW bool load_changed(float now, float then, Traits sleeper, Parameters parameters) {
+    float weight = length3(parameters.gravity) * abs(sleeper.gravity_scale) * parameters.h * reciprocal(sleeper.inverse_mass);
+    return abs(now - then) > LOAD_CHANGE * (then + weight);
+}
+// How deep a contact wakes the sleeper at one of its ends; 0: it lets it sleep. `now`, `then`: the load in the last step, and
+// when the sleeper fell asleep, N s.
+LAW uint waking(bool restless, float approach, float now, float then, Traits sleeper, Parameters parameters) {
+    if (restless && (approach >= 0.0f || now > 0.0f)) return depth_of(approach, parameters);
+    return load_changed(now, then, sleeper, parameters) ? 1u : 0u;
+}
+
+LAWS_END
+
+#endif
