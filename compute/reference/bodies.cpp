@@ -73,7 +73,8 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         const physics::Traits& traits = state.traits[i];
         physics::Bounds& bounds = state.bounds[i];
         bounds = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.fixed());
-        state.masses[i] = physics::mass_in_world(traits, state.poses[i].orientation, 1);
+        state.masses[i] =
+            physics::mass_in_world(traits, state.poses[i].orientation, physics::split_at_rest(state.rests[i], state.fixed()));
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs = physics::stirs(traits.motion, state.velocities[i], state.rests[i], sleep_steps);
         if (!traits.large) note(counts.levels, 1u << bounds.level);
@@ -124,8 +125,8 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         physics::Velocity& velocity = state.velocities[i];
         velocity.linear = physics::without_dust(velocity.linear + sum.change.linear);
         velocity.angular = physics::without_dust(velocity.angular + sum.change.angular);
-        const bool lies = sum.carrying > 0 && physics::is_slow(state.traits[i], velocity, state.rests[i], state.fixed());
-        state.rests[i] = physics::rest_after(state.rests[i], lies, sum.told, state.fixed().sleep_steps);
+        const bool slow = physics::is_slow(state.traits[i], velocity, state.rests[i], state.fixed());
+        state.rests[i] = physics::rest_after(state.rests[i], slow, sum.carrying, sum.told, state.fixed().sleep_steps);
         if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
     });
 }

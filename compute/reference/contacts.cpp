@@ -88,7 +88,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t index = c.pair;
         const physics::Pair& pair = state.pairs[index];
         const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
-        const physics::Mass ma = physics::met(c.slot_a, state.masses[pair.a]), mb = physics::met(c.slot_b, state.masses[pair.b]);
+        const physics::Mass &ma = state.masses[pair.a], &mb = state.masses[pair.b];
         const physics::Manifold& manifold = state.manifolds[index];
         physics::Contact& contact = state.contacts[i];
         physics::Impulse& impulse = state.impulses[i];
@@ -125,7 +125,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().solved, [&](std::size_t k) {
         const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass ma = physics::met(c.slot_a, state.masses[c.a]), mb = physics::met(c.slot_b, state.masses[c.b]);
+        const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = after.impulse;
@@ -137,10 +137,8 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
     threads.for_each(state.counted().solved, [&](std::size_t k) {
         const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
-        const auto mass_of = [&](std::uint32_t slot, std::uint32_t body) {
-            return physics::met(slot, physics::shared_for(state.impulses[i], state.masses[body], state.loads[body]));
-        };
-        const physics::Mass ma = mass_of(c.slot_a, c.a), mb = mass_of(c.slot_b, c.b);
+        const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a]);
+        const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b]);
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, state.fixed());
         state.impulses[i] = physics::without_blows(after.impulse, c.count);

@@ -42,20 +42,6 @@ LAW Constraint at_present(Constraint c, vec3 d) {
     return c;
 }
 
-// A body's mass as a contact meets it: without a slot the body is not to be moved.
-LAW Mass met(uint slot, Mass mass) {
-    if (slot != NONE) return mass;
-    mass.xx = 0.0f;
-    mass.xy = 0.0f;
-    mass.xz = 0.0f;
-    mass.yy = 0.0f;
-    mass.yz = 0.0f;
-    mass.zz = 0.0f;
-    mass.inverse_mass = 0.0f;
-    mass.split = 1.0f;
-    return mass;
-}
-
 struct Solved {
     Impulse impulse;
     Couple couple;  // the lent bodies' velocities afterwards

@@ -3,7 +3,7 @@
 // A body that is slow, lies on something and is pushed by nobody counts its quiet steps; its count is never more than one above
 // that of a body it touches. So restlessness spreads through contacts by one body a step, and a body that has counted long
 // enough has nothing restless within that many contacts: it sleeps, without islands and without a word from the host. Asleep it
-// keeps every bit of its pose, is immovable to those who touch it, and only carries its contacts over from step to step.
+// keeps every bit of its pose, whoever leans on it, and only carries its contacts over from step to step.
 //
 // It wakes in the step in which something restless touches it, or when what an awake neighbour bears of it, or lays on it, has
 // changed since it fell asleep: that is how support withdrawn, and a weight added, reach a sleeper that stays put. A blow runs
@@ -16,11 +16,14 @@
 
 LAWS_BEGIN
 
-// The record of a body's rest: quiet steps at the step's start in the low 16 bits, then whether it was woken in this step, and
-// above how many contacts deep its waking still shakes others. The greater word is the one more awake.
+// The record of a body's rest. As the step begins: quiet steps in the low 16 bits, and above them how many contacts carried in
+// the last one. What wakes in this step raises it: whether something woke it, and how many contacts deep its waking shakes
+// others. The greater word is the one more awake.
 CONSTANT uint QUIET_BITS = 0xFFFFu;
-CONSTANT uint WOKEN = 0x10000u;
-CONSTANT uint SHAKING_SHIFT = 17u;
+CONSTANT uint CARRYING_BITS = 0xFFu;
+CONSTANT uint CARRYING_SHIFT = 16u;
+CONSTANT uint WOKEN = 0x1000000u;
+CONSTANT uint SHAKING_SHIFT = 25u;
 CONSTANT uint NEVER = 0xFFFFFFFFu;  // for Parameters.sleep_steps: nobody sleeps
 
 // A blow passes through two contacts in a substep, and more slowly than that at the strength to move anything. With less than
@@ -42,13 +45,23 @@ LAW bool has_slept(uint rest, uint sleep_steps) {
     return quiet_steps(rest) >= sleep_steps;
 }
 LAW bool is_asleep(uint rest, uint sleep_steps) {
-    return rest <= QUIET_BITS && rest >= sleep_steps;
+    return rest < WOKEN && has_slept(rest, sleep_steps);
 }
 LAW uint woken(uint rest, uint depth) {
-    return quiet_steps(rest) | WOKEN | (depth << SHAKING_SHIFT);
+    return (rest & (WOKEN - 1u)) | WOKEN | (depth << SHAKING_SHIFT);
 }
 LAW uint shaken(uint rest, uint depth) {
-    return (rest & (QUIET_BITS | WOKEN)) | (depth << SHAKING_SHIFT);
+    return (rest & (2u * WOKEN - 1u)) | (depth << SHAKING_SHIFT);
+}
+// Not woken itself, but behind someone who was.
+LAW bool is_shaken(uint rest) {
+    return rest > WOKEN && (rest & WOKEN) == 0u;
+}
+// A sleeper keeps its share in every contact: with another, its neighbours' contacts would be of another softness, all of them
+// would shift, and heaps never came to rest.
+LAW float split_at_rest(uint rest, Parameters parameters) {
+    if (!is_asleep(rest, parameters.sleep_steps)) return 1.0f;
+    return larger(1.0f, float((rest >> CARRYING_SHIFT) & CARRYING_BITS) * parameters.inverse_relaxation);
 }
 LAW uint shaking(uint rest) {
     return rest >> SHAKING_SHIFT;
@@ -78,7 +91,7 @@ LAW float reach_of(Traits traits) {
 }
 LAW bool is_slow(Traits traits, Velocity velocity, uint rest, Parameters parameters) {
     float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * thickness(traits));
-    if (rest > QUIET_BITS && (rest & WOKEN) == 0u) limit = limit * SHAKEN_SPEED;
+    if (is_shaken(rest)) limit = limit * SHAKEN_SPEED;
     return length3(velocity.linear) + length3(velocity.angular) * reach_of(traits) < limit;
 }
 // What a body tells those who touch it: its quiet steps; less than none if it moves whatever it meets.
@@ -86,14 +99,17 @@ LAW float told_quiet(uint motion, Velocity velocity, uint rest) {
     if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? -1.0f : FOREVER;
     return (rest & WOKEN) != 0u ? 0.0f : float(quiet_steps(rest));
 }
-// The record for the next step. `told`: the least of what the body's neighbours told, FOREVER if it has none that carry.
-LAW uint rest_after(uint rest, bool lies, float told, uint sleep_steps) {
-    if (!lies || told < 0.0f || sleep_steps == NEVER) return 0u;
-    uint own = (rest & WOKEN) != 0u ? 0u : quiet_steps(rest);
-    if (rest > QUIET_BITS && (rest & WOKEN) == 0u) return own;
-    uint least = uint(told);
-    least = (least < own ? least : own) + 1u;
-    return least < QUIET_BITS ? least : QUIET_BITS;
+// The record for the next step. `carrying`: contacts that do; `told`: the least of what the bodies behind them told.
+LAW uint rest_after(uint rest, bool slow, float carrying, float told, uint sleep_steps) {
+    if (!slow || carrying == 0.0f || told < 0.0f || sleep_steps == NEVER) return 0u;
+    uint quiet = (rest & WOKEN) != 0u ? 0u : quiet_steps(rest);
+    if (!is_shaken(rest)) {
+        uint least = uint(told);
+        quiet = (least < quiet ? least : quiet) + 1u;
+        quiet = quiet < QUIET_BITS ? quiet : QUIET_BITS;
+    }
+    uint contacts = uint(carrying);
+    return quiet | ((contacts < CARRYING_BITS ? contacts : CARRYING_BITS) << CARRYING_SHIFT);
 }
 
 // ---- waking

@@ -13,7 +13,7 @@ void main() {
     Traits body = traits[i];
     Pose pose = poses[i];
     Bounds around = bounds_of(body, pose, velocities[i], PARAMETERS);
-    masses[i] = mass_in_world(body, pose.orientation, 1.0f);
+    masses[i] = mass_in_world(body, pose.orientation, split_at_rest(rests[i], PARAMETERS));
     atomicAdd(cells[around.bucket], 1u);
     if (body.large == 0u) atomicOr(COUNTS.levels, 1u << around.level);
     if (has_slept(rests[i], PARAMETERS.sleep_steps)) atomicOr(COUNTS.sleepers, 1u);

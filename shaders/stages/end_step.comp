@@ -20,8 +20,8 @@ void main() {
     Velocity velocity = velocities[i];
     velocity.linear = without_dust(velocity.linear + sum.change.linear);
     velocity.angular = without_dust(velocity.angular + sum.change.angular);
-    bool lies = sum.carrying > 0.0f && is_slow(body, velocity, rests[i], PARAMETERS);
-    rests[i] = rest_after(rests[i], lies, sum.told, PARAMETERS.sleep_steps);
+    bool slow = is_slow(body, velocity, rests[i], PARAMETERS);
+    rests[i] = rest_after(rests[i], slow, sum.carrying, sum.told, PARAMETERS.sleep_steps);
     if (is_asleep(rests[i], PARAMETERS.sleep_steps)) {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);

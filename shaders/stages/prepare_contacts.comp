@@ -15,7 +15,7 @@ void main() {
     Pair pair = pairs[pair_index];
     Traits ta = traits[pair.a], tb = traits[pair.b];
     uint slot_a = constraints[i].slot_a, slot_b = constraints[i].slot_b;
-    Mass ma = met(slot_a, masses[pair.a]), mb = met(slot_b, masses[pair.b]);
+    Mass ma = masses[pair.a], mb = masses[pair.b];
     Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {

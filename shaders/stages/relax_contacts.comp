@@ -12,8 +12,8 @@ void main() {
     uint i = binned[thread()];
     Constraint c = constraints[i];
     Impulse impulse = impulses[i];
-    Mass ma = met(c.slot_a, shared_for(impulse, masses[c.a], loads[c.a]));
-    Mass mb = met(c.slot_b, shared_for(impulse, masses[c.b], loads[c.b]));
+    Mass ma = shared_for(impulse, masses[c.a], loads[c.a]);
+    Mass mb = shared_for(impulse, masses[c.b], loads[c.b]);
     Couple before;
     before.a = velocities[c.a];
     before.b = velocities[c.b];

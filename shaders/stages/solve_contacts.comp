@@ -9,7 +9,7 @@ void main() {
     if (thread() >= COUNTS.solved) return;
     uint i = binned[thread()];
     Constraint c = constraints[i];
-    Mass ma = met(c.slot_a, masses[c.a]), mb = met(c.slot_b, masses[c.b]);
+    Mass ma = masses[c.a], mb = masses[c.b];
     Couple before;
     before.a = velocities[c.a];
     before.b = velocities[c.b];
