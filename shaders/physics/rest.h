@@ -7,8 +7,8 @@
 //
 // It wakes in the step in which something restless touches it, or when what an awake neighbour bears of it, or lays on it, has
 // changed since it fell asleep: that is how support withdrawn, and a weight added, reach a sleeper that stays put. A blow runs
-// further than one body within a step, so it shakes sleepers behind the one that was struck: these may move in this step, and
-// sleep on if it turns out that they hardly did.
+// further than one body within a step, so it shakes sleepers behind the two that meet, through awake bodies too: these may move
+// in this step, and sleep on if it turns out that they hardly did.
 #ifndef SCREE_PHYSICS_REST_H
 #define SCREE_PHYSICS_REST_H
 
@@ -16,21 +16,21 @@
 
 LAWS_BEGIN
 
-// The record of a body's rest. As the step begins: quiet steps in the low 16 bits, and above them how many contacts carried in
-// the last one. What wakes in this step raises it: whether something woke it, and how many contacts deep its waking shakes
-// others. The greater word is the one more awake.
-CONSTANT uint QUIET_BITS = 0xFFFFu;
+// The record of a body's rest. As the step begins: quiet steps in the low 12 bits, and above them how many contacts carried in
+// the last one. What wakes in this step adds bits, in any order: whether something woke the body, and one for each depth (in
+// contacts, 1 to DEEPEST) to which it shakes others, of which the highest counts.
+CONSTANT uint QUIET_BITS = 0xFFFu;  // Settings::sleep_time ends below
 CONSTANT uint CARRYING_BITS = 0xFFu;
-CONSTANT uint CARRYING_SHIFT = 16u;
-CONSTANT uint WOKEN = 0x1000000u;
-CONSTANT uint SHAKING_SHIFT = 25u;
+CONSTANT uint CARRYING_SHIFT = 12u;
+CONSTANT uint WOKEN = 0x100000u;
+CONSTANT uint SHAKING_SHIFT = 21u;
 CONSTANT uint NEVER = 0xFFFFFFFFu;  // for Parameters.sleep_steps: nobody sleeps
 
 // A blow passes through two contacts in a substep, and more slowly than that at the strength to move anything. With less than
 // the number of substeps a row of balls throws a blow back from its sleeping end.
-CONSTANT uint DEEPEST = 12u;
+CONSTANT uint DEEPEST = 11u;          // as many bits as the record has left
 CONSTANT float STRETCH_SPEED = 0.1f;  // of a body's half width in a second: a small body that moves so fast is not at rest
-CONSTANT float SHAKEN_SPEED = 0.5f;   // of the speed of sleep: whom a blow shook less sleeps on
+CONSTANT float SHAKEN_SPEED = 0.01f;  // of the speed of sleep: whom a blow shook less sleeps on
 // Of the load in which a body fell asleep and its own weight: less, and jitter keeps heaps awake; more, and sleepers hold what
 // should tip.
 CONSTANT float LOAD_CHANGE = 0.05f;
@@ -47,24 +47,22 @@ LAW bool has_slept(uint rest, uint sleep_steps) {
 LAW bool is_asleep(uint rest, uint sleep_steps) {
     return rest < WOKEN && has_slept(rest, sleep_steps);
 }
-LAW uint woken(uint rest, uint depth) {
-    return (rest & (WOKEN - 1u)) | WOKEN | (depth << SHAKING_SHIFT);
+LAW uint shaking_bit(uint depth) {
+    return depth == 0u ? 0u : 1u << (SHAKING_SHIFT + depth - 1u);
 }
-LAW uint shaken(uint rest, uint depth) {
-    return (rest & (2u * WOKEN - 1u)) | (depth << SHAKING_SHIFT);
+// Whether the body shakes others exactly that deep.
+LAW bool shakes(uint rest, uint depth) {
+    return (rest >> (SHAKING_SHIFT + depth - 1u)) == 1u;
 }
 // Not woken itself, but behind someone who was.
-LAW bool is_shaken(uint rest) {
-    return rest > WOKEN && (rest & WOKEN) == 0u;
+LAW bool is_shaken(uint rest, uint sleep_steps) {
+    return rest > WOKEN && (rest & WOKEN) == 0u && has_slept(rest, sleep_steps);
 }
 // A sleeper keeps its share in every contact: with another, its neighbours' contacts would be of another softness, all of them
 // would shift, and heaps never came to rest.
 LAW float split_at_rest(uint rest, Parameters parameters) {
     if (!is_asleep(rest, parameters.sleep_steps)) return 1.0f;
     return larger(1.0f, float((rest >> CARRYING_SHIFT) & CARRYING_BITS) * parameters.inverse_relaxation);
-}
-LAW uint shaking(uint rest) {
-    return rest >> SHAKING_SHIFT;
 }
 
 // Whether contacts and forces move a body in this step.
@@ -91,7 +89,7 @@ LAW float reach_of(Traits traits) {
 }
 LAW bool is_slow(Traits traits, Velocity velocity, uint rest, Parameters parameters) {
     float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * thickness(traits));
-    if (is_shaken(rest)) limit = limit * SHAKEN_SPEED;
+    if (is_shaken(rest, parameters.sleep_steps)) limit = limit * SHAKEN_SPEED;
     return length3(velocity.linear) + length3(velocity.angular) * reach_of(traits) < limit;
 }
 // What a body tells those who touch it: its quiet steps; less than none if it moves whatever it meets.
@@ -103,7 +101,7 @@ LAW float told_quiet(uint motion, Velocity velocity, uint rest) {
 LAW uint rest_after(uint rest, bool slow, float carrying, float told, uint sleep_steps) {
     if (!slow || carrying == 0.0f || told < 0.0f || sleep_steps == NEVER) return 0u;
     uint quiet = (rest & WOKEN) != 0u ? 0u : quiet_steps(rest);
-    if (!is_shaken(rest)) {
+    if (!is_shaken(rest, sleep_steps)) {
         uint least = uint(told);
         quiet = (least < quiet ? least : quiet) + 1u;
         quiet = quiet < QUIET_BITS ? quiet : QUIET_BITS;
@@ -129,10 +127,10 @@ LAW float approach_of(Manifold manifold, uint count, vec3 d, Velocity a, Velocit
     }
     return fastest;
 }
-// How many contacts deep a blow wakes: one at the speed of sleep, three more each time it is twice as fast.
+// How many contacts deep a blow shakes: two at the speed of sleep, three more each time it is twice as fast.
 LAW uint depth_of(float approach, Parameters parameters) {
     float ratio = approach * reciprocal(parameters.sleep_speed);
-    if (ratio < 1.0f) return 1u;
+    if (ratio < 1.0f) return 0u;
     uint depth = 2u + 3u * ((floatBitsToUint(ratio) >> 23) - 127u);
     return depth < DEEPEST ? depth : DEEPEST;
 }
@@ -144,11 +142,11 @@ LAW bool load_changed(float now, float then, Traits sleeper, Parameters paramete
     float weight = length3(parameters.gravity) * abs(sleeper.gravity_scale) * parameters.h * reciprocal(sleeper.inverse_mass);
     return abs(now - then) > LOAD_CHANGE * (then + weight);
 }
-// How deep a contact wakes the sleeper at one of its ends; 0: it lets it sleep. `now`, `then`: the load in the last step, and
-// when the sleeper fell asleep, N s.
-LAW uint waking(bool restless, float approach, float now, float then, Traits sleeper, Parameters parameters) {
-    if (restless && (approach >= 0.0f || now > 0.0f)) return depth_of(approach, parameters);
-    return load_changed(now, then, sleeper, parameters) ? 1u : 0u;
+// Whether a contact wakes the sleeper at one of its ends. `restless`: the body at the other end is; `now`, `then`: the load in
+// the last step, and when the sleeper fell asleep, N s.
+LAW bool wakes(bool restless, float approach, float now, float then, Traits sleeper, Parameters parameters) {
+    if (restless && (approach >= 0.0f || now > 0.0f)) return true;
+    return load_changed(now, then, sleeper, parameters);
 }
 
 LAWS_END

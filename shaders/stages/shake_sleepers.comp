@@ -1,14 +1,13 @@
-// Shakes the sleepers behind those whose waking goes exactly push.pass contacts deep; no later round changes these any more.
+// Passes on how deep bodies shake others from those who do so exactly push.pass deep; no later round changes these any more.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
-void shake(uint by, uint sleeper) {
-    uint rest = rests[sleeper];
-    if (shaking(rests[by]) != push.pass || !has_slept(rest, PARAMETERS.sleep_steps)) return;
-    atomicMax(rests[sleeper], shaken(rest, push.pass - 1u));
+void shake(uint by, uint other) {
+    if (shakes(rests[by], push.pass) && traits[other].motion == MOTION_DYNAMIC)
+        atomicOr(rests[other], shaking_bit(push.pass - 1u));
 }
 
 void main() {

@@ -34,7 +34,6 @@ void main() {
         uint sleeper = own_still ? i : other;
         if (!has_slept(rests[sleeper], PARAMETERS.sleep_steps)) continue;
         if (owner_touches(i, other) || owner_touches(other, i)) continue;
-        if (load_changed(0.0f, contacts_before[k].load, traits[sleeper], PARAMETERS))
-            atomicMax(rests[sleeper], woken(rests[sleeper], 1u));
+        if (load_changed(0.0f, contacts_before[k].load, traits[sleeper], PARAMETERS)) atomicOr(rests[sleeper], WOKEN);
     }
 }
