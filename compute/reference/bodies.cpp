@@ -125,8 +125,8 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         physics::Velocity& velocity = state.velocities[i];
         velocity.linear = physics::without_dust(velocity.linear + sum.change.linear);
         velocity.angular = physics::without_dust(velocity.angular + sum.change.angular);
-        const bool slow = physics::is_slow(state.traits[i], velocity, state.rests[i], state.fixed());
-        state.rests[i] = physics::rest_after(state.rests[i], slow, sum.carrying, sum.told, state.fixed().sleep_steps);
+        const float pace = physics::pace_of(state.traits[i], velocity, state.fixed());
+        state.rests[i] = physics::rest_after(state.rests[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);
         if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
     });
 }

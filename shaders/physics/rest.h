@@ -1,9 +1,10 @@
 // When a body falls asleep, and what wakes it.
 //
-// A body that is slow, lies on something and is pushed by nobody counts its quiet steps; its count is never more than one above
-// that of a body it touches. So restlessness spreads through contacts by one body a step, and a body that has counted long
-// enough has nothing restless within that many contacts: it sleeps, without islands and without a word from the host. Asleep it
-// keeps every bit of its pose, whoever leans on it, and only carries its contacts over from step to step.
+// A body that is slow, lies on something and is pushed by nobody counts its quiet steps; its count is never more than an eighth
+// of those to sleep above that of a body it touches. So restlessness spreads through contacts by one body a step, and a body that
+// has counted to the end has nothing restless within eight contacts: it sleeps, without islands and without a word from the host,
+// and one body that cannot come to rest does not keep a whole heap awake. Asleep it keeps every bit of its pose, whoever leans on
+// it, and only carries its contacts over from step to step.
 //
 // It wakes in the step in which something restless touches it, or when what an awake neighbour bears of it, or lays on it, has
 // changed since it fell asleep: that is how support withdrawn, and a weight added, reach a sleeper that stays put. A blow runs
@@ -30,11 +31,15 @@ CONSTANT uint NEVER = 0xFFFFFFFFu;  // for Parameters.sleep_steps: nobody sleeps
 // the number of substeps a row of balls throws a blow back from its sleeping end.
 CONSTANT uint DEEPEST = 11u;          // as many bits as the record has left
 CONSTANT float STRETCH_SPEED = 0.1f;  // of a body's half width in a second: a small body that moves so fast is not at rest
-CONSTANT float SHAKEN_SPEED = 0.01f;  // of the speed of sleep: whom a blow shook less sleeps on
+// Of the speed of sleep: whom a blow shook less sleeps on, and its momentum is lost. Others lie awake for some steps in which the
+// blow may arrive; many, and a heap that settles keeps itself awake.
+CONSTANT float SHAKEN_SPEED = 0.01f;
+CONSTANT uint SHAKEN_STEPS = 4u;
 // Of the load in which a body fell asleep and its own weight: less, and jitter keeps heaps awake; more, and sleepers hold what
 // should tip.
 CONSTANT float LOAD_CHANGE = 0.05f;
 CONSTANT float TOUCH_DISTANCE = 0.25f;  // of the speculative distance: what comes nearer within a step touches
+CONSTANT uint NEARNESS_SHIFT = 3u;      // 1/8: more, and sleep begins beside what still moves, to be woken at once
 CONSTANT float FOREVER = 65536.0f;      // quiet steps of what cannot move
 
 LAW uint quiet_steps(uint rest) {
@@ -87,10 +92,10 @@ LAW float reach_of(Traits traits) {
     if (traits.shape == SHAPE_BOX) return length3(traits.size);
     return traits.shape == SHAPE_CAPSULE ? traits.size.x + traits.size.y : traits.size.x;
 }
-LAW bool is_slow(Traits traits, Velocity velocity, uint rest, Parameters parameters) {
+// The speed of a body's fastest point, 1 where sleep ends.
+LAW float pace_of(Traits traits, Velocity velocity, Parameters parameters) {
     float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * thickness(traits));
-    if (is_shaken(rest, parameters.sleep_steps)) limit = limit * SHAKEN_SPEED;
-    return length3(velocity.linear) + length3(velocity.angular) * reach_of(traits) < limit;
+    return (length3(velocity.linear) + length3(velocity.angular) * reach_of(traits)) * reciprocal(limit);
 }
 // What a body tells those who touch it: its quiet steps; less than none if it moves whatever it meets.
 LAW float told_quiet(uint motion, Velocity velocity, uint rest) {
@@ -98,13 +103,15 @@ LAW float told_quiet(uint motion, Velocity velocity, uint rest) {
     return (rest & WOKEN) != 0u ? 0.0f : float(quiet_steps(rest));
 }
 // The record for the next step. `carrying`: contacts that do; `told`: the least of what the bodies behind them told.
-LAW uint rest_after(uint rest, bool slow, float carrying, float told, uint sleep_steps) {
-    if (!slow || carrying == 0.0f || told < 0.0f || sleep_steps == NEVER) return 0u;
+LAW uint rest_after(uint rest, float pace, float carrying, float told, uint sleep_steps) {
+    if (pace > 1.0f || carrying == 0.0f || told < 0.0f || sleep_steps == NEVER) return 0u;
     uint quiet = (rest & WOKEN) != 0u ? 0u : quiet_steps(rest);
     if (!is_shaken(rest, sleep_steps)) {
-        uint least = uint(told);
+        uint least = uint(told) + (sleep_steps >> NEARNESS_SHIFT);
         quiet = (least < quiet ? least : quiet) + 1u;
         quiet = quiet < QUIET_BITS ? quiet : QUIET_BITS;
+    } else if (pace > SHAKEN_SPEED) {
+        quiet = sleep_steps > SHAKEN_STEPS ? sleep_steps - SHAKEN_STEPS : 1u;
     }
     uint contacts = uint(carrying);
     return quiet | ((contacts < CARRYING_BITS ? contacts : CARRYING_BITS) << CARRYING_SHIFT);

@@ -20,8 +20,8 @@ void main() {
     Velocity velocity = velocities[i];
     velocity.linear = without_dust(velocity.linear + sum.change.linear);
     velocity.angular = without_dust(velocity.angular + sum.change.angular);
-    bool slow = is_slow(body, velocity, rests[i], PARAMETERS);
-    rests[i] = rest_after(rests[i], slow, sum.carrying, sum.told, PARAMETERS.sleep_steps);
+    float pace = pace_of(body, velocity, PARAMETERS);
+    rests[i] = rest_after(rests[i], pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
     if (is_asleep(rests[i], PARAMETERS.sleep_steps)) {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);
