@@ -8,13 +8,28 @@
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
+// Between two bodies that sleep, or one that sleeps and one that never moves.
+void carry_over(uint i, uint pair_index, uint previous) {
+    Contact contact = aged(contacts_before[previous]);
+    Impulse impulse = continued(contact, impulses_before[previous]);
+    impulse.separation = separations_of(manifolds[pair_index]);
+    contacts[i] = contact;
+    impulses[i] = impulse;
+    constraints[i] = idle_constraint(contact);
+}
+
 void main() {
     uint i = thread();
     if (i >= COUNTS.contacts) return;
     uint pair_index = constraints[i].pair;
     Pair pair = pairs[pair_index];
-    Traits ta = traits[pair.a], tb = traits[pair.b];
     uint slot_a = constraints[i].slot_a, slot_b = constraints[i].slot_b;
+    bool idle = slot_a == NONE && slot_b == NONE;
+    if (idle && pair.kind == KIND_STILL) {
+        carry_over(i, pair_index, pair.previous);
+        return;
+    }
+    Traits ta = traits[pair.a], tb = traits[pair.b];
     Mass ma = masses[pair.a], mb = masses[pair.b];
     Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
     Impulse impulse = no_impulse(contact.d);
@@ -31,7 +46,7 @@ void main() {
     }
     contacts[i] = contact;
     impulses[i] = impulse;
-    if (slot_a == NONE && slot_b == NONE) {
+    if (idle) {
         constraints[i] = idle_constraint(contact);
         return;
     }

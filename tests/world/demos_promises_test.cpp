@@ -1,4 +1,4 @@
-// Every demo is held to its promise on the CPU, small where it may be small.
+// Every demo is held to its promise on the CPU, awake and with sleep, small where it may be small.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -17,13 +17,15 @@ const std::vector<std::string> heaps = {"pile", "mix", "avalanche"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};
 const std::string leaning = "tower";
 
-std::vector<demos::Row> verdict_of(const std::string& name) {
+std::vector<demos::Row> verdict_of(const std::string& name, bool sleeping) {
     const demos::Demo* demo = demos::find_demo(name);
     REQUIRE(demo);
     demos::DemoOptions options;
     options.bodies = demo->takes_bodies ? 100 : 0;
     const demos::DemoScene scene = demos::build(*demo, options);
-    World world(scene.scene, {}, 1);
+    Settings settings;
+    settings.sleeping = sleeping;
+    World world(scene.scene, settings, 1);
     demos::Recorder recorder(world, scene.promise);
     const long steps = std::lround(scene.seconds * world.settings().rate);
     for (long i = 0; i < steps; ++i) {
@@ -35,9 +37,12 @@ std::vector<demos::Row> verdict_of(const std::string& name) {
 
 void check_kept(const std::vector<std::string>& names) {
     for (const std::string& name : names) {
-        for (const demos::Row& row : verdict_of(name)) {
-            INFO(name << ": " << row.what << ": promised " << row.promised << ", measured " << row.measured);
-            CHECK(row.pass);
+        for (const bool sleeping : {false, true}) {
+            for (const demos::Row& row : verdict_of(name, sleeping)) {
+                INFO(name << (sleeping ? ": " : ", awake: ") << row.what << ": promised " << row.promised << ", measured "
+                          << row.measured);
+                CHECK(row.pass);
+            }
         }
     }
 }
@@ -69,12 +74,16 @@ TEST_CASE("the pyramid keeps its promise", "[long]") {
     check_kept({buildings[1]});
 }
 
-// The tower leans a little further than it should, 0.176 m of 0.16 m, and the verdict says so: a known miss, reported. When it
-// stands straighter it belongs with the others.
-TEST_CASE("the tower stands, but leans further than promised, and the verdict says so") {
-    for (const demos::Row& row : verdict_of(leaning)) {
+// Awake the tower leans a little further than it should, 0.176 m of 0.16 m, and the verdict says so: a known miss, reported. When
+// it stands straighter it belongs with the others.
+TEST_CASE("the tower stands, but awake leans further than promised, and the verdict says so") {
+    for (const demos::Row& row : verdict_of(leaning, false)) {
         INFO(row.what << ": promised " << row.promised << ", measured " << row.measured);
         CHECK(row.pass == (row.what != "greatest drift"));
         if (row.what == "greatest drift") CHECK(std::stod(row.measured) < 0.25);
+    }
+    for (const demos::Row& row : verdict_of(leaning, true)) {
+        INFO("asleep: " << row.what << ": promised " << row.promised << ", measured " << row.measured);
+        CHECK(row.pass);
     }
 }
