@@ -4,7 +4,10 @@
 #include <cstring>
 #include <vector>
 
+#include "compute/reference_runner.h"
+#include "compute/state.h"
 #include "compute/world.h"
+#include "shaders/physics/rest.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -295,6 +298,43 @@ TEST_CASE("a heavy load on a sleeping stack wakes it down to the ground, a light
         if (density > 1) REQUIRE(woke);
         if (density == 1) REQUIRE_FALSE(woke);
     }
+}
+
+TEST_CASE("a load that grows so gently that nothing moves reaches the sleepers under it") {
+    Settings never;
+    never.sleeping = false;
+    World world(stack(3), {}, 1), other(stack(3), never, 1);
+    require_sleep(world, 3);
+    other.step(static_cast<int>(world.steps()));
+    bool woke = false;
+    for (int i = 0; i < 240; ++i) {
+        for (World* each : {&world, &other}) {
+            each->apply_force(3, vec3(0, -1000.0f * 9.81f * std::min(3.0f, 0.025f * static_cast<float>(i)), 0));
+            each->step();
+        }
+        woke = woke || !asleep(world, 1);
+    }
+    REQUIRE(woke);
+    const float sag = 0.5f - place(other, 1).y;
+    REQUIRE(sag > 4e-4f);
+    REQUIRE(0.5f - place(world, 1).y == Approx(sag).epsilon(0.05));
+}
+
+TEST_CASE("a sleeper whose support is gone from one step to the next wakes, and only it") {
+    State state(checked(stack(2)), {}, 64, true);
+    ReferenceRunner runner(1);
+    runner.attach(state);
+    const physics::uint sleep_steps = state.fixed().sleep_steps;
+    const auto sleeps = [&](std::size_t body) { return physics::is_asleep(state.rests[body], sleep_steps); };
+    for (int i = 0; i < 180 && !(sleeps(1) && sleeps(2)); ++i) REQUIRE(runner.step());
+    REQUIRE(runner.step());
+    REQUIRE(sleeps(2));
+    state.poses[1].position.x += 5;
+    state.rests[1] = 1;  // awake, but not restless
+    REQUIRE(runner.step());
+    REQUIRE_FALSE(sleeps(2));
+    for (int i = 0; i < 30; ++i) REQUIRE(runner.step());
+    REQUIRE(state.poses[2].position.y < 1);
 }
 
 TEST_CASE("small sleepers are found by large bodies that come over them") {
