@@ -106,7 +106,7 @@ void DeviceRunner::upload() {
     using enum Table;
     parity_ = 0;
     const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities}) send(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests}) send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
     for (const Table table : {contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
@@ -152,6 +152,12 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
             break;
         case Over::contacts:
             indirect(physics::WORK_CONTACTS);
+            break;
+        case Over::shaken:
+            indirect(physics::WORK_SHAKEN);
+            break;
+        case Over::solved:
+            indirect(physics::WORK_SOLVED);
             break;
         case Over::kind:
             indirect(physics::WORK_KIND + stage.pass);
@@ -234,8 +240,8 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters,           counts, traits, poses, velocities, actions, contacts_before, impulses_before,
-                          first_contacts_before};
+    const auto lasting = {parameters, counts,  traits,          poses,           velocities,
+                          rests,      actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
@@ -245,7 +251,7 @@ void DeviceRunner::poison() {
 }
 
 void DeviceRunner::fetch_bodies() {
-    for (const Table table : {Table::counts, Table::poses, Table::velocities}) read(table, state_->raw(table));
+    for (const Table table : {Table::counts, Table::poses, Table::velocities, Table::rests}) read(table, state_->raw(table));
 }
 
 void DeviceRunner::fetch_contacts() {

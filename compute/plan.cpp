@@ -3,6 +3,7 @@
 
 #include "compute/reference/stages.h"
 #include "shaders/physics/grid.h"
+#include "shaders/physics/rest.h"
 
 namespace scree {
 
@@ -27,8 +28,8 @@ std::vector<Stage> plan(int substeps) {
     using enum Table;
     std::vector<Stage> s;
     // what pushes the bodies, where they will be
-    s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, counts}});
-    s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads}});
+    s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, rests, counts}});
+    s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads, rests}});
     s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts, flights}});
     // broadphase: who is near whom
     scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
@@ -44,25 +45,33 @@ std::vector<Stage> plan(int substeps) {
     s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
     for (std::uint32_t kind = 0; kind < std::size(kind_names); ++kind)
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
-    s.push_back({"collide_kept", Over::kind, collide_kept, {manifolds, touching}, physics::KIND_KEPT});
+    s.push_back({"collide_kept", Over::kind, collide_kept, {}, physics::KIND_KEPT, /* feeds_next */ false});
+    s.push_back({"collide_still", Over::kind, collide_still, {manifolds, touching}, physics::KIND_STILL});
     s.push_back({"foresee_impacts", Over::flights, foresee_impacts, {touching, flights}});
     s.push_back({"drop_passers", Over::flights, drop_passers, {touching}});
-    // contacts: who shares a body with whom, what they inherit
+    // contacts: who touches
     scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
-    s.push_back({"list_contacts", Over::pairs, list_contacts, {slot_ends}});
+    s.push_back({"list_contacts", Over::pairs, list_contacts, {}});
+    // whom this wakes
+    s.push_back({"wake_touched", Over::contacts, wake_touched, {}, 0, /* feeds_next */ false});
+    s.push_back({"wake_deserted", Over::bodies, wake_deserted, {rests, counts}});
+    for (std::uint32_t depth = physics::DEEPEST; depth > 1; --depth)
+        s.push_back({"shake_sleepers", Over::shaken, shake_sleepers, {rests}, depth});
+    // what the contacts inherit
+    s.push_back({"count_slots", Over::contacts, count_slots, {slot_ends}});
     scan(s, "slots", Over::body_blocks, slot_ends, scan_nothing, scan_slots_offsets);
-    s.push_back({"fill_slots", Over::contacts, fill_slots, {slot_ends}});
+    s.push_back({"fill_slots", Over::contacts, fill_slots, {slot_ends, counts}});
     s.push_back({"order_slots", Over::bodies, order_slots, {slot_sides, first_contacts}});
     s.push_back({"prepare_contacts", Over::contacts, prepare_contacts, {contacts, constraints, impulses, slots}});
     // the solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t last = substep == substeps;
         s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}});
-        s.push_back({"solve_contacts", Over::contacts, solve_contacts, {impulses, slots}});
+        s.push_back({"solve_contacts", Over::solved, solve_contacts, {impulses, slots}});
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
-        s.push_back({"relax_contacts", Over::contacts, relax_contacts, {impulses, slots}, last});
+        s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});
     }
-    s.push_back({"end_step", Over::bodies, end_step, {velocities, flights, counts}});
+    s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, flights, counts}});
     // what is fast stops before it passes through something
     for (std::uint32_t round = 0; round < physics::FLIGHT_ROUNDS; ++round)
         s.push_back({"find_impacts", Over::flights, find_impacts, {flights}, round});

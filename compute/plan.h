@@ -24,6 +24,8 @@ enum class Over {
     kind_blocks,
     pair_blocks,
     contacts,
+    shaken,
+    solved,
     kind,
     flights
 };

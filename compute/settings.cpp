@@ -25,6 +25,8 @@ Settings checked(const Settings& s) {
     demand(s.restitution_threshold >= 0, "restitution_threshold must not be negative");
     demand(s.max_speed > 0 && s.max_speed <= 1e4f, "max_speed must be in (0, 10000] m/s");
     demand(s.max_turn > 0 && s.max_turn <= 1.57f, "max_turn must be in (0, 1.57] rad");
+    demand(s.sleep_speed >= 1e-6f && s.sleep_speed <= 10, "sleep_speed must be between 1e-6 and 10 m/s");
+    demand(s.sleep_time > 0 && s.sleep_time <= 4, "sleep_time must be in (0, 4] s");
     return s;
 }
 

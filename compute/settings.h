@@ -19,7 +19,11 @@ struct Settings {
     float max_speed = 400;               // m/s, velocities are clamped to it
     float max_turn = 0.785f;             // rad per substep, angular velocity is clamped to it
 
-    bool sleeping = true;  // bodies at rest fall asleep
+    // What has been quiet for a while sleeps: it moves no more and costs next to nothing, until something wakes it.
+    bool sleeping = true;
+    float sleep_speed = 0.05f;  // m/s, slower is quiet (or a tenth of a smaller body's half width in a second). Higher, and slow
+                                // creep freezes
+    float sleep_time = 0.5f;    // s of quiet. Shorter, and a body sleeps at the turning point of its swing
 
     // Where the buffers start. They grow when a step needs more, and no result depends on it.
     std::uint32_t pairs_at_first = 0;     // 0: from the number of bodies

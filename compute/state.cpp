@@ -9,6 +9,7 @@
 
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
+#include "shaders/physics/rest.h"
 
 namespace scree {
 
@@ -93,10 +94,17 @@ physics::Parameters parameters_of(const Scene& scene, const Settings& settings) 
     p.restitution_threshold = settings.restitution_threshold;
     p.max_speed = settings.max_speed;
     p.max_spin = settings.max_turn * p.inverse_h;
+    p.sleep_speed = settings.sleep_speed;
+    p.sleep_steps = sleep_steps_of(settings);
     return p;
 }
 
 }  // namespace
+
+physics::uint sleep_steps_of(const Settings& settings) {
+    return settings.sleeping ? std::max(1u, static_cast<physics::uint>(std::ceil(settings.sleep_time * settings.rate)))
+                             : physics::NO_SLEEP;
+}
 
 const std::array<TableInfo, table_count>& table_infos() {
     using namespace physics;
@@ -201,7 +209,7 @@ void State::make(Table table) {
 
 void State::allocate() {
     using enum Table;
-    for (const Table table : {parameters, counts, traits, poses, velocities, actions}) make(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions}) make(table);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }

@@ -33,6 +33,9 @@ inline constexpr std::size_t table_count = 0 SCREE_TABLES(SCREE_COUNT);
 #undef SCREE_COUNT
 const std::array<TableInfo, table_count>& table_infos();  // by binding
 
+// Parameters::sleep_steps.
+physics::uint sleep_steps_of(const Settings& settings);
+
 struct State {
 #define SCREE_VECTOR(binding, name, block, record, length) std::vector<physics::record> name;
     SCREE_TABLES(SCREE_VECTOR)

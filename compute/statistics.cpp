@@ -8,6 +8,8 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 
+#include "shaders/physics/rest.h"
+
 namespace scree {
 
 namespace {
@@ -78,6 +80,7 @@ Statistics statistics_of(const Scene& scene, const State& state) {
             continue;
         }
         if (scene.bodies[i].motion != Motion::dynamic) continue;
+        s.asleep += physics::is_asleep(state.rests[i], state.fixed().sleep_steps);
         add_motion(scene, state, i, s, momentum, spin);
         const vec3 centre = state.poses[i].position;
         s.below_ground += std::any_of(planes.begin(), planes.end(), [&](const Plane* plane) {

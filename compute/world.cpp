@@ -8,6 +8,7 @@
 
 #include "compute/state.h"
 #include "compute/statistics.h"
+#include "shaders/physics/rest.h"
 
 namespace scree {
 
@@ -81,6 +82,7 @@ struct World::Interior {
             state.fixed().redo = 1;
             runner->attach(state);
         }
+        parameters.wake_all = 0;
         ++steps;
         broken = false;
     }
@@ -137,13 +139,24 @@ void World::set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity)
     action.angular_velocity = angular_velocity;
 }
 
+void World::wake(std::size_t body) {
+    interior_->action_on(body, vec3(0), vec3(0));
+}
+void World::wake_all() {
+    interior_->state.fixed().wake_all = 1;
+}
+void World::set_sleeping(bool allowed) {
+    interior_->settings.sleeping = allowed;
+    interior_->state.fixed().sleep_steps = sleep_steps_of(interior_->settings);
+}
+
 std::vector<BodyState> World::bodies() const {
     interior_->runner->fetch_bodies();
     const State& state = interior_->state;
     std::vector<BodyState> bodies(state.fixed().bodies);
     for (std::size_t i = 0; i < bodies.size(); ++i)
-        bodies[i] = {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear,
-                     state.velocities[i].angular};
+        bodies[i] = {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear, state.velocities[i].angular,
+                     physics::is_asleep(state.rests[i], state.fixed().sleep_steps)};
     return bodies;
 }
 

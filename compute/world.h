@@ -22,6 +22,7 @@ struct BodyState {
     vec4 orientation;       // unit quaternion x, y, z, w
     vec3 velocity;          // m/s
     vec3 angular_velocity;  // rad/s
+    bool asleep = false;
 };
 
 // Sums over the whole world, in double precision, and the extremes that a promise is made of.
@@ -37,6 +38,7 @@ struct Statistics {
     double momentum[3] = {0, 0, 0};          // kg m/s
     double angular_momentum[3] = {0, 0, 0};  // kg m^2/s, about the origin
     double drift_max = 0;                    // m, greatest distance of a dynamic body from its start
+    std::size_t asleep = 0;                  // bodies
     std::size_t not_finite = 0;              // bodies
     std::size_t below_ground = 0;            // dynamic bodies whose centre lies behind a plane of the scene
 };
@@ -71,6 +73,12 @@ public:
     void apply_impulse(std::size_t body, vec3 impulse, vec3 offset = vec3(0));  // N s, at the step's start
     void apply_angular_impulse(std::size_t body, vec3 impulse);                 // N m s
     void set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity);  // m/s, rad/s; dynamic and kinematic bodies
+
+    // Bodies that rest fall asleep (Settings::sleeping) and wake when something touches them, when what they lie on moves, or
+    // when one of the calls above acts on them.
+    void wake(std::size_t body);      // in the next step; throws as apply_force does
+    void wake_all();                  // in the next step
+    void set_sleeping(bool allowed);  // false: from the next step on nobody sleeps
 
     // Read back from wherever the world is.
     std::vector<BodyState> bodies() const;

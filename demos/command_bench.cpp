@@ -26,6 +26,7 @@ struct Options {
     std::vector<std::size_t> bodies = {1000, 4000, 16000};
     int steps = 60, warmup = 60;
     std::string csv;
+    bool sleeping = false;
     MachineOptions machine;
     bool quiet = false;
 };
@@ -66,13 +67,15 @@ Measurement measure(const SceneOptions& scene, const Options& options, const Mac
 }
 
 std::vector<Cells> overview(const std::vector<Measurement>& all) {
-    std::vector<Cells> rows = {{"demo", "bodies", "ms/step", "p95", "min", "us/body", "manifolds", "points", "MB", "bytes/body"}};
+    std::vector<Cells> rows = {
+        {"demo", "bodies", "ms/step", "p95", "min", "us/body", "manifolds", "points", "asleep", "MB", "bytes/body"}};
     for (const Measurement& m : all) {
         const auto bodies = static_cast<double>(std::max<std::size_t>(1, m.statistics.bodies));
         rows.push_back({m.name, std::to_string(m.statistics.bodies), fmt::format("{:.3f}", m.ms.median),
                         fmt::format("{:.3f}", m.ms.p95), fmt::format("{:.3f}", m.ms.min),
                         fmt::format("{:.3f}", m.microseconds_per_body()), std::to_string(m.statistics.manifolds),
-                        std::to_string(m.statistics.points), fmt::format("{:.1f}", static_cast<double>(m.buffer_bytes) / 1e6),
+                        std::to_string(m.statistics.points), std::to_string(m.statistics.asleep),
+                        fmt::format("{:.1f}", static_cast<double>(m.buffer_bytes) / 1e6),
                         fmt::format("{:.0f}", static_cast<double>(m.buffer_bytes) / bodies)});
     }
     return rows;
@@ -134,6 +137,7 @@ int bench(const Options& options) {
     for (const std::string& name : options.names.empty() ? std::vector<std::string>{"avalanche"} : options.names) {
         SceneOptions scene;
         scene.name = name;
+        scene.sleeping = options.sleeping;
         const Demo* demo = find_demo(name);
         const bool any_size = demo && demo->takes_bodies;
         for (const std::size_t bodies : any_size ? options.bodies : std::vector<std::size_t>{0}) {
@@ -174,6 +178,7 @@ void add_bench(CLI::App& program, int& status) {
     command->add_option("--steps", options->steps, "measured")->check(CLI::Range(1, 1000000));
     command->add_option("--warmup", options->warmup, "steps before them; stage times are means over both")
         ->check(CLI::Range(0, 1000000));
+    command->add_flag("--sleep", options->sleeping, "bodies at rest may sleep (default: what is measured stays awake)");
     command->add_option("--csv", options->csv, "a file for the numbers; - is the standard output");
     add_options(*command, options->machine);
     command->add_flag("--quiet,-q", options->quiet, "no progress");

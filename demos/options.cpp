@@ -94,6 +94,7 @@ Settings SceneOptions::settings() const {
     Settings settings;
     settings.rate = rate;
     settings.substeps = substeps;
+    settings.sleeping = sleeping;
     return settings;
 }
 
@@ -185,6 +186,7 @@ void add_options(CLI::App& command, SceneOptions& options) {
     command.add_option("--substeps", options.substeps, "of a step; more make taller stacks stand")
         ->check(CLI::Range(1, 64))
         ->group("What");
+    command.add_flag("!--no-sleep", options.sleeping, "bodies at rest stay awake")->group("What");
     command
         .add_option_function<std::string>(
             "--bodies", [&options](const std::string& word) { options.bodies = count_of(word); },

@@ -30,6 +30,7 @@ struct SceneOptions {
     std::optional<double> seconds;
     float rate = 60;  // Hz
     int substeps = 8;
+    bool sleeping = true;
 
     Settings settings() const;
     int step_count(double default_seconds) const;

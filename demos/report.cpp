@@ -66,6 +66,7 @@ std::string json_of(const RunReport& r) {
         {"momentum", s.momentum},
         {"angular_momentum", s.angular_momentum},
         {"drift_max", s.drift_max},
+        {"asleep", s.asleep},
         {"not_finite", s.not_finite},
         {"below_ground", s.below_ground},
         {"buffer_growths", r.buffer_growths},
@@ -93,6 +94,7 @@ std::string summary_of(const RunReport& r) {
          fmt::format("{} (median {}, 95% below {})", duration(ms.mean / 1e3), duration(ms.median / 1e3), duration(ms.p95 / 1e3)));
     line("first step", fmt::format("after {}", duration(r.first_step_seconds)));
     line("contacts", fmt::format("{} pairs touch, in {} points", s.manifolds, s.points));
+    line("asleep", fmt::format("{} of {} bodies", s.asleep, s.bodies));
     line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
     line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
     line("greatest drift", fmt::format("{:.4g} m", s.drift_max));

@@ -7,7 +7,6 @@
 #include "demos/building.h"
 #include "demos/demos.h"
 #include "demos/random.h"
-#include "demos/sleeping.h"
 
 namespace scree::demos {
 
@@ -90,7 +89,7 @@ double count_dynamic(const Trace& trace) {
 }
 
 double count_awake(const Trace& trace, const Statistics& statistics) {
-    return count_dynamic(trace) - static_cast<double>(asleep(statistics));
+    return count_dynamic(trace) - static_cast<double>(statistics.asleep);
 }
 
 double all_asleep_since(const Trace& trace, double from) {
@@ -167,7 +166,7 @@ DemoScene pile1m(const DemoOptions& options) {
         std::move(promise).sampling({every_step, settled}).watching({ball}, {every_step, struck}).keeping({left_alone, struck}),
         false,
         [ball, shot](World& world) {
-            if (is_due(world, settled)) set_sleeping(world, true);
+            if (is_due(world, settled)) world.set_sleeping(true);
             if (is_due(world, struck)) world.set_velocity(ball, shot, vec3(0));
         }};
 }

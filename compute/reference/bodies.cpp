@@ -7,6 +7,7 @@
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/motion.h"
+#include "shaders/physics/rest.h"
 
 namespace scree::reference {
 
@@ -15,6 +16,7 @@ namespace {
 struct Sum {
     physics::Velocity change{};
     float carrying = 0;
+    float told = physics::FOREVER;
 };
 
 Sum sum_of_slots(const State& state, std::size_t body) {
@@ -25,8 +27,16 @@ Sum sum_of_slots(const State& state, std::size_t body) {
         sum.change.linear += slot.linear;
         sum.change.angular += slot.angular;
         sum.carrying += slot.carries;
+        if (slot.carries > 0) sum.told = std::min(sum.told, slot.quiet);
     });
     return sum;
+}
+
+bool asleep(const State& state, std::size_t body) {
+    return physics::is_asleep(state.rests[body], state.fixed().sleep_steps);
+}
+bool moved_by_contacts(const State& state, std::size_t body) {
+    return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
 }
 
 }  // namespace
@@ -37,6 +47,7 @@ void begin_step(State& state, const Threads& threads, std::uint32_t) {
     std::fill(state.slot_ends.begin(), state.slot_ends.end(), 0u);
     threads.for_each(state.fixed().bodies,
                      [&](std::size_t i) { state.loads[i] = physics::gravity_load(state.traits[i], state.fixed()); });
+    if (state.fixed().wake_all) std::fill(state.rests.begin(), state.rests.end(), 0u);
     state.counted() = physics::emptied(state.counted(), state.fixed());
 }
 
@@ -47,27 +58,39 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         const std::size_t body = action.body;
         const physics::Mass mass = physics::mass_in_world(state.traits[body], state.poses[body].orientation, 1);
         if (!state.fixed().redo) state.velocities[body] = physics::kicked(state.velocities[body], action, mass, state.fixed());
+        state.rests[body] = 0;
         state.loads[body] = physics::loaded(state.loads[body], action, mass);
     }
 }
 
 void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
-    std::atomic_ref levels(state.counted().levels), fast(state.counted().fast);
+    physics::Counts& counts = state.counted();
+    const auto note = [](physics::uint& mask, physics::uint bits) {
+        std::atomic_ref(mask).fetch_or(bits, std::memory_order_relaxed);
+    };
+    const physics::uint sleep_steps = state.fixed().sleep_steps;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const physics::Traits& traits = state.traits[i];
-        state.bounds[i] = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.loads[i], state.fixed());
+        physics::Bounds& bounds = state.bounds[i];
+        bounds = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.loads[i], state.fixed());
         state.flights[i] = physics::flight_of(state.poses[i]);
-        if (physics::will_be_fast(traits, state.velocities[i], state.fixed())) fast.store(1, std::memory_order_relaxed);
-        state.masses[i] = physics::mass_in_world(traits, state.poses[i].orientation, 1);
-        std::atomic_ref(state.cells[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
-        if (!traits.large) levels.fetch_or(1u << state.bounds[i].level, std::memory_order_relaxed);
+        if (physics::will_be_fast(traits, state.velocities[i], state.fixed())) note(counts.fast, 1u);
+        state.masses[i] =
+            physics::mass_in_world(traits, state.poses[i].orientation, physics::split_at_rest(state.rests[i], state.fixed()));
+        std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
+        const bool stirs = physics::stirs(traits.motion, state.velocities[i], state.rests[i], sleep_steps);
+        if (!traits.large) note(counts.levels, 1u << bounds.level);
+        if (!traits.large && stirs) note(counts.levels_stirring, 1u << bounds.level);
+        if (traits.large && stirs) note(counts.large_stirring, 1u);
+        if (physics::has_slept(state.rests[i], sleep_steps)) note(counts.sleepers, 1u);
+        if (!stirs) bounds.level |= physics::STILL;
     });
 }
 
 void begin_substep(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (state.traits[i].motion != physics::MOTION_DYNAMIC) return;
+        if (!moved_by_contacts(state, i)) return;
         const Sum sum = sum_of_slots(state, i);
         state.velocities[i] =
             physics::accelerated(state.velocities[i], sum.change, state.loads[i], state.traits[i], state.fixed());
@@ -79,7 +102,7 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const physics::Traits& traits = state.traits[i];
-        if (traits.motion == physics::MOTION_FIXED) return;
+        if (traits.motion == physics::MOTION_FIXED || asleep(state, i)) return;
         physics::Velocity velocity = state.velocities[i];
         if (traits.motion == physics::MOTION_DYNAMIC) {
             const Sum sum = sum_of_slots(state, i);
@@ -100,12 +123,15 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
     ++state.counted().steps;
     std::atomic<bool> any_fast = false;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (state.traits[i].motion != physics::MOTION_DYNAMIC) return;
+        if (!moved_by_contacts(state, i)) return;
         const Sum sum = sum_of_slots(state, i);
         physics::Velocity& velocity = state.velocities[i];
         velocity.linear = physics::without_dust(velocity.linear + sum.change.linear);
         velocity.angular = physics::without_dust(velocity.angular + sum.change.angular);
         const physics::Traits& traits = state.traits[i];
+        const float pace = physics::pace_of(traits, velocity, state.fixed());
+        state.rests[i] = physics::rest_after(state.rests[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);
+        if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
         physics::Flight& flight = state.flights[i];
         if (!physics::was_fast(traits, flight, state.poses[i])) return;
         flight = physics::stopped_at(flight, physics::seen_part(traits, flight, state.poses[i], state.bounds[i]));

@@ -30,25 +30,41 @@ bool near_large(const State& state, std::size_t body, const physics::CellEntry& 
     return physics::boxes_overlap(own.lower, own.upper, other.lower, other.upper);
 }
 
+bool still(const State& state, std::uint32_t body) {
+    return (state.bounds[body].level & physics::STILL) != 0;
+}
+
+// Pairs of bodies that do not stir are those that touched in the last step.
+template <typename Found>
+void for_each_carried_over(const State& state, std::uint32_t body, const Found& found) {
+    if (!still(state, body)) return;
+    for (std::size_t k = state.first_contacts_before[body]; k < state.first_contacts_before[body + 1]; ++k) {
+        const physics::Contact& contact = state.contacts_before[k];
+        if (still(state, contact.a) && still(state, contact.b)) found(contact.a == body ? contact.b : contact.a);
+    }
+}
+
 // Calls found(other) for each body whose pair with `body` the latter owns.
 template <typename Found>
 void for_each_partner(const State& state, std::uint32_t body, const Found& found) {
     const physics::Parameters& p = state.fixed();
     const physics::Traits& own = state.traits[body];
     const physics::Bounds& around = state.bounds[body];
+    for_each_carried_over(state, body, found);
     for (const physics::CellEntry& other : bucket(state, p.buckets)) {
-        if (own.large && other.body <= body) continue;
+        if (!physics::finds_large(body, around.level, own.large, other.body, other.level)) continue;
         if (physics::can_touch(own, state.traits[other.body]) && near_large(state, body, other)) found(other.body);
     }
     if (own.large) return;
-    for (std::uint32_t levels = state.counted().levels & ~((1u << around.level) - 1); levels != 0; levels &= levels - 1) {
+    for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
         const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
         const physics::ivec3 size = range.last - range.first + 1;
         for (int k = 0; k < size.x * size.y * size.z; ++k) {
             const physics::ivec3 cell = range.first + physics::ivec3(k % size.x, k / size.x % size.y, k / (size.x * size.y));
             for (const physics::CellEntry& other : bucket(state, physics::bucket_of(cell, level, p.buckets))) {
-                if (other.level != level || !physics::owns_pair(body, around.level, other.body, level)) continue;
+                if ((other.level & ~physics::STILL) != level) continue;
+                if (!physics::finds(body, around.level, other.body, other.level)) continue;
                 if (!physics::boxes_overlap(around.lower, around.upper, other.lower, other.upper)) continue;
                 if (physics::cell_of(other.lower, other.upper, level, p.inverse_cell) != cell) continue;
                 if (physics::can_touch(own, state.traits[other.body])) found(other.body);
@@ -71,6 +87,10 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
     physics::Pair pair{std::min(candidate.owner, candidate.other), std::max(candidate.owner, candidate.other), 0, physics::NONE};
     pair.previous = contact_before(state, pair.a, pair.b);
     if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
+    if (still(state, pair.a) && still(state, pair.b)) {
+        pair.kind = physics::KIND_STILL;
+        return pair;
+    }
     const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
     const bool kept =
         pair.previous != physics::NONE &&

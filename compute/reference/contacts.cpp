@@ -5,15 +5,17 @@
 
 #include "compute/reference/stages.h"
 #include "shaders/physics/block.h"
+#include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
+#include "shaders/physics/rest.h"
 
 namespace scree::reference {
 
 namespace {
 
 bool movable(const State& state, std::uint32_t body) {
-    return state.traits[body].motion == physics::MOTION_DYNAMIC;
+    return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
 }
 
 std::uint32_t taken(std::uint32_t& end) {
@@ -29,9 +31,11 @@ vec3 pull(const State& state, const physics::Constraint& c) {
     return c.restitution > 0 ? physics::pull_of(state.loads[c.a], state.loads[c.b]) : vec3(0);
 }
 
-void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying);
+// `quiet`: what A and B tell of their rest.
+void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying,
+              std::array<float, 2> quiet = {0, 0}) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying, quiet[1]);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying, quiet[0]);
 }
 
 }  // namespace
@@ -40,7 +44,13 @@ void list_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         if (state.touching[i] == 0) return;
         state.constraints[state.contact_starts[i]].pair = static_cast<std::uint32_t>(i);
-        for (const std::uint32_t body : {state.pairs[i].a, state.pairs[i].b})
+    });
+}
+
+void count_slots(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::Pair& pair = state.pairs[state.constraints[i].pair];
+        for (const std::uint32_t body : {pair.a, pair.b})
             if (movable(state, body)) taken(state.slot_ends[body]);
     });
 }
@@ -54,7 +64,10 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
         const physics::Pair& pair = state.pairs[c.pair];
         if (movable(state, pair.a)) state.slot_sides[taken(state.slot_ends[pair.a])] = 2 * contact;
         if (movable(state, pair.b)) state.slot_sides[taken(state.slot_ends[pair.b])] = 2 * contact + 1;
+        if (movable(state, pair.a) || movable(state, pair.b)) state.binned[taken(state.counted().solved)] = contact;
     });
+    physics::Counts& counts = state.counted();
+    counts.arguments[physics::WORK_SOLVED].x = physics::work_for(counts.solved, state.fixed()).x;
 }
 
 void order_slots(State& state, const Threads& threads, std::uint32_t) {
@@ -84,7 +97,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Manifold& manifold = state.manifolds[index];
         physics::Contact& contact = state.contacts[i];
         physics::Impulse& impulse = state.impulses[i];
-        if (pair.kind == physics::KIND_KEPT) {
+        if (pair.kind >= physics::KIND_KEPT) {
             contact = physics::aged(state.contacts_before[pair.previous]);
             impulse = physics::continued(contact, state.impulses_before[pair.previous]);
         } else {
@@ -95,6 +108,15 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
                                                state.impulses_before[pair.previous], physics::match_radius(ta, tb));
         }
         impulse.separation = physics::separations_of(manifold);
+        const bool sleeps_a = ta.motion == physics::MOTION_DYNAMIC && c.slot_a == physics::NONE;
+        const bool sleeps_b = tb.motion == physics::MOTION_DYNAMIC && c.slot_b == physics::NONE;
+        if (pair.previous != physics::NONE)
+            contact.load = physics::load_of(sleeps_a || sleeps_b, state.contacts_before[pair.previous],
+                                            state.impulses_before[pair.previous]);
+        if (c.slot_a == physics::NONE && c.slot_b == physics::NONE) {
+            c = physics::idle_constraint(contact);
+            return;
+        }
         c = physics::constraint_of(contact, ta, tb, c.slot_a, c.slot_b, p);
         c.pair = index;
 
@@ -105,7 +127,8 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
-    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+    threads.for_each(state.counted().solved, [&](std::size_t k) {
+        const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
         const physics::Couple before = velocities_of(state, c);
@@ -116,7 +139,8 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
-    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+    threads.for_each(state.counted().solved, [&](std::size_t k) {
+        const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a]);
         const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b]);
@@ -124,8 +148,15 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         state.impulses[i] = physics::without_blows(after.impulse, c.count);
         physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
-        if (!last) share = physics::warm_start(c, state.impulses[i], share, ma, mb);
-        hand_out(state, c, share, physics::carries(c, state.impulses[i], after.couple, state.fixed()));
+        const float carrying = physics::carries(c, state.impulses[i], after.couple, state.fixed());
+        if (last) {
+            const auto told = [&](std::uint32_t body) {
+                return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
+            };
+            hand_out(state, c, share, carrying, {told(c.a), told(c.b)});
+        } else {
+            hand_out(state, c, physics::warm_start(c, state.impulses[i], share, ma, mb), carrying);
+        }
     });
 }
 

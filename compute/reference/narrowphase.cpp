@@ -85,4 +85,14 @@ void collide_kept(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
+void collide_still(State& state, const Threads& threads, std::uint32_t) {
+    const std::size_t first = state.counted().kind_first[physics::KIND_STILL];
+    threads.for_each(state.counted().kind_first[physics::KIND_STILL + 1] - first, [&](std::size_t i) {
+        const std::size_t index = state.binned[first + i];
+        const std::size_t previous = state.pairs[index].previous;
+        state.manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulses_before[previous]);
+        state.touching[index] = state.contacts_before[previous].count;
+    });
+}
+
 }  // namespace scree::reference

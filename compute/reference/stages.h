@@ -30,9 +30,16 @@ SCREE_STAGE(count_kinds);
 SCREE_STAGE(fill_kinds);
 SCREE_STAGE(collide);  // pass: the kind of pairs
 SCREE_STAGE(collide_kept);
+SCREE_STAGE(collide_still);
+
+// waking.cpp
+SCREE_STAGE(wake_touched);
+SCREE_STAGE(wake_deserted);
+SCREE_STAGE(shake_sleepers);  // pass: how deep those wake who shake in this round
 
 // contacts.cpp
 SCREE_STAGE(list_contacts);
+SCREE_STAGE(count_slots);
 SCREE_STAGE(fill_slots);
 SCREE_STAGE(order_slots);
 SCREE_STAGE(prepare_contacts);

@@ -240,12 +240,12 @@ LAW Couple shares_of(Couple before, Couple after, Mass a, Mass b) {
     share.b.angular = (after.b.angular - before.b.angular) * share_b;
     return share;
 }
-LAW Slot slot_of(Velocity share, float carrying) {
+LAW Slot slot_of(Velocity share, float carrying, float quiet) {
     Slot slot;
     slot.linear = share.linear;
     slot.carries = carrying;
     slot.angular = share.angular;
-    slot.pad = 0.0f;
+    slot.quiet = quiet;
     return slot;
 }
 LAW float split_of(float carrying, Parameters parameters) {

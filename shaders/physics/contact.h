@@ -88,7 +88,7 @@ LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b)
     contact.normal = manifold.normal;
     contact.age = 0u;
     contact.d = b.position - a.position;
-    contact.pad = 0.0f;
+    contact.load = 0.0f;
     for (uint k = 0u; k < 4u; ++k) contact.points[k] = manifold.points[k];
     contact.turn_a = a.orientation;
     contact.turn_b = b.orientation;
@@ -166,6 +166,29 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a,
         c.arms[0] = vec4(centre - half_gap - contact.normal * c.radius_a, 0.0f);
         c.centre = (centre - contact.d) + half_gap + contact.normal * c.radius_b;
     }
+    return c;
+}
+
+// Of a contact that moves nobody in this step: only statistics look at it.
+LAW Constraint idle_constraint(Contact contact) {
+    Constraint c;
+    c.a = contact.a;
+    c.b = contact.b;
+    c.slot_a = NONE;
+    c.slot_b = NONE;
+    c.normal = contact.normal;
+    c.friction = 0.0f;
+    for (uint k = 0u; k < 4u; ++k) c.arms[k] = vec4(0.0f);
+    c.centre = vec3(0.0f);
+    c.reach = 0.0f;
+    c.rolling_resistance = 0.0f;
+    c.restitution = 0.0f;
+    c.count = contact.count;
+    c.anchor = ANCHOR_A;
+    c.radius_a = 0.0f;
+    c.radius_b = 0.0f;
+    c.pair = NONE;
+    c.leave = 1.0e30f;
     return c;
 }
 

@@ -59,10 +59,14 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
 // At the start of a step, and with overflow still set: nothing to do for anyone.
 LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.levels = 0u;
+    counts.levels_stirring = 0u;
+    counts.large_stirring = 0u;
+    counts.sleepers = 0u;
+    counts.solved = 0u;
     counts.pairs_coarse = 0u;
     counts.fast = 0u;
-    for (uint k = 0u; k < 11u; ++k) counts.kind_first[k] = 0u;
-    for (uint k = 0u; k < 16u; ++k) counts.arguments[k] = work_for(0u, parameters);
+    for (uint k = 0u; k < 12u; ++k) counts.kind_first[k] = 0u;
+    for (uint k = 0u; k < WORKS; ++k) counts.arguments[k] = work_for(0u, parameters);
     counts = with_pairs(counts, 0u, parameters);
     return with_contacts(counts, 0u, parameters);
 }

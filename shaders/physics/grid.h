@@ -114,12 +114,37 @@ LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
     return level < other_level || (level == other_level && body < other);
 }
 
+// Set in the level of a body's bounds: it does not stir in this step (rest.h).
+CONSTANT uint STILL = 0x100u;
+
+// A pair of grid bodies one of which stirs is listed once. What stirs finds what is still on its own level and on coarser ones;
+// what is still finds what stirs on coarser ones, because nobody looks into finer levels. Pairs of still bodies are not looked
+// for.
+LAW bool finds(uint body, uint level, uint other, uint other_level) {
+    bool still = (level & STILL) != 0u, other_still = (other_level & STILL) != 0u;
+    if (still) return !other_still && level - STILL < other_level;
+    return other_still ? level <= other_level - STILL : owns_pair(body, level, other, other_level);
+}
+// The same in the list of large bodies.
+LAW bool finds_large(uint body, uint level, uint large, uint other, uint other_level) {
+    bool other_still = (other_level & STILL) != 0u;
+    if ((level & STILL) != 0u) return large == 0u && !other_still;
+    return large == 0u || other_still || body < other;
+}
+// Levels on which a body has partners to find.
+LAW uint levels_to_search(uint level, Counts counts) {
+    if ((level & STILL) != 0u) return counts.levels_stirring & ~((2u << (level - STILL)) - 1u);
+    return counts.levels & ~((1u << level) - 1u);
+}
+
 LAW bool can_touch(Traits a, Traits b) {
     return (a.motion == MOTION_DYNAMIC || b.motion == MOTION_DYNAMIC) && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE);
 }
 
-// Shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); KIND_KEPT is a contact that is kept.
+// Shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); KIND_KEPT is a contact that is kept,
+// KIND_STILL one between two bodies that do not stir.
 CONSTANT uint KIND_KEPT = 9u;
+CONSTANT uint KIND_STILL = 10u;
 LAW uint kind_of(uint shape_a, uint shape_b) {
     uint low = shape_a < shape_b ? shape_a : shape_b;
     uint high = shape_a < shape_b ? shape_b : shape_a;

@@ -63,6 +63,18 @@ LAW Manifold kept_manifold(Contact contact, Pose a, Pose b) {
     return manifold;
 }
 
+// Between two bodies that do not stir nothing has changed.
+LAW Manifold resting_manifold(Contact contact, Impulse impulse) {
+    Manifold manifold;
+    manifold.normal = contact.normal;
+    manifold.features = contact.features;
+    for (uint k = 0u; k < 4u; ++k) {
+        manifold.points[k] = vec4(0.0f);
+        if (k < contact.count) manifold.points[k] = vec4(xyz(contact.points[k]), impulse.separation[k]);
+    }
+    return manifold;
+}
+
 LAW Contact aged(Contact contact) {
     contact.age = contact.age + 1u;
     return contact;

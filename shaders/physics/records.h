@@ -99,7 +99,7 @@ struct Touch {
 // ---- who is near whom
 struct Bounds {   // of a body over the coming step, with its margin
     vec3 lower;   // m
-    uint level;   // of the grid; cells of level l are cell * 2^l wide
+    uint level;   // of the grid; cells of level l are cell * 2^l wide; with STILL (grid.h)
     vec3 upper;   // m
     uint bucket;  // of its centre's cell; the last one for a large body
 };
@@ -127,7 +127,7 @@ struct Contact {
     vec3 normal;     // unit, world, from A to B, when the contact was made
     uint age;        // steps since it was made
     vec3 d;          // centre of B minus centre of A when it was made, m
-    float pad;       //
+    float load;      // normal impulse of a substep when both bodies were last awake, N s
     vec4 points[4];  // as in Manifold, when it was made
     vec4 turn_a;     // orientation of A when it was made
     vec4 turn_b;     // orientation of B when it was made
@@ -170,7 +170,7 @@ struct Slot {       // what one contact did to one body; a body sums its slots i
     vec3 linear;    // m/s
     float carries;  // 1: the contact pushes, or will in the next substep; it counts in the split
     vec3 angular;   // rad/s
-    float pad;
+    float quiet;    // in the last pass: what the other body tells of its rest (rest.h), steps
 };
 
 // ---- fast bodies
@@ -205,14 +205,16 @@ struct Parameters {  // fixed for a run
     uint buckets;  // of the grid, a power of two; one more holds the large bodies
     uint pair_capacity;
     uint contact_capacity;
-    uint group_size;   // threads of a workgroup, a power of two
-    uint group_shift;  // its logarithm
-    uint actions;      // records in the list, for the coming step
-    uint redo;         // 1: the step is done again after a buffer grew; impulses have been applied already
-    uint pad0, pad1, pad2;
+    uint group_size;    // threads of a workgroup, a power of two
+    uint group_shift;   // its logarithm
+    uint actions;       // records in the list, for the coming step
+    uint redo;          // 1: the step is done again after a buffer grew; impulses have been applied already
+    uint wake_all;      // 1: all sleepers wake as the step begins
+    uint sleep_steps;   // quiet steps after which a body sleeps; rest.h's NO_SLEEP
+    float sleep_speed;  // m/s, slower is quiet
 };
 
-CONSTANT uint KINDS = 10u;  // of pairs: nine of shapes, and those whose contact is kept
+CONSTANT uint KINDS = 11u;  // of pairs: nine of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind
 CONSTANT uint SPAN_SHIFT = 4u;
 CONSTANT uint SCAN_ITEMS = 8u;  // items that one thread of a scan adds up
@@ -224,8 +226,11 @@ CONSTANT uint WORK_SPANS = 1u;
 CONSTANT uint WORK_KIND_BLOCKS = 2u;
 CONSTANT uint WORK_PAIR_BLOCKS = 3u;
 CONSTANT uint WORK_CONTACTS = 4u;
-CONSTANT uint WORK_KIND = 5u;      // and the KINDS - 1 rows after it
-CONSTANT uint WORK_FLIGHTS = 15u;  // all pairs if some body is fast, else none
+CONSTANT uint WORK_KIND = 5u;  // and the KINDS - 1 rows after it
+CONSTANT uint WORK_SOLVED = 16u;
+CONSTANT uint WORK_SHAKEN = 17u;
+CONSTANT uint WORK_FLIGHTS = 18u;  // all pairs if some body is fast, else none
+CONSTANT uint WORKS = 19u;
 CONSTANT uint OVERFLOW_PAIRS = 1u;
 CONSTANT uint OVERFLOW_CONTACTS = 2u;
 
@@ -234,11 +239,16 @@ struct Counts {  // what the device counts in a step
     uint levels;    // bit l: some body is on level l of the grid
     uint overflow;  // OVERFLOW_*; while not 0 no stage changes the bodies
     uint required_pairs, required_contacts;
-    uint steps;           // whole steps done
-    uint pairs_coarse;    // pairs in units of 256, each body's rounded up: it does not wrap where their number does
-    uint kind_first[11];  // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
-    uint fast;            // 1: some body will be fast in this step
-    uvec4 arguments[16];  // per WORK_*: workgroups x, y, z, and threads
+    uint steps;            // whole steps done
+    uint pairs_coarse;     // pairs in units of 256, each body's rounded up: it does not wrap where their number does
+    uint levels_stirring;  // bit l: some body that stirs is on level l
+    uint large_stirring;   // 1: some large body stirs
+    uint sleepers;         // 1: some body is asleep as the step begins
+    uint solved;           // contacts that move somebody: those of the solver
+    uint kind_first[12];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint fast;             // 1: some body will be fast in this step
+    uint pad0, pad1, pad2;
+    uvec4 arguments[19];  // per WORK_*: workgroups x, y, z, and threads
 };
 
 LAWS_END

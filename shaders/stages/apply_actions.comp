@@ -1,4 +1,4 @@
-// Adds what the user asks: impulses to velocities (once, also when the step is done again), forces to loads.
+// Adds what the user asks: impulses to velocities (once, also when the step is done again), forces to loads. It wakes the body.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -11,5 +11,6 @@ void main() {
     Action action = actions[i];
     Mass mass = mass_in_world(traits[action.body], poses[action.body].orientation, 1.0f);
     if (PARAMETERS.redo == 0u) velocities[action.body] = kicked(velocities[action.body], action, mass, PARAMETERS);
+    rests[action.body] = 0u;
     loads[action.body] = loaded(loads[action.body], action, mass);
 }

@@ -1,4 +1,4 @@
-// Empties the lists of a step and gives every body its gravity.
+// Empties the lists of a step, gives every body its gravity, and wakes all if the user says so.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -12,6 +12,9 @@ void main() {
         pair_starts[i] = 0u;
         slot_ends[i] = 0u;
     }
-    if (i < PARAMETERS.bodies) loads[i] = gravity_load(traits[i], PARAMETERS);
+    if (i < PARAMETERS.bodies) {
+        loads[i] = gravity_load(traits[i], PARAMETERS);
+        if (PARAMETERS.wake_all != 0u) rests[i] = 0u;
+    }
     if (i == 0u) COUNTS = emptied(COUNTS, PARAMETERS);
 }

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/block.h"
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 // after the tables that it sums
@@ -10,7 +11,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
+    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests[i], PARAMETERS.sleep_steps)) return;
     Traits body = traits[i];
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);

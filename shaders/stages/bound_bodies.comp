@@ -1,9 +1,11 @@
-// Each body's bounds over the coming step, its cell, its inertia in the world, where it starts, and whether it will be fast.
+// Each body's bounds over the coming step, its cell, whether it stirs, its inertia in the world, where it starts, and whether it
+// will be fast.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/grid.h"
 #include "shaders/physics/motion.h"
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 void main() {
@@ -12,10 +14,19 @@ void main() {
     Traits body = traits[i];
     Pose pose = poses[i];
     Bounds around = bounds_of(body, pose, velocities[i], loads[i], PARAMETERS);
-    bounds[i] = around;
     flights[i] = flight_of(pose);
     if (will_be_fast(body, velocities[i], PARAMETERS)) atomicOr(COUNTS.fast, 1u);
-    masses[i] = mass_in_world(body, pose.orientation, 1.0f);
+    masses[i] = mass_in_world(body, pose.orientation, split_at_rest(rests[i], PARAMETERS));
     atomicAdd(cells[around.bucket], 1u);
     if (body.large == 0u) atomicOr(COUNTS.levels, 1u << around.level);
+    if (has_slept(rests[i], PARAMETERS.sleep_steps)) atomicOr(COUNTS.sleepers, 1u);
+    if (stirs(body.motion, velocities[i], rests[i], PARAMETERS.sleep_steps)) {
+        if (body.large == 0u)
+            atomicOr(COUNTS.levels_stirring, 1u << around.level);
+        else
+            atomicOr(COUNTS.large_stirring, 1u);
+    } else {
+        around.level |= STILL;
+    }
+    bounds[i] = around;
 }

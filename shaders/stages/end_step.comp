@@ -1,9 +1,11 @@
-// Gathers the last relaxation; and notes who has been fast, and who has left the bounds that were searched for neighbours.
+// Gathers the last relaxation, says who has come to rest, and notes who has been fast and left the bounds that were searched for
+// its neighbours; the step is done.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/flight.h"
 #include "shaders/physics/motion.h"
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 // after the tables that it sums
@@ -13,12 +15,20 @@ void main() {
     uint i = thread();
     if (COUNTS.overflow != 0u) return;
     if (i == 0u) ++COUNTS.steps;
-    if (i >= PARAMETERS.bodies) return;
+    if (i >= PARAMETERS.bodies || is_asleep(rests[i], PARAMETERS.sleep_steps)) return;
     Traits body = traits[i];
     if (body.motion != MOTION_DYNAMIC) return;
-    Velocity change = gather(i).change;
-    velocities[i].linear = without_dust(velocities[i].linear + change.linear);
-    velocities[i].angular = without_dust(velocities[i].angular + change.angular);
+    Gathered sum = gather(i);
+    Velocity velocity = velocities[i];
+    velocity.linear = without_dust(velocity.linear + sum.change.linear);
+    velocity.angular = without_dust(velocity.angular + sum.change.angular);
+    float pace = pace_of(body, velocity, PARAMETERS);
+    rests[i] = rest_after(rests[i], pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
+    if (is_asleep(rests[i], PARAMETERS.sleep_steps)) {
+        velocity.linear = vec3(0.0f);
+        velocity.angular = vec3(0.0f);
+    }
+    velocities[i] = velocity;
     Flight flight = flights[i];
     if (!was_fast(body, flight, poses[i])) return;
     flights[i] = stopped_at(flight, seen_part(body, flight, poses[i], bounds[i]));

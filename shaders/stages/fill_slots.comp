@@ -1,7 +1,8 @@
-// Gives each contact a slot with each of its bodies, in any order.
+// Gives each contact a slot with each of its bodies that can be moved, and lists those that have one, in any order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 void main() {
@@ -10,6 +11,13 @@ void main() {
     Pair pair = pairs[constraints[i].pair];
     constraints[i].slot_a = NONE;
     constraints[i].slot_b = NONE;
-    if (traits[pair.a].motion == MOTION_DYNAMIC) slot_sides[atomicAdd(slot_ends[pair.a], 1u)] = 2u * i;
-    if (traits[pair.b].motion == MOTION_DYNAMIC) slot_sides[atomicAdd(slot_ends[pair.b], 1u)] = 2u * i + 1u;
+    bool moves_a = is_movable(traits[pair.a].motion, rests[pair.a], PARAMETERS.sleep_steps);
+    bool moves_b = is_movable(traits[pair.b].motion, rests[pair.b], PARAMETERS.sleep_steps);
+    if (moves_a) slot_sides[atomicAdd(slot_ends[pair.a], 1u)] = 2u * i;
+    if (moves_b) slot_sides[atomicAdd(slot_ends[pair.b], 1u)] = 2u * i + 1u;
+    if (!moves_a && !moves_b) return;
+    uint place = atomicAdd(COUNTS.solved, 1u);
+    binned[place] = i;
+    uint group = place >> PARAMETERS.group_shift;
+    if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVED].x, group + 1u);
 }

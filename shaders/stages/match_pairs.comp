@@ -35,11 +35,15 @@ void main() {
     // Bodies change level with their speed, and then the other one owns the pair.
     pair.previous = contact_before(pair.a, pair.b);
     if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);
-    Traits ta = traits[pair.a], tb = traits[pair.b];
-    bool kept = false;
-    if (pair.previous != NONE)
-        kept = is_kept(contacts_before[pair.previous], impulses_before[pair.previous], ta, poses[pair.a], velocities[pair.a], tb,
-                       poses[pair.b], velocities[pair.b]);
-    pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
+    if ((bounds[pair.a].level & bounds[pair.b].level & STILL) != 0u) {
+        pair.kind = KIND_STILL;
+    } else {
+        Traits ta = traits[pair.a], tb = traits[pair.b];
+        bool kept = false;
+        if (pair.previous != NONE)
+            kept = is_kept(contacts_before[pair.previous], impulses_before[pair.previous], ta, poses[pair.a], velocities[pair.a],
+                           tb, poses[pair.b], velocities[pair.b]);
+        pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
+    }
     pairs[place] = pair;
 }

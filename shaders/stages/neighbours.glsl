@@ -1,4 +1,5 @@
-// The bodies whose bounds overlap those of one body and whose pairs it owns; each is handed to found(), which the stage defines.
+// The bodies whose pairs one body owns: those whose bounds overlap its own, and between bodies that do not stir those that it
+// touched in the last step; each is handed to found(), which the stage defines.
 #ifndef SCREE_STAGES_NEIGHBOURS_GLSL
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
@@ -7,8 +8,8 @@
 void look_through_large(uint body, Traits own, Bounds around) {
     for (uint k = cells[PARAMETERS.buckets - 1u]; k < cells[PARAMETERS.buckets]; ++k) {
         uint other = cell_entries[k].body;
-        if (own.large != 0u && other <= body) continue;
         CellEntry entry = cell_entries[k];
+        if (!finds_large(body, around.level, own.large, other, entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         Traits theirs = traits[other];
         if (!can_touch(own, theirs)) continue;
@@ -31,7 +32,7 @@ void look_through_row(uint body, bool moves, Bounds around, ivec3 from, int last
     for (uint k = 0u; k < entries; ++k) {
         uint place = first + k < end ? first + k : first + k - end;
         CellEntry entry = cell_entries[place];
-        if (entry.level != level || !owns_pair(body, around.level, entry.body, level)) continue;
+        if ((entry.level & ~STILL) != level || !finds(body, around.level, entry.body, entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
@@ -39,13 +40,26 @@ void look_through_row(uint body, bool moves, Bounds around, ivec3 from, int last
     }
 }
 
+void carry_over(uint body) {
+    uint last = first_contacts_before[body + 1u];
+    for (uint k = first_contacts_before[body]; k < last; ++k) {
+        uint a = contacts_before[k].a;
+        uint other = a == body ? contacts_before[k].b : a;
+        if ((bounds[other].level & STILL) != 0u) found(other);
+    }
+}
+
 void look_around(uint body) {
-    Traits own = traits[body];
     Bounds around = bounds[body];
+    bool still = (around.level & STILL) != 0u;
+    if (still) carry_over(body);
+    uint levels = levels_to_search(around.level, COUNTS);
+    if (still && levels == 0u && COUNTS.large_stirring == 0u) return;
+    Traits own = traits[body];
     look_through_large(body, own, around);
     if (own.large != 0u) return;
-    for (uint level = around.level; level < LEVELS && (COUNTS.levels >> level) != 0u; ++level) {
-        if (((COUNTS.levels >> level) & 1u) == 0u) continue;
+    for (uint level = 0u; level < LEVELS && (levels >> level) != 0u; ++level) {
+        if (((levels >> level) & 1u) == 0u) continue;
         CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);
         for (int z = range.first.z; z <= range.last.z; ++z)
             for (int y = range.first.y; y <= range.last.y; ++y)

@@ -5,35 +5,60 @@
 #include "shaders/physics/block.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
+
+// Between two bodies that sleep, or one that sleeps and one that never moves.
+void carry_over(uint i, uint pair_index, uint previous) {
+    Contact contact = aged(contacts_before[previous]);
+    Impulse impulse = continued(contact, impulses_before[previous]);
+    impulse.separation = separations_of(manifolds[pair_index]);
+    contacts[i] = contact;
+    impulses[i] = impulse;
+    constraints[i] = idle_constraint(contact);
+}
 
 void main() {
     uint i = thread();
     if (i >= COUNTS.contacts) return;
     uint pair_index = constraints[i].pair;
     Pair pair = pairs[pair_index];
+    uint slot_a = constraints[i].slot_a, slot_b = constraints[i].slot_b;
+    bool idle = slot_a == NONE && slot_b == NONE;
+    if (idle && pair.kind == KIND_STILL) {
+        carry_over(i, pair_index, pair.previous);
+        return;
+    }
     Traits ta = traits[pair.a], tb = traits[pair.b];
     Mass ma = masses[pair.a], mb = masses[pair.b];
     Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
     Impulse impulse = no_impulse(contact.d);
-    if (pair.kind == KIND_KEPT) {
+    if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
         contact = aged(contacts_before[pair.previous]);
         impulse = continued(contact, impulses_before[pair.previous]);
     } else if (pair.previous != NONE) {
         impulse = inherited(contact, contacts_before[pair.previous], impulses_before[pair.previous], match_radius(ta, tb));
     }
     impulse.separation = separations_of(manifolds[pair_index]);
-    Constraint constraint = constraint_of(contact, ta, tb, constraints[i].slot_a, constraints[i].slot_b, PARAMETERS);
+    if (pair.previous != NONE) {
+        bool one_sleeps = (slot_a == NONE && ta.motion == MOTION_DYNAMIC) || (slot_b == NONE && tb.motion == MOTION_DYNAMIC);
+        contact.load = load_of(one_sleeps, contacts_before[pair.previous], impulses_before[pair.previous]);
+    }
+    contacts[i] = contact;
+    impulses[i] = impulse;
+    if (idle) {
+        constraints[i] = idle_constraint(contact);
+        return;
+    }
+    Constraint constraint = constraint_of(contact, ta, tb, slot_a, slot_b, PARAMETERS);
     constraint.pair = pair_index;
+    constraints[i] = constraint;
 
     Couple now;
     now.a = velocities[pair.a];
     now.b = velocities[pair.b];
     float carrying = carries(constraint, impulse, now, PARAMETERS);
-    contacts[i] = contact;
-    constraints[i] = constraint;
-    impulses[i] = impulse;
     Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
-    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(share.a, carrying);
-    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(share.b, carrying);
+    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(share.a, carrying, 0.0f);
+    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(share.b, carrying, 0.0f);
 }

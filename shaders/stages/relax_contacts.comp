@@ -1,13 +1,15 @@
-// The pass without bias over all contacts at once; it also hands out the next substep's warm start (push.pass 1: there is none).
+// The pass without bias over all contacts that move somebody at once; it also hands out the next substep's warm start, or after
+// the last one (push.pass 1) what each body tells the other of its rest.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/block.h"
+#include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 void main() {
-    uint i = thread();
-    if (i >= COUNTS.contacts) return;
+    if (thread() >= COUNTS.solved) return;
+    uint i = binned[thread()];
     Constraint c = constraints[i];
     Impulse impulse = impulses[i];
     Mass ma = shared_for(impulse, masses[c.a], loads[c.a]);
@@ -20,8 +22,14 @@ void main() {
     impulse = without_blows(after.impulse, c.count);
     impulses[i] = impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
-    if (push.pass == 0u) share = warm_start(c, impulse, share, ma, mb);
+    float quiet_a = 0.0f, quiet_b = 0.0f;
+    if (push.pass == 0u) {
+        share = warm_start(c, impulse, share, ma, mb);
+    } else {
+        quiet_a = told_quiet(traits[c.a].motion, before.a, rests[c.a]);
+        quiet_b = told_quiet(traits[c.b].motion, before.b, rests[c.b]);
+    }
     float carrying = carries(c, impulse, after.couple, PARAMETERS);
-    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, carrying);
-    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, carrying);
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, carrying, quiet_b);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, carrying, quiet_a);
 }

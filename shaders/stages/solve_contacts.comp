@@ -1,4 +1,4 @@
-// The biased pass over all contacts at once.
+// The biased pass over all contacts that move somebody at once.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,8 +6,8 @@
 #include "shaders/stages/stage.glsl"
 
 void main() {
-    uint i = thread();
-    if (i >= COUNTS.contacts) return;
+    if (thread() >= COUNTS.solved) return;
+    uint i = binned[thread()];
     Constraint c = constraints[i];
     Mass ma = masses[c.a], mb = masses[c.b];
     Couple before;
@@ -18,6 +18,6 @@ void main() {
     impulses[i] = after.impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
     float blow = blow_of(after.impulse);
-    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, blow);
-    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, blow);
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, blow, 0.0f);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, blow, 0.0f);
 }

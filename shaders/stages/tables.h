@@ -20,7 +20,7 @@
     X(11, pair_starts, PairStartsTable, uint, bodies_and_end)                                                                    \
     X(12, pairs, PairsTable, Pair, pairs)                                                                                        \
     X(13, kind_starts, KindStartsTable, uint, kinds)                                                                             \
-    X(14, binned, BinnedTable, uint, pairs)                                                                                      \
+    X(14, binned, BinnedTable, uint, pairs) /* pairs by kind; later the contacts that the solver works on */                     \
     X(15, manifolds, ManifoldsTable, Manifold, pairs)                                                                            \
     X(16, touching, TouchingTable, uint, pairs) /* points of each pair's manifold */                                             \
     X(17, contact_starts, ContactStartsTable, uint, pairs_and_end)                                                               \
@@ -36,6 +36,7 @@
     X(27, slots, SlotsTable, Slot, slots)                                                                                        \
     X(28, block_sums, BlockSumsTable, uint, blocks)                                                                              \
     X(29, candidates, CandidatesTable, Candidate, pairs) /* what each body found near it, in any order */                        \
-    X(30, flights, FlightsTable, Flight, bodies)
+    X(30, flights, FlightsTable, Flight, bodies)                                                                                 \
+    X(31, rests, RestsTable, uint, bodies)               /* how long each body has been quiet, and what woke it: rest.h */
 
 #endif

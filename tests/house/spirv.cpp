@@ -95,7 +95,8 @@ const std::map<std::string, Record>& records() {
         {
             using R = Contact;
             all["Contact"] = {
-                sizeof(R), {M(a), M(b), M(count), M(features), M(normal), M(age), M(d), M(pad), M(points), M(turn_a), M(turn_b)}};
+                sizeof(R),
+                {M(a), M(b), M(count), M(features), M(normal), M(age), M(d), M(load), M(points), M(turn_a), M(turn_b)}};
         }
         {
             using R = Impulse;
@@ -111,7 +112,7 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Slot;
-            all["Slot"] = {sizeof(R), {M(linear), M(carries), M(angular), M(pad)}};
+            all["Slot"] = {sizeof(R), {M(linear), M(carries), M(angular), M(quiet)}};
         }
         {
             using R = Flight;
@@ -143,15 +144,16 @@ const std::map<std::string, Record>& records() {
                                   M(group_shift),
                                   M(actions),
                                   M(redo),
-                                  M(pad0),
-                                  M(pad1),
-                                  M(pad2)}};
+                                  M(wake_all),
+                                  M(sleep_steps),
+                                  M(sleep_speed)}};
         }
         {
             using R = Counts;
             all["Counts"] = {sizeof(R),
                              {M(pairs), M(contacts), M(levels), M(overflow), M(required_pairs), M(required_contacts), M(steps),
-                              M(pairs_coarse), M(kind_first), M(fast), M(arguments)}};
+                              M(pairs_coarse), M(levels_stirring), M(large_stirring), M(sleepers), M(solved), M(kind_first),
+                              M(fast), M(pad0), M(pad1), M(pad2), M(arguments)}};
         }
         return all;
     }();

@@ -6,6 +6,7 @@
 
 #include "compute/reference_runner.h"
 #include "compute/state.h"
+#include "shaders/physics/grid.h"
 #include "tests/oracle/brute_force_pairs.h"
 #include "tests/world/heaps.h"
 
@@ -91,4 +92,60 @@ TEST_CASE("every overlapping pair is found once, and no pair of two that cannot 
         // What is found beyond that overlaps once bounds are widened by the way of a step and the distance ahead.
         REQUIRE(found.size() < 6 * (expected + planes_reached));
     }
+}
+
+TEST_CASE("of the overlapping pairs those are found once in which one body stirs, and those at rest that touched before") {
+    const Scene scene = motley(600, vec3(0), 11);
+    State state(scene, {}, 128, true);
+    ReferenceRunner runner(1);
+    runner.attach(state);
+    while (!runner.step()) state.grow();
+
+    // Three in four sleep, and half of the kinematic bodies stand.
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].motion == Motion::dynamic && i % 4 != 0) state.rests[i] = state.fixed().sleep_steps;
+        const bool stands = scene.bodies[i].motion == Motion::dynamic ? i % 4 != 0 : i % 2 == 0;
+        if (stands) state.velocities[i].linear = state.velocities[i].angular = vec3(0);
+    }
+    std::set<std::pair<std::size_t, std::size_t>> touched, found;
+    for (std::size_t i = 0; i < state.counted().contacts; ++i) touched.emplace(state.contacts[i].a, state.contacts[i].b);
+    std::vector<physics::Pose> poses;
+    const auto stop_before_moving = [&](const Stage& stage, std::size_t) {
+        if (stage.name == "match_pairs") poses = state.poses;
+        return stage.name != "match_pairs";
+    };
+    (void)runner.step(stop_before_moving);
+    REQUIRE(state.counted().overflow == 0);
+
+    const auto stirs = [&](std::size_t i) { return (state.bounds[i].level & physics::STILL) == 0; };
+    std::size_t carried = 0, stirring = 0;
+    for (std::size_t i = 0; i < state.counted().pairs; ++i) {
+        const physics::Pair& pair = state.pairs[i];
+        CAPTURE(pair.a, pair.b);
+        REQUIRE(found.emplace(pair.a, pair.b).second);
+        REQUIRE((pair.kind == physics::KIND_STILL) == (!stirs(pair.a) && !stirs(pair.b)));
+        if (pair.kind == physics::KIND_STILL) REQUIRE(touched.contains({pair.a, pair.b}));
+        carried += pair.kind == physics::KIND_STILL;
+    }
+    Scene now = scene;
+    for (std::size_t i = 0; i < now.bodies.size(); ++i) {
+        now.bodies[i].position = poses[i].position;
+        now.bodies[i].orientation = poses[i].orientation;
+    }
+    for (const auto& [a, b] : oracle::brute_force_pairs(oracle::bounds_of(now))) {
+        const bool plane =
+            std::holds_alternative<Plane>(scene.bodies[a].shape) || std::holds_alternative<Plane>(scene.bodies[b].shape);
+        const bool dynamic = scene.bodies[a].motion == Motion::dynamic || scene.bodies[b].motion == Motion::dynamic;
+        if (plane || !dynamic || (!stirs(a) && !stirs(b))) continue;
+        CAPTURE(a, b);
+        REQUIRE(found.contains({a, b}));
+        ++stirring;
+    }
+    for (const auto& [a, b] : touched) {
+        if (stirs(a) || stirs(b)) continue;
+        CAPTURE(a, b);
+        REQUIRE(found.contains({a, b}));
+    }
+    REQUIRE(stirring > 300);
+    REQUIRE(carried > 300);
 }

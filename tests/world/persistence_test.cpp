@@ -11,10 +11,16 @@ using namespace scree;
 
 namespace {
 
-// A scene walked on the CPU with its tables in reach.
+Settings awake() {
+    Settings settings;
+    settings.sleeping = false;  // a sleeper's contact is kept whatever it is
+    return settings;
+}
+
+// A scene walked on the CPU with its tables in reach, nobody asleep.
 class Walk {
 public:
-    explicit Walk(const Scene& scene) : state(checked(scene), {}, 64, true), runner_(1) { runner_.attach(state); }
+    explicit Walk(const Scene& scene) : state(checked(scene), awake(), 64, true), runner_(1) { runner_.attach(state); }
     void step(int count = 1) {
         for (int i = 0; i < count; ++i) REQUIRE(runner_.step());
     }

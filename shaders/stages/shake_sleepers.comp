@@ -1,0 +1,19 @@
+// Passes on how deep bodies shake others from those who do so exactly push.pass deep; no later round changes these any more.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/rest.h"
+#include "shaders/stages/stage.glsl"
+
+void shake(uint by, uint other) {
+    if (shakes(rests[by], push.pass) && traits[other].motion == MOTION_DYNAMIC)
+        atomicOr(rests[other], shaking_bit(push.pass - 1u));
+}
+
+void main() {
+    uint i = thread();
+    if (i >= COUNTS.contacts) return;
+    Pair pair = pairs[constraints[i].pair];
+    shake(pair.a, pair.b);
+    shake(pair.b, pair.a);
+}

@@ -1,0 +1,37 @@
+// Wakes sleepers that something restless touches or whose load has changed, and shakes all who meet at speed.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/grid.h"
+#include "shaders/physics/rest.h"
+#include "shaders/stages/stage.glsl"
+
+void raise(uint body, uint bits) {
+    if (bits != 0u && traits[body].motion == MOTION_DYNAMIC) atomicOr(rests[body], bits);
+}
+
+void main() {
+    uint i = thread();
+    if (i >= COUNTS.contacts || COUNTS.sleepers == 0u) return;
+    uint index = constraints[i].pair;
+    Pair pair = pairs[index];
+    if (pair.kind == KIND_STILL) return;
+    float approach = approach_of(manifolds[index], touching[index], poses[pair.b].position - poses[pair.a].position,
+                                 velocities[pair.a], velocities[pair.b], PARAMETERS);
+    uint depth = depth_of(approach, PARAMETERS);
+    bool a_sleeps = has_slept(rests[pair.a], PARAMETERS.sleep_steps), b_sleeps = has_slept(rests[pair.b], PARAMETERS.sleep_steps);
+    bool woken = false;
+    if (a_sleeps != b_sleeps) {
+        uint sleeper = a_sleeps ? pair.a : pair.b;
+        uint other = a_sleeps ? pair.b : pair.a;
+        float now = 0.0f, then = 0.0f;
+        if (pair.previous != NONE) {
+            now = pressing(impulses_before[pair.previous]);
+            then = contacts_before[pair.previous].load;
+        }
+        woken = wakes(is_restless(traits[other].motion, rests[other]), approach, now, then, traits[sleeper], PARAMETERS);
+    }
+    raise(pair.a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
+    raise(pair.b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));
+    if (depth > 1u) atomicMax(COUNTS.arguments[WORK_SHAKEN].x, COUNTS.arguments[WORK_CONTACTS].x);
+}
