@@ -83,7 +83,7 @@ TEST_CASE("what flies past or away is not stopped, and what already touches goes
 
 TEST_CASE("a long box that turns strikes the ground with its end") {
     const Traits rod = traits_of(SHAPE_BOX, vec3(1, 0.05f, 0.05f));
-    // Its centre stays at 0.6 m; the lower corner is at 0.6 - sin a - 0.05 cos a. Half a radian in the step, then one.
+    // Its centre stays at 0.6 m; the lower corner is at 0.6 - sin a - 0.05 cos a.
     for (const float whole : {0.8f, 1.2f}) {
         const Course turning = from_to(rod, pose_at({0, 0.6f, 0}), pose_at({0, 0.6f, 0}, turn_about_z(whole)));
         const Impact impact = meet(rod, turning, ground, still(ground, pose_at(vec3(0))));
