@@ -37,6 +37,6 @@
     X(28, block_sums, BlockSumsTable, uint, blocks)                                                                              \
     X(29, candidates, CandidatesTable, Candidate, pairs) /* what each body found near it, in any order */                        \
     X(30, flights, FlightsTable, Flight, bodies)                                                                                 \
-    X(31, rests, RestsTable, uint, bodies)               /* how long each body has been quiet, and what woke it: rest.h */
+    X(31, rests, RestsTable, uint, bodies) /* how long each body has been quiet, and what woke it: rest.h */
 
 #endif
