@@ -149,7 +149,7 @@ TEST_CASE("plates two millimetres thick fall on the ground and on each other and
         scene.bodies.push_back(plate);
     }
     World world(scene, {}, 1);
-    for (int step = 0; step < 240; ++step) {
+    for (int step = 0; step < 360; ++step) {
         world.step();
         CAPTURE(step);
         for (const BodyState& plate : world.bodies()) REQUIRE(plate.position.y > -1e-3f);
