@@ -27,7 +27,7 @@ const std::vector<Demo>& all_demos() {
         {"pyramid100", "a pyramid of 5,050 boxes stands", 5050, false, pyramid100, true},
         {"cards", "a house of cards, three storeys high, stands", 15, false, cards, true},
         {"jenga", "a tower of eighteen layers of three blocks stands", 54, false, jenga, true},
-        {"tray", "a plate lighter than any of 500 boxes carries them all", 501, false, tray, true},
+        {"tray", "a plate of less than half their weight carries 500 boxes", 501, false, tray, true},
         {"pile1m", "boxes of 1 m lie still in a pit, fall asleep, and wake where a ball strikes", 10000, true, pile1m, true},
         {"mix1m", "spheres, capsules and boxes of about 1 m lie still in a pit", 10000, true, mix1m, true},
         {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},

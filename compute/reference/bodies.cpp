@@ -17,6 +17,7 @@ struct Sum {
     physics::Velocity change{};
     float carrying = 0;
     float told = physics::FOREVER;
+    float pressing = 0;
 };
 
 Sum sum_of_slots(const State& state, std::size_t body) {
@@ -27,7 +28,8 @@ Sum sum_of_slots(const State& state, std::size_t body) {
         sum.change.linear += slot.linear;
         sum.change.angular += slot.angular;
         sum.carrying += slot.carries;
-        if (slot.carries > 0) sum.told = std::min(sum.told, slot.quiet);
+        if (slot.carries > 0) sum.told = std::min(sum.told, slot.told);
+        sum.pressing += slot.told;
     });
     return sum;
 }
@@ -76,7 +78,7 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         state.flights[i] = physics::flight_of(state.poses[i]);
         if (physics::will_be_fast(traits, state.velocities[i], state.fixed())) note(counts.fast, 1u);
         state.masses[i] =
-            physics::mass_in_world(traits, state.poses[i].orientation, physics::split_at_rest(state.rests[i], state.fixed()));
+            physics::mass_in_world(traits, state.poses[i].orientation, physics::crowd_at_rest(state.rests[i], state.fixed()));
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs = physics::stirs(traits.motion, state.velocities[i], state.rests[i], sleep_steps);
         if (!traits.large) note(counts.levels, 1u << bounds.level);
@@ -94,7 +96,7 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t) {
         const Sum sum = sum_of_slots(state, i);
         state.velocities[i] =
             physics::accelerated(state.velocities[i], sum.change, state.loads[i], state.traits[i], state.fixed());
-        state.masses[i].split = physics::split_of(sum.carrying, state.fixed());
+        state.masses[i].split = physics::crowd_of(sum.carrying, sum.pressing);
     });
 }
 

@@ -31,11 +31,11 @@ vec3 pull(const State& state, const physics::Constraint& c) {
     return c.restitution > 0 ? physics::pull_of(state.loads[c.a], state.loads[c.b]) : vec3(0);
 }
 
-// `quiet`: what A and B tell of their rest.
+// `told`: what A and B tell each other.
 void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying,
-              std::array<float, 2> quiet = {0, 0}) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying, quiet[1]);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying, quiet[0]);
+              std::array<float, 2> told = {0, 0}) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying, told[1]);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying, told[0]);
 }
 
 }  // namespace
@@ -93,7 +93,6 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t index = c.pair;
         const physics::Pair& pair = state.pairs[index];
         const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
-        const physics::Mass &ma = state.masses[pair.a], &mb = state.masses[pair.b];
         const physics::Manifold& manifold = state.manifolds[index];
         physics::Contact& contact = state.contacts[i];
         physics::Impulse& impulse = state.impulses[i];
@@ -120,9 +119,12 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c = physics::constraint_of(contact, ta, tb, c.slot_a, c.slot_b, p);
         c.pair = index;
 
+        impulse.pressed = physics::pressing(impulse);
+        const physics::Mass ma = physics::lent(state.masses[c.a], impulse, p), mb = physics::lent(state.masses[c.b], impulse, p);
         const physics::Couple now = velocities_of(state, c);
         const float carrying = physics::carries(c, impulse, now, p);
-        hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying);
+        hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying,
+                 {impulse.pressed, impulse.pressed});
     });
 }
 
@@ -130,7 +132,8 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().solved, [&](std::size_t k) {
         const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass &ma = state.masses[c.a], &mb = state.masses[c.b];
+        const physics::Mass ma = physics::lent(state.masses[c.a], state.impulses[i], state.fixed());
+        const physics::Mass mb = physics::lent(state.masses[c.b], state.impulses[i], state.fixed());
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         state.impulses[i] = after.impulse;
@@ -142,20 +145,22 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
     threads.for_each(state.counted().solved, [&](std::size_t k) {
         const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a]);
-        const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b]);
+        const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a], state.fixed());
+        const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b], state.fixed());
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
-        state.impulses[i] = physics::without_blows(after.impulse, c.count);
+        physics::Impulse& impulse = state.impulses[i];
+        impulse = physics::without_blows(after.impulse, c.count);
+        impulse.pressed = physics::pressing(impulse);
         physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
-        const float carrying = physics::carries(c, state.impulses[i], after.couple, state.fixed());
+        const float carrying = physics::carries(c, impulse, after.couple, state.fixed());
         if (last) {
             const auto told = [&](std::uint32_t body) {
                 return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
             };
             hand_out(state, c, share, carrying, {told(c.a), told(c.b)});
         } else {
-            hand_out(state, c, physics::warm_start(c, state.impulses[i], share, ma, mb), carrying);
+            hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying, {impulse.pressed, impulse.pressed});
         }
     });
 }

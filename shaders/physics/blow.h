@@ -13,6 +13,7 @@
 #define SCREE_PHYSICS_BLOW_H
 
 #include "shaders/physics/contact.h"
+#include "shaders/physics/crowd.h"
 #include "shaders/physics/row.h"
 
 LAWS_BEGIN
@@ -55,7 +56,8 @@ LAW float blow_of(Impulse impulse) {
 }
 
 // The mass as it is shared in the pass without bias.
-LAW Mass shared_for(Impulse impulse, Mass mass, Load load) {
+LAW Mass shared_for(Impulse impulse, Mass mass, Load load, Parameters parameters) {
+    mass = lent(mass, impulse, parameters);
     if (blow_of(impulse) > 0.0f) mass.split = larger(1.0f, load.blows);
     return mass;
 }

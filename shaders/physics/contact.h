@@ -19,6 +19,10 @@ LAW float match_radius(Traits a, Traits b) {
     return 0.1f * smaller(thickness(a), thickness(b));
 }
 
+// The sum over the points, N s.
+LAW float pressing(Impulse impulse) {
+    return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
+}
 LAW Impulse no_impulse(vec3 d) {
     Impulse impulse;
     impulse.normal = vec4(0.0f);
@@ -29,7 +33,7 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.rolling = vec3(0.0f);
     impulse.slipped = 0.0f;
     impulse.d = d;
-    impulse.pad1 = 0.0f;
+    impulse.pressed = 0.0f;
     return impulse;
 }
 

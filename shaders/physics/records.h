@@ -54,7 +54,7 @@ struct Mass {
     float xx, xy, xz, yy;  // world inverse inertia tensor, symmetric, 1/(kg m^2)
     float yz, zz;
     float inverse_mass;  // 1/kg
-    float split;         // s = max(1, contacts / 1.5): the body's mass is shared by that many blocks
+    float split;         // of the mass lent to a contact: a part of 1/split. In the table: how crowded the body is (crowd.h)
 };
 struct Load {
     vec3 acceleration;  // gravity and forces, m/s^2, over the whole step
@@ -141,7 +141,7 @@ struct Impulse {
     vec3 rolling;     // world, on B, N m s
     float slipped;    // way of B along A's surface in this step, m
     vec3 d;           // centre of B minus centre of A now, m: where both bodies feel the same point
-    float pad1;
+    float pressed;    // the sum of `normal` as the substep began, N s
 };
 
 // ---- contacts: what the solver needs in this step
@@ -170,7 +170,7 @@ struct Slot {       // what one contact did to one body; a body sums its slots i
     vec3 linear;    // m/s
     float carries;  // 1: the contact pushes, or will in the next substep; it counts in the split
     vec3 angular;   // rad/s
-    float quiet;    // in the last pass: what the other body tells of its rest (rest.h), steps
+    float told;     // the normal impulse, N s; in the last pass what the other body tells of its rest (rest.h), steps
 };
 
 // ---- fast bodies

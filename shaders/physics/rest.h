@@ -14,6 +14,7 @@
 #define SCREE_PHYSICS_REST_H
 
 #include "shaders/physics/contact.h"
+#include "shaders/physics/crowd.h"
 
 LAWS_BEGIN
 
@@ -65,9 +66,9 @@ LAW bool is_shaken(uint rest, uint sleep_steps) {
 }
 // A sleeper keeps its share in every contact: with another, its neighbours' contacts would be of another softness, all of them
 // would shift, and heaps never came to rest.
-LAW float split_at_rest(uint rest, Parameters parameters) {
-    if (!is_asleep(rest, parameters.sleep_steps)) return 1.0f;
-    return larger(1.0f, float((rest >> CARRYING_SHIFT) & CARRYING_BITS) * parameters.inverse_relaxation);
+LAW float crowd_at_rest(uint rest, Parameters parameters) {
+    bool sleeps = is_asleep(rest, parameters.sleep_steps);
+    return crowd_of(sleeps ? float((rest >> CARRYING_SHIFT) & CARRYING_BITS) : 1.0f, -1.0f);
 }
 
 // Whether contacts and forces move a body in this step.
@@ -118,9 +119,6 @@ LAW uint rest_after(uint rest, float pace, float carrying, float told, uint slee
 }
 
 // ---- waking
-LAW float pressing(Impulse impulse) {
-    return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
-}
 // How fast two bodies approach where they touch within the step, m/s; < 0: they do not touch.
 LAW float approach_of(Manifold manifold, uint count, vec3 d, Velocity a, Velocity b, Parameters parameters) {
     float fastest = -1.0f;

@@ -16,5 +16,5 @@ void main() {
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
     velocities[i] = accelerated(velocities[i], sum.change, loads[i], body, PARAMETERS);
-    masses[i].split = split_of(sum.carrying, PARAMETERS);
+    masses[i].split = crowd_of(sum.carrying, sum.pressing);
 }

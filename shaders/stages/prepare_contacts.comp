@@ -30,7 +30,6 @@ void main() {
         return;
     }
     Traits ta = traits[pair.a], tb = traits[pair.b];
-    Mass ma = masses[pair.a], mb = masses[pair.b];
     Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
@@ -44,6 +43,7 @@ void main() {
         bool one_sleeps = (slot_a == NONE && ta.motion == MOTION_DYNAMIC) || (slot_b == NONE && tb.motion == MOTION_DYNAMIC);
         contact.load = load_of(one_sleeps, contacts_before[pair.previous], impulses_before[pair.previous]);
     }
+    if (!idle) impulse.pressed = pressing(impulse);
     contacts[i] = contact;
     impulses[i] = impulse;
     if (idle) {
@@ -54,11 +54,13 @@ void main() {
     constraint.pair = pair_index;
     constraints[i] = constraint;
 
+    Mass ma = lent(masses[pair.a], impulse, PARAMETERS);
+    Mass mb = lent(masses[pair.b], impulse, PARAMETERS);
     Couple now;
     now.a = velocities[pair.a];
     now.b = velocities[pair.b];
     float carrying = carries(constraint, impulse, now, PARAMETERS);
     Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
-    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(share.a, carrying, 0.0f);
-    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(share.b, carrying, 0.0f);
+    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(share.a, carrying, impulse.pressed);
+    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(share.b, carrying, impulse.pressed);
 }

@@ -12,24 +12,25 @@ void main() {
     uint i = binned[thread()];
     Constraint c = constraints[i];
     Impulse impulse = impulses[i];
-    Mass ma = shared_for(impulse, masses[c.a], loads[c.a]);
-    Mass mb = shared_for(impulse, masses[c.b], loads[c.b]);
+    Mass ma = shared_for(impulse, masses[c.a], loads[c.a], PARAMETERS);
+    Mass mb = shared_for(impulse, masses[c.b], loads[c.b], PARAMETERS);
     Couple before;
     before.a = velocities[c.a];
     before.b = velocities[c.b];
     vec3 pull = c.restitution > 0.0f ? pull_of(loads[c.a], loads[c.b]) : vec3(0.0f);
     Solved after = relaxed(c, impulse, before, ma, mb, pull, PARAMETERS);
     impulse = without_blows(after.impulse, c.count);
+    impulse.pressed = pressing(impulse);
     impulses[i] = impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
-    float quiet_a = 0.0f, quiet_b = 0.0f;
+    float told_a = impulse.pressed, told_b = impulse.pressed;
     if (push.pass == 0u) {
         share = warm_start(c, impulse, share, ma, mb);
     } else {
-        quiet_a = told_quiet(traits[c.a].motion, before.a, rests[c.a]);
-        quiet_b = told_quiet(traits[c.b].motion, before.b, rests[c.b]);
+        told_a = told_quiet(traits[c.a].motion, before.a, rests[c.a]);
+        told_b = told_quiet(traits[c.b].motion, before.b, rests[c.b]);
     }
     float carrying = carries(c, impulse, after.couple, PARAMETERS);
-    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, carrying, quiet_b);
-    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, carrying, quiet_a);
+    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, carrying, told_b);
+    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, carrying, told_a);
 }

@@ -9,12 +9,14 @@ void main() {
     if (thread() >= COUNTS.solved) return;
     uint i = binned[thread()];
     Constraint c = constraints[i];
-    Mass ma = masses[c.a], mb = masses[c.b];
+    Impulse impulse = impulses[i];
+    Mass ma = lent(masses[c.a], impulse, PARAMETERS);
+    Mass mb = lent(masses[c.b], impulse, PARAMETERS);
     Couple before;
     before.a = velocities[c.a];
     before.b = velocities[c.b];
     vec3 pull = c.restitution > 0.0f ? pull_of(loads[c.a], loads[c.b]) : vec3(0.0f);
-    Solved after = solved(c, impulses[i], before, ma, mb, pull, PARAMETERS);
+    Solved after = solved(c, impulse, before, ma, mb, pull, PARAMETERS);
     impulses[i] = after.impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
     float blow = blow_of(after.impulse);

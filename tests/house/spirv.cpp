@@ -101,7 +101,7 @@ const std::map<std::string, Record>& records() {
         {
             using R = Impulse;
             all["Impulse"] = {
-                sizeof(R), {M(normal), M(separation), M(approach), M(friction), M(twist), M(rolling), M(slipped), M(d), M(pad1)}};
+                sizeof(R), {M(normal), M(separation), M(approach), M(friction), M(twist), M(rolling), M(slipped), M(d), M(pressed)}};
         }
         {
             using R = Constraint;
@@ -112,7 +112,7 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Slot;
-            all["Slot"] = {sizeof(R), {M(linear), M(carries), M(angular), M(quiet)}};
+            all["Slot"] = {sizeof(R), {M(linear), M(carries), M(angular), M(told)}};
         }
         {
             using R = Flight;
