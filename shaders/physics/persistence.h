@@ -16,6 +16,9 @@ LAWS_BEGIN
 CONSTANT float KEPT_SLIP = 0.01f;     // of the thinner body's half width: further apart, and the contact is made anew
 CONSTANT float KEPT_SPEED = 0.1f;     // of the same in a second: faster, and it slides, rolls or tips
 CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the turn (5 degrees) after which a body's contacts are made anew
+// The same where there are one or two points (0.6 degrees, about as much as the slip allows where there are more): a body rocks
+// about them without slip, and where the normal of two edges is frozen while they turn, it rocks on for ever.
+CONSTANT float KEPT_ROCKING = 0.9999875f;
 
 // From the mark of a point on A to its mark on B, as the bodies lie now.
 LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
@@ -26,9 +29,9 @@ LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
     return (b.position - a.position) + mark_b - mark_a;
 }
 
-LAW bool turned_little(vec4 before, vec4 now) {
+LAW bool turned_little(vec4 before, vec4 now, uint points) {
     float cosine = (before.x * now.x + before.y * now.y) + (before.z * now.z + before.w * now.w);
-    return abs(cosine) > KEPT_TURN;
+    return abs(cosine) > (points > 2u ? KEPT_TURN : KEPT_ROCKING);
 }
 
 // Whether last step's contact serves for this step: it carried, the bodies do not roll on each other, and its marks
@@ -36,7 +39,8 @@ LAW bool turned_little(vec4 before, vec4 now) {
 LAW bool is_kept(Contact contact, Impulse impulse, Traits ta, Pose a, Velocity va, Traits tb, Pose b, Velocity vb) {
     if (ta.shape == SHAPE_SPHERE || tb.shape == SHAPE_SPHERE || (is_round(ta) && is_round(tb))) return false;
     if ((impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) <= 0.0f) return false;
-    if (!turned_little(contact.turn_a, a.orientation) || !turned_little(contact.turn_b, b.orientation)) return false;
+    if (!turned_little(contact.turn_a, a.orientation, contact.count)) return false;
+    if (!turned_little(contact.turn_b, b.orientation, contact.count)) return false;
     float size = smaller(thickness(ta), thickness(tb));
     float tolerance = KEPT_SLIP * size;
     float fastest = KEPT_SPEED * size;
