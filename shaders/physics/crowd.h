@@ -11,8 +11,10 @@
 
 LAWS_BEGIN
 
-CONSTANT float FEW_CONTACTS = 8.0f;  // up to here parts are equal; twice as many, and half goes by what presses. Below 6, piles
-                                     // of boxes are no longer as still
+// Up to here parts are equal; of twice as many contacts half goes by what presses. With 4 the deepest penetration in a pile of
+// ten thousand mixed bodies is 20 mm instead of 29, but loads shift the parts and parts the loads: it moves at 4 mm/s instead
+// of 1.
+CONSTANT float FEW_CONTACTS = 8.0f;
 CONSTANT float LEAST_PRESSING = 1e-30f;  // N s; nothing is known of what presses
 
 // Two numbers in one word: the contacts that carry, and what all of them press with, to one part in 128. Bits of a number that is
@@ -29,7 +31,7 @@ LAW float split_for(float crowd, float pressed, Parameters parameters) {
     float all = uintBitsToFloat(bits & 0xFFFF0000u);
     float split = contacts * parameters.inverse_relaxation;
     if (contacts > FEW_CONTACTS && all > 2.0f * LEAST_PRESSING) {
-        float by_pressing = smaller(0.5f, (contacts - FEW_CONTACTS) * (0.5f / FEW_CONTACTS));
+        float by_pressing = smaller(0.5f, (contacts - FEW_CONTACTS) * 0.0625f);
         float part = (1.0f - by_pressing) * reciprocal(contacts) + by_pressing * smaller(1.0f, pressed * reciprocal(all));
         split = parameters.inverse_relaxation * reciprocal(part);
     }

@@ -101,7 +101,8 @@ const std::map<std::string, Record>& records() {
         {
             using R = Impulse;
             all["Impulse"] = {
-                sizeof(R), {M(normal), M(separation), M(approach), M(friction), M(twist), M(rolling), M(slipped), M(d), M(pressed)}};
+                sizeof(R),
+                {M(normal), M(separation), M(approach), M(friction), M(twist), M(rolling), M(slipped), M(d), M(pressed)}};
         }
         {
             using R = Constraint;
