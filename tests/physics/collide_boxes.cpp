@@ -192,3 +192,31 @@ TEST_CASE("the deepest of many points is kept", "[collide]") {
         CHECK(deepest_of(few) == Approx(deepest_of(wide)).margin(5.1e-4));
     }
 }
+
+TEST_CASE("equal boxes turned by a fraction of a degree hold by all four corners", "[collide]") {
+    for (int k = -60; k <= 60; ++k) {
+        const float angle = 0.01f * static_cast<float>(k) * 0.017453292f;
+        for (const float aside : {0.0f, 0.0007f, -0.002f}) {
+            CAPTURE(k, aside);
+            const Touch touch =
+                collide(cube, at(0, 0, 0), cube, at(aside, 0.999f, -0.5f * aside, turn(vec3(0, 1, 0), angle)), margin);
+            REQUIRE(touch.count == 4u);
+            int quadrants = 0;
+            for (uint point = 0; point < 4; ++point) {
+                const vec3 here = point_of(touch, point);
+                CHECK(std::min(std::abs(here.x), std::abs(here.z)) > 0.45f);
+                quadrants |= 1 << ((here.x > 0) + 2 * (here.z > 0));
+            }
+            CHECK(quadrants == 15);
+        }
+    }
+}
+
+TEST_CASE("corners that touch are kept before corners further out in the air", "[collide]") {
+    // Eight corners in common; of a box that leans to +x, the four with x > 0 lie within the other.
+    const vec4 leaning = physics::compose(turn(vec3(0, 0, 1), -0.01f), turn(vec3(0, 1, 0), 0.78539816f));
+    const Touch touch = collide(cube, at(0, 0, 0), cube, at(0, 1.001f, 0, leaning), margin);
+    int touching = 0;
+    for (uint point = 0; point < touch.count; ++point) touching += touch.manifold.points[point].w < 0;
+    CHECK(touching >= 3);
+}
