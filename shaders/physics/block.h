@@ -15,6 +15,16 @@
 // of the other follows from the present distance d between the centres. So angular momentum is exact to rounding.
 // A body that flies past another leaves it within the step: once the way along the surface is longer than the other is
 // wide, the points hang in the air beside it, and the contact pushes no more until the next step finds it anew.
+//
+// What was measured against what (8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of 520):
+//   as it is                                            0.147 m  0.048 m  0.026 m
+//   relaxation 1.8 in place of 1.5                      both columns, of 20 and of 40, fall within seconds
+//   relaxation 1.2                                      columns press together by a quarter more
+//   contact frequency 0.2/h in place of 0.125/h         contacts toggle: columns buzz at 0.1 to 0.3 m/s and never rest
+//   damping ratio 20; 40                                0.147; 0.148   0.056; 0.066   0.027; 0.029
+//   momentum on the warm start, b = 0.3; 0.5            0.148; 0.147   0.044; 0.043   0.024; 0.023
+// Momentum (l + b (l - l before), dropped where the change turns about) would win a tenth in the buildings for 32 bytes more in
+// every contact; piles came to rest no sooner. Sixteen substeps win more: 0.06 m for the column.
 #ifndef SCREE_PHYSICS_BLOCK_H
 #define SCREE_PHYSICS_BLOCK_H
 
