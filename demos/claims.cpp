@@ -37,11 +37,6 @@ Claim penetration_below(double limit) {
                    [](const Trace& trace) { return trace.statistics.penetration_max; });
 }
 
-Claim mean_penetration_below(double limit) {
-    return at_most("mean penetration", limit, "m", "over the contact points that penetrate, at the end",
-                   [](const Trace& trace) { return trace.statistics.penetration_mean; });
-}
-
 Claim energy_never_rises(double part) {
     return at_most("greatest rise of energy, of what the run lost", part, "",
                    "kinetic and potential energy above the least before, every half second", [](const Trace& trace) {

@@ -5,12 +5,11 @@
 
 namespace scree::demos {
 
-Claim drift_below(double limit);             // m, of any dynamic body from its start
-Claim end_speed_below(double limit);         // m/s, of any dynamic body at the end
-Claim penetration_below(double limit);       // m, the deepest point at the end
-Claim mean_penetration_below(double limit);  // m, over the points that penetrate at the end
-Claim energy_never_rises(double part);       // by more than this part of what the run has turned into heat; needs samples
-Claim all_within(vec3 low, vec3 high);       // no dynamic body left the box between these corners
+Claim drift_below(double limit);        // m, of any dynamic body from its start
+Claim end_speed_below(double limit);    // m/s, of any dynamic body at the end
+Claim penetration_below(double limit);  // m, the deepest point at the end
+Claim energy_never_rises(double part);  // by more than this part of what the run has turned into heat; needs samples
+Claim all_within(vec3 low, vec3 high);  // no dynamic body left the box between these corners
 
 // The angle between a body's own axis and the vertical, degrees.
 double tilt(const BodyState& body, vec3 axis);

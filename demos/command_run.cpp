@@ -36,7 +36,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 // What must be known before hours of work: that its result can be written.
 void require_writable(const Options& options) {
-    if (options.pictures.fps > static_cast<double>(options.scene.rate)) {
+    if (options.pictures.wanted() && options.pictures.fps > static_cast<double>(options.scene.rate)) {
         throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
                                      options.scene.rate));
     }

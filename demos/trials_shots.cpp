@@ -66,10 +66,6 @@ DemoScene finish(Scene scene, const Front& front, const std::string& what, std::
     return {std::move(scene), view_of(-high, high, 30, 15), -high, high, seconds, Promise(none_through(what, std::move(shots)))};
 }
 
-}  // namespace
-
-namespace {
-
 // More wall around the pieces, as wide as the way of the fastest shot: one that does not bounce slides along it.
 void add_margin(Scene& scene, const Front& front, float half_thickness, float seconds) {
     const vec3 inner = front.corner(half_thickness);

@@ -10,9 +10,10 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
+    if (COUNTS.overflow != 0u) return;
+    if (i == 0u) first_contacts[PARAMETERS.bodies] = COUNTS.contacts;  // even of no bodies
+    if (i >= PARAMETERS.bodies) return;
     first_contacts[i] = contact_starts[pair_starts[i]];
-    if (i == PARAMETERS.bodies - 1u) first_contacts[i + 1u] = COUNTS.contacts;
     uint first = i == 0u ? 0u : slot_ends[i - 1u];
     uint count = slot_ends[i] - first;
     sort_range(first, count);

@@ -60,6 +60,11 @@ TEST_CASE("every stage gives the same bits on both processors, whatever the numb
     }
 }
 
+TEST_CASE("every stage gives the same bits on both processors, even of a scene without a body") {
+    const Watched watched;
+    REQUIRE(contacts_walked({}, watched, 3) == 0);
+}
+
 TEST_CASE("every stage gives the same bits on both processors, whatever the number of contacts") {
     const Watched watched;
     for (const unsigned bodies : {1u, 2u, 3u, 63u, 64u, 65u, 127u, 128u, 129u, 255u, 256u, 257u}) {
