@@ -92,7 +92,7 @@ TEST_CASE("program: an unknown option or value is answered with what is known", 
     require_refused(run_scree("run pile --bodies many"), {"\"many\" is not a number"});
     require_refused(run_scree("run pile --bodies -5"), {"--bodies", "at least 1"});
     require_refused(run_scree("run wall --bodies 100"), {"wall", "fixed number", "avalanche"});
-    require_refused(run_scree("run wall --fps 120"), {"--fps 120", "--rate"});
+    require_refused(run_scree("run wall --frames nowhere --fps 120"), {"--fps 120", "--rate"});
     require_refused(run_scree(""), {"--help"});
 }
 
