@@ -11,8 +11,6 @@ namespace scree::demos {
 
 namespace {
 
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
-
 template <class Timed>
 const Timed& nearest_to(const std::vector<Timed>& all, double time) {
     return *std::min_element(all.begin(), all.end(), [time](const Timed& a, const Timed& b) {

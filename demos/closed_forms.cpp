@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "shaders/physics/arithmetic.h"
 
@@ -14,8 +13,6 @@ namespace scree::demos {
 namespace {
 
 using glm::dvec3;
-
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 // The greatest of the errors of some bodies; not a number if one is, or if there are none.
 template <class Bodies, class Error>

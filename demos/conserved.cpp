@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
-#include <limits>
 
 #include "demos/building.h"
 #include "demos/closed_forms.h"
@@ -13,8 +12,6 @@ namespace scree::demos {
 namespace {
 
 using glm::dvec3;
-
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 struct Motions {
     dvec3 linear{0};             // kg m/s

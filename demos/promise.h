@@ -11,6 +11,9 @@
 
 namespace scree::demos {
 
+// Measured where there is nothing to measure: it passes nothing.
+constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
+
 // What is remembered of a run. Small: what a promise has not asked for is not kept.
 struct Trace {
     struct Moment {

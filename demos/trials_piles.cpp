@@ -80,7 +80,6 @@ Claim penetration_when_settled(double when) {
 
 // ---- sleeping: allowed when the pile has settled; the pile is left alone, then struck
 constexpr double left_alone = settled + 5, struck = settled + 6, end = settled + 13;  // s
-constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
 double count_dynamic(const Trace& trace) {
     const auto& bodies = trace.scene.bodies;

@@ -1,6 +1,6 @@
 // How a body's mass is shared out among the contacts that it has to bear.
 //
-// Mass splitting converges for any parts of a body's mass that sum to 1 (block.h). Equal ones serve up to a dozen contacts. A
+// Mass splitting converges for any parts of a body's mass that sum to 1 (block.h). Equal ones serve up to eight contacts. A
 // tray under hundreds of bodies would lend each of the few contacts that hold it up a hundredth of its mass, and sink through its
 // table: so where contacts are many, half of the mass is shared out by what each contact pressed with as the substep began.
 #ifndef SCREE_PHYSICS_CROWD_H
