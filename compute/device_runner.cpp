@@ -109,7 +109,8 @@ void DeviceRunner::upload() {
     for (const Table table : {parameters, counts, traits, poses, velocities, rests}) send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
-    for (const Table table : {contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
+    for (const Table table :
+         {masses, contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
         if (!state_->raw(table).empty()) send(table);
 }
 
@@ -240,8 +241,8 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts,  traits,          poses,           velocities,
-                          rests,      actions, contacts_before, impulses_before, first_contacts_before};
+    const auto lasting = {parameters, counts,  traits,          poses,           velocities,           rests,
+                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;

@@ -66,7 +66,7 @@ std::vector<Stage> plan(int substeps) {
     // the solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t last = substep == substeps;
-        s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}});
+        s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}, substep == 1});
         s.push_back({"solve_contacts", Over::solved, solve_contacts, {impulses, slots}});
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
         s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});

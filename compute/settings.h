@@ -10,7 +10,7 @@ struct Settings {
     int substeps = 8;  // per step, 1 to 64. Contact stiffness grows with its square, cost in proportion
 
     // Contact constraint: a damped spring solved implicitly (Catto, Soft Constraints, GDC 2011).
-    float contact_hertz = 0.125f;        // of the substep rate. Above 0.125 split contacts over-react and stacks buzz
+    float contact_hertz = 0.14f;         // of the substep rate. Above 0.14 split contacts over-react and stacks buzz
     float contact_damping_ratio = 10;    // 1 to 40: below, what was pushed apart springs
     float push_speed = 3;                // m/s, greatest speed at which overlapping bodies are pushed apart
     float split_relaxation = 1.5f;       // mass splitting: s = max(1, contacts / this). Converges below 2; 1.95 fell over

@@ -77,8 +77,7 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         bounds = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.loads[i], state.fixed());
         state.flights[i] = physics::flight_of(state.poses[i]);
         if (physics::will_be_fast(traits, state.velocities[i], state.fixed())) note(counts.fast, 1u);
-        state.masses[i] =
-            physics::mass_in_world(traits, state.poses[i].orientation, physics::crowd_at_rest(state.rests[i], state.fixed()));
+        state.masses[i] = physics::mass_in_world(traits, state.poses[i].orientation, state.masses[i].split);
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs = physics::stirs(traits.motion, state.velocities[i], state.rests[i], sleep_steps);
         if (!traits.large) note(counts.levels, 1u << bounds.level);
@@ -89,14 +88,16 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
-void begin_substep(State& state, const Threads& threads, std::uint32_t) {
+void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
     if (state.counted().overflow) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (!moved_by_contacts(state, i)) return;
         const Sum sum = sum_of_slots(state, i);
         state.velocities[i] =
             physics::accelerated(state.velocities[i], sum.change, state.loads[i], state.traits[i], state.fixed());
-        state.masses[i].split = physics::crowd_of(sum.carrying, sum.pressing);
+        float& crowd = state.masses[i].split;
+        if (first) crowd = physics::drifted(crowd, sum.carrying, state.counted().steps);
+        crowd = physics::crowd_after(crowd, sum.carrying, sum.pressing);
     });
 }
 

@@ -122,6 +122,10 @@ LAW float width_along(Traits traits, vec4 orientation, vec3 normal) {
     return slant.y >= slant.z ? smaller(traits.size.x, traits.size.z) : smaller(traits.size.x, traits.size.y);
 }
 
+// The reach of a corner or a crossing of edges, of the thinner body's half width: a point is a small patch in truth. With none, a
+// box pinched between two points swings about them for ever.
+CONSTANT float POINT_PATCH = 0.01f;
+
 // The friction patch lies where the points touch: those still ahead weigh less, so its centre moves smoothly as a body tips.
 LAW vec3 patch_centre(Contact contact, Parameters parameters) {
     vec3 centre;
@@ -163,7 +167,8 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a,
         c.arms[k] = vec4(c.anchor == ANCHOR_B ? arm - contact.d : arm, 0.0f);
         reach = reach + length3(arm - centre);
     }
-    c.reach = contact.count > 1u ? reach * reciprocal(float(contact.count)) : 0.0f;
+    c.reach = reach * reciprocal(float(contact.count));
+    if (contact.count == 1u) c.reach = is_round(ta) || is_round(tb) ? 0.0f : POINT_PATCH * smaller(thickness(ta), thickness(tb));
     c.centre = c.anchor == ANCHOR_B ? centre - contact.d : centre;
     if (c.anchor == ANCHOR_ROUND) {
         vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);

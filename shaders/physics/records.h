@@ -157,7 +157,7 @@ struct Constraint {
     float friction;       // Coulomb coefficient of the pair
     vec4 arms[4];  // xyz: from the anchor's centre to the point, m (ANCHOR_ROUND: from A's centre to the centre of A's curvature)
     vec3 centre;   // of the friction patch, as the arms, m (ANCHOR_ROUND: of B's curvature, from B's centre)
-    float reach;   // mean distance of the points from the patch's centre, m: lever arm of twisting friction
+    float reach;   // lever arm of twisting friction, m: mean distance of the points from the patch's centre
     float rolling_resistance;  // of the pair, m
     float restitution;         // of the pair
     uint count;                // points

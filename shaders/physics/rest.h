@@ -18,12 +18,10 @@
 
 LAWS_BEGIN
 
-// The record of a body's rest. As the step begins: quiet steps in the low 12 bits, and above them how many contacts carried in
-// the last one. What wakes in this step adds bits, in any order: whether something woke the body, and one for each depth (in
-// contacts, 1 to DEEPEST) to which it shakes others, of which the highest counts.
+// The record of a body's rest. As the step begins: quiet steps in the low 12 bits. What wakes in this step adds bits, in any
+// order: whether something woke the body, and one for each depth (in contacts, 1 to DEEPEST) to which it shakes others, of which
+// the highest counts.
 CONSTANT uint QUIET_BITS = 0xFFFu;  // Settings::sleep_time ends below
-CONSTANT uint CARRYING_BITS = 0xFFu;
-CONSTANT uint CARRYING_SHIFT = 12u;
 CONSTANT uint WOKEN = 0x100000u;
 CONSTANT uint SHAKING_SHIFT = 21u;
 CONSTANT uint NO_SLEEP = 0xFFFFFFFFu;  // for Parameters.sleep_steps: nobody sleeps
@@ -63,12 +61,6 @@ LAW bool shakes(uint rest, uint depth) {
 // Not woken itself, but behind someone who was.
 LAW bool is_shaken(uint rest, uint sleep_steps) {
     return rest > WOKEN && (rest & WOKEN) == 0u && has_slept(rest, sleep_steps);
-}
-// A sleeper keeps its share in every contact: with another, its neighbours' contacts would be of another softness, all of them
-// would shift, and heaps never came to rest.
-LAW float crowd_at_rest(uint rest, Parameters parameters) {
-    bool sleeps = is_asleep(rest, parameters.sleep_steps);
-    return crowd_of(sleeps ? float((rest >> CARRYING_SHIFT) & CARRYING_BITS) : 1.0f, -1.0f);
 }
 
 // Whether contacts and forces move a body in this step.
@@ -114,8 +106,7 @@ LAW uint rest_after(uint rest, float pace, float carrying, float told, uint slee
     } else if (pace > SHAKEN_SPEED) {
         quiet = sleep_steps > SHAKEN_STEPS ? sleep_steps - SHAKEN_STEPS : 1u;
     }
-    uint contacts = uint(carrying);
-    return quiet | ((contacts < CARRYING_BITS ? contacts : CARRYING_BITS) << CARRYING_SHIFT);
+    return quiet;
 }
 
 // ---- waking

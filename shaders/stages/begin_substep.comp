@@ -16,5 +16,7 @@ void main() {
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
     velocities[i] = accelerated(velocities[i], sum.change, loads[i], body, PARAMETERS);
-    masses[i].split = crowd_of(sum.carrying, sum.pressing);
+    float crowd = masses[i].split;
+    if (push.pass != 0u) crowd = drifted(crowd, sum.carrying, COUNTS.steps);
+    masses[i].split = crowd_after(crowd, sum.carrying, sum.pressing);
 }

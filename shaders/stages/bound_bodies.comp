@@ -16,7 +16,7 @@ void main() {
     Bounds around = bounds_of(body, pose, velocities[i], loads[i], PARAMETERS);
     flights[i] = flight_of(pose);
     if (will_be_fast(body, velocities[i], PARAMETERS)) atomicOr(COUNTS.fast, 1u);
-    masses[i] = mass_in_world(body, pose.orientation, crowd_at_rest(rests[i], PARAMETERS));
+    masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
     atomicAdd(cells[around.bucket], 1u);
     if (body.large == 0u) atomicOr(COUNTS.levels, 1u << around.level);
     if (has_slept(rests[i], PARAMETERS.sleep_steps)) atomicOr(COUNTS.sleepers, 1u);
