@@ -26,34 +26,19 @@ host::ShapeInstances instances_of(const Scene& scene) {
     return instances;
 }
 
-// The bodies of a world on the processor, copied to a device to be drawn.
-struct Copies {
-    host::Buffer traits, poses, velocities;
+host::BodyTables tables_of(const DeviceRunner& runner, std::uint32_t contacts) {
+    return {&runner.traits(), &runner.poses(), &runner.velocities(), &runner.contacts(), &runner.impulses(), contacts};
+}
 
-    Copies(const std::shared_ptr<host::Device>& device, const World& world) {
-        const State start(world.scene(), world.settings(), 1, false);
-        const auto copy = [&](const char* name, Table table) {
-            host::Buffer buffer(device, name, start.raw(table).size());
-            buffer.write(start.raw(table).data(), buffer.bytes());
-            return buffer;
-        };
-        traits = copy("drawn traits", Table::traits);
-        poses = copy("drawn poses", Table::poses);
-        velocities = copy("drawn velocities", Table::velocities);
-    }
-    void update(const World& world) {
-        const std::vector<BodyState> bodies = world.bodies();
-        std::vector<physics::Pose> at(bodies.size());
-        std::vector<physics::Velocity> moving(bodies.size());
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            at[i] = {bodies[i].position, 0, bodies[i].orientation};
-            moving[i] = {bodies[i].velocity, 0, bodies[i].angular_velocity, 0};
-        }
-        if (bodies.empty()) return;
-        poses.write(at.data(), at.size() * sizeof(physics::Pose));
-        velocities.write(moving.data(), moving.size() * sizeof(physics::Velocity));
-    }
-};
+host::BodyTables tables_of(const State& state) {
+    const std::uint32_t contacts = state.counted().contacts;
+    return {state.traits,
+            state.poses,
+            state.velocities,
+            std::span(state.contacts).first(contacts),
+            std::span(state.impulses).first(contacts),
+            contacts};
+}
 
 host::Camera camera_of(const Viewpoint& view) {
     host::Camera camera;
@@ -92,8 +77,7 @@ struct Pictures::Interior {
     World& world;
     DeviceRunner* runner;  // null on the processor
     std::shared_ptr<host::Device> device;
-    std::optional<Copies> copies;
-    std::optional<host::Canvas> canvas;
+    std::unique_ptr<host::Canvas> canvas;
     std::unique_ptr<host::FrameWriter> writer;
     host::Camera camera;
     host::ColorScale scale;
@@ -102,15 +86,11 @@ struct Pictures::Interior {
     double fps;
     bool shows_contacts;
 
-    host::BodyTables tables() {
-        if (runner) {
-            return {&runner->traits(),   &runner->poses(),    &runner->velocities(),
-                    &runner->contacts(), &runner->impulses(), shows_contacts ? contact_count() : 0};
-        }
-        copies->update(world);
-        return {&copies->traits, &copies->poses, &copies->velocities};
+    host::BodyTables tables() const {
+        return runner ? tables_of(*runner, shows_contacts ? contact_count() : 0) : tables_of(world.state());
     }
     std::uint32_t contact_count() const {
+        if (!runner) return world.state().counted().contacts;
         physics::Counts counts{};
         runner->counts().read(&counts, sizeof counts);
         return counts.contacts;
@@ -122,25 +102,10 @@ struct Pictures::Interior {
 };
 
 Pictures::Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world)
-    : interior_(new Interior{world,
-                             dynamic_cast<DeviceRunner*>(&world.runner()),
-                             device_for_pictures(machine),
-                             {},
-                             {},
-                             nullptr,
-                             camera_of(subject.viewpoint),
-                             scale_of(options, subject),
-                             subject.name,
-                             subject.low,
-                             subject.high,
-                             options.fps,
-                             options.shows_contacts()}) {
+    : interior_(new Interior{world, dynamic_cast<DeviceRunner*>(&world.runner()), device_for_pictures(machine), nullptr, nullptr,
+                             camera_of(subject.viewpoint), scale_of(options, subject), subject.name, subject.low, subject.high,
+                             options.fps, options.shows_contacts()}) {
     Interior& in = *interior_;
-    if (in.shows_contacts && !in.runner) {
-        throw UsageError(
-            "--show contacts: contacts are drawn where a Vulkan device keeps them, but this run is on the processor: use "
-            "--backend vulkan");
-    }
     host::FrameWriterOptions writer;
     writer.folder = options.frames;
     writer.video = options.video;
@@ -148,8 +113,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
     writer.width = options.width;
     writer.height = options.height;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    if (!in.runner) in.copies.emplace(in.device, world);
-    in.canvas.emplace(in.device, instances_of(world.scene()), in.tables(), canvas_of(options, world));
+    in.canvas = host::make_vulkan_canvas(in.device, instances_of(world.scene()), canvas_of(options, world));
 }
 
 Pictures::~Pictures() = default;
