@@ -30,4 +30,7 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies = s
 // One body a line. Keys that have their default value are left out. Finite values only (SceneError otherwise): JSON has no other.
 std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint = {});
 
+// One body of it, as an object on one line.
+std::string body_to_json(const Body& body);
+
 }  // namespace scree

@@ -114,6 +114,12 @@ void write(Text& text, const Body& body) {
 
 }  // namespace
 
+std::string body_to_json(const Body& body) {
+    Text text;
+    write(text, body);
+    return text.take();
+}
+
 std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
     Text text;
     text << "{\"gravity\": " << scene.gravity << ",\n";

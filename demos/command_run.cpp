@@ -7,6 +7,7 @@
 
 #include "demos/commands.h"
 #include "demos/failure.h"
+#include "demos/input.h"
 #include "demos/interrupt.h"
 #include "demos/machine.h"
 #include "demos/message.h"
@@ -27,6 +28,8 @@ struct Options {
     MachineOptions machine;
     PictureOptions pictures;
     std::string report;
+    std::string input;            // a recording's file; may be empty
+    std::optional<Input> played;  // what is in it
     bool quiet = false;
 };
 
@@ -43,14 +46,15 @@ void require_writable(const Options& options) {
     require_writable_file("--report", options.report);
 }
 
-double step_alone(World& world) {
+double step_alone(World& world, const Script& before_step) {
+    if (before_step) before_step(world);
     const auto start = std::chrono::steady_clock::now();
     world.step();
     return seconds_since(start);
 }
 
-void step_timed(World& world, Recorder* recorder, RunReport& report) {
-    const double seconds = recorder ? recorder->step() : step_alone(world);
+void step_timed(const Subject& subject, World& world, Recorder* recorder, RunReport& report) {
+    const double seconds = recorder ? recorder->step() : step_alone(world, subject.before_step);
     if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
     if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
     report.step_ms.push_back(seconds * 1e3);
@@ -64,7 +68,7 @@ bool simulate(const Options& options, const Subject& subject, World& world, Pict
     if (pictures) pictures->after_step();
     for (int i = 0; i < steps; ++i) {
         if (is_interrupted()) return false;
-        step_timed(world, recorder, report);
+        step_timed(subject, world, recorder, report);
         if (pictures) pictures->after_step();
         progress.done(i + 1);
     }
@@ -78,6 +82,14 @@ void hold_to_promise(const Subject& subject, World& world, Recorder* recorder, R
     Trace sound;
     sound.statistics = report.statistics;
     report.rows = report.judged ? subject.promise->judge(recorder->finish()) : judge(soundness(), sound);
+}
+
+// A recording that was played to its end must end as it did.
+void hold_to_recording(const Options& options, RunReport& report) {
+    if (!options.played || !options.played->end_hash || options.played->steps != report.steps) return;
+    const std::uint64_t hash = *options.played->end_hash;
+    report.rows.push_back(
+        {"state hash at the end", hash_text(hash) + ", as recorded", hash_text(report.state_hash), hash == report.state_hash});
 }
 
 void conclude(const Options& options, const Subject& subject, const RunReport& report) {
@@ -132,6 +144,7 @@ int work(const Options& options, const Subject& subject, const Machine& machine,
     report.frames = pictures ? pictures->count() : 0;
     measure(world, report);
     hold_to_promise(subject, world, records, report);
+    hold_to_recording(options, report);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();
     machine.require_valid();
@@ -154,7 +167,11 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
 int run(const Options& options) {
     RunReport report;
     require_writable(options);
-    const Subject subject = load_subject(options.scene);
+    Subject subject = load_subject(options.scene);
+    if (options.played) {  // happens again, and the demo's promise no longer binds
+        subject.before_step = replay(*options.played, options.input, std::move(subject.before_step));
+        subject.promise.reset();
+    }
     const Machine machine = choose_machine(options.machine);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
@@ -162,6 +179,16 @@ int run(const Options& options) {
     std::optional<Pictures> pictures;
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
+}
+
+int run(const CLI::App& command, Options options) {
+    if (!options.input.empty()) {
+        options.played = load_input(options.input);
+        options.scene = with_input(command, options.scene, *options.played, options.input);
+    } else if (options.scene.name.empty()) {
+        throw UsageError("run: name a demo (scree list) or a scene file, or give a recording with --input");
+    }
+    return run(options);
 }
 
 }  // namespace
@@ -173,11 +200,15 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     add_options(*command, options->pictures);
     command->add_option("--report", options->report, "a file for all numbers of the run as JSON; - is the standard output");
+    command->add_option("--input", options->input,
+                        "a recording of `scree view --record`: its scene, settings and steps, and all that was done, bit by bit");
+    command->get_option("scene")->required(false);
     command->add_flag("--quiet,-q", options->quiet, "no progress and no summary");
     command->footer(
-        "Examples:\n  scree run tower\n  scree run avalanche --bodies 20k --seconds 10 --video avalanche.mp4\n"
+        "Examples:\n  scree run tower\n  scree run --input played.json --video played.mp4\n  scree run avalanche --bodies 20k "
+        "--seconds 10 --video avalanche.mp4\n"
         "  scree run scene.json --backend cpu --threads 4 --report -");
-    command->callback([options, &status] { status = run(*options); });
+    command->callback([command, options, &status] { status = run(*command, *options); });
 }
 
 }  // namespace scree::demos
