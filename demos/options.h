@@ -37,7 +37,8 @@ struct SceneOptions {
 };
 
 struct PictureOptions {
-    std::string frames, video;  // empty: none
+    std::string frames, video;    // empty: none
+    std::string canvas = "auto";  // what draws: auto, vulkan or gl
     int width = 1280, height = 720;
     double fps = 30;
     std::string color = "momentum", color_map = "plasma";

@@ -3,42 +3,14 @@
 
 #include <fmt/format.h>
 
-#include "compute/device_runner.h"
-#include "compute/state.h"
 #include "demos/color_range.h"
-#include "demos/failure.h"
+#include "demos/drawing.h"
 #include "host/canvas.h"
 #include "host/frame_writer.h"
-#include "shaders/physics/records.h"
 
 namespace scree::demos {
 
 namespace {
-
-host::ShapeInstances instances_of(const Scene& scene) {
-    host::ShapeInstances instances;
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        // In the order of Shape's alternatives.
-        std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes,
-                                                     &instances.planes};
-        lists[scene.bodies[i].shape.index()]->push_back(i);
-    }
-    return instances;
-}
-
-host::BodyTables tables_of(const DeviceRunner& runner, std::uint32_t contacts) {
-    return {&runner.traits(), &runner.poses(), &runner.velocities(), &runner.contacts(), &runner.impulses(), contacts};
-}
-
-host::BodyTables tables_of(const State& state) {
-    const std::uint32_t contacts = state.counted().contacts;
-    return {state.traits,
-            state.poses,
-            state.velocities,
-            std::span(state.contacts).first(contacts),
-            std::span(state.impulses).first(contacts),
-            contacts};
-}
 
 host::Camera camera_of(const Viewpoint& view) {
     host::Camera camera;
@@ -75,9 +47,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
 
 struct Pictures::Interior {
     World& world;
-    DeviceRunner* runner;  // null on the processor
-    std::shared_ptr<host::Device> device;
-    std::unique_ptr<host::Canvas> canvas;
+    std::optional<Drawing> drawing;
     std::unique_ptr<host::FrameWriter> writer;
     host::Camera camera;
     host::ColorScale scale;
@@ -86,25 +56,23 @@ struct Pictures::Interior {
     double fps;
     bool shows_contacts;
 
-    host::BodyTables tables() const {
-        return runner ? tables_of(*runner, shows_contacts ? contact_count() : 0) : tables_of(world.state());
-    }
-    std::uint32_t contact_count() const {
-        if (!runner) return world.state().counted().contacts;
-        physics::Counts counts{};
-        runner->counts().read(&counts, sizeof counts);
-        return counts.contacts;
-    }
     std::string caption() const {
-        const std::string contacts = shows_contacts ? fmt::format("{} contacts, ", contact_count()) : "";
+        const std::string contacts = shows_contacts ? fmt::format("{} contacts, ", drawing->contacts()) : "";
         return fmt::format("{}\n{} bodies, {}{:.2f} s", name, world.scene().bodies.size(), contacts, world.time());
     }
 };
 
 Pictures::Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world)
-    : interior_(new Interior{world, dynamic_cast<DeviceRunner*>(&world.runner()), device_for_pictures(machine), nullptr, nullptr,
-                             camera_of(subject.viewpoint), scale_of(options, subject), subject.name, subject.low, subject.high,
-                             options.fps, options.shows_contacts()}) {
+    : interior_(new Interior{world,
+                             {},
+                             nullptr,
+                             camera_of(subject.viewpoint),
+                             scale_of(options, subject),
+                             subject.name,
+                             subject.low,
+                             subject.high,
+                             options.fps,
+                             options.shows_contacts()}) {
     Interior& in = *interior_;
     host::FrameWriterOptions writer;
     writer.folder = options.frames;
@@ -113,7 +81,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
     writer.width = options.width;
     writer.height = options.height;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    in.canvas = host::make_vulkan_canvas(in.device, instances_of(world.scene()), canvas_of(options, world));
+    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, world));
 }
 
 Pictures::~Pictures() = default;
@@ -123,8 +91,8 @@ void Pictures::after_step() {
     // The picture of moment n / fps is taken at the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.writer->frames() / in.fps) return;
-    in.canvas->set_tables(in.tables());
-    in.writer->add(in.canvas->draw(in.camera, in.scale, in.caption(), in.low, in.high));
+    in.drawing->update();
+    in.writer->add(in.drawing->canvas().draw(in.camera, in.scale, in.caption(), in.low, in.high));
 }
 
 void Pictures::finish() {
@@ -133,6 +101,10 @@ void Pictures::finish() {
 
 int Pictures::count() const {
     return interior_->writer->frames();
+}
+
+std::string Pictures::canvas() const {
+    return interior_->drawing->canvas().name();
 }
 
 const std::vector<std::string>& color_words() {

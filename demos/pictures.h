@@ -24,6 +24,7 @@ public:
     void after_step();  // draws if a picture is due; also before the first step
     void finish();      // waits until all is written, and throws what went wrong there
     int count() const;
+    std::string canvas() const;  // for people: what draws them, and on which device
 
 private:
     struct Interior;

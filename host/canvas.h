@@ -80,6 +80,8 @@ class Canvas {
 public:
     virtual ~Canvas() = default;
 
+    virtual std::string name() const = 0;  // for people: what draws, and on which device
+
     // Where the bodies are from now on; before the first picture, and when tables were made anew. Throws std::invalid_argument
     // for a table that is missing, or that lies where this canvas cannot draw from.
     virtual void set_tables(const BodyTables& tables) = 0;
@@ -95,5 +97,9 @@ public:
 // Throws DeviceError for sizes that the device cannot draw. Tables may lie on `device` or in host memory, each as it likes.
 std::unique_ptr<Canvas> make_vulkan_canvas(std::shared_ptr<Device> device, const ShapeInstances& instances,
                                            const CanvasOptions& options = {});
+
+// Throws DeviceError where there is no OpenGL ES 3.1 without a window, saying what to install, and for sizes that it cannot draw.
+// Tables must lie in host memory.
+std::unique_ptr<Canvas> make_gl_canvas(const ShapeInstances& instances, const CanvasOptions& options = {});
 
 }  // namespace scree::host

@@ -99,6 +99,11 @@ VulkanCanvas::VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances&
     : interior_(std::make_unique<Interior>(std::move(device), instances, options)) {}
 VulkanCanvas::~VulkanCanvas() = default;
 
+std::string VulkanCanvas::name() const {
+    const DeviceReport& report = interior_->device->report();
+    return "Vulkan " + report.api_version + ", " + report.name;
+}
+
 void VulkanCanvas::set_tables(const BodyTables& tables) {
     require_tables(tables, interior_->options);
     for (const BindingInfo& info : binding_infos()) {
