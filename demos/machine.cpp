@@ -13,22 +13,30 @@ std::unique_ptr<Runner> Machine::make_runner() const {
 }
 
 void Machine::require_valid() const {
-    if (!device || !options.validate) return;
-    const std::vector<std::string> messages = device->validation_messages();
+    const std::shared_ptr<host::Device>& watched = device ? device : screen;
+    if (!watched || !options.validate) return;
+    const std::vector<std::string> messages = watched->validation_messages();
     if (messages.empty()) return;
     throw WorkFailed("Vulkan validation: " + std::to_string(messages.size()) + " messages, the first: " + messages.front());
 }
 
-Machine choose_machine(const MachineOptions& options) {
+Machine choose_machine(const MachineOptions& options, const std::vector<const char*>& window_extensions) {
     Machine machine{options, nullptr, ""};
+    const bool shows = !window_extensions.empty();
+    const auto open = [&] {
+        return host::Device::open(
+            {.which = options.device, .validation = options.validate, .window_extensions = window_extensions, .on_message = {}});
+    };
     if (options.backend == "cpu") {
         if (!options.device.empty())
             throw UsageError("--device: the backend cpu has no devices; use --threads, or --backend vulkan");
+        if (shows) machine.screen = open();
         return machine;
     }
-    const bool insist = options.backend == "vulkan" || !options.device.empty() || options.validate;
+    const bool insist = options.backend == "vulkan" || !options.device.empty() || options.validate || shows;
     try {
-        machine.device = host::Device::open({.which = options.device, .validation = options.validate, .on_message = {}});
+        machine.device = open();
+        if (shows) machine.screen = machine.device;
     } catch (const host::DeviceError& error) {
         if (insist) throw;
         machine.remark = std::string("no Vulkan device (") + error.what() + "); simulating on the processor";
@@ -38,7 +46,7 @@ Machine choose_machine(const MachineOptions& options) {
 
 std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
                                                  const host::CanvasOptions& options) {
-    std::shared_ptr<host::Device> device = machine.device;
+    std::shared_ptr<host::Device> device = machine.device ? machine.device : machine.screen;
     if (!device) device = host::Device::open({.which = "", .validation = machine.options.validate, .on_message = {}});
     return host::make_vulkan_canvas(std::move(device), instances, options);
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "compute/runner.h"
 #include "demos/options.h"
@@ -16,8 +17,9 @@ namespace scree::demos {
 
 struct Machine {
     MachineOptions options;
-    std::shared_ptr<host::Device> device;  // null on the processor
-    std::string remark;                    // why it is not what one might expect; may be empty
+    std::shared_ptr<host::Device> device;            // null on the processor
+    std::string remark;                              // why it is not what one might expect; may be empty
+    std::shared_ptr<host::Device> screen = nullptr;  // shows a window; null unless one was asked for
 
     std::unique_ptr<Runner> make_runner() const;
     // Throws WorkFailed with what the validation layers said, if they were asked for and said anything.
@@ -25,7 +27,8 @@ struct Machine {
 };
 
 // Throws host::DeviceError when the user named a backend or a device that is not there.
-Machine choose_machine(const MachineOptions& options);
+// `window_extensions`: for a machine with a screen (host::Display::extensions); it throws when no device can be that.
+Machine choose_machine(const MachineOptions& options, const std::vector<const char*>& window_extensions = {});
 
 // A canvas on the machine's own device, else on any. Throws host::DeviceError that says what to install.
 std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,

@@ -15,7 +15,7 @@ std::unique_ptr<Runner> Machine::make_runner() const {
 
 void Machine::require_valid() const {}
 
-Machine choose_machine(const MachineOptions& options) {
+Machine choose_machine(const MachineOptions& options, const std::vector<const char*>&) {
     if (options.backend == "vulkan") throw UsageError(std::string("--backend vulkan: ") + cure);
     if (!options.device.empty()) throw UsageError(std::string("--device: ") + cure);
     return {options, nullptr, ""};

@@ -113,36 +113,55 @@ void VulkanCanvas::set_tables(const BodyTables& tables) {
     interior_->tables = tables;
 }
 
+void VulkanCanvas::Interior::record(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+                                    vec3 scene_high) {
+    const VulkanFunctions& vk = device->vk();
+    require_tables(tables, options);
+    const Frame seen = make_frame(camera, scale, options, scene_low, scene_high);
+    frame.write(&seen, sizeof seen);
+    std::vector<OverlayQuad> laid;
+    if (options.legend) laid = overlay_quads(options.width, options.height, scale, caption);
+    laid.resize(std::min<std::size_t>(laid.size(), MOST_QUADS));
+    if (!laid.empty()) quads.write(laid.data(), laid.size() * sizeof(OverlayQuad));
+    write_set();
+
+    begin();
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
+    vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                            VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &barrier, 0,
+                            nullptr, 0, nullptr);
+    vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, layout, 0, 1, &set, 0, nullptr);
+    draw_shadows(0);
+    draw_shadows(1);
+    draw_picture(static_cast<std::uint32_t>(laid.size()));
+}
+
+VkImage VulkanCanvas::draw_there(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+                                 vec3 scene_high) {
+    interior_->record(camera, scale, caption, scene_low, scene_high);
+    interior_->end_and_wait();
+    return interior_->target.image;
+}
+
+const CanvasOptions& VulkanCanvas::options() const {
+    return interior_->options;
+}
+
 Image VulkanCanvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                          vec3 scene_high) {
     Interior& in = *interior_;
     const VulkanFunctions& vk = in.device->vk();
     const CanvasOptions& options = in.options;
-    require_tables(in.tables, options);
-    const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
-    in.frame.write(&frame, sizeof frame);
-    std::vector<OverlayQuad> quads;
-    if (options.legend) quads = overlay_quads(options.width, options.height, scale, caption);
-    quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));
-    if (!quads.empty()) in.quads.write(quads.data(), quads.size() * sizeof(OverlayQuad));
-    in.write_set();
-
-    in.begin();
-    VkMemoryBarrier barrier{};
-    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
-    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
-    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-    vk.vkCmdPipelineBarrier(in.commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                            VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &barrier, 0,
-                            nullptr, 0, nullptr);
-    vk.vkCmdBindDescriptorSets(in.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, in.layout, 0, 1, &in.set, 0, nullptr);
-    in.draw_shadows(0);
-    in.draw_shadows(1);
-    in.draw_picture(static_cast<std::uint32_t>(quads.size()));
+    in.record(camera, scale, caption, scene_low, scene_high);
     VkBufferImageCopy copy{};
     copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     copy.imageExtent = {static_cast<std::uint32_t>(options.width), static_cast<std::uint32_t>(options.height), 1};
     vk.vkCmdCopyImageToBuffer(in.commands, in.target.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, in.picture.handle(), 1, &copy);
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
     vk.vkCmdPipelineBarrier(in.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr,

@@ -20,6 +20,12 @@ public:
     Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                vec3 scene_high) override;
 
+    // As draw(), but the picture stays on the device: 8-bit sRGB, in the layout of a transfer's source, of the options' size,
+    // until the next one is drawn.
+    VkImage draw_there(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+                       vec3 scene_high);
+    const CanvasOptions& options() const;
+
 private:
     struct Interior;
     std::unique_ptr<Interior> interior_;

@@ -52,6 +52,8 @@ struct VulkanCanvas::Interior {
     const Buffer& table_of(std::uint32_t binding);
     void write_set();
 
+    // All of a picture, up to `target`.
+    void record(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high);
     void begin();
     void end_and_wait();
     void draw_all(Pass pass, std::uint32_t quad_count);
