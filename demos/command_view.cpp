@@ -94,7 +94,6 @@ private:
     host::Window window_;
     std::unique_ptr<Drawing> drawing_;
     std::uint64_t drawn_beginning_ = 0;
-    std::size_t drawn_bodies_ = 0;
     Extent drawn_extent_{0, 0};
     std::string color_;
     Rates rates_;
@@ -126,12 +125,11 @@ void Viewer::take_events(double wait) {
     }
 }
 
-// What is drawn is fixed in a canvas: its size, and which bodies there are.
+// Another world or another size needs another drawing.
 void Viewer::make_drawing() {
-    const std::size_t bodies = session_.world().scene().bodies.size();
     const Extent extent{window_.width(), window_.height()};
-    const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_bodies_ == bodies &&
-                      drawn_extent_.width == extent.width && drawn_extent_.height == extent.height;
+    const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_extent_.width == extent.width &&
+                      drawn_extent_.height == extent.height;
     if (same) return;
     host::CanvasOptions canvas;
     canvas.width = extent.width;
@@ -140,7 +138,6 @@ void Viewer::make_drawing() {
     drawing_ = std::make_unique<Drawing>("vulkan", machine_, session_.world(), canvas);
     if (drawn_beginning_ != session_.beginnings()) window_.set_title("scree: " + session_.subject().name);
     drawn_beginning_ = session_.beginnings();
-    drawn_bodies_ = bodies;
     drawn_extent_ = extent;
 }
 
@@ -152,8 +149,10 @@ void Viewer::draw() {
     make_drawing();
     drawing_->update();
     const Subject& subject = session_.subject();
-    const std::string caption = fmt::format("{}\n{} bodies, {:.2f} s{}", subject.name, session_.world().scene().bodies.size(),
-                                            session_.world().time(), interaction_.paused ? ", paused" : "");
+    const World& world = session_.world();
+    const std::string caption = panel_.shown ? ""
+                                             : fmt::format("{}\n{} bodies, {:.2f} s{}", subject.name, world.scene().bodies.size(),
+                                                           world.time(), interaction_.paused ? ", paused" : "");
     const host::View view{camera_of(interaction_.eye()), scale_of(color_, subject), caption, subject.low, subject.high};
     if (window_.show(drawing_->canvas(), view)) ++pictures_;
 }
@@ -163,7 +162,7 @@ void Viewer::run() {
     Clock::time_point before = Clock::now(), reported = before;
     while (!is_over()) {
         const bool minimised = window_.width() == 0;
-        take_events(minimised ? 0.05 : 0);
+        take_events(minimised ? 0.05 : interaction_.paused ? 0.02 : 0);  // a clock that stands needs no haste
         const Clock::time_point now = Clock::now();
         const double seconds = seconds_between(std::exchange(before, now), now);
         const std::uint64_t step = session_.world().steps(), picture = pictures_, beginning = session_.beginnings();
@@ -232,7 +231,11 @@ std::unique_ptr<host::Display> open_display(const Options& options) {
 
 int view(Options options) {
     options.extent = extent_of(options.size);
-    if (!host::color_by_named(options.color)) throw UsageError("--color: unknown value \"" + options.color + "\"");
+    if (!host::color_by_named(options.color)) {
+        std::string known;
+        for (const std::string& word : color_words()) known += (known.empty() ? "" : ", ") + word;
+        throw UsageError(fmt::format("--color: unknown value \"{}\"; known: {}", options.color, known));
+    }
     require_writable_file("--record", options.record);
     require_writable_file("--report", options.report);
     const std::unique_ptr<host::Display> display = open_display(options);

@@ -52,21 +52,27 @@ std::unique_ptr<host::Canvas> any_canvas(const Machine& machine, const host::Sha
 }  // namespace
 
 Drawing::Drawing(const std::string& canvas, const Machine& machine, World& world, const host::CanvasOptions& options)
-    : world_(world) {
-    const host::ShapeInstances instances = instances_of(world.scene());
-    const bool by_vulkan = canvas == "vulkan" || (canvas == "auto" && machine.device);
-    try {
-        canvas_ = by_vulkan        ? make_vulkan_canvas(machine, instances, options)
-                  : canvas == "gl" ? host::make_gl_canvas(instances, options)
-                                   : any_canvas(machine, instances, options);
-    } catch (const host::DeviceError& error) {
-        throw UsageError(error.what());
-    }
-    from_device_ = by_vulkan && machine.device;
+    : world_(world), word_(canvas), machine_(machine), options_(options) {
+    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device;
     update();
 }
 
+std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
+    const host::ShapeInstances instances = instances_of(world_.scene());
+    try {
+        if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
+        return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);
+    } catch (const host::DeviceError& error) {
+        throw UsageError(error.what());
+    }
+}
+
 void Drawing::update() {
+    if (!canvas_ || bodies_ != world_.scene().bodies.size()) {
+        canvas_.reset();
+        canvas_ = make_canvas();
+        bodies_ = world_.scene().bodies.size();
+    }
     const host::BodyTables tables = from_device_ ? tables_on_device(world_.runner()) : tables_of(world_.state());
     contacts_ = tables.touch_count;
     canvas_->set_tables(tables);

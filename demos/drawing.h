@@ -1,6 +1,7 @@
 // Where a world is drawn: the choice between the two canvases, and the tables that the chosen one draws from.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -17,11 +18,17 @@ public:
     Drawing(const std::string& canvas, const Machine& machine, World& world, const host::CanvasOptions& options);
 
     host::Canvas& canvas() { return *canvas_; }
-    void update();                   // the next picture shows the world as it is now
+    void update();                   // the next picture shows the world as it is now, with the bodies that were added
     std::uint32_t contacts() const;  // in the world at the last update
 
 private:
+    std::unique_ptr<host::Canvas> make_canvas() const;
+
     World& world_;
+    std::string word_;
+    Machine machine_;
+    host::CanvasOptions options_;
+    std::size_t bodies_ = 0;  // that the canvas knows
     std::unique_ptr<host::Canvas> canvas_;
     bool from_device_ = false;  // draws from the very tables that the device works on
     std::uint32_t contacts_ = 0;

@@ -264,10 +264,13 @@ void Interaction::add(Kind kind) {
     Body body;
     body.name = "added";
     body.shape = shape_of(kind, size);
-    // From above onto what lies in the middle of the view.
-    const Ray middle = eye_.ray(0.5 * extent_.width, 0.5 * extent_.height, extent_);
-    const std::optional<Hit> hit = pick(session_.world().scene(), session_.world().bodies(), middle);
-    body.position = (hit ? hit->point : eye_.target()) + vec3(0, 4 * size, 0);
+    // From above onto what lies in the middle of the view, or onto what lies on that.
+    const Scene& scene = session_.world().scene();
+    const std::vector<BodyState> states = session_.world().bodies();
+    const std::optional<Hit> seen = pick(scene, states, eye_.ray(0.5 * extent_.width, 0.5 * extent_.height, extent_));
+    const vec3 middle = seen ? seen->point : eye_.target();
+    const std::optional<Hit> highest = pick(scene, states, {middle + vec3(0, 1000, 0), vec3(0, -1, 0)});
+    body.position = (highest ? highest->point : middle) + vec3(0, 3 * size, 0);
     perform(Add{body});
 }
 

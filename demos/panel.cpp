@@ -18,10 +18,11 @@ void say_line(const std::string& text) {
 }
 
 void choose_demo(Session& session, Interaction& interaction) {
-    if (!ImGui::BeginCombo("scene", session.subject().name.c_str())) return;
+    const std::string& name = session.subject().name;
+    if (!ImGui::BeginCombo("scene", name.substr(name.rfind('/') + 1).c_str())) return;
     for (const Demo& demo : all_demos()) {
         if (demo.trial) continue;
-        if (ImGui::Selectable(demo.name, session.subject().name == demo.name)) interaction.open(demo.name);
+        if (ImGui::Selectable(demo.name, name == demo.name)) interaction.open(demo.name);
         if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", demo.line);
     }
     ImGui::EndCombo();
@@ -107,7 +108,7 @@ void Panel::show_selected(Session& session, Interaction& interaction) {
     }
     say_line(name_of(scene, *selected) + (state.asleep ? ", asleep" : ""));
     const vec3 p = state.velocity * mass;
-    say_line(fmt::format("momentum {:.4g} kg m/s ({:.3g}, {:.3g}, {:.3g})", glm::length(p), p.x, p.y, p.z));
+    say_line(fmt::format("momentum {:.3g} kg m/s ({:.2g}, {:.2g}, {:.2g})", glm::length(p), p.x, p.y, p.z));
     say_line(fmt::format("{:.3g} m/s, {:.3g} rad/s, {:.4g} kg", glm::length(state.velocity), glm::length(state.angular_velocity),
                          mass));
     say_line(fmt::format("touches {} in {} points, {:.4g} N", touching_.size(), points, force));

@@ -181,6 +181,7 @@ void drag_the_box(const Viewer& viewer) {
         viewer.point(400 + 15 * i, 225 - 8 * i);
         wait_for(0.05);
     }
+    viewer.shoot("2_pulled");
     // 150 pixels are about 2 m here.
     REQUIRE(viewer.until([](const json& now) {
         const json& grabbed = now.at("grabbed");
