@@ -56,17 +56,21 @@ int brightness(const Image& image, int x, int y) {
 
 }  // namespace
 
-TEST_CASE("gl: the sky is above, the ground below, and the box between them", "[canvas][gl]") {
+TEST_CASE("gl: a box is drawn where it is, its upper side up", "[canvas][gl]") {
     const int samples = GENERATE(1, 4);
     Bodies bodies;
+    bodies.poses[1].position = {1, 3.4f, 0};
     const auto canvas = make_gl_canvas(bodies.shapes, small(samples));
     canvas->set_tables(bodies.tables());
     const Image with = picture(*canvas);
     REQUIRE(with.rgba.size() == std::size_t{160} * 100 * 4);
     bodies.poses[1].position.x = 100;
     const Image without = picture(*canvas);
-    CHECK(brightness(with, 5, 5) > brightness(with, 5, 70) + 60);
-    CHECK(std::abs(brightness(with, 80, 50) - brightness(without, 80, 50)) > 60);
+    // A metre is 50 / (10 tan 20) = 13.7 pixels: the middle of the box is 14 to the right and 19 above that of the picture.
+    const auto change = [&](int x, int y) { return std::abs(brightness(with, x, y) - brightness(without, x, y)); };
+    CHECK(change(94, 31) > 60);
+    CHECK(change(94, 69) < 10);
+    CHECK(change(66, 31) < 10);
     CHECK(with.rgba[4 * (50 * 160 + 80) + 3] == 255);
 }
 

@@ -66,11 +66,12 @@ struct View {
     Camera camera{.eye = {3.5f, 3, 5}, .target = {0, 0.7f, 0}, .vertical_fov = 40};
     ColorScale scale;
     std::string caption = "both canvases\n45 bodies";
+    vec3 low{-3, 0, -3}, high{3, 3, 3};  // what casts shadows, m
 };
 
 Image picture(Canvas& canvas, const World& world, const View& view) {
     canvas.set_tables(tables_of(world.state()));
-    return canvas.draw(view.camera, view.scale, view.caption, vec3(-3, 0, -3), vec3(3, 3, 3));
+    return canvas.draw(view.camera, view.scale, view.caption, view.low, view.high);
 }
 
 // The greatest difference of a channel between a pixel of one picture and one of another.
@@ -172,6 +173,11 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
     require_alike(view);
     view.camera = {.eye = {0.4f, 0.9f, 1.6f}, .target = {0, 0.6f, 0}, .vertical_fov = 70};
     require_alike(view);
+    view = {};
+    view.caption = "bodies beyond the shadow maps";
+    view.low = vec3(-0.4f, 0, -0.4f);
+    view.high = vec3(0.4f, 1, 0.4f);
+    require_alike(view);
 }
 
 TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
@@ -203,6 +209,6 @@ TEST_CASE("canvases: tables in host memory and on the device give the same pixel
     }
     canvas->set_tables(tables);
     const View view;
-    CHECK(canvas->draw(view.camera, view.scale, view.caption, vec3(-3, 0, -3), vec3(3, 3, 3)).rgba == from_memory.rgba);
+    CHECK(canvas->draw(view.camera, view.scale, view.caption, view.low, view.high).rgba == from_memory.rgba);
     CHECK(validated_device()->validation_messages().empty());
 }
