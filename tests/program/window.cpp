@@ -12,6 +12,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "host/device.h"
+#include "host/window.h"
+#include "shaders/physics/records.h"
 #include "tests/program/program.h"
 
 using nlohmann::json;
@@ -298,6 +301,65 @@ TEST_CASE("the window goes through the demos, closes at a signal, and leaves its
     REQUIRE(recorded.at("scene") == second);
     REQUIRE(recorded.at("steps") > 10);
     REQUIRE(recorded.at("acts").size() == 1);
+}
+
+namespace {
+
+// Stand in for the functions of Vulkan: the call goes through, and its answer is that of a surface that was lost.
+PFN_vkQueuePresentKHR present = nullptr;
+PFN_vkAcquireNextImageKHR acquire = nullptr;
+int losses = 0;
+
+VKAPI_ATTR VkResult VKAPI_CALL present_and_lose(VkQueue queue, const VkPresentInfoKHR* info) {
+    const VkResult result = present(queue, info);
+    return losses-- > 0 ? VK_ERROR_SURFACE_LOST_KHR : result;
+}
+VKAPI_ATTR VkResult VKAPI_CALL lose_instead(VkDevice device, VkSwapchainKHR swapchain, std::uint64_t timeout,
+                                            VkSemaphore semaphore, VkFence fence, std::uint32_t* index) {
+    if (losses-- > 0) return VK_ERROR_SURFACE_LOST_KHR;
+    return acquire(device, swapchain, timeout, semaphore, fence, index);
+}
+
+}  // namespace
+
+TEST_CASE("a window whose surface is lost makes another and shows on") {
+    if (!can_show()) return;
+    using namespace scree::host;
+    const Screen screen;
+    ::setenv("DISPLAY", screen.name().c_str(), 1);
+    const Display display;
+    std::vector<std::string> messages;
+    const auto device = Device::open({.validation = true,
+                                      .window_extensions = display.extensions(),
+                                      .on_message = [&](const std::string& message) { messages.push_back(message); }});
+    {
+        Window window(display, device, "lost", 320, 200);
+        CanvasOptions options;
+        options.width = window.width();
+        options.height = window.height();
+        const auto canvas = make_vulkan_canvas(device, {}, options);
+        const std::vector<scree::physics::Traits> traits(1);
+        const std::vector<scree::physics::Pose> poses(1);
+        const std::vector<scree::physics::Velocity> velocities(1);
+        canvas->set_tables({traits, poses, velocities});
+        const auto shown = [&] {
+            window.poll(0);
+            window.begin_panel();
+            window.end_panel();
+            return window.show(*canvas, {});
+        };
+        REQUIRE(shown());
+        auto& vulkan = const_cast<VulkanFunctions&>(device->vk());
+        present = std::exchange(vulkan.vkQueuePresentKHR, present_and_lose);
+        losses = 1;
+        REQUIRE(shown());  // as far as it knew
+        for (int i = 0; i < 5; ++i) REQUIRE(shown());
+        acquire = std::exchange(vulkan.vkAcquireNextImageKHR, lose_instead);
+        losses = 1;
+        REQUIRE_FALSE(shown());
+        for (int i = 0; i < 5; ++i) REQUIRE(shown());
+    }
+    for (const std::string& message : messages) FAIL_CHECK(message);
 }
 
 TEST_CASE("without a display view says how to make pictures") {
