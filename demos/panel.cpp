@@ -108,7 +108,8 @@ void Panel::show_selected(Session& session, Interaction& interaction) {
     }
     say_line(name_of(scene, *selected) + (state.asleep ? ", asleep" : ""));
     const vec3 p = state.velocity * mass;
-    say_line(fmt::format("momentum {:.3g} kg m/s ({:.2g}, {:.2g}, {:.2g})", glm::length(p), p.x, p.y, p.z));
+    say_line(fmt::format("momentum {:.4g} kg m/s", glm::length(p)));
+    say_line(fmt::format("    ({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z));
     say_line(fmt::format("{:.3g} m/s, {:.3g} rad/s, {:.4g} kg", glm::length(state.velocity), glm::length(state.angular_velocity),
                          mass));
     say_line(fmt::format("touches {} in {} points, {:.4g} N", touching_.size(), points, force));
