@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
+
 #include "compute/device_runner.h"
 #include "compute/state.h"
+#include "demos/camera.h"
 #include "demos/color_range.h"
 #include "demos/failure.h"
 #include "host/canvas.h"
@@ -24,6 +27,17 @@ host::ShapeInstances instances_of(const Scene& scene) {
         lists[scene.bodies[i].shape.index()]->push_back(i);
     }
     return instances;
+}
+
+// Adds the time that the work takes, s.
+template <class Work>
+decltype(auto) timed(double& seconds, Work&& work) {
+    struct Watch {
+        double& seconds;
+        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+        ~Watch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+    } const watch{seconds};
+    return work();
 }
 
 // The bodies of a world on the processor, copied to a device to be drawn.
@@ -55,16 +69,6 @@ struct Copies {
     }
 };
 
-host::Camera camera_of(const Viewpoint& view) {
-    host::Camera camera;
-    camera.eye = view.eye;
-    camera.target = view.target;
-    camera.vertical_fov = view.vertical_fov;
-    const vec3 along = view.target - view.eye;
-    if (std::abs(along.y) > 0.999f * glm::length(along)) camera.up = {0, 0, -1};  // straight down or up
-    return camera;
-}
-
 host::ColorScale scale_of(const PictureOptions& options, const Subject& subject) {
     host::ColorScale scale;
     scale.by = host::color_by_named(options.color).value();
@@ -77,6 +81,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
     host::CanvasOptions canvas;
     canvas.width = options.width;
     canvas.height = options.height;
+    canvas.bits = options.bits;
     canvas.legend = options.legend;
     canvas.marks = options.shows_contacts();
     // What a body's weight gives it in a substep.
@@ -95,12 +100,13 @@ struct Pictures::Interior {
     std::optional<Copies> copies;
     std::optional<host::Canvas> canvas;
     std::unique_ptr<host::FrameWriter> writer;
-    host::Camera camera;
+    CameraMan camera;
     host::ColorScale scale;
     std::string name;
     vec3 low, high;
     double fps;
     bool shows_contacts;
+    PictureTimes times;
 
     host::BodyTables tables() {
         if (runner) {
@@ -115,6 +121,14 @@ struct Pictures::Interior {
         runner->counts().read(&counts, sizeof counts);
         return counts.contacts;
     }
+    vec3 followed_position() {
+        const std::optional<std::size_t> body = camera.followed();
+        if (!body) return vec3(0);
+        if (!runner) return world.bodies()[*body].position;
+        physics::Pose pose{};
+        runner->poses().read(&pose, sizeof pose, *body * sizeof pose);
+        return pose.position;
+    }
     std::string caption() const {
         const std::string contacts = shows_contacts ? fmt::format("{} contacts, ", contact_count()) : "";
         return fmt::format("{}\n{} bodies, {}{:.2f} s", name, world.scene().bodies.size(), contacts, world.time());
@@ -122,19 +136,21 @@ struct Pictures::Interior {
 };
 
 Pictures::Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world)
-    : interior_(new Interior{world,
-                             dynamic_cast<DeviceRunner*>(&world.runner()),
-                             device_for_pictures(machine),
-                             {},
-                             {},
-                             nullptr,
-                             camera_of(subject.viewpoint),
-                             scale_of(options, subject),
-                             subject.name,
-                             subject.low,
-                             subject.high,
-                             options.fps,
-                             options.shows_contacts()}) {
+    : interior_(
+          new Interior{world,
+                       dynamic_cast<DeviceRunner*>(&world.runner()),
+                       device_for_pictures(machine),
+                       {},
+                       {},
+                       nullptr,
+                       CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
+                       scale_of(options, subject),
+                       subject.name,
+                       subject.low,
+                       subject.high,
+                       options.fps,
+                       options.shows_contacts(),
+                       {}}) {
     Interior& in = *interior_;
     if (in.shows_contacts && !in.runner) {
         throw UsageError(
@@ -144,9 +160,12 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
     host::FrameWriterOptions writer;
     writer.folder = options.frames;
     writer.video = options.video;
+    writer.preview = options.preview;
+    writer.raw = options.raw;
     writer.frames_per_second = options.fps;
     writer.width = options.width;
     writer.height = options.height;
+    writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
     if (!in.runner) in.copies.emplace(in.device, world);
     in.canvas.emplace(in.device, instances_of(world.scene()), in.tables(), canvas_of(options, world));
@@ -159,12 +178,20 @@ void Pictures::after_step() {
     // The picture of moment n / fps is taken at the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.writer->frames() / in.fps) return;
-    in.canvas->set_tables(in.tables());
-    in.writer->add(in.canvas->draw(in.camera, in.scale, in.caption(), in.low, in.high));
+    host::Image picture = timed(in.times.draw, [&] {
+        in.canvas->set_tables(in.tables());
+        const host::Camera camera = in.camera.at(in.world.time(), in.followed_position());
+        return in.canvas->draw(camera, in.scale, in.caption(), in.low, in.high);
+    });
+    timed(in.times.encode_wait, [&] { in.writer->add(std::move(picture)); });
 }
 
 void Pictures::finish() {
-    interior_->writer->finish();
+    timed(interior_->times.encode_wait, [&] { interior_->writer->finish(); });
+}
+
+PictureTimes Pictures::times() const {
+    return interior_->times;
 }
 
 int Pictures::count() const {

@@ -14,6 +14,9 @@ void Pictures::finish() {}
 int Pictures::count() const {
     return 0;
 }
+PictureTimes Pictures::times() const {
+    return {};
+}
 
 const std::vector<std::string>& color_words() {
     static const std::vector<std::string> words = {"momentum"};

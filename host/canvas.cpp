@@ -155,6 +155,11 @@ Image Canvas::draw(const Camera& camera, const ColorScale& scale, const std::str
                             0, nullptr);
     in.end_and_wait();
 
+    if (options.bits == 16) {
+        std::vector<std::uint16_t> halves(in.picture.bytes() / 2);
+        in.picture.read(halves.data(), in.picture.bytes());
+        return image_of_halves(options.width, options.height, halves);
+    }
     Image image{options.width, options.height, std::vector<std::uint8_t>(in.picture.bytes())};
     in.picture.read(image.rgba.data(), image.rgba.size());
     return image;

@@ -8,21 +8,12 @@
 #include <vector>
 
 #include "host/buffer.h"
+#include "host/camera.h"
 #include "host/canvas_colors.h"
 #include "host/device.h"
 #include "host/image.h"
 
 namespace scree::host {
-
-using glm::vec3;
-
-struct Camera {
-    vec3 eye{8, 5, 12};    // m
-    vec3 target{0, 1, 0};  // m
-    vec3 up{0, 1, 0};
-    float vertical_fov = 40;   // degrees
-    float near_plane = 0.05f;  // m; there is no far plane
-};
 
 // The state of the simulation, one record a body, as in shaders/physics/records.h. Borrowed; read only by the shaders.
 struct BodyTables {
@@ -44,6 +35,7 @@ struct CanvasOptions {
     int width = 1280;     // pixels
     int height = 720;     // pixels
     int samples = 0;      // a pixel: 4, or 1 with stairs smoothed afterwards; 0: 1 on a processor, where 4 are slow
+    int bits = 8;         // of a channel of the picture: 8, or 16, drawn into half floats that hold linear light
     bool shadows = true;  // of the sun, and the darkening between bodies
     bool legend = true;   // the colour scale and the caption in the picture
     bool marks = false;   // on the points where bodies touch, with lines that tell how hard they push; the bodies grow paler

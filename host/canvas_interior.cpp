@@ -20,6 +20,7 @@ CanvasOptions checked(CanvasOptions options, const Device& device) {
     if (options.samples == 0) options.samples = device.report().is_processor ? 1 : 4;
     if (options.samples != 1 && options.samples != 4)
         throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    if (options.bits != 8 && options.bits != 16) throw DeviceError("canvas: bits must be 8 or 16");
     return options;
 }
 
@@ -30,7 +31,7 @@ Canvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInstances&
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
     quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
-    picture = Buffer(device, "canvas picture", pixels * 4, BufferUse::readback);
+    picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
     make_instances(shapes);
     make_meshes();
     make_layout();
@@ -119,19 +120,19 @@ void Canvas::Interior::make_shadow_maps() {
 }
 
 void Canvas::Interior::make_picture() {
-    picture_pass = make_picture_pass(objects, options.samples);
-    const auto surface = [&](VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
-        return objects.surface({format, options.width, options.height, usage, aspect, samples});
+    const VkFormat format = color_format(options.bits);
+    picture_pass = make_picture_pass(objects, options.samples, format);
+    const auto surface = [&](VkFormat of, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
+        return objects.surface({of, options.width, options.height, usage, aspect, samples});
     };
     constexpr VkImageUsageFlags shown = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    target = surface(COLOR_FORMAT, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
+    target = surface(format, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
     const Surface depth =
         surface(DEPTH_FORMAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, options.samples);
     const bool smooths = options.samples == 1;
-    scene =
-        surface(COLOR_FORMAT,
-                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | static_cast<VkImageUsageFlags>(smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : 0),
-                VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
+    scene = surface(
+        format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | static_cast<VkImageUsageFlags>(smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : 0),
+        VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
     std::vector<VkImageView> views{scene.view, depth.view};
     if (!smooths) views.push_back(target.view);
     framebuffer = objects.framebuffer(picture_pass, views, options.width, options.height);
@@ -161,7 +162,7 @@ void Canvas::Interior::make_picture() {
     if (options.marks) make_marks(shape);
     shape.depth = VK_COMPARE_OP_ALWAYS;
     if (smooths) {
-        smoothing_pass = make_smoothing_pass(objects);
+        smoothing_pass = make_smoothing_pass(objects, format);
         smoothing_framebuffer = objects.framebuffer(smoothing_pass, std::array{target.view}, options.width, options.height);
         shape.pass = smoothing_pass;
         smoothing = made("sky.vert", "smooth.frag");

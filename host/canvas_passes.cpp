@@ -103,13 +103,13 @@ VkRenderPass make_shadow_pass(Objects& objects) {
     return make_pass(objects, attachments, subpass, dependencies);
 }
 
-VkRenderPass make_picture_pass(Objects& objects, int samples) {
+VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat color_of) {
     const bool resolves = samples > 1;
     std::array attachments{
-        attachment(COLOR_FORMAT, samples, !resolves,
+        attachment(color_of, samples, !resolves,
                    resolves ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
         attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-        attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+        attachment(color_of, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
@@ -132,8 +132,8 @@ VkRenderPass make_picture_pass(Objects& objects, int samples) {
     return make_pass(objects, std::span(attachments).first(resolves ? 3 : 2), subpass, dependencies);
 }
 
-VkRenderPass make_smoothing_pass(Objects& objects) {
-    std::array attachments{attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+VkRenderPass make_smoothing_pass(Objects& objects, VkFormat color_of) {
+    std::array attachments{attachment(color_of, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};

@@ -29,7 +29,9 @@ struct Frame {
     mat4 view_projection;  // to clip space; depth runs from 1 at the near plane to 0 at infinity
     mat4 sun_map;          // to the sun's shadow map: xy in 0..1, z in 0..1
     mat4 sky_map;          // to the map of heights seen from above
-    vec4 ray_corner;       // direction of the ray through the upper left corner, 1 m along the camera's axis; w: near plane, m
+    vec4 forward;          // the camera's axis, unit; w: 1 if orthographic, when rays do not spread but start side by side
+    vec4 ray_corner;       // direction (orthographic: start) of the ray through the upper left corner, 1 m (0 m) along the axis;
+                           // w: near plane, m
     vec4 ray_right;        // step per pixel to the right; w: width, pixels
     vec4 ray_down;         // step per pixel downwards; w: height, pixels
     vec4 eye;              // world position, m; w: distance over which the ground fades, m
@@ -37,7 +39,8 @@ struct Frame {
     vec4 toward_sky;       // unit, up; w: samples per pixel
     vec4 scale;            // low, high (logarithms when logarithmic), 1 when logarithmic, COLOR_BY_*
     vec4 maps;             // shadow map texel, m; sky map texel, m; the same as parts of the maps
-    vec4 pixel;            // width of a pixel at 1 m, m; depth of the sky map, m; height over which its darkening halves, m
+    vec4 pixel;            // width of a pixel at 1 m, m; depth of the sky map, m; height over which its darkening halves, m;
+                           // orthographic: depth for each m towards the eye, 1/m
     vec4 marks;            // 1 with marks, else 0; push whose line is half the thinner body's half width, m/s
     vec4 colors[MAP_ENTRIES];  // the colour map, linear light
 };

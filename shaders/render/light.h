@@ -97,6 +97,7 @@ vec3 lit(vec3 color, vec3 point, vec3 normal, vec3 direction, float gloss) {
 
 // Far things take the colour of the horizon.
 vec3 hazed(vec3 color, float distance) {
+    if (orthographic()) return color;
     float x = distance / frame.eye.w;
     return mix(SKY_HORIZON, color, exp(-0.35 * x * x));
 }

@@ -30,7 +30,7 @@ void main() {
     out_color = body_color(body);
 
     float distance = max(length(center), 1e-6);
-    vec3 toward = -center / distance;
+    vec3 toward = orthographic() ? -frame.forward.xyz : -center / distance;
     vec4 given = directions[gl_VertexIndex];
     // A frame turned to the eye: about a capsule's axis, or about the line of sight.
     vec3 pole = capsule ? axis : (abs(toward.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0));
@@ -41,7 +41,7 @@ void main() {
     if (capsule) {
         local = axis * (half_height * given.w) + radius * (side * given.x + axis * given.y + cross(side, axis) * given.z);
     } else {
-        float angle = given.z * acos(clamp(radius / distance, 0.0, 1.0));
+        float angle = given.z * acos(orthographic() ? 0.0 : clamp(radius / distance, 0.0, 1.0));
         local = radius * (cos(angle) * toward + sin(angle) * (side * given.x + cross(toward, side) * given.y));
     }
     out_point = center + local;
