@@ -166,6 +166,12 @@ Statistics World::statistics() const {
     return statistics_of(interior_->scene, interior_->state);
 }
 
+const State& World::state() const {
+    interior_->runner->fetch_bodies();
+    interior_->runner->fetch_contacts();
+    return interior_->state;
+}
+
 std::uint64_t World::state_hash() const {
     interior_->runner->fetch_bodies();
     return hash_of(interior_->state);

@@ -83,6 +83,7 @@ public:
     // Read back from wherever the world is.
     std::vector<BodyState> bodies() const;
     Statistics statistics() const;
+    const State& state() const;        // every table of a step (compute/state.h), with bodies and contacts as they are now
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
 
     std::uint64_t buffer_growths() const;

@@ -40,34 +40,19 @@ decltype(auto) timed(double& seconds, Work&& work) {
     return work();
 }
 
-// The bodies of a world on the processor, copied to a device to be drawn.
-struct Copies {
-    host::Buffer traits, poses, velocities;
+host::BodyTables tables_of(const DeviceRunner& runner, std::uint32_t contacts) {
+    return {&runner.traits(), &runner.poses(), &runner.velocities(), &runner.contacts(), &runner.impulses(), contacts};
+}
 
-    Copies(const std::shared_ptr<host::Device>& device, const World& world) {
-        const State start(world.scene(), world.settings(), 1, false);
-        const auto copy = [&](const char* name, Table table) {
-            host::Buffer buffer(device, name, start.raw(table).size());
-            buffer.write(start.raw(table).data(), buffer.bytes());
-            return buffer;
-        };
-        traits = copy("drawn traits", Table::traits);
-        poses = copy("drawn poses", Table::poses);
-        velocities = copy("drawn velocities", Table::velocities);
-    }
-    void update(const World& world) {
-        const std::vector<BodyState> bodies = world.bodies();
-        std::vector<physics::Pose> at(bodies.size());
-        std::vector<physics::Velocity> moving(bodies.size());
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            at[i] = {bodies[i].position, 0, bodies[i].orientation};
-            moving[i] = {bodies[i].velocity, 0, bodies[i].angular_velocity, 0};
-        }
-        if (bodies.empty()) return;
-        poses.write(at.data(), at.size() * sizeof(physics::Pose));
-        velocities.write(moving.data(), moving.size() * sizeof(physics::Velocity));
-    }
-};
+host::BodyTables tables_of(const State& state) {
+    const std::uint32_t contacts = state.counted().contacts;
+    return {state.traits,
+            state.poses,
+            state.velocities,
+            std::span(state.contacts).first(contacts),
+            std::span(state.impulses).first(contacts),
+            contacts};
+}
 
 host::ColorScale scale_of(const PictureOptions& options, const Subject& subject) {
     host::ColorScale scale;
@@ -97,8 +82,7 @@ struct Pictures::Interior {
     World& world;
     DeviceRunner* runner;  // null on the processor
     std::shared_ptr<host::Device> device;
-    std::optional<Copies> copies;
-    std::optional<host::Canvas> canvas;
+    std::unique_ptr<host::Canvas> canvas;
     std::unique_ptr<host::FrameWriter> writer;
     CameraMan camera;
     host::ColorScale scale;
@@ -108,15 +92,11 @@ struct Pictures::Interior {
     bool shows_contacts;
     PictureTimes times;
 
-    host::BodyTables tables() {
-        if (runner) {
-            return {&runner->traits(),   &runner->poses(),    &runner->velocities(),
-                    &runner->contacts(), &runner->impulses(), shows_contacts ? contact_count() : 0};
-        }
-        copies->update(world);
-        return {&copies->traits, &copies->poses, &copies->velocities};
+    host::BodyTables tables() const {
+        return runner ? tables_of(*runner, shows_contacts ? contact_count() : 0) : tables_of(world.state());
     }
     std::uint32_t contact_count() const {
+        if (!runner) return world.state().counted().contacts;
         physics::Counts counts{};
         runner->counts().read(&counts, sizeof counts);
         return counts.contacts;
@@ -140,8 +120,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
           new Interior{world,
                        dynamic_cast<DeviceRunner*>(&world.runner()),
                        device_for_pictures(machine),
-                       {},
-                       {},
+                       nullptr,
                        nullptr,
                        CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
                        scale_of(options, subject),
@@ -152,11 +131,6 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
                        options.shows_contacts(),
                        {}}) {
     Interior& in = *interior_;
-    if (in.shows_contacts && !in.runner) {
-        throw UsageError(
-            "--show contacts: contacts are drawn where a Vulkan device keeps them, but this run is on the processor: use "
-            "--backend vulkan");
-    }
     host::FrameWriterOptions writer;
     writer.folder = options.frames;
     writer.video = options.video;
@@ -167,8 +141,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
     writer.height = options.height;
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    if (!in.runner) in.copies.emplace(in.device, world);
-    in.canvas.emplace(in.device, instances_of(world.scene()), in.tables(), canvas_of(options, world));
+    in.canvas = host::make_vulkan_canvas(in.device, instances_of(world.scene()), canvas_of(options, world));
 }
 
 Pictures::~Pictures() = default;

@@ -1,29 +1,54 @@
-// A canvas without a display: draws the bodies of a simulation straight from its buffers on the device into pictures.
+// A canvas without a display: draws the bodies of a simulation into pictures.
+//
+// There are two, and the same state looks the same on both. The Vulkan canvas draws from tables on its device, with no read-back,
+// or from tables in host memory, which it copies there; the OpenGL ES canvas draws from host memory alone. They share all that
+// depends on neither API: what is drawn, by which shaders and in which order (canvas_plan.h), meshes and instances
+// (canvas_scenery.h), camera and light (canvas_frame.h), colours (canvas_colors.h), legend and caption (canvas_overlay.h). A new
+// thing to draw is a pair of shaders in shaders/render and a line of canvas_plan.cpp; a new table to draw from is a member of
+// BodyTables and a line there.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "host/buffer.h"
 #include "host/camera.h"
 #include "host/canvas_colors.h"
-#include "host/device.h"
 #include "host/image.h"
 
 namespace scree::host {
 
-// The state of the simulation, one record a body, as in shaders/physics/records.h. Borrowed; read only by the shaders.
+class Buffer;
+class Device;
+using glm::vec3;
+
+// Records one after another: a buffer on the device that draws, or memory of the host. Borrowed.
+struct TableView {
+    bool given = false;
+    const Buffer* buffer = nullptr;
+    std::span<const std::byte> bytes;  // without a buffer; may be empty
+
+    TableView() = default;
+    TableView(const Buffer* on_device) : given(on_device != nullptr), buffer(on_device) {}
+    template <typename Record>
+    TableView(std::span<const Record> in_memory) : given(true), bytes(std::as_bytes(in_memory)) {}
+    template <typename Record>
+    TableView(const std::vector<Record>& in_memory) : TableView(std::span(in_memory)) {}
+};
+
+// The state of the simulation, one record a body, as in shaders/physics/records.h. Read while a picture is drawn.
 struct BodyTables {
-    const Buffer* traits = nullptr;      // Traits
-    const Buffer* poses = nullptr;       // Pose
-    const Buffer* velocities = nullptr;  // Velocity
+    TableView traits;      // Traits
+    TableView poses;       // Pose
+    TableView velocities;  // Velocity
     // For CanvasOptions::marks: where bodies touch, and how hard they push.
-    const Buffer* touches = nullptr;  // Contact
-    const Buffer* pushes = nullptr;   // Impulse
-    std::uint32_t touch_count = 0;    // records of both that mean something
+    TableView touches;              // Contact
+    TableView pushes;               // Impulse
+    std::uint32_t touch_count = 0;  // records of both that mean something
 };
 
 // Which bodies have which shape: their indices in the tables, fixed for a run.
@@ -47,24 +72,22 @@ struct CanvasOptions {
 
 class Canvas {
 public:
-    // Throws DeviceError for sizes that the device cannot draw.
-    Canvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const BodyTables& tables,
-           const CanvasOptions& options = {});
-    ~Canvas();
-    Canvas(Canvas&&) noexcept;
-    Canvas& operator=(Canvas&&) noexcept;
+    virtual ~Canvas() = default;
 
-    // When buffers were made anew.
-    void set_tables(const BodyTables& tables);
+    // Where the bodies are from now on; before the first picture, and when tables were made anew. Throws std::invalid_argument
+    // for a table that is missing, or that lies where this canvas cannot draw from.
+    virtual void set_tables(const BodyTables& tables) = 0;
 
     // The picture now: waits for what was submitted to the queue before, and for the drawing. `scene_low` and `scene_high` are
     // corners of the part of the world that casts shadows; keep them fixed over a run, or the shadows' edges crawl.
-    // Lines of the caption are parted by '\n'. The same state gives the same pixels.
-    Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high);
-
-private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    // Lines of the caption are parted by '\n'. The same state gives the same pixels. Throws std::invalid_argument for a camera
+    // that looks nowhere or a scale without extent.
+    virtual Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+                       vec3 scene_high) = 0;
 };
+
+// Throws DeviceError for sizes that the device cannot draw. Tables may lie on `device` or in host memory, each as it likes.
+std::unique_ptr<Canvas> make_vulkan_canvas(std::shared_ptr<Device> device, const ShapeInstances& instances,
+                                           const CanvasOptions& options = {});
 
 }  // namespace scree::host

@@ -6,7 +6,9 @@
 #include <cstdlib>
 #include <stdexcept>
 
+#include "host/buffer.h"
 #include "host/canvas_overlay.h"
+#include "host/device.h"
 #include "shaders/physics/records.h"
 
 using namespace scree::host;
@@ -63,7 +65,7 @@ public:
     }
     void add_ground() { add(scree::physics::SHAPE_PLANE, {0, 1, 0}, vec3(0), vec3(0), 0); }
 
-    Canvas canvas(const CanvasOptions& options) {
+    std::unique_ptr<Canvas> canvas(const CanvasOptions& options) {
         const std::shared_ptr<Device> device = validated_device();
         traits_.resize(traits_.size() + 1);  // so that an empty stage has tables, too
         poses_.resize(traits_.size());
@@ -81,11 +83,13 @@ public:
             tables.touches = &touches_table_;
             tables.pushes = &pushes_table_;
         }
-        return Canvas(device, shapes_, tables, options);
+        std::unique_ptr<Canvas> canvas = make_vulkan_canvas(device, shapes_, options);
+        canvas->set_tables(tables);
+        return canvas;
     }
     Image picture(const CanvasOptions& options, const Camera& camera, const ColorScale& scale = {},
                   const std::string& caption = "") {
-        return canvas(options).draw(camera, scale, caption, vec3(-4, 0, -4), vec3(4, 4, 4));
+        return canvas(options)->draw(camera, scale, caption, vec3(-4, 0, -4), vec3(4, 4, 4));
     }
 
 private:
@@ -211,11 +215,11 @@ TEST_CASE("every quantity can be drawn", "[canvas]") {
     Stage stage;
     stage.add(scree::physics::SHAPE_BOX, vec3(1), {0, 2, 0}, {3, 0, 0}, 2);
     stage.add_ground();
-    Canvas canvas = stage.canvas(small(1, true, true));
+    const std::unique_ptr<Canvas> canvas = stage.canvas(small(1, true, true));
     for (const std::string& name : color_by_names()) {
         ColorScale scale;
         scale.by = *color_by_named(name);
-        const Image image = canvas.draw(AHEAD, scale, name, vec3(-4, 0, -4), vec3(4));
+        const Image image = canvas->draw(AHEAD, scale, name, vec3(-4, 0, -4), vec3(4));
         CHECK(image.rgba.size() == std::size_t{320} * 200 * 4);
         CHECK(at(image, 0, 0).a == 255);
     }
@@ -316,8 +320,8 @@ TEST_CASE("a canvas follows buffers that were made anew", "[canvas]") {
     Stage first, second;
     first.add(scree::physics::SHAPE_SPHERE, vec3(1), {0, 2, 0});
     second.add(scree::physics::SHAPE_SPHERE, vec3(1), {3, 2, 0});
-    Canvas canvas = first.canvas(small(1));
-    const Image before = canvas.draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4));
+    const std::unique_ptr<Canvas> canvas = first.canvas(small(1));
+    const Image before = canvas->draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4));
     const std::shared_ptr<Device> device = validated_device();
     Buffer traits(device, "traits", sizeof(Traits)), poses(device, "poses", sizeof(Pose)),
         velocities(device, "velocities", sizeof(Velocity));
@@ -327,8 +331,8 @@ TEST_CASE("a canvas follows buffers that were made anew", "[canvas]") {
     const Pose moved{{3, 2, 0}, 0, {0, 0, 0, 1}};
     traits.write(&body, sizeof body);
     poses.write(&moved, sizeof moved);
-    canvas.set_tables({&traits, &poses, &velocities});
-    CHECK(canvas.draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4)).rgba == second.picture(small(1), AHEAD).rgba);
+    canvas->set_tables({&traits, &poses, &velocities});
+    CHECK(canvas->draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4)).rgba == second.picture(small(1), AHEAD).rgba);
     CHECK(before.rgba != second.picture(small(1), AHEAD).rgba);
 }
 
@@ -344,9 +348,10 @@ TEST_CASE("a canvas refuses what it cannot draw", "[canvas]") {
     ColorScale flat;
     flat.low = flat.high = 1;
     CHECK_THROWS_AS(stage.picture(small(1), AHEAD, flat), std::invalid_argument);
-    CHECK_THROWS_AS(Canvas(validated_device(), {}, {}, small(1)), std::invalid_argument);
+    CHECK_THROWS_AS(make_vulkan_canvas(validated_device(), {}, small(1))->set_tables({}), std::invalid_argument);
     Buffer table(validated_device(), "a table", 1024);
     CanvasOptions marks = small(1);
     marks.marks = true;
-    CHECK_THROWS_WITH(Canvas(validated_device(), {}, {&table, &table, &table}, marks), Catch::Contains("marks"));
+    CHECK_THROWS_WITH(make_vulkan_canvas(validated_device(), {}, marks)->set_tables({&table, &table, &table}),
+                      Catch::Contains("marks"));
 }

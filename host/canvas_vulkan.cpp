@@ -1,29 +1,30 @@
-// A canvas without a display: draws the bodies of a simulation straight from its buffers on the device into pictures.
-#include "host/canvas.h"
+// The canvas that draws with Vulkan, on the device that simulates or another.
+#include "host/canvas_vulkan.h"
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 
 #include "host/canvas_frame.h"
-#include "host/canvas_interior.h"
 #include "host/canvas_overlay.h"
+#include "host/canvas_vulkan_interior.h"
 
 namespace scree::host {
 
-void Canvas::Interior::begin() {
+void VulkanCanvas::Interior::begin() {
     VkCommandBufferBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(device->vk().vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
 }
 
-void Canvas::Interior::end_and_wait() {
+void VulkanCanvas::Interior::end_and_wait() {
     check(device->vk().vkEndCommandBuffer(commands), "vkEndCommandBuffer");
     device->submit_and_wait({commands});
 }
 
-void Canvas::Interior::image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
-                                     VkPipelineStageFlags after, VkAccessFlags written, VkAccessFlags read) {
+void VulkanCanvas::Interior::image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
+                                           VkPipelineStageFlags after, VkAccessFlags written, VkAccessFlags read) {
     VkImageMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
     barrier.srcAccessMask = written;
@@ -36,22 +37,25 @@ void Canvas::Interior::image_barrier(VkImage image, VkImageLayout from, VkImageL
     device->vk().vkCmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-void Canvas::Interior::draw_run(VkPipeline pipeline, std::uint32_t corners, Run run) {
-    if (run.count == 0) return;
+void VulkanCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
-    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipeline);
-    vk.vkCmdDraw(commands, corners, run.count, 0, run.first);
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const Draw& draw = draws[i];
+        const Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
+        if (draw.state.pass != pass || items.count == 0) continue;
+        vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof draw.pushed, &draw.pushed);
+        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
+        if (draw.mesh == Mesh::none) {
+            vk.vkCmdDraw(commands, draw.corners, items.count, 0, items.first);
+        } else {
+            const Run mesh = scenery.mesh(draw.mesh);
+            vk.vkCmdBindIndexBuffer(commands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+            vk.vkCmdDrawIndexed(commands, mesh.count, items.count, mesh.first, 0, items.first);
+        }
+    }
 }
 
-void Canvas::Interior::draw_meshes(Mesh mesh, Run run) {
-    if (run.count == 0) return;
-    const VulkanFunctions& vk = device->vk();
-    vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, round);
-    vk.vkCmdBindIndexBuffer(commands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-    vk.vkCmdDrawIndexed(commands, mesh.indices, run.count, mesh.first_index, mesh.first_direction, run.first);
-}
-
-void Canvas::Interior::draw_shadows(std::uint32_t light) {
+void VulkanCanvas::Interior::draw_shadows(std::size_t light) {
     const VulkanFunctions& vk = device->vk();
     const ShadowMap& map = shadow_maps[light];
     VkClearValue clear{};
@@ -64,16 +68,11 @@ void Canvas::Interior::draw_shadows(std::uint32_t light) {
     info.clearValueCount = 1;
     info.pClearValues = &clear;
     vk.vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-    if (options.shadows) {
-        vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof light, &light);
-        draw_run(map.round, 6, spheres);
-        draw_run(map.round, 18, capsules);
-        draw_run(map.box, 36, boxes);
-    }
+    draw_all(light == 0 ? Pass::sun_map : Pass::sky_map, 0);
     vk.vkCmdEndRenderPass(commands);
 }
 
-void Canvas::Interior::draw_picture(std::uint32_t quad_count) {
+void VulkanCanvas::Interior::draw_picture(std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
     std::array<VkClearValue, 2> clear{};  // black, and depth 0: infinitely far
     VkRenderPassBeginInfo info{};
@@ -84,54 +83,44 @@ void Canvas::Interior::draw_picture(std::uint32_t quad_count) {
     info.clearValueCount = static_cast<std::uint32_t>(clear.size());
     info.pClearValues = clear.data();
     vk.vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-    // What usually lies behind comes last, so that most of it is never shaded.
-    draw_run(box, 36, boxes);
-    draw_meshes(sphere_mesh, spheres);
-    draw_meshes(capsule_mesh, capsules);
-    draw_run(plane, 12, planes);
-    draw_run(sky, 3, {0, 1});
-    if (options.marks) {
-        const std::uint32_t hidden = 1, shown = 0;
-        vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof hidden, &hidden);
-        draw_run(hidden_marks, 4, {0, mark_count});
-        vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof shown, &shown);
-        draw_run(marks, 4, {0, mark_count});
-    }
-    if (smoothing != VK_NULL_HANDLE) {
+    draw_all(Pass::picture, quad_count);
+    if (smoothing_pass != VK_NULL_HANDLE) {
         vk.vkCmdEndRenderPass(commands);
         info.renderPass = smoothing_pass;
         info.framebuffer = smoothing_framebuffer;
         info.clearValueCount = 0;
         vk.vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
-        draw_run(smoothing, 3, {0, 1});
     }
-    draw_run(overlay, 4, {0, quad_count});
+    draw_all(Pass::finish, quad_count);
     vk.vkCmdEndRenderPass(commands);
 }
 
-Canvas::Canvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const BodyTables& tables,
-               const CanvasOptions& options)
-    : interior_(std::make_unique<Interior>(std::move(device), instances, options)) {
-    set_tables(tables);
-}
-Canvas::~Canvas() = default;
-Canvas::Canvas(Canvas&&) noexcept = default;
-Canvas& Canvas::operator=(Canvas&&) noexcept = default;
+VulkanCanvas::VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const CanvasOptions& options)
+    : interior_(std::make_unique<Interior>(std::move(device), instances, options)) {}
+VulkanCanvas::~VulkanCanvas() = default;
 
-void Canvas::set_tables(const BodyTables& tables) {
-    interior_->write_set(tables);
+void VulkanCanvas::set_tables(const BodyTables& tables) {
+    require_tables(tables, interior_->options);
+    for (const BindingInfo& info : binding_infos()) {
+        const Buffer* const buffer = info.table == nullptr ? nullptr : (tables.*info.table).buffer;
+        if (buffer != nullptr && !*buffer) throw std::invalid_argument("canvas: a table is a buffer without memory");
+    }
+    interior_->tables = tables;
 }
 
-Image Canvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
+Image VulkanCanvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+                         vec3 scene_high) {
     Interior& in = *interior_;
     const VulkanFunctions& vk = in.device->vk();
     const CanvasOptions& options = in.options;
+    require_tables(in.tables, options);
     const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
     in.frame.write(&frame, sizeof frame);
     std::vector<OverlayQuad> quads;
     if (options.legend) quads = overlay_quads(options.width, options.height, scale, caption);
     quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));
     if (!quads.empty()) in.quads.write(quads.data(), quads.size() * sizeof(OverlayQuad));
+    in.write_set();
 
     in.begin();
     VkMemoryBarrier barrier{};
@@ -163,6 +152,11 @@ Image Canvas::draw(const Camera& camera, const ColorScale& scale, const std::str
     Image image{options.width, options.height, std::vector<std::uint8_t>(in.picture.bytes())};
     in.picture.read(image.rgba.data(), image.rgba.size());
     return image;
+}
+
+std::unique_ptr<Canvas> make_vulkan_canvas(std::shared_ptr<Device> device, const ShapeInstances& instances,
+                                           const CanvasOptions& options) {
+    return std::make_unique<VulkanCanvas>(std::move(device), instances, options);
 }
 
 }  // namespace scree::host

@@ -1,7 +1,8 @@
-// The render passes of the canvas and the pipelines that draw in them.
+// The render passes of the Vulkan canvas and the pipelines that draw in them.
 #pragma once
 
-#include "host/canvas_objects.h"
+#include "host/canvas_plan.h"
+#include "host/canvas_vulkan_objects.h"
 
 namespace scree::host {
 
@@ -16,24 +17,17 @@ constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 VkRenderPass make_shadow_pass(Objects& objects);
 // Attachments: colour, depth and, with more than one sample, the picture into which the colour is resolved, to be copied. With
 // one sample the colour is left ready to be read by the fragment shader that smooths it.
-VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat color);
+VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat format);
 
 // One attachment: the picture, drawn over wholly and left ready to be copied.
-VkRenderPass make_smoothing_pass(Objects& objects, VkFormat color);
+VkRenderPass make_smoothing_pass(Objects& objects, VkFormat format);
 
 struct PipelineShape {
-    const char* vertex = nullptr;
-    const char* fragment = nullptr;  // none: depth only
+    DrawState state;
     VkRenderPass pass = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     int samples = 1;
     int width = 0, height = 0;  // pixels
-    VkCullModeFlags cull = VK_CULL_MODE_NONE;
-    VkCompareOp depth = VK_COMPARE_OP_ALWAYS;
-    bool writes_depth = false;
-    bool colors = true;  // the pass has a colour attachment
-    bool blends = false;
-    bool strip = false;  // a triangle strip instead of separate triangles
 };
 VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape);
 

@@ -1,11 +1,9 @@
-// What a canvas holds on the device: made once, before the first picture.
-#include "host/canvas_interior.h"
+// What the Vulkan canvas holds on the device: made once, before the first picture.
+#include "host/canvas_vulkan_interior.h"
 
 #include <algorithm>
 
 #include "host/canvas_frame.h"
-#include "host/canvas_meshes.h"
-#include "host/canvas_overlay.h"
 #include "host/glyphs.h"
 
 namespace scree::host {
@@ -26,58 +24,34 @@ CanvasOptions checked(CanvasOptions options, const Device& device) {
 
 }  // namespace
 
-Canvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
-    : device(std::move(opened)), options(checked(chosen, *device)), objects(device) {
-    const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
-    frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
-    quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
-    picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
-    make_instances(shapes);
-    make_meshes();
+VulkanCanvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
+    : device(std::move(opened)), options(checked(chosen, *device)), scenery(shapes), draws(draws_of(options)), objects(device) {
+    make_buffers();
     make_layout();
     make_samplers();
     make_shadow_maps();
     make_picture();
+    make_pipelines();
     make_commands();
     upload_glyphs();
 }
 
-void Canvas::Interior::make_instances(const ShapeInstances& shapes) {
-    std::vector<std::uint32_t> all;
-    const auto add = [&](const std::vector<std::uint32_t>& bodies) {
-        const Run run{static_cast<std::uint32_t>(all.size()), static_cast<std::uint32_t>(bodies.size())};
-        all.insert(all.end(), bodies.begin(), bodies.end());
-        return run;
+void VulkanCanvas::Interior::make_buffers() {
+    const auto filled = [this](const char* name, const auto& records) {
+        Buffer buffer(device, name, std::span(records).size_bytes());
+        buffer.write(records.data(), buffer.bytes());
+        return buffer;
     };
-    spheres = add(shapes.spheres);
-    capsules = add(shapes.capsules);
-    boxes = add(shapes.boxes);
-    planes = add(shapes.planes);
-    if (all.empty()) all.push_back(0);
-    instances = Buffer(device, "canvas instances", all.size() * sizeof(std::uint32_t));
-    instances.write(all.data(), all.size() * sizeof(std::uint32_t));
+    instances = filled("canvas instances", scenery.instances);
+    directions = filled("canvas directions", scenery.directions);
+    indices = filled("canvas indices", scenery.indices);
+    const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
+    quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
+    picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
 }
 
-void Canvas::Interior::make_meshes() {
-    std::vector<vec4> all_directions;
-    std::vector<std::uint32_t> all_indices;
-    const auto add = [&](const RoundMesh& mesh) {
-        const Mesh at{static_cast<std::uint32_t>(all_indices.size()), static_cast<std::uint32_t>(mesh.indices.size()),
-                      static_cast<std::int32_t>(all_directions.size())};
-        all_directions.insert(all_directions.end(), mesh.directions.begin(), mesh.directions.end());
-        all_indices.insert(all_indices.end(), mesh.indices.begin(), mesh.indices.end());
-        return at;
-    };
-    const int corners = round_corners(spheres.count + capsules.count);
-    sphere_mesh = add(scree::host::sphere_mesh(corners));
-    capsule_mesh = add(scree::host::capsule_mesh(corners / 2));
-    directions = Buffer(device, "canvas directions", all_directions.size() * sizeof(vec4));
-    directions.write(all_directions.data(), directions.bytes());
-    indices = Buffer(device, "canvas indices", all_indices.size() * sizeof(std::uint32_t));
-    indices.write(all_indices.data(), indices.bytes());
-}
-
-void Canvas::Interior::make_samplers() {
+void VulkanCanvas::Interior::make_samplers() {
     const VulkanFunctions& vk = device->vk();
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
@@ -91,7 +65,7 @@ void Canvas::Interior::make_samplers() {
     depth_sampler = objects.make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler");
 }
 
-void Canvas::Interior::make_shadow_maps() {
+void VulkanCanvas::Interior::make_shadow_maps() {
     shadow_pass = make_shadow_pass(objects);
     for (std::size_t i = 0; i < shadow_maps.size(); ++i) {
         ShadowMap& map = shadow_maps[i];
@@ -101,25 +75,10 @@ void Canvas::Interior::make_shadow_maps() {
                                        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
                                        VK_IMAGE_ASPECT_DEPTH_BIT, 1});
         map.framebuffer = objects.framebuffer(shadow_pass, std::array{map.surface.view}, map.size, map.size);
-        PipelineShape shape;
-        shape.pass = shadow_pass;
-        shape.layout = layout;
-        shape.width = shape.height = map.size;
-        shape.depth = VK_COMPARE_OP_LESS;
-        shape.writes_depth = true;
-        shape.colors = false;
-        shape.vertex = "round_shadow.vert";
-        shape.fragment = "round_shadow.frag";
-        map.round = make_pipeline(objects, shape);
-        shape.vertex = "box_shadow.vert";
-        shape.fragment = nullptr;
-        // The maps are not mirrored as pictures are, so this keeps the sides towards the light.
-        shape.cull = VK_CULL_MODE_FRONT_BIT;
-        map.box = make_pipeline(objects, shape);
     }
 }
 
-void Canvas::Interior::make_picture() {
+void VulkanCanvas::Interior::make_picture() {
     const VkFormat format = color_format(options.bits);
     picture_pass = make_picture_pass(objects, options.samples, format);
     const auto surface = [&](VkFormat of, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
@@ -137,51 +96,34 @@ void Canvas::Interior::make_picture() {
     if (!smooths) views.push_back(target.view);
     framebuffer = objects.framebuffer(picture_pass, views, options.width, options.height);
 
-    PipelineShape shape;
-    shape.pass = picture_pass;
-    shape.layout = layout;
-    shape.samples = options.samples;
-    shape.width = options.width;
-    shape.height = options.height;
-    // Depth falls from 1 to 0 with distance, which spends a float's precision evenly.
-    shape.depth = VK_COMPARE_OP_GREATER;
-    shape.writes_depth = true;
-    const auto made = [&](const char* vertex, const char* fragment) {
-        shape.vertex = vertex;
-        shape.fragment = fragment;
-        return make_pipeline(objects, shape);
-    };
-    plane = made("plane.vert", "plane.frag");
-    shape.cull = VK_CULL_MODE_BACK_BIT;
-    round = made("round.vert", "round.frag");
-    box = made("box.vert", "box.frag");
-    shape.cull = VK_CULL_MODE_NONE;
-    shape.writes_depth = false;
-    shape.depth = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    sky = made("sky.vert", "sky.frag");
-    if (options.marks) make_marks(shape);
-    shape.depth = VK_COMPARE_OP_ALWAYS;
     if (smooths) {
         smoothing_pass = make_smoothing_pass(objects, format);
         smoothing_framebuffer = objects.framebuffer(smoothing_pass, std::array{target.view}, options.width, options.height);
-        shape.pass = smoothing_pass;
-        smoothing = made("sky.vert", "smooth.frag");
     }
-    shape.blends = shape.strip = true;
-    overlay = made("overlay.vert", "overlay.frag");
 }
 
-void Canvas::Interior::make_marks(PipelineShape shape) {
-    shape.vertex = "mark.vert";
-    shape.fragment = "mark.frag";
-    shape.blends = shape.strip = true;
-    shape.depth = VK_COMPARE_OP_LESS;
-    hidden_marks = make_pipeline(objects, shape);
-    shape.depth = VK_COMPARE_OP_GREATER_OR_EQUAL;
-    marks = make_pipeline(objects, shape);
+void VulkanCanvas::Interior::make_pipelines() {
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const DrawState& state = draws[i].state;
+        const auto alike = std::find_if(draws.begin(), draws.begin() + static_cast<std::ptrdiff_t>(i),
+                                        [&](const Draw& earlier) { return earlier.state == state; });
+        if (const auto at = static_cast<std::size_t>(alike - draws.begin()); at < i) {
+            pipelines.push_back(pipelines[at]);
+            continue;
+        }
+        PipelineShape shape{state, picture_pass, layout, options.samples, options.width, options.height};
+        if (state.pass == Pass::sun_map || state.pass == Pass::sky_map) {
+            shape.pass = shadow_pass;
+            shape.samples = 1;
+            shape.width = shape.height = shadow_maps[state.pass == Pass::sun_map ? 0 : 1].size;
+        } else if (state.pass == Pass::finish && smoothing_pass != VK_NULL_HANDLE) {
+            shape.pass = smoothing_pass;
+        }
+        pipelines.push_back(make_pipeline(objects, shape));
+    }
 }
 
-void Canvas::Interior::make_commands() {
+void VulkanCanvas::Interior::make_commands() {
     const VulkanFunctions& vk = device->vk();
     VkCommandPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -196,7 +138,7 @@ void Canvas::Interior::make_commands() {
     check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
 }
 
-void Canvas::Interior::upload_glyphs() {
+void VulkanCanvas::Interior::upload_glyphs() {
     const VulkanFunctions& vk = device->vk();
     const GlyphAtlas& atlas = glyph_atlas();
     glyphs = objects.surface({VK_FORMAT_R8_UNORM, atlas.width, atlas.height,

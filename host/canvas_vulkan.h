@@ -1,0 +1,27 @@
+// The canvas that draws with Vulkan, on the device that simulates or another.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/canvas.h"
+#include "host/device.h"
+
+namespace scree::host {
+
+class VulkanCanvas final : public Canvas {
+public:
+    // As make_vulkan_canvas.
+    VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const CanvasOptions& options);
+    ~VulkanCanvas() override;
+
+    void set_tables(const BodyTables& tables) override;
+    Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+               vec3 scene_high) override;
+
+private:
+    struct Interior;
+    std::unique_ptr<Interior> interior_;
+};
+
+}  // namespace scree::host
