@@ -4,6 +4,7 @@
 #include "compute/device_runner.h"
 #include "demos/failure.h"
 #include "host/device.h"
+#include "shaders/physics/records.h"
 
 namespace scree::demos {
 
@@ -35,14 +36,24 @@ Machine choose_machine(const MachineOptions& options) {
     return machine;
 }
 
-std::shared_ptr<host::Device> device_for_pictures(const Machine& machine) {
-    if (machine.device) return machine.device;
-    try {
-        return host::Device::open({.which = "", .validation = machine.options.validate, .on_message = {}});
-    } catch (const host::DeviceError& error) {
-        throw UsageError(std::string("--frames and --video need a Vulkan driver, though the simulation does not: ") +
-                         error.what());
-    }
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
+                                                 const host::CanvasOptions& options) {
+    std::shared_ptr<host::Device> device = machine.device;
+    if (!device) device = host::Device::open({.which = "", .validation = machine.options.validate, .on_message = {}});
+    return host::make_vulkan_canvas(std::move(device), instances, options);
+}
+
+host::BodyTables tables_on_device(Runner& runner) {
+    const auto& device = dynamic_cast<DeviceRunner&>(runner);
+    physics::Counts counts{};
+    device.counts().read(&counts, sizeof counts);
+    return {&device.traits(), &device.poses(), &device.velocities(), &device.contacts(), &device.impulses(), counts.contacts};
+}
+
+vec3 position_on_device(Runner& runner, std::size_t body) {
+    physics::Pose pose{};
+    dynamic_cast<DeviceRunner&>(runner).poses().read(&pose, sizeof pose, body * sizeof pose);
+    return pose.position;
 }
 
 }  // namespace scree::demos

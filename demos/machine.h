@@ -6,6 +6,7 @@
 
 #include "compute/runner.h"
 #include "demos/options.h"
+#include "host/canvas.h"
 
 namespace scree::host {
 class Device;
@@ -26,7 +27,12 @@ struct Machine {
 // Throws host::DeviceError when the user named a backend or a device that is not there.
 Machine choose_machine(const MachineOptions& options);
 
-// A device to draw with: the machine's own, else any. Throws UsageError that says what to install.
-std::shared_ptr<host::Device> device_for_pictures(const Machine& machine);
+// A canvas on the machine's own device, else on any. Throws host::DeviceError that says what to install.
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
+                                                 const host::CanvasOptions& options);
+
+// What a machine with a device keeps there.
+host::BodyTables tables_on_device(Runner& runner);
+vec3 position_on_device(Runner& runner, std::size_t body);
 
 }  // namespace scree::demos

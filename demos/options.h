@@ -49,13 +49,14 @@ struct CameraOptions {
 
 struct PictureOptions {
     std::string frames, video, preview, raw;  // empty: none
+    std::string canvas = "auto";              // what draws: auto, vulkan or gl
     int width = 1280, height = 720;
     int bits = 8;  // of a channel
     double fps = 30;
     CameraOptions camera;
     std::string color = "momentum", color_map = "plasma";
     std::optional<std::pair<float, float>> color_range;
-    bool legend = true;
+    bool legend = true, caption = true;
     std::vector<std::string> show;  // besides the bodies: "contacts"
 
     bool shows_contacts() const { return !show.empty(); }

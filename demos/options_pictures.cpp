@@ -136,7 +136,15 @@ void add_options(CLI::App& command, PictureOptions& options) {
         ->expected(1)
         ->take_all()
         ->group(group);
-    command.add_flag("!--no-legend", options.legend, "no scale and caption in the picture")->group(group);
+    command
+        .add_option("--canvas", options.canvas,
+                    "what draws: vulkan, gl (OpenGL ES, where there is no Vulkan driver) or auto (vulkan on the device that "
+                    "simulates; with the backend cpu gl, else vulkan); the pictures look the same")
+        ->check(one_of({"auto", "vulkan", "gl"}))
+        ->group(group);
+    command.add_flag("!--no-legend", options.legend, "no colour scale in the picture")->group(group);
+    command.add_flag("!--no-caption", options.caption, "no name, time, numbers of bodies and contacts, and device in it")
+        ->group(group);
     add_camera(command, options.camera);
 }
 

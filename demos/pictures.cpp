@@ -5,29 +5,15 @@
 
 #include <chrono>
 
-#include "compute/device_runner.h"
-#include "compute/state.h"
 #include "demos/camera.h"
 #include "demos/color_range.h"
-#include "demos/failure.h"
+#include "demos/drawing.h"
 #include "host/canvas.h"
 #include "host/frame_writer.h"
-#include "shaders/physics/records.h"
 
 namespace scree::demos {
 
 namespace {
-
-host::ShapeInstances instances_of(const Scene& scene) {
-    host::ShapeInstances instances;
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        // In the order of Shape's alternatives.
-        std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes,
-                                                     &instances.planes};
-        lists[scene.bodies[i].shape.index()]->push_back(i);
-    }
-    return instances;
-}
 
 // Adds the time that the work takes, s.
 template <class Work>
@@ -38,20 +24,6 @@ decltype(auto) timed(double& seconds, Work&& work) {
         ~Watch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
     } const watch{seconds};
     return work();
-}
-
-host::BodyTables tables_of(const DeviceRunner& runner, std::uint32_t contacts) {
-    return {&runner.traits(), &runner.poses(), &runner.velocities(), &runner.contacts(), &runner.impulses(), contacts};
-}
-
-host::BodyTables tables_of(const State& state) {
-    const std::uint32_t contacts = state.counted().contacts;
-    return {state.traits,
-            state.poses,
-            state.velocities,
-            std::span(state.contacts).first(contacts),
-            std::span(state.impulses).first(contacts),
-            contacts};
 }
 
 host::ColorScale scale_of(const PictureOptions& options, const Subject& subject) {
@@ -80,47 +52,27 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
 
 struct Pictures::Interior {
     World& world;
-    DeviceRunner* runner;  // null on the processor
-    std::shared_ptr<host::Device> device;
-    std::unique_ptr<host::Canvas> canvas;
+    std::optional<Drawing> drawing;
     std::unique_ptr<host::FrameWriter> writer;
     CameraMan camera;
     host::ColorScale scale;
     std::string name;
     vec3 low, high;
     double fps;
-    bool shows_contacts;
+    bool captioned;
     PictureTimes times;
 
-    host::BodyTables tables() const {
-        return runner ? tables_of(*runner, shows_contacts ? contact_count() : 0) : tables_of(world.state());
-    }
-    std::uint32_t contact_count() const {
-        if (!runner) return world.state().counted().contacts;
-        physics::Counts counts{};
-        runner->counts().read(&counts, sizeof counts);
-        return counts.contacts;
-    }
-    vec3 followed_position() {
-        const std::optional<std::size_t> body = camera.followed();
-        if (!body) return vec3(0);
-        if (!runner) return world.bodies()[*body].position;
-        physics::Pose pose{};
-        runner->poses().read(&pose, sizeof pose, *body * sizeof pose);
-        return pose.position;
-    }
     std::string caption() const {
-        const std::string contacts = shows_contacts ? fmt::format("{} contacts, ", contact_count()) : "";
-        return fmt::format("{}\n{} bodies, {}{:.2f} s", name, world.scene().bodies.size(), contacts, world.time());
+        if (!captioned) return "";
+        return fmt::format("{} · {:.2f} s\n{} bodies, {} contacts\n{}", name, world.time(), world.scene().bodies.size(),
+                           drawing->contacts(), world.runner().device());
     }
 };
 
 Pictures::Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world)
     : interior_(
           new Interior{world,
-                       dynamic_cast<DeviceRunner*>(&world.runner()),
-                       device_for_pictures(machine),
-                       nullptr,
+                       {},
                        nullptr,
                        CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
                        scale_of(options, subject),
@@ -128,7 +80,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
                        subject.low,
                        subject.high,
                        options.fps,
-                       options.shows_contacts(),
+                       options.caption,
                        {}}) {
     Interior& in = *interior_;
     host::FrameWriterOptions writer;
@@ -141,7 +93,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
     writer.height = options.height;
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    in.canvas = host::make_vulkan_canvas(in.device, instances_of(world.scene()), canvas_of(options, world));
+    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, world));
 }
 
 Pictures::~Pictures() = default;
@@ -152,9 +104,10 @@ void Pictures::after_step() {
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.writer->frames() / in.fps) return;
     host::Image picture = timed(in.times.draw, [&] {
-        in.canvas->set_tables(in.tables());
-        const host::Camera camera = in.camera.at(in.world.time(), in.followed_position());
-        return in.canvas->draw(camera, in.scale, in.caption(), in.low, in.high);
+        in.drawing->update();
+        const std::optional<std::size_t> body = in.camera.followed();
+        const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
+        return in.drawing->canvas().draw(camera, in.scale, in.caption(), in.low, in.high);
     });
     timed(in.times.encode_wait, [&] { in.writer->add(std::move(picture)); });
 }

@@ -62,7 +62,7 @@ struct CanvasOptions {
     int samples = 0;      // a pixel: 4, or 1 with stairs smoothed afterwards; 0: 1 on a processor, where 4 are slow
     int bits = 8;         // of a channel of the picture: 8, or 16, drawn into half floats that hold linear light
     bool shadows = true;  // of the sun, and the darkening between bodies
-    bool legend = true;   // the colour scale and the caption in the picture
+    bool legend = true;   // the colour scale in the picture
     bool marks = false;   // on the points where bodies touch, with lines that tell how hard they push; the bodies grow paler
     // Speed that a push gives to the lighter body, m/s, when its line is half the thinner body's half width long; lines grow as
     // the square root.
@@ -73,6 +73,8 @@ struct CanvasOptions {
 class Canvas {
 public:
     virtual ~Canvas() = default;
+
+    virtual std::string name() const = 0;  // for people: what draws, and on which device
 
     // Where the bodies are from now on; before the first picture, and when tables were made anew. Throws std::invalid_argument
     // for a table that is missing, or that lies where this canvas cannot draw from.
@@ -89,5 +91,9 @@ public:
 // Throws DeviceError for sizes that the device cannot draw. Tables may lie on `device` or in host memory, each as it likes.
 std::unique_ptr<Canvas> make_vulkan_canvas(std::shared_ptr<Device> device, const ShapeInstances& instances,
                                            const CanvasOptions& options = {});
+
+// Throws DeviceError where there is no OpenGL ES 3.1 without a window, saying what to install, and for sizes that it cannot draw.
+// Tables must lie in host memory.
+std::unique_ptr<Canvas> make_gl_canvas(const ShapeInstances& instances, const CanvasOptions& options = {});
 
 }  // namespace scree::host

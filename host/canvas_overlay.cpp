@@ -124,10 +124,10 @@ BarPlace legend_bar(int width, int height) {
     return {width - inset - long_side, height - below - thickness, width - inset, height - below};
 }
 
-std::vector<OverlayQuad> overlay_quads(int width, int height, const ColorScale& scale, const std::string& caption) {
+std::vector<OverlayQuad> overlay_quads(int width, int height, bool legend, const ColorScale& scale, const std::string& caption) {
     Sheet sheet;
     if (!caption.empty()) add_caption(sheet, height, caption);
-    if (has_scale(scale.by) && legend_bar(width, height).left >= 0) add_legend(sheet, width, height, scale);
+    if (legend && has_scale(scale.by) && legend_bar(width, height).left >= 0) add_legend(sheet, width, height, scale);
     return sheet.quads;
 }
 

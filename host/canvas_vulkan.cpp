@@ -99,6 +99,11 @@ VulkanCanvas::VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances&
     : interior_(std::make_unique<Interior>(std::move(device), instances, options)) {}
 VulkanCanvas::~VulkanCanvas() = default;
 
+std::string VulkanCanvas::name() const {
+    const DeviceReport& report = interior_->device->report();
+    return "Vulkan " + report.api_version + ", " + report.name;
+}
+
 void VulkanCanvas::set_tables(const BodyTables& tables) {
     require_tables(tables, interior_->options);
     for (const BindingInfo& info : binding_infos()) {
@@ -116,8 +121,7 @@ Image VulkanCanvas::draw(const Camera& camera, const ColorScale& scale, const st
     require_tables(in.tables, options);
     const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
     in.frame.write(&frame, sizeof frame);
-    std::vector<OverlayQuad> quads;
-    if (options.legend) quads = overlay_quads(options.width, options.height, scale, caption);
+    std::vector<OverlayQuad> quads = overlay_quads(options.width, options.height, options.legend, scale, caption);
     quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));
     if (!quads.empty()) in.quads.write(quads.data(), quads.size() * sizeof(OverlayQuad));
     in.write_set();

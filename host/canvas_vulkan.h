@@ -15,6 +15,7 @@ public:
     VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const CanvasOptions& options);
     ~VulkanCanvas() override;
 
+    std::string name() const override;
     void set_tables(const BodyTables& tables) override;
     Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                vec3 scene_high) override;

@@ -4,18 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "host/device_error.h"
 #include "host/vulkan_functions.h"
 
 namespace scree::host {
-
-// No Vulkan, no such device, or a Vulkan call that failed. The message says what to do about it.
-struct DeviceError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 // One physical device as `scree devices` shows it.
 struct DeviceReport {

@@ -1,0 +1,83 @@
+// Where a world is drawn: the choice between the two canvases, and the tables that the chosen one draws from.
+#include "demos/drawing.h"
+
+#include <span>
+
+#include "compute/state.h"
+#include "demos/failure.h"
+#include "host/device_error.h"
+
+namespace scree::demos {
+
+namespace {
+
+host::ShapeInstances instances_of(const Scene& scene) {
+    host::ShapeInstances instances;
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        // In the order of Shape's alternatives.
+        std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes,
+                                                     &instances.planes};
+        lists[scene.bodies[i].shape.index()]->push_back(i);
+    }
+    return instances;
+}
+
+host::BodyTables tables_of(const State& state) {
+    const std::uint32_t contacts = state.counted().contacts;
+    return {state.traits,
+            state.poses,
+            state.velocities,
+            std::span(state.contacts).first(contacts),
+            std::span(state.impulses).first(contacts),
+            contacts};
+}
+
+// On whatever is there: the processor draws about as fast with either.
+std::unique_ptr<host::Canvas> any_canvas(const Machine& machine, const host::ShapeInstances& instances,
+                                         const host::CanvasOptions& options) {
+    std::string missing;
+    try {
+        return host::make_gl_canvas(instances, options);
+    } catch (const host::DeviceError& error) {
+        missing = error.what();
+    }
+    try {
+        return make_vulkan_canvas(machine, instances, options);
+    } catch (const host::DeviceError& error) {
+        throw UsageError("--frames and --video need OpenGL ES or Vulkan, though the simulation does not: " + missing + "; or " +
+                         error.what());
+    }
+}
+
+}  // namespace
+
+Drawing::Drawing(const std::string& canvas, const Machine& machine, World& world, const host::CanvasOptions& options)
+    : world_(world) {
+    const host::ShapeInstances instances = instances_of(world.scene());
+    const bool by_vulkan = canvas == "vulkan" || (canvas == "auto" && machine.device);
+    try {
+        canvas_ = by_vulkan        ? make_vulkan_canvas(machine, instances, options)
+                  : canvas == "gl" ? host::make_gl_canvas(instances, options)
+                                   : any_canvas(machine, instances, options);
+    } catch (const host::DeviceError& error) {
+        throw UsageError(error.what());
+    }
+    from_device_ = by_vulkan && machine.device;
+    update();
+}
+
+void Drawing::update() {
+    const host::BodyTables tables = from_device_ ? tables_on_device(world_.runner()) : tables_of(world_.state());
+    contacts_ = tables.touch_count;
+    canvas_->set_tables(tables);
+}
+
+std::uint32_t Drawing::contacts() const {
+    return contacts_;
+}
+
+vec3 Drawing::position_of(std::size_t body) const {
+    return from_device_ ? position_on_device(world_.runner(), body) : world_.state().poses.at(body).position;
+}
+
+}  // namespace scree::demos
