@@ -24,12 +24,17 @@ host::ShapeInstances instances_of(const Scene& scene) {
 
 host::BodyTables tables_of(const State& state) {
     const std::uint32_t contacts = state.counted().contacts;
-    return {state.traits,
-            state.poses,
-            state.velocities,
-            std::span(state.contacts).first(contacts),
-            std::span(state.impulses).first(contacts),
-            contacts};
+    host::BodyTables tables{state.traits,
+                            state.poses,
+                            state.velocities,
+                            std::span(state.contacts).first(contacts),
+                            std::span(state.impulses).first(contacts),
+                            contacts};
+    tables.slot_ends = state.slot_ends;
+    tables.slot_sides = state.slot_sides;
+    tables.rests = state.rests;
+    tables.bounds = state.bounds;
+    return tables;
 }
 
 // On whatever is there: the processor draws about as fast with either.

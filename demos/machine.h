@@ -5,6 +5,7 @@
 #include <string>
 
 #include "compute/runner.h"
+#include "compute/scene.h"
 #include "demos/options.h"
 #include "host/canvas.h"
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -57,9 +58,10 @@ struct PictureOptions {
     std::string color = "momentum", color_map = "plasma";
     std::optional<std::pair<float, float>> color_range;
     bool legend = true, caption = true;
-    std::vector<std::string> show;  // besides the bodies: "contacts"
+    bool logarithmic = false;
+    std::vector<std::string> show;  // besides the bodies: contacts, velocities, boxes, cells, sleep
 
-    bool shows_contacts() const { return !show.empty(); }
+    bool shows(const char* what) const { return std::find(show.begin(), show.end(), what) != show.end(); }
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }
     bool takes_output() const { return raw == "-"; }  // the standard output is for frames, and words go elsewhere
 };

@@ -119,7 +119,13 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
 void add_options(CLI::App& command, PictureOptions& options) {
     add_outputs(command, options);
     const char* group = "Pictures";
-    command.add_option("--color", options.color, "what colour tells")->check(one_of(color_words()))->group(group);
+    command
+        .add_option(
+            "--color", options.color,
+            "what colour tells; contact-impulse is the sum over the body's contacts in a substep, sleep how long it has been "
+            "quiet, material which friction, restitution and density it has")
+        ->check(one_of(color_words()))
+        ->group(group);
     command.add_option("--color-map", options.color_map, "how it tells it")->check(one_of(color_map_words()))->group(group);
     command
         .add_option_function<std::string>(
@@ -128,10 +134,19 @@ void add_options(CLI::App& command, PictureOptions& options) {
             "height)")
         ->group(group);
     command
+        .add_option_function<std::string>("--color-scale",
+                                          Set([&options](const std::string& word) { options.logarithmic = word == "log"; }),
+                                          "linear, or log: from a thousandth of the range's end, or as --color-range says")
+        ->check(one_of({"linear", "log"}))
+        ->group(group);
+    command
         .add_option(
             "--show", options.show,
-            "what else to draw, a list parted by commas: contacts (their points, and along the normal how hard they push)")
-        ->check(one_of({"contacts"}))
+            "what else to draw, a list parted by commas: contacts (their points, and along the normal how hard they push), "
+            "velocities "
+            "(arrows, the way in 0.2 s), boxes (bounds over the next step), cells (of the broadphase's grid, where bodies are), "
+            "sleep (sleepers dull and blue)")
+        ->check(one_of({"contacts", "velocities", "boxes", "cells", "sleep"}))
         ->delimiter(',')
         ->expected(1)
         ->take_all()

@@ -3,13 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
+#include <map>
 
+#include "compute/state.h"
 #include "demos/camera.h"
 #include "demos/color_range.h"
 #include "demos/drawing.h"
+#include "demos/failure.h"
 #include "host/canvas.h"
 #include "host/frame_writer.h"
+#include "shaders/physics/rest.h"
 
 namespace scree::demos {
 
@@ -26,11 +32,38 @@ decltype(auto) timed(double& seconds, Work&& work) {
     return work();
 }
 
-host::ColorScale scale_of(const PictureOptions& options, const Subject& subject) {
+// The materials of the bodies that move, the most frequent first: as many as colours can tell apart.
+std::vector<host::Material> materials_of(const Scene& scene) {
+    std::map<std::array<float, 3>, std::size_t> found;
+    for (const Body& body : scene.bodies) {
+        if (body.motion == Motion::dynamic) ++found[{body.friction, body.restitution, body.density}];
+    }
+    std::vector<std::pair<std::size_t, std::array<float, 3>>> sorted;
+    for (const auto& [material, count] : found) sorted.emplace_back(count, material);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<host::Material> materials;
+    for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 8); ++i) {
+        const std::array<float, 3>& m = sorted[i].second;
+        materials.push_back({m[0], m[1], m[2]});
+    }
+    return materials;
+}
+
+host::ColorScale scale_of(const PictureOptions& options, const Subject& subject, const Settings& settings) {
     host::ColorScale scale;
     scale.by = host::color_by_named(options.color).value();
     scale.map = host::color_map_named(options.color_map).value();
-    std::tie(scale.low, scale.high) = options.color_range.value_or(color_range(subject, options.color));
+    std::pair<float, float> range = color_range(subject, settings, options.color);
+    if (options.logarithmic) range = logarithmic_range(range);
+    std::tie(scale.low, scale.high) = options.color_range.value_or(range);
+    scale.logarithmic = options.logarithmic && host::has_scale(scale.by);
+    if (scale.logarithmic && scale.low <= 0) {
+        throw UsageError(
+            fmt::format("--color-scale log: a logarithmic scale begins above 0, and the range begins at {:g}; say "
+                        "--color-range LOW:HIGH",
+                        scale.low));
+    }
+    if (scale.by == host::ColorBy::material) scale.materials = materials_of(subject.scene);
     return scale;
 }
 
@@ -40,7 +73,15 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
     canvas.height = options.height;
     canvas.bits = options.bits;
     canvas.legend = options.legend;
-    canvas.marks = options.shows_contacts();
+    canvas.marks = options.shows("contacts");
+    canvas.velocities = options.shows("velocities");
+    canvas.boxes = options.shows("boxes");
+    canvas.cells = options.shows("cells");
+    canvas.sleep = options.shows("sleep");
+    const physics::Parameters& fixed = world.state().fixed();
+    canvas.cell = fixed.cell;
+    canvas.step_seconds = fixed.dt;
+    canvas.sleep_steps = fixed.sleep_steps == physics::NO_SLEEP ? 0 : fixed.sleep_steps;
     // What a body's weight gives it in a substep.
     const Settings& settings = world.settings();
     const float weight = glm::length(world.scene().gravity) / (settings.rate * static_cast<float>(settings.substeps));
@@ -75,7 +116,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
                        {},
                        nullptr,
                        CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
-                       scale_of(options, subject),
+                       scale_of(options, subject, world.settings()),
                        subject.name,
                        subject.low,
                        subject.high,

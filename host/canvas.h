@@ -45,10 +45,15 @@ struct BodyTables {
     TableView traits;      // Traits
     TableView poses;       // Pose
     TableView velocities;  // Velocity
-    // For CanvasOptions::marks: where bodies touch, and how hard they push.
+    // Where bodies touch, and how hard they push: for CanvasOptions::marks and ColorBy::contact_impulse.
     TableView touches;              // Contact
     TableView pushes;               // Impulse
     std::uint32_t touch_count = 0;  // records of both that mean something
+    // Which contacts a body has: for ColorBy::contact_impulse and contacts.
+    TableView slot_ends;   // uint, where the slots of each body end; those of the next begin there
+    TableView slot_sides;  // uint, 2 * contact + side
+    TableView rests;       // uint (shaders/physics/rest.h), for ColorBy::rest and CanvasOptions::sleep
+    TableView bounds;      // Bounds, for CanvasOptions::boxes and cells
 };
 
 // Which bodies have which shape: their indices in the tables, fixed for a run.
@@ -67,6 +72,14 @@ struct CanvasOptions {
     // Speed that a push gives to the lighter body, m/s, when its line is half the thinner body's half width long; lines grow as
     // the square root.
     float mark_push = 0.02f;
+    bool velocities = false;                // as arrows
+    float arrow_seconds = 0.2f;             // an arrow is as long as the way in this time
+    bool boxes = false;                     // the bodies' bounds
+    bool cells = false;                     // of the broadphase's grid, in which bodies are
+    float cell = 1;                         // width of the finest, m
+    bool sleep = false;                     // sleepers are dull and blue
+    std::uint32_t sleep_steps = 0;          // quiet steps after which a body sleeps; 0: none does
+    float step_seconds = 1.0f / 60;         // a step's
     vec3 toward_sun{-0.52f, 0.74f, 0.43f};  // any length
 };
 

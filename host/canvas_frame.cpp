@@ -90,6 +90,12 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
     }
     frame.view_projection = m;
     frame.forward = vec4(-axes.back, camera.orthographic ? 1.0f : 0.0f);
+    for (int k = 0; k < 4; ++k) {
+        const vec3 across = k < 2 ? axes.right : axes.up;
+        const float half = k < 2 ? rise * aspect : rise, sign = k % 2 == 0 ? 1.0f : -1.0f;
+        frame.sides[k] =
+            camera.orthographic ? vec4(sign * across, half) : vec4(glm::normalize(sign * across - half * axes.back), 0);
+    }
     const vec3 corner = axes.up * rise - axes.right * (rise * aspect) - (camera.orthographic ? vec3(0) : axes.back);
     frame.ray_corner = vec4(corner, camera.near_plane);
     frame.ray_right = vec4(axes.right * (2 * rise * aspect / width), width);
@@ -129,7 +135,14 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.pixel.z = 20 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
     frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
-    frame.marks = vec4(options.marks ? 1.0f : 0.0f, options.mark_push, 0, 0);
+    const std::size_t materials = std::min<std::size_t>(scale.materials.size(), MOST_MATERIALS);
+    for (std::size_t i = 0; i < materials; ++i) {
+        const Material& m = scale.materials[i];
+        frame.materials[i] = vec4(m.friction, m.restitution, m.density, 0);
+    }
+    frame.marks =
+        vec4(options.marks ? 1.0f : 0.0f, options.mark_push, static_cast<float>(materials), options.sleep ? 1.0f : 0.0f);
+    frame.rest = vec4(static_cast<float>(options.sleep_steps), options.step_seconds, options.cell, options.arrow_seconds);
     frame.maps = vec4(sun_map.texel, sky_map.texel, 1.0f / SUN_MAP_SIZE, 1.0f / SKY_MAP_SIZE);
     return frame;
 }

@@ -25,6 +25,11 @@ constexpr GLenum function_of(Compare compare) {
     return GL_ALWAYS;
 }
 
+template <class Record>
+const Record* records_of(const TableView& table) {
+    return reinterpret_cast<const Record*>(table.bytes.data());
+}
+
 }  // namespace
 
 void GlCanvas::Interior::fill(Binding binding, const void* data, std::size_t bytes) const {
@@ -34,12 +39,12 @@ void GlCanvas::Interior::fill(Binding binding, const void* data, std::size_t byt
     gl.glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
-void GlCanvas::Interior::fill_tables() const {
+void GlCanvas::Interior::fill_tables(ColorBy by) const {
     GLint64 most = 0;
     gl.glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {
         const BindingInfo& info = binding_infos()[i];
-        if (info.table == nullptr || (info.source == Source::touches && !options.marks)) continue;
+        if (info.table == nullptr || !reads(i, options, by)) continue;
         const std::span<const std::byte> bytes = (tables.*info.table).bytes;
         if (static_cast<std::int64_t>(bytes.size()) > most) {
             throw DeviceError("canvas: a table of " + std::to_string(bytes.size()) + " bytes; " + context.renderer() +
@@ -66,7 +71,13 @@ void GlCanvas::Interior::set_state(const DrawState& state) const {
 void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Draw& draw = draws[i];
-        const Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
+        Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
+        std::uint32_t corners = draw.corners;
+        if (draw.items == Items::bodies) {
+            const BodyRun& run = scenery.runs[draw.run];
+            items = {0, instances_of(run)};
+            corners *= run.together;
+        }
         if (draw.state.pass != pass || items.count == 0) continue;
         const Program& program = programs[program_of[i]];
         set_state(draw.state);
@@ -76,7 +87,7 @@ void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
         const GLenum kind = draw.state.strip ? GL_TRIANGLE_STRIP : GL_TRIANGLES;
         const auto instances = static_cast<GLsizei>(items.count);
         if (draw.mesh == Mesh::none) {
-            gl.glDrawArraysInstanced(kind, 0, static_cast<GLsizei>(draw.corners), instances);
+            gl.glDrawArraysInstanced(kind, 0, static_cast<GLsizei>(corners), instances);
         } else {
             const Run mesh = scenery.mesh(draw.mesh);
             gl.glDrawElementsInstanced(kind, static_cast<GLsizei>(mesh.count), GL_UNSIGNED_INT,
@@ -118,7 +129,7 @@ std::string GlCanvas::name() const {
 }
 
 void GlCanvas::set_tables(const BodyTables& tables) {
-    require_tables(tables, interior_->options);
+    require_tables(tables, interior_->options, ColorBy::momentum);
     for (const BindingInfo& info : binding_infos()) {
         if (info.table != nullptr && (tables.*info.table).buffer != nullptr)
             throw std::invalid_argument("canvas: OpenGL ES draws from host memory, and a table is a Vulkan buffer");
@@ -127,17 +138,20 @@ void GlCanvas::set_tables(const BodyTables& tables) {
 }
 
 Image GlCanvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
-    const Interior& in = *interior_;
+    Interior& in = *interior_;
     const CanvasOptions& options = in.options;
-    require_tables(in.tables, options);
+    require_tables(in.tables, options, scale.by);
     const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
     std::vector<OverlayQuad> quads = overlay_quads(options.width, options.height, options.legend, scale, caption);
     quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));
 
     const GlContext::Current current(in.context);
     in.fill(FRAME, &frame, sizeof frame);
+    in.scenery.look(frame, records_of<physics::Traits>(in.tables.traits), records_of<physics::Pose>(in.tables.poses));
+    in.fill(INSTANCES, in.scenery.instances.data(), std::span(in.scenery.instances).size_bytes());
+    in.fill(RUN_TABLE, in.scenery.runs.data(), std::span(in.scenery.runs).size_bytes());
     in.fill(QUADS, quads.data(), quads.size() * sizeof(OverlayQuad));
-    in.fill_tables();
+    in.fill_tables(scale.by);
     in.draw_shadows(0);
     in.draw_shadows(1);
     in.draw_picture(static_cast<std::uint32_t>(quads.size()));

@@ -73,7 +73,6 @@ void GlCanvas::Interior::make_buffers() {
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {
         if (binding_infos()[i].source != Source::image) gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
     }
-    fill(INSTANCES, scenery.instances.data(), std::span(scenery.instances).size_bytes());
     fill(DIRECTIONS, scenery.directions.data(), std::span(scenery.directions).size_bytes());
     GLuint indices = 0;
     gl.glGenBuffers(1, &indices);

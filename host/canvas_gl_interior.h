@@ -51,7 +51,7 @@ struct GlCanvas::Interior {
     void require_complete() const;
 
     void fill(Binding binding, const void* data, std::size_t bytes) const;
-    void fill_tables() const;
+    void fill_tables(ColorBy by) const;
     void begin(const Target& on) const;
     void set_state(const DrawState& state) const;
     void draw_all(Pass pass, std::uint32_t quad_count) const;

@@ -37,20 +37,53 @@ void VulkanCanvas::Interior::image_barrier(VkImage image, VkImageLayout from, Vk
     device->vk().vkCmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
+// Which bodies are seen, and how finely they shall be drawn.
+void VulkanCanvas::Interior::look() {
+    if (scenery.bodies() == 0) return;
+    const VulkanFunctions& vk = device->vk();
+    const std::uint32_t groups = (scenery.bodies() + DETAIL_GROUP - 1) / DETAIL_GROUP;
+    vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, looks[i]);
+        vk.vkCmdDispatch(commands, i == 1 ? 1 : groups, 1, 1);
+        vk.vkCmdPipelineBarrier(
+            commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
+            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0,
+            1, &barrier, 0, nullptr, 0, nullptr);
+    }
+}
+
+void VulkanCanvas::Interior::draw_bodies(const Draw& draw) {
+    const VulkanFunctions& vk = device->vk();
+    const BodyRun& run = scenery.runs[draw.run];
+    const Run mesh = scenery.mesh(draw.mesh);
+    if (draw.mesh != Mesh::none) vk.vkCmdBindIndexBuffer(commands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
+    if (draw.run < SEEN_RUNS) {
+        vk.vkCmdDrawIndexedIndirect(commands, arguments.handle(), draw.run * sizeof(VkDrawIndexedIndirectCommand), 1, 0);
+    } else if (draw.mesh == Mesh::none) {
+        vk.vkCmdDraw(commands, draw.corners * run.together, instances_of(run), 0, 0);
+    } else {
+        vk.vkCmdDrawIndexed(commands, mesh.count, instances_of(run), mesh.first, 0, 0);
+    }
+}
+
 void VulkanCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Draw& draw = draws[i];
         const Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
-        if (draw.state.pass != pass || items.count == 0) continue;
+        const bool bodies = draw.items == Items::bodies;
+        if (draw.state.pass != pass || (bodies ? scenery.bodies() : items.count) == 0) continue;
         vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof draw.pushed, &draw.pushed);
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_GRAPHICS, pipelines[i]);
-        if (draw.mesh == Mesh::none) {
-            vk.vkCmdDraw(commands, draw.corners, items.count, 0, items.first);
+        if (bodies) {
+            draw_bodies(draw);
         } else {
-            const Run mesh = scenery.mesh(draw.mesh);
-            vk.vkCmdBindIndexBuffer(commands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
-            vk.vkCmdDrawIndexed(commands, mesh.count, items.count, mesh.first, 0, items.first);
+            vk.vkCmdDraw(commands, draw.corners, items.count, 0, items.first);
         }
     }
 }
@@ -105,7 +138,7 @@ std::string VulkanCanvas::name() const {
 }
 
 void VulkanCanvas::set_tables(const BodyTables& tables) {
-    require_tables(tables, interior_->options);
+    require_tables(tables, interior_->options, ColorBy::momentum);
     for (const BindingInfo& info : binding_infos()) {
         const Buffer* const buffer = info.table == nullptr ? nullptr : (tables.*info.table).buffer;
         if (buffer != nullptr && !*buffer) throw std::invalid_argument("canvas: a table is a buffer without memory");
@@ -118,22 +151,24 @@ Image VulkanCanvas::draw(const Camera& camera, const ColorScale& scale, const st
     Interior& in = *interior_;
     const VulkanFunctions& vk = in.device->vk();
     const CanvasOptions& options = in.options;
-    require_tables(in.tables, options);
+    require_tables(in.tables, options, scale.by);
     const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
     in.frame.write(&frame, sizeof frame);
     std::vector<OverlayQuad> quads = overlay_quads(options.width, options.height, options.legend, scale, caption);
     quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));
     if (!quads.empty()) in.quads.write(quads.data(), quads.size() * sizeof(OverlayQuad));
-    in.write_set();
+    in.write_set(scale.by);
 
     in.begin();
     VkMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT;
-    vk.vkCmdPipelineBarrier(in.commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
-                            VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1, &barrier, 0,
-                            nullptr, 0, nullptr);
+    vk.vkCmdPipelineBarrier(
+        in.commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+        VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, 0, 1,
+        &barrier, 0, nullptr, 0, nullptr);
+    in.look();
     vk.vkCmdBindDescriptorSets(in.commands, VK_PIPELINE_BIND_POINT_GRAPHICS, in.layout, 0, 1, &in.set, 0, nullptr);
     in.draw_shadows(0);
     in.draw_shadows(1);

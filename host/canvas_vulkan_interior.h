@@ -26,9 +26,10 @@ struct VulkanCanvas::Interior {
     Scenery scenery;
     std::vector<Draw> draws;
     std::vector<VkPipeline> pipelines;  // of each draw
+    std::array<VkPipeline, 3> looks{};  // sort the bodies that are seen by detail: count, scan, fill
     BodyTables tables;
     std::array<Buffer, BINDINGS> copies;  // of tables in host memory
-    Buffer instances, frame, quads, picture, directions, indices;
+    Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts;
     Objects objects;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -47,14 +48,17 @@ struct VulkanCanvas::Interior {
     void make_shadow_maps();
     void make_picture();
     void make_pipelines();
+    void make_looks();
     void make_commands();
     void upload_glyphs();
-    const Buffer& table_of(std::uint32_t binding);
-    void write_set();
+    const Buffer& table_of(std::uint32_t binding, ColorBy by);
+    void write_set(ColorBy by);
 
     void begin();
     void end_and_wait();
+    void look();
     void draw_all(Pass pass, std::uint32_t quad_count);
+    void draw_bodies(const Draw& draw);
     void draw_shadows(std::size_t light);
     void draw_picture(std::uint32_t quad_count);
     void image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,

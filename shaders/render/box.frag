@@ -19,7 +19,9 @@ void main() {
     bevel = min(bevel, max(0.06, 1.2 * pixel));  // m; a long slab keeps a narrow edge
     // The normal of a box with edges rounded by `bevel`, read on the flat face.
     vec3 over = max(abs(own) - (size - bevel), 0.0) * sign(own);
-    int axis = int(size_axis.w + 0.5);
+    // The side: where the point lies farthest out. At an edge either will do, for the normal is the same.
+    vec3 out_by = abs(own) - size;
+    int axis = out_by.x > out_by.y ? (out_by.x > out_by.z ? 0 : 2) : (out_by.y > out_by.z ? 1 : 2);
     vec3 face = vec3(0);
     face[axis] = sign(own[axis]);
     vec3 rounded = over - face * dot(over, face) + face * bevel;
