@@ -175,6 +175,7 @@ int run(const Options& options) {
     World world(subject.scene, subject.settings(options.scene), machine.make_runner());
     std::optional<Pictures> pictures;
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
+    if (pictures) report.canvas = pictures->canvas();
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
 }
 

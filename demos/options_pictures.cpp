@@ -153,8 +153,8 @@ void add_options(CLI::App& command, PictureOptions& options) {
         ->group(group);
     command
         .add_option("--canvas", options.canvas,
-                    "what draws: vulkan, gl (OpenGL ES, where there is no Vulkan driver) or auto (vulkan on the device that "
-                    "simulates; with the backend cpu gl, else vulkan); the pictures look the same")
+                    "what draws: vulkan, gl (OpenGL ES) or auto (vulkan on the device that simulates; for the processor gl, and "
+                    "vulkan where there is no gl); the pictures look the same")
         ->check(one_of({"auto", "vulkan", "gl"}))
         ->group(group);
     command.add_flag("!--no-legend", options.legend, "no colour scale in the picture")->group(group);

@@ -165,6 +165,10 @@ int Pictures::count() const {
     return interior_->writer->frames();
 }
 
+std::string Pictures::canvas() const {
+    return interior_->drawing->canvas().name();
+}
+
 const std::vector<std::string>& color_words() {
     return host::color_by_names();
 }

@@ -31,6 +31,7 @@ public:
     void finish();      // waits until all is written, and throws what went wrong there
     int count() const;
     PictureTimes times() const;
+    std::string canvas() const;  // for people: what draws them, and on which device
 
 private:
     struct Interior;

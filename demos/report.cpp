@@ -51,6 +51,7 @@ std::string json_of(const RunReport& r) {
         {"demo", r.name},
         {"backend", r.backend},
         {"device", r.device},
+        {"canvas", r.canvas},
         {"bodies", s.bodies},
         {"steps", r.steps},
         {"dt", 1.0 / r.rate},

@@ -13,6 +13,7 @@ namespace scree::demos {
 
 struct RunReport {
     std::string name, backend, device;
+    std::string canvas;  // what drew the pictures; empty: there are none
     std::uint64_t steps = 0;
     float rate = 60;  // Hz
     int substeps = 8;

@@ -25,11 +25,6 @@ constexpr GLenum function_of(Compare compare) {
     return GL_ALWAYS;
 }
 
-template <class Record>
-const Record* records_of(const TableView& table) {
-    return reinterpret_cast<const Record*>(table.bytes.data());
-}
-
 }  // namespace
 
 void GlCanvas::Interior::fill(Binding binding, const void* data, std::size_t bytes) const {
@@ -54,6 +49,16 @@ void GlCanvas::Interior::fill_tables(ColorBy by) const {
     }
 }
 
+// What colour bodies have, which of them are seen, and how finely they shall be drawn.
+void GlCanvas::Interior::look() const {
+    if (scenery.bodies() == 0) return;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        gl.glUseProgram(looks[i]);
+        gl.glDispatchCompute(groups_of_look(i, scenery.bodies()), 1, 1);
+        gl.glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    }
+}
+
 void GlCanvas::Interior::begin(const Target& on) const {
     gl.glBindFramebuffer(GL_FRAMEBUFFER, on.framebuffer);
     gl.glViewport(0, 0, on.width, on.height);
@@ -75,7 +80,8 @@ void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
         std::uint32_t corners = draw.corners;
         if (draw.items == Items::bodies) {
             const BodyRun& run = scenery.runs[draw.run];
-            items = {0, instances_of(run)};
+            // Of those that are seen only the device knows how many there are.
+            items = {0, draw.run < SEEN_RUNS ? scenery.bodies() : instances_of(run)};
             corners *= run.together;
         }
         if (draw.state.pass != pass || items.count == 0) continue;
@@ -88,6 +94,8 @@ void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
         const auto instances = static_cast<GLsizei>(items.count);
         if (draw.mesh == Mesh::none) {
             gl.glDrawArraysInstanced(kind, 0, static_cast<GLsizei>(corners), instances);
+        } else if (draw.run < SEEN_RUNS) {
+            gl.glDrawElementsIndirect(kind, GL_UNSIGNED_INT, reinterpret_cast<const void*>(draw.run * sizeof(DrawArguments)));
         } else {
             const Run mesh = scenery.mesh(draw.mesh);
             gl.glDrawElementsInstanced(kind, static_cast<GLsizei>(mesh.count), GL_UNSIGNED_INT,
@@ -138,7 +146,7 @@ void GlCanvas::set_tables(const BodyTables& tables) {
 }
 
 Image GlCanvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
-    Interior& in = *interior_;
+    const Interior& in = *interior_;
     const CanvasOptions& options = in.options;
     require_tables(in.tables, options, scale.by);
     const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
@@ -147,11 +155,9 @@ Image GlCanvas::draw(const Camera& camera, const ColorScale& scale, const std::s
 
     const GlContext::Current current(in.context);
     in.fill(FRAME, &frame, sizeof frame);
-    in.scenery.look(frame, records_of<physics::Traits>(in.tables.traits), records_of<physics::Pose>(in.tables.poses));
-    in.fill(INSTANCES, in.scenery.instances.data(), std::span(in.scenery.instances).size_bytes());
-    in.fill(RUN_TABLE, in.scenery.runs.data(), std::span(in.scenery.runs).size_bytes());
     in.fill(QUADS, quads.data(), quads.size() * sizeof(OverlayQuad));
     in.fill_tables(scale.by);
+    in.look();
     in.draw_shadows(0);
     in.draw_shadows(1);
     in.draw_picture(static_cast<std::uint32_t>(quads.size()));

@@ -23,7 +23,7 @@ void add(RoundMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 RoundMesh sphere_mesh(int corners) {
     RoundMesh mesh;
     // Rings from the silhouette inwards, each with half the corners of the last.
-    const double shares[] = {1.0, 0.66, 0.40, 0.22, 0.12};
+    const double shares[] = {1.0, 0.86, 0.59, 0.34, 0.19};
     const double stretch = std::sqrt(2 * PI / corners / std::sin(2 * PI / corners));
     std::uint32_t outer = 0;
     int count = corners;

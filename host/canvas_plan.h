@@ -32,9 +32,10 @@ enum Binding : std::uint32_t {
     SLOT_ENDS,
     SLOT_SIDES,
     RESTS,
-    BOUNDS
+    BOUNDS,
+    TINTS  // the colour of each body, written on the device
 };
-constexpr std::uint32_t BINDINGS = BOUNDS + 1;
+constexpr std::uint32_t BINDINGS = TINTS + 1;
 
 enum class Source {
     bodies,  // a member of BodyTables

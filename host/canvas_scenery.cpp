@@ -30,6 +30,7 @@ Scenery::Scenery(const ShapeInstances& bodies) {
         runs[run++].count = static_cast<std::uint32_t>(list->size());
         instances.insert(instances.end(), list->begin(), list->end());
     }
+    if (!instances.empty()) records = *std::max_element(instances.begin(), instances.end()) + 1;
     instances.resize(std::max<std::size_t>(2 * instances.size(), 1));
     for (BodyRun& each : runs) each.together = each.corners = 1;
     add_meshes();
@@ -77,6 +78,17 @@ void Scenery::add_meshes() {
     if (directions.empty()) directions.emplace_back(0);
 }
 
+std::array<DrawArguments, SEEN_RUNS> arguments_of(const Scenery& scenery, const std::vector<Draw>& draws) {
+    std::array<DrawArguments, SEEN_RUNS> arguments{};
+    for (const Draw& draw : draws) {
+        if (draw.items != Items::bodies || draw.run >= SEEN_RUNS) continue;
+        const Run mesh = scenery.mesh(draw.mesh);
+        arguments[draw.run].indices = mesh.count;
+        arguments[draw.run].first_index = mesh.first;
+    }
+    return arguments;
+}
+
 Run Scenery::items(Items kind, std::uint32_t marks, std::uint32_t quads) const {
     switch (kind) {
         case Items::planes:
@@ -90,29 +102,6 @@ Run Scenery::items(Items kind, std::uint32_t marks, std::uint32_t quads) const {
             break;
     }
     return {0, 1};
-}
-
-void Scenery::look(const Frame& frame, const physics::Traits* traits, const physics::Pose* poses) {
-    std::array<std::vector<std::uint32_t>, SEEN_RUNS> seen;
-    for (const std::uint32_t shape : {RUN_ALL_SPHERES, RUN_ALL_CAPSULES, RUN_ALL_BOXES}) {
-        const BodyRun& all = runs[shape];
-        for (std::uint32_t i = all.first; i < all.first + all.count; ++i) {
-            const physics::Traits& body = traits[instances[i]];
-            const float reach = shape == RUN_ALL_BOXES      ? glm::length(body.size)
-                                : shape == RUN_ALL_CAPSULES ? body.size.x + body.size.y
-                                                            : body.size.x;
-            const glm::vec3 center = poses[instances[i]].position - glm::vec3(frame.eye);
-            const std::uint32_t run = run_of(frame, shape, center, reach, body.size.x);
-            if (run != NOT_SEEN) seen[run].push_back(instances[i]);
-        }
-    }
-    std::uint32_t first = runs[RUN_PLANES].first + runs[RUN_PLANES].count;
-    for (std::uint32_t run = 0; run < SEEN_RUNS; ++run) {
-        runs[run].first = first;
-        runs[run].count = static_cast<std::uint32_t>(seen[run].size());
-        std::copy(seen[run].begin(), seen[run].end(), instances.begin() + first);
-        first += runs[run].count;
-    }
 }
 
 }  // namespace scree::host

@@ -37,11 +37,10 @@ void VulkanCanvas::Interior::image_barrier(VkImage image, VkImageLayout from, Vk
     device->vk().vkCmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-// Which bodies are seen, and how finely they shall be drawn.
+// What colour bodies have, which of them are seen, and how finely they shall be drawn.
 void VulkanCanvas::Interior::look() {
     if (scenery.bodies() == 0) return;
     const VulkanFunctions& vk = device->vk();
-    const std::uint32_t groups = (scenery.bodies() + DETAIL_GROUP - 1) / DETAIL_GROUP;
     vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
     VkMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
@@ -49,7 +48,7 @@ void VulkanCanvas::Interior::look() {
     barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_INDIRECT_COMMAND_READ_BIT;
     for (std::size_t i = 0; i < looks.size(); ++i) {
         vk.vkCmdBindPipeline(commands, VK_PIPELINE_BIND_POINT_COMPUTE, looks[i]);
-        vk.vkCmdDispatch(commands, i == 1 ? 1 : groups, 1, 1);
+        vk.vkCmdDispatch(commands, groups_of_look(i, scenery.bodies()), 1, 1);
         vk.vkCmdPipelineBarrier(
             commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT,
             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT, 0,
@@ -63,7 +62,7 @@ void VulkanCanvas::Interior::draw_bodies(const Draw& draw) {
     const Run mesh = scenery.mesh(draw.mesh);
     if (draw.mesh != Mesh::none) vk.vkCmdBindIndexBuffer(commands, indices.handle(), 0, VK_INDEX_TYPE_UINT32);
     if (draw.run < SEEN_RUNS) {
-        vk.vkCmdDrawIndexedIndirect(commands, arguments.handle(), draw.run * sizeof(VkDrawIndexedIndirectCommand), 1, 0);
+        vk.vkCmdDrawIndexedIndirect(commands, arguments.handle(), draw.run * sizeof(DrawArguments), 1, 0);
     } else if (draw.mesh == Mesh::none) {
         vk.vkCmdDraw(commands, draw.corners * run.together, instances_of(run), 0, 0);
     } else {

@@ -70,6 +70,8 @@ const Buffer& VulkanCanvas::Interior::table_of(std::uint32_t binding, ColorBy by
             return arguments;
         case GROUP_COUNTS:
             return group_counts;
+        case TINTS:
+            return tints;
         default:
             break;
     }

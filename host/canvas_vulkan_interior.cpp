@@ -51,15 +51,10 @@ void VulkanCanvas::Interior::make_buffers() {
     quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
     // The device says which bodies are seen; how they are drawn is known.
     runs = filled("canvas runs", scenery.runs);
-    std::array<VkDrawIndexedIndirectCommand, SEEN_RUNS> commands_of{};
-    for (const Draw& draw : draws) {
-        if (draw.items != Items::bodies || draw.run >= SEEN_RUNS) continue;
-        const Run mesh = scenery.mesh(draw.mesh);
-        commands_of[draw.run] = {mesh.count, 0, mesh.first, 0, 0};
-    }
-    arguments = filled("canvas arguments", commands_of);
-    const std::size_t groups = std::max(1u, (scenery.bodies() + DETAIL_GROUP - 1) / DETAIL_GROUP);
+    arguments = filled("canvas arguments", arguments_of(scenery, draws));
+    const std::size_t groups = std::max(1u, groups_of_look(0, scenery.bodies()));
     group_counts = Buffer(device, "canvas group counts", groups * SEEN_RUNS * sizeof(std::uint32_t));
+    tints = Buffer(device, "canvas tints", scenery.records * sizeof(vec4));
     picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
 }
 
@@ -137,16 +132,15 @@ void VulkanCanvas::Interior::make_pipelines() {
 
 void VulkanCanvas::Interior::make_looks() {
     const VulkanFunctions& vk = device->vk();
-    const std::array names{"detail_count.comp", "detail_scan.comp", "detail_fill.comp"};
-    for (std::size_t i = 0; i < names.size(); ++i) {
+    for (std::size_t i = 0; i < LOOKS.size(); ++i) {
         VkComputePipelineCreateInfo info{};
         info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
         info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
         info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
-        info.stage.module = objects.shader(names[i]);
+        info.stage.module = objects.shader(LOOKS[i]);
         info.stage.pName = "main";
         info.layout = layout;
-        check(vk.vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &looks[i]), names[i]);
+        check(vk.vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &looks[i]), LOOKS[i]);
         objects.on_end([this, at = looks[i]] { device->vk().vkDestroyPipeline(device->handle(), at, nullptr); });
     }
 }

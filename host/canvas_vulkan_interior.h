@@ -26,10 +26,10 @@ struct VulkanCanvas::Interior {
     Scenery scenery;
     std::vector<Draw> draws;
     std::vector<VkPipeline> pipelines;  // of each draw
-    std::array<VkPipeline, 3> looks{};  // sort the bodies that are seen by detail: count, scan, fill
+    std::array<VkPipeline, LOOKS.size()> looks{};
     BodyTables tables;
     std::array<Buffer, BINDINGS> copies;  // of tables in host memory
-    Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts;
+    Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints;
     Objects objects;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;

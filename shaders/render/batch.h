@@ -7,6 +7,9 @@
 layout(std430, set = 0, binding = 13) readonly buffer RunTable {
     BodyRun runs[];
 };
+layout(std430, set = 0, binding = 20) readonly buffer TintTable {
+    vec4 tints[];  // see tint.comp
+};
 layout(push_constant) uniform Pushed {
     uint pushed;  // the run, and in the lowest byte what a pass wants to know
 };

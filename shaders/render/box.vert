@@ -3,7 +3,6 @@
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
 #include "shaders/render/batch.h"
-#include "shaders/render/coloring.h"
 #include "shaders/render/cube.h"
 
 layout(location = 0) out vec3 out_point;      // relative to the eye
@@ -27,6 +26,6 @@ void main() {
     out_own = own;
     out_size = vec4(size, 0.0);
     out_turn = pose.orientation;
-    out_color = body_color(at.body);
+    out_color = tints[at.body];
     gl_Position = frame.view_projection * vec4(point, 1.0);
 }

@@ -3,12 +3,10 @@
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
 #include "shaders/render/batch.h"
-#include "shaders/render/coloring.h"
 
 layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
-    // Of a sphere: xy on a unit circle, z the share of the way to the silhouette; w: stretch that makes the polygon as large as
-    // the circle.
-    // Of a capsule: unit direction, y along its axis; w: 1 or -1, the cap it belongs to.
+    // Of a sphere: xy on a unit circle, z the share of the way from the line of sight to the silhouette; w: stretch that makes
+    // the polygon as large as the circle. Of a capsule: unit direction, y along its axis; w: 1 or -1, the cap it belongs to.
     vec4 directions[];
 };
 layout(location = 0) out vec3 out_point;        // relative to the eye
@@ -33,7 +31,7 @@ void main() {
     out_center = vec4(center, radius);
     out_axis = vec4(axis, half_height);
     out_turn = pose.orientation;
-    out_color = body_color(body);
+    out_color = tints[body];
 
     float distance = max(length(center), 1e-6);
     vec3 toward = orthographic() ? -frame.forward.xyz : -center / distance;
@@ -47,8 +45,10 @@ void main() {
     if (capsule) {
         local = axis * (half_height * given.w) + radius * (side * given.x + axis * given.y + cross(side, axis) * given.z);
     } else {
-        float angle = given.z * acos(orthographic() ? 0.0 : clamp(radius / distance, 0.0, 1.0));
-        local = radius * (cos(angle) * toward + sin(angle) * given.w * (side * given.x + cross(toward, side) * given.y));
+        // How far off the line of sight, in radii; at the silhouette the line of sight touches.
+        float nearness = orthographic() ? 0.0 : min(radius / distance, 1.0);
+        float off = given.z * sqrt(1.0 - nearness * nearness);
+        local = radius * (sqrt(1.0 - off * off) * toward + off * given.w * (side * given.x + cross(toward, side) * given.y));
     }
     out_point = center + local;
     gl_Position = frame.view_projection * vec4(out_point, 1.0);
