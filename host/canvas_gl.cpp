@@ -69,6 +69,8 @@ void GlCanvas::Interior::set_state(const DrawState& state) const {
     set(GL_CULL_FACE, state.cull != Cull::none);
     if (state.cull != Cull::none) gl.glCullFace(state.cull == Cull::back ? GL_BACK : GL_FRONT);
     set(GL_BLEND, state.blends);
+    const GLboolean colors = state.fragment.empty() ? GL_FALSE : GL_TRUE;
+    gl.glColorMask(colors, colors, colors, colors);
     gl.glDepthFunc(function_of(state.depth));
     gl.glDepthMask(state.writes_depth ? GL_TRUE : GL_FALSE);
 }

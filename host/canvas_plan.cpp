@@ -70,8 +70,9 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
     const auto body = [](const char* vertex, const char* fragment, Cull cull) {
         return DrawState{Pass::picture, vertex, fragment, cull, Compare::greater, true};
     };
+    std::vector<Draw> bodies;
     const auto seen = [&](const char* vertex, const char* fragment, Mesh mesh, std::uint32_t run) {
-        draws.push_back({body(vertex, fragment, Cull::back), Items::bodies, mesh, 0, run, pushed_for_run(run, 0)});
+        bodies.push_back({body(vertex, fragment, Cull::back), Items::bodies, mesh, 0, run, pushed_for_run(run, 0)});
     };
     seen("box.vert", "box.frag", Mesh::box, RUN_BOXES);
     const auto finer = [](Mesh coarsest, std::uint32_t k) { return static_cast<Mesh>(static_cast<std::uint32_t>(coarsest) + k); };
@@ -79,6 +80,16 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         seen("round.vert", "round.frag", finer(Mesh::sphere_0, k), RUN_SPHERES + k);
     for (std::uint32_t k = 0; k < CAPSULE_DETAILS; ++k)
         seen("round.vert", "round.frag", finer(Mesh::capsule_0, k), RUN_CAPSULES + k);
+    // First all depths, then the colours of what was nearest: bodies come in any order, and shading takes ten times as long.
+    for (Draw draw : bodies) {
+        draw.state.fragment = "";
+        draws.push_back(draw);
+    }
+    for (Draw& draw : bodies) {
+        draw.state.depth = Compare::greater_or_equal;
+        draw.state.writes_depth = false;
+        draws.push_back(draw);
+    }
     draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 12});
     draws.push_back({{Pass::picture, "sky.vert", "sky.frag", Cull::none, Compare::greater_or_equal}, Items::one, Mesh::none, 3});
     if (options.marks) {

@@ -98,7 +98,7 @@ struct FixedState {
         // The picture's alpha stays: what blends is smooth already, and smooth.frag looks for stairs in the alpha.
         target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
         target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-        target.colorWriteMask = 0xF;
+        target.colorWriteMask = shape.state.fragment.empty() ? 0 : 0xF;
         blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
         blend.attachmentCount = state.pass == Pass::sun_map || state.pass == Pass::sky_map ? 0 : 1;
         blend.pAttachments = &target;

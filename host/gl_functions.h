@@ -33,7 +33,7 @@ namespace scree::host {
     X(glBindBufferBase, BINDBUFFERBASE) X(glBindFramebuffer, BINDFRAMEBUFFER) X(glBindRenderbuffer, BINDRENDERBUFFER) \
     X(glBindTexture, BINDTEXTURE) X(glBindVertexArray, BINDVERTEXARRAY) X(glBlendFuncSeparate, BLENDFUNCSEPARATE) \
     X(glBlitFramebuffer, BLITFRAMEBUFFER) X(glBufferData, BUFFERDATA) X(glBufferSubData, BUFFERSUBDATA) \
-    X(glCheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS) X(glClear, CLEAR) X(glClearColor, CLEARCOLOR) \
+    X(glCheckFramebufferStatus, CHECKFRAMEBUFFERSTATUS) X(glColorMask, COLORMASK) X(glClear, CLEAR) X(glClearColor, CLEARCOLOR) \
     X(glClearDepthf, CLEARDEPTHF) X(glCompileShader, COMPILESHADER) X(glCreateProgram, CREATEPROGRAM) \
     X(glCreateShader, CREATESHADER) X(glCullFace, CULLFACE) X(glDeleteShader, DELETESHADER) X(glDepthFunc, DEPTHFUNC) \
     X(glDepthMask, DEPTHMASK) X(glDisable, DISABLE) X(glDispatchCompute, DISPATCHCOMPUTE) X(glDrawArraysInstanced, DRAWARRAYSINSTANCED) \

@@ -15,6 +15,9 @@ layout(location = 2) flat out vec4 out_axis;    // unit; w: half height
 layout(location = 3) flat out vec4 out_turn;    // the body's orientation
 layout(location = 4) flat out vec4 out_color;   // w: how far up the colour scale
 
+// Depths and colours are drawn one after the other, and must lie in the same places.
+invariant gl_Position;
+
 void main() {
     Corner at = corner_of_body();
     gl_Position = vec4(0, 0, -1, 1);
