@@ -102,6 +102,16 @@ struct Pictures::Interior {
     double fps;
     bool captioned;
     PictureTimes times;
+    int begun = 0;             // pictures
+    bool drawing_one = false;  // the last of them, beside the steps after it
+
+    // Hands the picture that was begun to the encoders.
+    void take() {
+        if (!drawing_one) return;
+        drawing_one = false;
+        host::Image picture = timed(times.draw, [&] { return drawing->canvas().finish(); });
+        timed(times.encode_wait, [&] { writer->add(std::move(picture)); });
+    }
 
     std::string caption() const {
         if (!captioned) return "";
@@ -143,17 +153,20 @@ void Pictures::after_step() {
     Interior& in = *interior_;
     // The picture of moment n / fps is taken at the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
-    if (in.world.time() + half_step <= in.writer->frames() / in.fps) return;
-    host::Image picture = timed(in.times.draw, [&] {
+    if (in.world.time() + half_step <= in.begun / in.fps) return;
+    in.take();
+    timed(in.times.draw, [&] {
         in.drawing->update();
         const std::optional<std::size_t> body = in.camera.followed();
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
-        return in.drawing->canvas().draw(camera, in.scale, in.caption(), in.low, in.high);
+        in.drawing->canvas().begin(camera, in.scale, in.caption(), in.low, in.high);
     });
-    timed(in.times.encode_wait, [&] { in.writer->add(std::move(picture)); });
+    in.drawing_one = true;
+    ++in.begun;
 }
 
 void Pictures::finish() {
+    interior_->take();
     timed(interior_->times.encode_wait, [&] { interior_->writer->finish(); });
 }
 
@@ -162,7 +175,7 @@ PictureTimes Pictures::times() const {
 }
 
 int Pictures::count() const {
-    return interior_->writer->frames();
+    return interior_->begun;
 }
 
 std::string Pictures::canvas() const {

@@ -93,12 +93,20 @@ public:
     // for a table that is missing, or that lies where this canvas cannot draw from.
     virtual void set_tables(const BodyTables& tables) = 0;
 
-    // The picture now: waits for what was submitted to the queue before, and for the drawing. `scene_low` and `scene_high` are
-    // corners of the part of the world that casts shadows; keep them fixed over a run, or the shadows' edges crawl.
-    // Lines of the caption are parted by '\n'. The same state gives the same pixels. Throws std::invalid_argument for a camera
-    // that looks nowhere or a scale without extent.
-    virtual Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+    // Begins a picture of the tables as they are now, behind what was submitted to the queue before; what is submitted later, a
+    // step perhaps, does not change it, and goes on meanwhile. `scene_low` and `scene_high` are corners of the part of the world
+    // that casts shadows; keep them fixed over a run, or the shadows' edges crawl. Lines of the caption are parted by '\n'. The
+    // same state gives the same pixels. Throws std::invalid_argument for a camera that looks nowhere or a scale without extent.
+    virtual void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                        vec3 scene_high) = 0;
+    // Waits for the picture that was begun last; every begin() wants its finish() before the next, and before the host writes to
+    // tables or takes them away.
+    virtual Image finish() = 0;
+
+    Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
+        begin(camera, scale, caption, scene_low, scene_high);
+        return finish();
+    }
 };
 
 // Throws DeviceError for sizes that the device cannot draw. Tables may lie on `device` or in host memory, each as it likes.

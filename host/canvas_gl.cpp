@@ -147,7 +147,7 @@ void GlCanvas::set_tables(const BodyTables& tables) {
     interior_->tables = tables;
 }
 
-Image GlCanvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
+void GlCanvas::begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
     const Interior& in = *interior_;
     const CanvasOptions& options = in.options;
     require_tables(in.tables, options, scale.by);
@@ -163,11 +163,19 @@ Image GlCanvas::draw(const Camera& camera, const ColorScale& scale, const std::s
     in.draw_shadows(0);
     in.draw_shadows(1);
     in.draw_picture(static_cast<std::uint32_t>(quads.size()));
+    in.check("drawing a picture");
+}
+
+Image GlCanvas::finish() {
+    const Interior& in = *interior_;
+    const CanvasOptions& options = in.options;
+    const GlContext::Current current(in.context);
+    in.gl.glBindFramebuffer(GL_FRAMEBUFFER, in.target.framebuffer);
     Image image{options.width, options.height,
                 std::vector<std::uint8_t>(std::size_t{4} * static_cast<std::size_t>(options.width) *
                                           static_cast<std::size_t>(options.height))};
     in.gl.glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-    in.check("drawing a picture");
+    in.check("reading a picture");
     return image;
 }
 

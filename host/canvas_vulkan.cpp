@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 #include <stdexcept>
 
 #include "host/canvas_frame.h"
@@ -16,6 +17,13 @@ void VulkanCanvas::Interior::begin() {
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(device->vk().vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
+}
+
+void VulkanCanvas::Interior::wait() {
+    if (!pending) return;
+    pending = false;
+    check(device->vk().vkWaitForFences(device->handle(), 1, &drawn, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+          "waiting for a picture");
 }
 
 void VulkanCanvas::Interior::end_and_wait() {
@@ -145,9 +153,10 @@ void VulkanCanvas::set_tables(const BodyTables& tables) {
     interior_->tables = tables;
 }
 
-Image VulkanCanvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+void VulkanCanvas::begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                          vec3 scene_high) {
     Interior& in = *interior_;
+    in.wait();
     const VulkanFunctions& vk = in.device->vk();
     const CanvasOptions& options = in.options;
     require_tables(in.tables, options, scale.by);
@@ -178,10 +187,22 @@ Image VulkanCanvas::draw(const Camera& camera, const ColorScale& scale, const st
     vk.vkCmdCopyImageToBuffer(in.commands, in.target.image, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, in.picture.handle(), 1, &copy);
     barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-    vk.vkCmdPipelineBarrier(in.commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_HOST_BIT, 0, 1, &barrier, 0, nullptr,
-                            0, nullptr);
-    in.end_and_wait();
+    // The host reads the picture; and a step that is submitted next may change the tables, but only now.
+    vk.vkCmdPipelineBarrier(in.commands,
+                            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                                VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                            VK_PIPELINE_STAGE_HOST_BIT | VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT, 0,
+                            1, &barrier, 0, nullptr, 0, nullptr);
+    check(vk.vkEndCommandBuffer(in.commands), "vkEndCommandBuffer");
+    check(vk.vkResetFences(in.device->handle(), 1, &in.drawn), "vkResetFences");
+    in.device->submit({in.commands}, in.drawn);
+    in.pending = true;
+}
 
+Image VulkanCanvas::finish() {
+    Interior& in = *interior_;
+    const CanvasOptions& options = in.options;
+    in.wait();
     if (options.bits == 16) {
         std::vector<std::uint16_t> halves(in.picture.bytes() / 2);
         in.picture.read(halves.data(), in.picture.bytes());

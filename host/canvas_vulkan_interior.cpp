@@ -37,6 +37,14 @@ VulkanCanvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInst
     upload_glyphs();
 }
 
+VulkanCanvas::Interior::~Interior() {
+    try {
+        wait();
+    } catch (const DeviceError&) {
+        // A lost device draws no more.
+    }
+}
+
 void VulkanCanvas::Interior::make_buffers() {
     const auto filled = [this](const char* name, const auto& records) {
         Buffer buffer(device, name, std::span(records).size_bytes());
@@ -158,6 +166,9 @@ void VulkanCanvas::Interior::make_commands() {
     allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocation.commandBufferCount = 1;
     check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    drawn = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence, "vkCreateFence");
 }
 
 void VulkanCanvas::Interior::upload_glyphs() {

@@ -20,6 +20,9 @@ struct ShadowMap {
 
 struct VulkanCanvas::Interior {
     Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen);
+    ~Interior();
+    Interior(const Interior&) = delete;
+    Interior& operator=(const Interior&) = delete;
 
     std::shared_ptr<Device> device;
     CanvasOptions options;
@@ -41,6 +44,8 @@ struct VulkanCanvas::Interior {
     VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence drawn = VK_NULL_HANDLE;
+    bool pending = false;  // a picture is being drawn
 
     void make_buffers();
     void make_layout();
@@ -56,6 +61,7 @@ struct VulkanCanvas::Interior {
 
     void begin();
     void end_and_wait();
+    void wait();  // for the picture that is being drawn, if there is one
     void look();
     void draw_all(Pass pass, std::uint32_t quad_count);
     void draw_bodies(const Draw& draw);
