@@ -44,7 +44,7 @@ std::vector<host::Material> materials_of(const Scene& scene) {
     std::vector<host::Material> materials;
     for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 8); ++i) {
         const std::array<float, 3>& m = sorted[i].second;
-        materials.push_back({m[0], m[1], m[2]});
+        materials.push_back({{m[0], m[1], m[2]}, fmt::format("µ {:.3g}  e {:.3g}  {:.4g} kg/m³", m[0], m[1], m[2])});
     }
     return materials;
 }

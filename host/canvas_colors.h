@@ -27,8 +27,8 @@ enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
 enum class ColorMap { plasma, inferno, viridis, cividis, turbo };  // all but turbo grow lighter steadily
 
 struct Material {
-    float friction = 0, restitution = 0;
-    float density = 0;  // kg/m^3
+    glm::vec3 nature{0};  // as shaders/render/frame.h has it
+    std::string label;    // in the legend
 };
 
 // Fixed for a run by its owner, so that colours mean the same in every frame.

@@ -136,10 +136,8 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
     frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
     const std::size_t materials = std::min<std::size_t>(scale.materials.size(), MOST_MATERIALS);
-    for (std::size_t i = 0; i < materials; ++i) {
-        const Material& m = scale.materials[i];
-        frame.materials[i] = vec4(m.friction, m.restitution, m.density, 0);
-    }
+    for (std::size_t i = 0; i < materials; ++i) frame.materials[i] = vec4(scale.materials[i].nature, 0);
+
     frame.marks =
         vec4(options.marks ? 1.0f : 0.0f, options.mark_push, static_cast<float>(materials), options.sleep ? 1.0f : 0.0f);
     frame.rest = vec4(static_cast<float>(options.sleep_steps), options.step_seconds, options.cell, options.arrow_seconds);

@@ -115,26 +115,21 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
 // A swatch and a line of words for each material, in the place of the scale.
 void add_materials(Sheet& sheet, int width, int height, const ColorScale& scale) {
     const Measures m(height);
-    std::vector<std::string> lines;
     float widest = text_width(color_title(scale.by), m.text);
     const float step = std::round(1.3f * m.small), swatch = std::round(1.6f * m.small);
-    for (const Material& material : scale.materials) {
-        lines.push_back("µ " + tick_label(material.friction, false) + "  e " + tick_label(material.restitution, false) + "  " +
-                        tick_label(material.density, false) + " kg/m³");
-        widest = std::max(widest, swatch + text_width(lines.back(), m.small));
-    }
+    for (const Material& material : scale.materials) widest = std::max(widest, swatch + text_width(material.label, m.small));
     const float bottom = static_cast<float>(height) - m.margin, right = static_cast<float>(width) - m.margin;
     const float left = right - 2 * m.padding - widest;
-    const float top = bottom - 2 * m.padding - step * static_cast<float>(lines.size()) - m.text;
+    const float top = bottom - 2 * m.padding - step * static_cast<float>(scale.materials.size()) - m.text;
     if (left < 0 || top < 0) return;
     sheet.panel(left, top, right, bottom, std::round(7 * m.unit), glm::vec4(PANEL, 0.62f));
     float base = top + m.padding + std::round(0.80f * m.text);
     sheet.text(color_title(scale.by), left + m.padding, base, m.text);
-    for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t i = 0; i < scale.materials.size(); ++i) {
         base += step;
         const float side = std::round(0.7f * m.small), x = left + m.padding;
         sheet.panel(x, base - side, x + side, base, std::round(2 * m.unit), glm::vec4(name_color(static_cast<unsigned>(i)), 1));
-        sheet.text(lines[i], x + swatch, base, m.small);
+        sheet.text(scale.materials[i].label, x + swatch, base, m.small);
     }
 }
 

@@ -141,7 +141,7 @@ TEST_CASE("a body has the colour of its spin's angular momentum, of its rest and
     CHECK(has_hue(left_of(resting), map_color(ColorMap::viridis, 0.4f)));
     CHECK(has_hue(right_of(resting), map_color(ColorMap::viridis, 1)));  // asleep
     ColorScale scale = scale_of(ColorBy::material, 0, 1);
-    scale.materials = {{0.2f, 0, 1}, {0.9f, 0, 1}};  // 8 kg in 8 m^3
+    scale.materials = {{{0.2f, 0, 1}, "smooth"}, {{0.9f, 0, 1}, "rough"}};  // 8 kg in 8 m^3
     stage.traits(0).friction = 0.85f;
     stage.traits(1).friction = 0.3f;
     const Image materials = stage.picture(lit_from_aside(), AHEAD, scale);

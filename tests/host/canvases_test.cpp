@@ -172,7 +172,7 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
         view.scale.by = *color_by_named(name);
         view.caption = name;
         view.scale.high = view.scale.by == ColorBy::contact_impulse ? 5.0f : 10.0f;
-        view.scale.materials = {{0.6f, 0, 1000}, {0.1f, 0.5f, 2000}};
+        view.scale.materials = {{{0.6f, 0, 1000}, "stone"}, {{0.1f, 0.5f, 2000}, "rubber"}};
         require_alike(view);
     }
     view.caption = "parallel rays";
