@@ -163,6 +163,7 @@ void Pictures::after_step() {
     });
     in.drawing_one = true;
     ++in.begun;
+    if (!in.drawing->beside_steps()) in.take();
 }
 
 void Pictures::finish() {
