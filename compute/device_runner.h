@@ -42,6 +42,10 @@ public:
     const host::Buffer& counts() const { return buffer(Table::counts); }
     const host::Buffer& contacts() const { return buffer(Table::contacts); }
     const host::Buffer& impulses() const { return buffer(Table::impulses); }
+    const host::Buffer& slot_ends() const { return buffer(Table::slot_ends); }
+    const host::Buffer& slot_sides() const { return buffer(Table::slot_sides); }
+    const host::Buffer& rests() const { return buffer(Table::rests); }
+    const host::Buffer& bounds() const { return buffer(Table::bounds); }
 
     // For the comparison with another runner: a step stage by stage, and what a stage wrote.
     void begin_step();

@@ -81,19 +81,49 @@ Body body_of(const json& value, const Place& place) {
     return body;
 }
 
-}  // namespace json_reading
-
-namespace {
-
-Viewpoint viewpoint_of(const json& value, const Place& place) {
-    only(value, place, {"eye", "target", "vertical_fov"});
-    Viewpoint view;
+// What a view that stands still and a moment of one that moves have alike.
+template <class View>
+static void read_view(const json& value, const Place& place, View& view) {
     required(value, place, "eye", view.eye);
     required(value, place, "target", view.target);
     optional(value, place, "vertical_fov", view.vertical_fov);
     if (!(view.vertical_fov >= 1 && view.vertical_fov <= 170))
         refuse(place / "vertical_fov", "must be between 1 and 170 degrees");
     if (view.eye == view.target) refuse(place / "target", "must differ from the eye");
+}
+
+static void read(const json& value, const Place& place, std::vector<ViewKey>& path) {
+    if (!value.is_array() || value.empty()) refuse(place, "must be an array of at least one moment, is " + kind(value));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const Place here = place / i;
+        only(value[i], here, {"time", "eye", "target", "vertical_fov"});
+        ViewKey& key = path.emplace_back();
+        required(value[i], here, "time", key.time);
+        read_view(value[i], here, key);
+        if (!(key.time >= 0 && key.time <= 1e6f)) refuse(here / "time", "must be between 0 and 1000000 s");
+        if (i > 0 && !(key.time > path[i - 1].time)) refuse(here / "time", "must be later than that of the moment before");
+    }
+}
+
+}  // namespace json_reading
+
+namespace {
+
+Viewpoint viewpoint_of(const json& value, const Place& place) {
+    only(value, place, {"eye", "target", "vertical_fov", "orthographic", "path"});
+    Viewpoint view;
+    optional(value, place, "orthographic", view.orthographic);
+    optional(value, place, "path", view.path);
+    if (view.path.empty()) {
+        read_view(value, place, view);
+        return view;
+    }
+    for (const char* key : {"eye", "target", "vertical_fov"}) {
+        if (value.contains(key)) refuse(place / key, "the path has its own, for each moment; leave it or the path out");
+    }
+    view.eye = view.path[0].eye;
+    view.target = view.path[0].target;
+    view.vertical_fov = view.path[0].vertical_fov;
     return view;
 }
 

@@ -43,6 +43,9 @@ void require_writable(const Options& options) {
         throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
                                      options.scene.rate));
     }
+    if (options.pictures.takes_output() && options.report == "-") {
+        throw UsageError("--raw - and --report -: the standard output is for one of them; name a file for the other");
+    }
     require_writable_file("--report", options.report);
 }
 
@@ -58,6 +61,7 @@ void step_timed(const Subject& subject, World& world, Recorder* recorder, RunRep
     if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
     if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
     report.step_ms.push_back(seconds * 1e3);
+    report.seconds_simulating += seconds;
 }
 
 // False if the user wished to end.
@@ -97,10 +101,15 @@ void conclude(const Options& options, const Subject& subject, const RunReport& r
     if (options.report == "-") {
         fmt::print("{}", json_of(report));
     } else if (!options.quiet) {
-        fmt::print("{}", summary_of(report));
+        std::string text = summary_of(report);
         if (subject.promise && !report.judged) {
-            fmt::print("The promise was not judged: it takes {:g} s, and this run had {:g} s.\n", subject.seconds,
-                       static_cast<double>(report.steps) / static_cast<double>(report.rate));
+            text += fmt::format("The promise was not judged: it takes {:g} s, and this run had {:g} s.\n", subject.seconds,
+                                static_cast<double>(report.steps) / static_cast<double>(report.rate));
+        }
+        if (options.pictures.takes_output()) {
+            say("{}", text);
+        } else {
+            fmt::print("{}", text);
         }
     }
     if (all_pass(report.rows) || !options.quiet) return;
@@ -138,10 +147,15 @@ int work(const Options& options, const Subject& subject, const Machine& machine,
     std::optional<Recorder> recorder;
     if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
     Recorder* const records = recorder ? &*recorder : nullptr;
+    const auto start = std::chrono::steady_clock::now();
     if (!simulate(options, subject, world, pictures, records, report)) return end_early(world, pictures);
     if (pictures) pictures->finish();
+    report.seconds_running = seconds_since(start);
     report.name = subject.name;
     report.frames = pictures ? pictures->count() : 0;
+    const PictureTimes times = pictures ? pictures->times() : PictureTimes{};
+    report.seconds_drawing = times.draw;
+    report.seconds_waiting = times.encode_wait;
     measure(world, report);
     hold_to_promise(subject, world, records, report);
     hold_to_recording(options, report);
@@ -208,6 +222,8 @@ void add_run(CLI::App& program, int& status) {
     command->footer(
         "Examples:\n  scree run tower\n  scree run --input played.json --video played.mp4\n  scree run avalanche --bodies 20k "
         "--seconds 10 --video avalanche.mp4\n"
+        "  scree run wall --camera fit,orbit:10 --preview wall.gif\n"
+        "  scree run dominoes --camera follow:7 --raw - | ffplay -f rawvideo -pixel_format rgb24 -video_size 1280x720 -\n"
         "  scree run scene.json --backend cpu --threads 4 --report -");
     command->callback([command, options, &status] { status = run(*command, *options); });
 }

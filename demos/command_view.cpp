@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
-#include "demos/color_range.h"
 #include "demos/commands.h"
 #include "demos/drawing.h"
 #include "demos/failure.h"
@@ -55,13 +54,6 @@ public:
 private:
     double events_ = 0, seconds_ = 0, rate_ = 0;
 };
-
-host::ColorScale scale_of(const std::string& color, const Subject& subject) {
-    host::ColorScale scale;
-    scale.by = host::color_by_named(color).value();
-    std::tie(scale.low, scale.high) = color_range(subject, color);
-    return scale;
-}
 
 host::Camera camera_of(const Eye& eye) {
     host::Camera camera;
@@ -153,7 +145,10 @@ void Viewer::draw() {
     const std::string caption = panel_.shown ? ""
                                              : fmt::format("{}\n{} bodies, {:.2f} s{}", subject.name, world.scene().bodies.size(),
                                                            world.time(), interaction_.paused ? ", paused" : "");
-    const host::View view{camera_of(interaction_.eye()), scale_of(color_, subject), caption, subject.low, subject.high};
+    PictureOptions colors;
+    colors.color = color_;
+    const host::View view{camera_of(interaction_.eye()), scale_of(colors, subject, world.settings()), caption, subject.low,
+                          subject.high};
     if (window_.show(drawing_->canvas(), view)) ++pictures_;
 }
 

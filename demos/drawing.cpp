@@ -24,12 +24,17 @@ host::ShapeInstances instances_of(const Scene& scene) {
 
 host::BodyTables tables_of(const State& state) {
     const std::uint32_t contacts = state.counted().contacts;
-    return {state.traits,
-            state.poses,
-            state.velocities,
-            std::span(state.contacts).first(contacts),
-            std::span(state.impulses).first(contacts),
-            contacts};
+    host::BodyTables tables{state.traits,
+                            state.poses,
+                            state.velocities,
+                            std::span(state.contacts).first(contacts),
+                            std::span(state.impulses).first(contacts),
+                            contacts};
+    tables.slot_ends = state.slot_ends;
+    tables.slot_sides = state.slot_sides;
+    tables.rests = state.rests;
+    tables.bounds = state.bounds;
+    return tables;
 }
 
 // On whatever is there. OpenGL ES first: a processor draws a frame in 5% less time than with Vulkan (llvmpipe and lavapipe, 3,000
@@ -81,6 +86,10 @@ void Drawing::update() {
 
 std::uint32_t Drawing::contacts() const {
     return contacts_;
+}
+
+vec3 Drawing::position_of(std::size_t body) const {
+    return from_device_ ? position_on_device(world_.runner(), body) : world_.state().poses.at(body).position;
 }
 
 }  // namespace scree::demos

@@ -20,6 +20,10 @@ public:
     host::Canvas& canvas() { return *canvas_; }
     void update();                   // the next picture shows the world as it is now, with the bodies that were added
     std::uint32_t contacts() const;  // in the world at the last update
+    vec3 position_of(std::size_t body) const;
+    // Whether a picture may be drawn while the next steps are made: not where both stand in one queue, for the steps would only
+    // wait for it, and their time would be told as longer than it is.
+    bool beside_steps() const { return !from_device_; }
 
 private:
     std::unique_ptr<host::Canvas> make_canvas() const;

@@ -55,7 +55,19 @@ host::BodyTables tables_on_device(Runner& runner) {
     const auto& device = dynamic_cast<DeviceRunner&>(runner);
     physics::Counts counts{};
     device.counts().read(&counts, sizeof counts);
-    return {&device.traits(), &device.poses(), &device.velocities(), &device.contacts(), &device.impulses(), counts.contacts};
+    host::BodyTables tables{&device.traits(),   &device.poses(),    &device.velocities(),
+                            &device.contacts(), &device.impulses(), counts.contacts};
+    tables.slot_ends = &device.slot_ends();
+    tables.slot_sides = &device.slot_sides();
+    tables.rests = &device.rests();
+    tables.bounds = &device.bounds();
+    return tables;
+}
+
+vec3 position_on_device(Runner& runner, std::size_t body) {
+    physics::Pose pose{};
+    dynamic_cast<DeviceRunner&>(runner).poses().read(&pose, sizeof pose, body * sizeof pose);
+    return pose.position;
 }
 
 }  // namespace scree::demos

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "compute/runner.h"
+#include "compute/scene.h"
 #include "demos/options.h"
 #include "host/canvas.h"
 
@@ -36,5 +37,6 @@ std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const h
 
 // What a machine with a device keeps there.
 host::BodyTables tables_on_device(Runner& runner);
+vec3 position_on_device(Runner& runner, std::size_t body);
 
 }  // namespace scree::demos

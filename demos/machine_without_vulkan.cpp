@@ -29,4 +29,8 @@ host::BodyTables tables_on_device(Runner&) {
     return {};
 }
 
+vec3 position_on_device(Runner&, std::size_t) {
+    return vec3(0);
+}
+
 }  // namespace scree::demos

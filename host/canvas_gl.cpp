@@ -34,18 +34,28 @@ void GlCanvas::Interior::fill(Binding binding, const void* data, std::size_t byt
     gl.glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
-void GlCanvas::Interior::fill_tables() const {
+void GlCanvas::Interior::fill_tables(ColorBy by) const {
     GLint64 most = 0;
     gl.glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {
         const BindingInfo& info = binding_infos()[i];
-        if (info.table == nullptr || (info.source == Source::touches && !options.marks)) continue;
+        if (info.table == nullptr || !reads(i, options, by)) continue;
         const std::span<const std::byte> bytes = (tables.*info.table).bytes;
         if (static_cast<std::int64_t>(bytes.size()) > most) {
             throw DeviceError("canvas: a table of " + std::to_string(bytes.size()) + " bytes; " + context.renderer() +
                               " reads at most " + std::to_string(most));
         }
         fill(static_cast<Binding>(i), bytes.data(), bytes.size());
+    }
+}
+
+// What colour bodies have, which of them are seen, and how finely they shall be drawn.
+void GlCanvas::Interior::look() const {
+    if (scenery.bodies() == 0) return;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        gl.glUseProgram(looks[i]);
+        gl.glDispatchCompute(groups_of_look(i, scenery.bodies()), 1, 1);
+        gl.glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
     }
 }
 
@@ -59,6 +69,8 @@ void GlCanvas::Interior::set_state(const DrawState& state) const {
     set(GL_CULL_FACE, state.cull != Cull::none);
     if (state.cull != Cull::none) gl.glCullFace(state.cull == Cull::back ? GL_BACK : GL_FRONT);
     set(GL_BLEND, state.blends);
+    const GLboolean colors = state.fragment.empty() ? GL_FALSE : GL_TRUE;
+    gl.glColorMask(colors, colors, colors, colors);
     gl.glDepthFunc(function_of(state.depth));
     gl.glDepthMask(state.writes_depth ? GL_TRUE : GL_FALSE);
 }
@@ -66,7 +78,14 @@ void GlCanvas::Interior::set_state(const DrawState& state) const {
 void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Draw& draw = draws[i];
-        const Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
+        Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
+        std::uint32_t corners = draw.corners;
+        if (draw.items == Items::bodies) {
+            const BodyRun& run = scenery.runs[draw.run];
+            // Of those that are seen only the device knows how many there are.
+            items = {0, draw.run < SEEN_RUNS ? scenery.bodies() : instances_of(run)};
+            corners *= run.together;
+        }
         if (draw.state.pass != pass || items.count == 0) continue;
         const Program& program = programs[program_of[i]];
         set_state(draw.state);
@@ -76,7 +95,9 @@ void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
         const GLenum kind = draw.state.strip ? GL_TRIANGLE_STRIP : GL_TRIANGLES;
         const auto instances = static_cast<GLsizei>(items.count);
         if (draw.mesh == Mesh::none) {
-            gl.glDrawArraysInstanced(kind, 0, static_cast<GLsizei>(draw.corners), instances);
+            gl.glDrawArraysInstanced(kind, 0, static_cast<GLsizei>(corners), instances);
+        } else if (draw.run < SEEN_RUNS) {
+            gl.glDrawElementsIndirect(kind, GL_UNSIGNED_INT, reinterpret_cast<const void*>(draw.run * sizeof(DrawArguments)));
         } else {
             const Run mesh = scenery.mesh(draw.mesh);
             gl.glDrawElementsInstanced(kind, static_cast<GLsizei>(mesh.count), GL_UNSIGNED_INT,
@@ -118,7 +139,7 @@ std::string GlCanvas::name() const {
 }
 
 void GlCanvas::set_tables(const BodyTables& tables) {
-    require_tables(tables, interior_->options);
+    require_tables(tables, interior_->options, ColorBy::momentum);
     for (const BindingInfo& info : binding_infos()) {
         if (info.table != nullptr && (tables.*info.table).buffer != nullptr)
             throw std::invalid_argument("canvas: OpenGL ES draws from host memory, and a table is a Vulkan buffer");
@@ -126,27 +147,35 @@ void GlCanvas::set_tables(const BodyTables& tables) {
     interior_->tables = tables;
 }
 
-Image GlCanvas::draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
+void GlCanvas::begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
     const Interior& in = *interior_;
     const CanvasOptions& options = in.options;
-    require_tables(in.tables, options);
+    require_tables(in.tables, options, scale.by);
     const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
-    std::vector<OverlayQuad> quads;
-    if (options.legend) quads = overlay_quads(options.width, options.height, scale, caption);
+    std::vector<OverlayQuad> quads = overlay_quads(options.width, options.height, options.legend, scale, caption);
     quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));
 
     const GlContext::Current current(in.context);
     in.fill(FRAME, &frame, sizeof frame);
     in.fill(QUADS, quads.data(), quads.size() * sizeof(OverlayQuad));
-    in.fill_tables();
+    in.fill_tables(scale.by);
+    in.look();
     in.draw_shadows(0);
     in.draw_shadows(1);
     in.draw_picture(static_cast<std::uint32_t>(quads.size()));
+    in.check("drawing a picture");
+}
+
+Image GlCanvas::finish() {
+    const Interior& in = *interior_;
+    const CanvasOptions& options = in.options;
+    const GlContext::Current current(in.context);
+    in.gl.glBindFramebuffer(GL_FRAMEBUFFER, in.target.framebuffer);
     Image image{options.width, options.height,
                 std::vector<std::uint8_t>(std::size_t{4} * static_cast<std::size_t>(options.width) *
                                           static_cast<std::size_t>(options.height))};
     in.gl.glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-    in.check("drawing a picture");
+    in.check("reading a picture");
     return image;
 }
 

@@ -16,8 +16,9 @@ public:
 
     std::string name() const override;
     void set_tables(const BodyTables& tables) override;
-    Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+    void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                vec3 scene_high) override;
+    Image finish() override;
 
 private:
     struct Interior;

@@ -27,6 +27,7 @@ CanvasOptions checked(CanvasOptions options, const GlContext& context) {
     if (options.samples == 0) options.samples = context.is_processor() ? 1 : 4;
     if (options.samples != 1 && options.samples != 4)
         throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    if (options.bits != 8) throw DeviceError("canvas: OpenGL ES draws 8 bits a channel here; more needs Vulkan");
     return options;
 }
 
@@ -73,6 +74,14 @@ void GlCanvas::Interior::make_buffers() {
         if (binding_infos()[i].source != Source::image) gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
     }
     fill(INSTANCES, scenery.instances.data(), std::span(scenery.instances).size_bytes());
+    fill(RUN_TABLE, scenery.runs.data(), std::span(scenery.runs).size_bytes());
+    const auto arguments = arguments_of(scenery, draws);
+    fill(ARGUMENTS, arguments.data(), sizeof arguments);
+    gl.glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffers[ARGUMENTS]);
+    const std::vector<std::uint32_t> counts(std::size_t{groups_of_look(0, scenery.bodies())} * SEEN_RUNS);
+    fill(GROUP_COUNTS, counts.data(), std::span(counts).size_bytes());
+    const std::vector<vec4> tints(scenery.records);
+    fill(TINTS, tints.data(), std::span(tints).size_bytes());
     fill(DIRECTIONS, scenery.directions.data(), std::span(scenery.directions).size_bytes());
     GLuint indices = 0;
     gl.glGenBuffers(1, &indices);
@@ -104,22 +113,25 @@ GLuint GlCanvas::Interior::shader(GLenum kind, std::string_view name) const {
     throw DeviceError("OpenGL ES: the shader " + std::string(name) + " does not compile: " + log.data());
 }
 
-GlCanvas::Interior::Program GlCanvas::Interior::linked(std::string_view vertex, std::string_view fragment) const {
-    Program program{vertex, fragment};
-    program.name = gl.glCreateProgram();
-    for (const GLuint part : {shader(GL_VERTEX_SHADER, vertex), shader(GL_FRAGMENT_SHADER, fragment)}) {
-        gl.glAttachShader(program.name, part);
+GLuint GlCanvas::Interior::linked(const std::vector<GLuint>& parts, const std::string& what) const {
+    const GLuint name = gl.glCreateProgram();
+    for (const GLuint part : parts) {
+        gl.glAttachShader(name, part);
         gl.glDeleteShader(part);  // with the program
     }
-    gl.glLinkProgram(program.name);
+    gl.glLinkProgram(name);
     GLint done = GL_FALSE;
-    gl.glGetProgramiv(program.name, GL_LINK_STATUS, &done);
-    if (!done) {
-        std::array<GLchar, 1024> log{};
-        gl.glGetProgramInfoLog(program.name, static_cast<GLsizei>(log.size()), nullptr, log.data());
-        throw DeviceError("OpenGL ES: the shaders " + std::string(vertex) + " and " + std::string(fragment) +
-                          " do not link: " + log.data());
-    }
+    gl.glGetProgramiv(name, GL_LINK_STATUS, &done);
+    if (done) return name;
+    std::array<GLchar, 1024> log{};
+    gl.glGetProgramInfoLog(name, static_cast<GLsizei>(log.size()), nullptr, log.data());
+    throw DeviceError("OpenGL ES: " + what + " does not link: " + log.data());
+}
+
+GlCanvas::Interior::Program GlCanvas::Interior::linked(std::string_view vertex, std::string_view fragment) const {
+    Program program{vertex, fragment};
+    program.name = linked({shader(GL_VERTEX_SHADER, vertex), shader(GL_FRAGMENT_SHADER, fragment)},
+                          std::string(vertex) + " with " + std::string(fragment));
     // As scree_embed_es_shader and spirv-cross name them.
     program.pushed = gl.glGetUniformLocation(program.name, "pushed.value");
     program.first_instance = gl.glGetUniformLocation(program.name, "SPIRV_Cross_BaseInstance");
@@ -134,6 +146,7 @@ void GlCanvas::Interior::make_programs() {
         program_of.push_back(static_cast<std::size_t>(alike - programs.begin()));
         if (alike == programs.end()) programs.push_back(linked(draw.state.vertex, draw.state.fragment));
     }
+    for (std::size_t i = 0; i < looks.size(); ++i) looks[i] = linked({shader(GL_COMPUTE_SHADER, LOOKS[i])}, LOOKS[i]);
 }
 
 GLuint GlCanvas::Interior::texture(GLenum format, int width, int height, GLint filter) const {

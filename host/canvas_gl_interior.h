@@ -32,6 +32,7 @@ struct GlCanvas::Interior {
     std::vector<Draw> draws;
     std::vector<Program> programs;
     std::vector<std::size_t> program_of;  // each draw
+    std::array<GLuint, LOOKS.size()> looks{};
     BodyTables tables;
     std::array<GLuint, BINDINGS> buffers{}, textures{};
     std::array<Target, 2> shadow_maps;  // sun, sky
@@ -42,6 +43,7 @@ struct GlCanvas::Interior {
     void make_buffers();
     void make_programs();
     GLuint shader(GLenum kind, std::string_view name) const;
+    GLuint linked(const std::vector<GLuint>& parts, const std::string& what) const;
     Program linked(std::string_view vertex, std::string_view fragment) const;
     void make_shadow_maps();
     void make_picture();
@@ -51,7 +53,8 @@ struct GlCanvas::Interior {
     void require_complete() const;
 
     void fill(Binding binding, const void* data, std::size_t bytes) const;
-    void fill_tables() const;
+    void fill_tables(ColorBy by) const;
+    void look() const;
     void begin(const Target& on) const;
     void set_state(const DrawState& state) const;
     void draw_all(Pass pass, std::uint32_t quad_count) const;

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "host/canvas.h"
+#include "shaders/render/frame.h"
 
 namespace scree::host {
 
@@ -24,24 +25,34 @@ enum Binding : std::uint32_t {
     DIRECTIONS,
     SCENE,
     TOUCHES,
-    PUSHES
+    PUSHES,
+    RUN_TABLE,     // BodyRun
+    ARGUMENTS,     // of indirect draws, written on the device
+    GROUP_COUNTS,  // of bodies by detail, written on the device
+    SLOT_ENDS,
+    SLOT_SIDES,
+    RESTS,
+    BOUNDS,
+    TINTS  // the colour of each body, written on the device
 };
-constexpr std::uint32_t BINDINGS = PUSHES + 1;
+constexpr std::uint32_t BINDINGS = TINTS + 1;
 
 enum class Source {
-    bodies,   // a member of BodyTables
-    touches,  // such a member that is there with CanvasOptions::marks only
-    canvas,   // a buffer of the canvas's own
-    image     // with a sampler
+    bodies,  // a member of BodyTables
+    canvas,  // a buffer of the canvas's own
+    image    // with a sampler
 };
 struct BindingInfo {
     Source source = Source::canvas;
-    TableView BodyTables::*table = nullptr;  // of bodies and touches
+    TableView BodyTables::*table = nullptr;  // of bodies
+    const char* name = "";                   // of the table, for messages
 };
 const std::array<BindingInfo, BINDINGS>& binding_infos();
 
-// Throws std::invalid_argument if a table is missing that these options need.
-void require_tables(const BodyTables& tables, const CanvasOptions& options);
+// Whether a picture with these options and colours reads the table; other tables need not be there.
+bool reads(std::uint32_t binding, const CanvasOptions& options, ColorBy by);
+// Throws std::invalid_argument if a table is missing that is read.
+void require_tables(const BodyTables& tables, const CanvasOptions& options, ColorBy by);
 
 // ---- what is drawn
 enum class Pass {
@@ -51,10 +62,11 @@ enum class Pass {
     finish    // over the picture: smoothing (with one sample a pixel), legend and caption
 };
 enum class Cull { none, back, front };  // which sides of triangles are left out; those counterclockwise in shaders are fronts
-enum class Compare { always, less, greater, greater_or_equal };            // a new depth with the old one
-enum class Mesh { none, sphere, capsule };                                 // none: corners come from gl_VertexIndex alone
-enum class Items { one, spheres, capsules, boxes, planes, marks, quads };  // what there is an instance of for each
-constexpr std::size_t ITEM_KINDS = 7;
+enum class Compare { always, less, greater, greater_or_equal };  // a new depth with the old one
+// none: corners come from gl_VertexIndex alone. Spheres and capsules from fine to coarse; discs are shadows of round bodies.
+enum class Mesh { none, sphere_0, sphere_1, sphere_2, sphere_3, capsule_0, capsule_1, capsule_2, box, disc, discs };
+constexpr std::size_t MESHES = 11;
+enum class Items { one, planes, marks, quads, bodies };  // what there is an instance of for each; of bodies several in one
 
 // Shaders and fixed state: a pipeline of Vulkan.
 struct DrawState {
@@ -74,8 +86,14 @@ struct Draw {
     Items items = Items::one;
     Mesh mesh = Mesh::none;
     std::uint32_t corners = 0;  // of an item without a mesh
+    std::uint32_t run = 0;      // RUN_*, of bodies
     std::uint32_t pushed = 0;   // what the vertex shader finds in its push constant, if it has one
 };
+
+// What the vertex shader of bodies finds in its push constant.
+constexpr std::uint32_t pushed_for_run(std::uint32_t run, std::uint32_t value) {
+    return run << 8 | value;
+}
 
 // Draws in their order, parted by pass in the order of Pass. `options.samples` is 1 or 4.
 std::vector<Draw> draws_of(const CanvasOptions& options);

@@ -17,8 +17,9 @@ public:
 
     std::string name() const override;
     void set_tables(const BodyTables& tables) override;
-    Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+    void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                vec3 scene_high) override;
+    Image finish() override;
 
     // As draw(), but the picture stays on the device: 8-bit sRGB, in the layout of a transfer's source, of the options' size,
     // until the next one is drawn.

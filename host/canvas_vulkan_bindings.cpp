@@ -19,7 +19,7 @@ void VulkanCanvas::Interior::make_layout() {
         bindings[i].descriptorType =
             is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         bindings[i].descriptorCount = 1;
-        bindings[i].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+        bindings[i].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
         samplers += is_sampler(i) ? 1 : 0;
     }
     VkDescriptorSetLayoutCreateInfo set_info{};
@@ -54,7 +54,7 @@ void VulkanCanvas::Interior::make_layout() {
 }
 
 // The buffer that a shader reads, filled with what lies in host memory.
-const Buffer& VulkanCanvas::Interior::table_of(std::uint32_t binding) {
+const Buffer& VulkanCanvas::Interior::table_of(std::uint32_t binding, ColorBy by) {
     switch (binding) {
         case INSTANCES:
             return instances;
@@ -64,12 +64,20 @@ const Buffer& VulkanCanvas::Interior::table_of(std::uint32_t binding) {
             return quads;
         case DIRECTIONS:
             return directions;
+        case RUN_TABLE:
+            return runs;
+        case ARGUMENTS:
+            return arguments;
+        case GROUP_COUNTS:
+            return group_counts;
+        case TINTS:
+            return tints;
         default:
             break;
     }
     const BindingInfo& info = binding_infos()[binding];
-    // Without marks nothing reads their tables, but a descriptor must name something.
-    if (info.source == Source::touches && !options.marks) return instances;
+    // What nothing reads has a descriptor, which must name something.
+    if (!reads(binding, options, by)) return instances;
     const TableView& table = tables.*info.table;
     if (table.buffer != nullptr) return *table.buffer;
     if (table.bytes.empty()) return instances;
@@ -79,7 +87,7 @@ const Buffer& VulkanCanvas::Interior::table_of(std::uint32_t binding) {
     return copy;
 }
 
-void VulkanCanvas::Interior::write_set() {
+void VulkanCanvas::Interior::write_set(ColorBy by) {
     std::array<VkDescriptorBufferInfo, BINDINGS> buffer_infos{};
     std::array<VkDescriptorImageInfo, BINDINGS> image_infos{};
     std::array<VkWriteDescriptorSet, BINDINGS> writes{};
@@ -96,7 +104,7 @@ void VulkanCanvas::Interior::write_set() {
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        if (!is_sampler(i)) buffer_infos[i] = {table_of(i).handle(), 0, VK_WHOLE_SIZE};
+        if (!is_sampler(i)) buffer_infos[i] = {table_of(i, by).handle(), 0, VK_WHOLE_SIZE};
         writes[i].pBufferInfo = &buffer_infos[i];
         writes[i].pImageInfo = &image_infos[i];
     }

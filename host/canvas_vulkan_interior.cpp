@@ -18,6 +18,7 @@ CanvasOptions checked(CanvasOptions options, const Device& device) {
     if (options.samples == 0) options.samples = device.report().is_processor ? 1 : 4;
     if (options.samples != 1 && options.samples != 4)
         throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    if (options.bits != 8 && options.bits != 16) throw DeviceError("canvas: bits must be 8 or 16");
     return options;
 }
 
@@ -31,8 +32,17 @@ VulkanCanvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInst
     make_shadow_maps();
     make_picture();
     make_pipelines();
+    make_looks();
     make_commands();
     upload_glyphs();
+}
+
+VulkanCanvas::Interior::~Interior() {
+    try {
+        wait();
+    } catch (const DeviceError&) {
+        // A lost device draws no more.
+    }
 }
 
 void VulkanCanvas::Interior::make_buffers() {
@@ -47,7 +57,13 @@ void VulkanCanvas::Interior::make_buffers() {
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
     quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
-    picture = Buffer(device, "canvas picture", pixels * 4, BufferUse::readback);
+    // The device says which bodies are seen; how they are drawn is known.
+    runs = filled("canvas runs", scenery.runs);
+    arguments = filled("canvas arguments", arguments_of(scenery, draws));
+    const std::size_t groups = std::max(1u, groups_of_look(0, scenery.bodies()));
+    group_counts = Buffer(device, "canvas group counts", groups * SEEN_RUNS * sizeof(std::uint32_t));
+    tints = Buffer(device, "canvas tints", scenery.records * sizeof(vec4));
+    picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
 }
 
 void VulkanCanvas::Interior::make_samplers() {
@@ -78,25 +94,25 @@ void VulkanCanvas::Interior::make_shadow_maps() {
 }
 
 void VulkanCanvas::Interior::make_picture() {
-    picture_pass = make_picture_pass(objects, options.samples);
-    const auto surface = [&](VkFormat format, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
-        return objects.surface({format, options.width, options.height, usage, aspect, samples});
+    const VkFormat format = color_format(options.bits);
+    picture_pass = make_picture_pass(objects, options.samples, format);
+    const auto surface = [&](VkFormat of, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
+        return objects.surface({of, options.width, options.height, usage, aspect, samples});
     };
     constexpr VkImageUsageFlags shown = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    target = surface(COLOR_FORMAT, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
+    target = surface(format, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
     const Surface depth =
         surface(DEPTH_FORMAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, options.samples);
     const bool smooths = options.samples == 1;
-    scene =
-        surface(COLOR_FORMAT,
-                VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | static_cast<VkImageUsageFlags>(smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : 0),
-                VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
+    scene = surface(
+        format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | static_cast<VkImageUsageFlags>(smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : 0),
+        VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
     std::vector<VkImageView> views{scene.view, depth.view};
     if (!smooths) views.push_back(target.view);
     framebuffer = objects.framebuffer(picture_pass, views, options.width, options.height);
 
     if (smooths) {
-        smoothing_pass = make_smoothing_pass(objects);
+        smoothing_pass = make_smoothing_pass(objects, format);
         smoothing_framebuffer = objects.framebuffer(smoothing_pass, std::array{target.view}, options.width, options.height);
     }
 }
@@ -122,6 +138,21 @@ void VulkanCanvas::Interior::make_pipelines() {
     }
 }
 
+void VulkanCanvas::Interior::make_looks() {
+    const VulkanFunctions& vk = device->vk();
+    for (std::size_t i = 0; i < LOOKS.size(); ++i) {
+        VkComputePipelineCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+        info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+        info.stage.module = objects.shader(LOOKS[i]);
+        info.stage.pName = "main";
+        info.layout = layout;
+        check(vk.vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &looks[i]), LOOKS[i]);
+        objects.on_end([this, at = looks[i]] { device->vk().vkDestroyPipeline(device->handle(), at, nullptr); });
+    }
+}
+
 void VulkanCanvas::Interior::make_commands() {
     const VulkanFunctions& vk = device->vk();
     VkCommandPoolCreateInfo info{};
@@ -135,6 +166,9 @@ void VulkanCanvas::Interior::make_commands() {
     allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     allocation.commandBufferCount = 1;
     check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    drawn = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence, "vkCreateFence");
 }
 
 void VulkanCanvas::Interior::upload_glyphs() {

@@ -20,15 +20,19 @@ struct ShadowMap {
 
 struct VulkanCanvas::Interior {
     Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen);
+    ~Interior();
+    Interior(const Interior&) = delete;
+    Interior& operator=(const Interior&) = delete;
 
     std::shared_ptr<Device> device;
     CanvasOptions options;
     Scenery scenery;
     std::vector<Draw> draws;
     std::vector<VkPipeline> pipelines;  // of each draw
+    std::array<VkPipeline, LOOKS.size()> looks{};
     BodyTables tables;
     std::array<Buffer, BINDINGS> copies;  // of tables in host memory
-    Buffer instances, frame, quads, picture, directions, indices;
+    Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints;
     Objects objects;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
@@ -40,6 +44,8 @@ struct VulkanCanvas::Interior {
     VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence drawn = VK_NULL_HANDLE;
+    bool pending = false;  // a picture is being drawn
 
     void make_buffers();
     void make_layout();
@@ -47,16 +53,20 @@ struct VulkanCanvas::Interior {
     void make_shadow_maps();
     void make_picture();
     void make_pipelines();
+    void make_looks();
     void make_commands();
     void upload_glyphs();
-    const Buffer& table_of(std::uint32_t binding);
-    void write_set();
+    const Buffer& table_of(std::uint32_t binding, ColorBy by);
+    void write_set(ColorBy by);
 
     // All of a picture, up to `target`.
     void record(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high);
     void begin();
     void end_and_wait();
+    void wait();  // for the picture that is being drawn, if there is one
+    void look();
     void draw_all(Pass pass, std::uint32_t quad_count);
+    void draw_bodies(const Draw& draw);
     void draw_shadows(std::size_t light);
     void draw_picture(std::uint32_t quad_count);
     void image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,

@@ -98,7 +98,7 @@ struct FixedState {
         // The picture's alpha stays: what blends is smooth already, and smooth.frag looks for stairs in the alpha.
         target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
         target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-        target.colorWriteMask = 0xF;
+        target.colorWriteMask = shape.state.fragment.empty() ? 0 : 0xF;
         blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
         blend.attachmentCount = state.pass == Pass::sun_map || state.pass == Pass::sky_map ? 0 : 1;
         blend.pAttachments = &target;
@@ -123,13 +123,13 @@ VkRenderPass make_shadow_pass(Objects& objects) {
     return make_pass(objects, attachments, subpass, dependencies);
 }
 
-VkRenderPass make_picture_pass(Objects& objects, int samples) {
+VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat format) {
     const bool resolves = samples > 1;
     std::array attachments{
-        attachment(COLOR_FORMAT, samples, !resolves,
+        attachment(format, samples, !resolves,
                    resolves ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
         attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-        attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+        attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
@@ -152,8 +152,8 @@ VkRenderPass make_picture_pass(Objects& objects, int samples) {
     return make_pass(objects, std::span(attachments).first(resolves ? 3 : 2), subpass, dependencies);
 }
 
-VkRenderPass make_smoothing_pass(Objects& objects) {
-    std::array attachments{attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+VkRenderPass make_smoothing_pass(Objects& objects, VkFormat format) {
+    std::array attachments{attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};

@@ -108,7 +108,7 @@ TEST_CASE("gl: a canvas refuses what it cannot draw", "[canvas][gl]") {
     CHECK_THROWS_WITH(picture(*make_gl_canvas(bodies.shapes, small())), Catch::Contains("missing"));
     CanvasOptions marks = small();
     marks.marks = true;
-    CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, marks)->set_tables(bodies.tables()), Catch::Contains("marks"));
+    CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, marks)->set_tables(bodies.tables()), Catch::Contains("touches"));
     BodyTables on_device = bodies.tables();
     on_device.poses = TableView(reinterpret_cast<const Buffer*>(&bodies));  // never looked into
     CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, small())->set_tables(on_device), Catch::Contains("host memory"));

@@ -54,12 +54,17 @@ ShapeInstances instances_of(const Scene& scene) {
 
 BodyTables tables_of(const State& state) {
     const std::uint32_t contacts = state.counted().contacts;
-    return {state.traits,
-            state.poses,
-            state.velocities,
-            std::span(state.contacts).first(contacts),
-            std::span(state.impulses).first(contacts),
-            contacts};
+    BodyTables tables{state.traits,
+                      state.poses,
+                      state.velocities,
+                      std::span(state.contacts).first(contacts),
+                      std::span(state.impulses).first(contacts),
+                      contacts};
+    tables.slot_ends = state.slot_ends;
+    tables.slot_sides = state.slot_sides;
+    tables.rests = state.rests;
+    tables.bounds = state.bounds;
+    return tables;
 }
 
 struct View {
@@ -166,8 +171,13 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
     for (const std::string& name : color_by_names()) {
         view.scale.by = *color_by_named(name);
         view.caption = name;
+        view.scale.high = view.scale.by == ColorBy::contact_impulse ? 5.0f : 10.0f;
+        view.scale.materials = {{{0.6f, 0, 1000}, "stone"}, {{0.1f, 0.5f, 2000}, "rubber"}};
         require_alike(view);
     }
+    view.caption = "parallel rays";
+    view.camera.orthographic = true;
+    require_alike(view);
     view.caption = "";
     view.camera = {.eye = {0.1f, 200, 0}, .target = {0, 0, 0}, .vertical_fov = 5};
     require_alike(view);
@@ -178,6 +188,30 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
     view.low = vec3(-0.4f, 0, -0.4f);
     view.high = vec3(0.4f, 1, 0.4f);
     require_alike(view);
+}
+
+TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[canvas][gl]") {
+    World world(heap(), {}, 1);
+    CanvasOptions options = options_of(1, true, false);
+    options.sleep_steps = 12;  // so that some seem to sleep soon
+    options.cell = world.state().fixed().cell;
+    const ShapeInstances instances = instances_of(world.scene());
+    const View view;
+    const auto plain = make_vulkan_canvas(validated_device(), instances, options);
+    for (bool CanvasOptions::*what :
+         {&CanvasOptions::velocities, &CanvasOptions::boxes, &CanvasOptions::cells, &CanvasOptions::sleep}) {
+        CanvasOptions shown = options;
+        shown.*what = true;
+        world.step(what == &CanvasOptions::sleep ? 200 : 10);  // arrows want motion, sleepers have come to rest
+        const Image without = picture(*plain, world, view);
+        const auto vulkan = make_vulkan_canvas(validated_device(), instances, shown), gl = make_gl_canvas(instances, shown);
+        const Image with = picture(*vulkan, world, view);
+        CHECK(likeness(with, without).strayed > 0.001);
+        const Likeness both = likeness(with, picture(*gl, world, view));
+        CAPTURE(both.mean, both.strayed, both.misshapen);
+        CHECK(alike(both));
+    }
+    CHECK(validated_device()->validation_messages().empty());
 }
 
 TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
