@@ -63,25 +63,23 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 void DeviceRunner::attach(State& state) {
     device_->wait_idle();
     state_ = &state;
-    if (plan_.empty()) {
-        plan_ = plan(state.substeps);
-        clock_ = StageClock(plan_);
-        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));
-        for (const Stage& stage : plan_) {
-            const auto same = std::find_if(plan_.begin(), plan_.end(), [&](const Stage& s) { return s.name == stage.name; });
-            const auto first = static_cast<std::size_t>(same - plan_.begin());
-            if (first < pipeline_of_.size()) {
-                pipeline_of_.push_back(pipeline_of_[first]);
-                continue;
-            }
-            pipeline_of_.push_back(pipelines_.size());
-            pipelines_.emplace_back(layout_, stage.name.c_str(), shaders::find(stage.name), std::vector{threads_of_a_group});
-        }
-        counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
-    }
+    if (planned_substeps_ != state.substeps) make_plan();
     make_buffers();
     upload();
     record();
+}
+
+void DeviceRunner::make_plan() {
+    planned_substeps_ = state_->substeps;
+    plan_ = plan(state_->substeps);
+    clock_ = StageClock(plan_);
+    if (!layout_) {
+        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));
+        counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
+    }
+    for (const Stage& stage : plan_)
+        pipelines_.try_emplace(stage.name, layout_, stage.name.c_str(), shaders::find(stage.name),
+                               std::vector{threads_of_a_group});
 }
 
 void DeviceRunner::make_buffers() {
@@ -116,8 +114,7 @@ void DeviceRunner::upload() {
 
 void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const {
     const physics::Parameters& p = state_->fixed();
-    const std::size_t index = static_cast<std::size_t>(&stage - plan_.data());
-    recording.bind(pipelines_[pipeline_of_[index]], *tables_[parity]);
+    recording.bind(pipelines_.at(stage.name), *tables_[parity]);
     recording.push(&stage.pass, sizeof(stage.pass));
     const auto indirect = [&](physics::uint row) {
         recording.dispatch_indirect(buffers_[static_cast<std::size_t>(Table::counts)], argument_offset(row));
@@ -248,6 +245,13 @@ void DeviceRunner::poison() {
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
         const std::vector<std::byte> garbage(buffer(table).bytes(), std::byte{0xCD});
         write(table, garbage);
+    }
+}
+
+void DeviceRunner::fetch_body(std::size_t index) {
+    for (const Table table : {Table::poses, Table::velocities, Table::rests}) {
+        const std::size_t bytes = table_infos()[static_cast<std::size_t>(table)].record_bytes;
+        buffer(table).read(state_->raw(table).subspan(index * bytes).data(), bytes, index * bytes);
     }
 }
 

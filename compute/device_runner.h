@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <memory>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "compute/plan.h"
@@ -27,6 +29,7 @@ public:
     bool in_place() const override { return false; }
     void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
     bool step() override;
+    void fetch_body(std::size_t index) override;
     void fetch_bodies() override;
     void fetch_contacts() override;
     void fetch() override;
@@ -39,6 +42,10 @@ public:
     const host::Buffer& counts() const { return buffer(Table::counts); }
     const host::Buffer& contacts() const { return buffer(Table::contacts); }
     const host::Buffer& impulses() const { return buffer(Table::impulses); }
+    const host::Buffer& slot_ends() const { return buffer(Table::slot_ends); }
+    const host::Buffer& slot_sides() const { return buffer(Table::slot_sides); }
+    const host::Buffer& rests() const { return buffer(Table::rests); }
+    const host::Buffer& bounds() const { return buffer(Table::bounds); }
 
     // For the comparison with another runner: a step stage by stage, and what a stage wrote.
     void begin_step();
@@ -51,6 +58,7 @@ public:
 private:
     const host::Buffer& buffer(Table table) const;
     host::Buffer& buffer(Table table);
+    void make_plan();
     void make_buffers();
     void upload();
     void record();
@@ -61,11 +69,11 @@ private:
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
+    int planned_substeps_ = 0;
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
-    std::vector<host::Pipeline> pipelines_;  // by stage of the plan; a stage of an earlier name shares its pipeline
-    std::vector<std::size_t> pipeline_of_;
-    std::vector<host::Buffer> buffers_;  // by binding; contacts and those before change places with the parity
+    std::map<std::string, host::Pipeline> pipelines_;  // by the name of the stage
+    std::vector<host::Buffer> buffers_;                // by binding; contacts and those before change places with the parity
     host::Buffer counts_back_;
     // Per parity: the table, the whole step, and (made when asked for) each stage alone.
     std::array<std::unique_ptr<host::Table>, 2> tables_;

@@ -98,6 +98,13 @@ DeviceRunner& Lockstep::device() {
     return interior_->there;
 }
 
+void Lockstep::change(const std::function<void(State&)>& make) {
+    interior_->there.fetch();
+    make(interior_->image);
+    make(interior_->state);
+    interior_->attach();
+}
+
 bool Lockstep::step() {
     LockstepResult& result = interior_->result;
     if (!result.equal) return false;

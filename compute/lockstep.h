@@ -15,6 +15,7 @@ namespace host {
 class Device;
 }
 class DeviceRunner;  // compute/device_runner.h
+struct State;        // compute/state.h
 
 struct LockstepResult {
     bool equal = true;
@@ -33,6 +34,8 @@ public:
     Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads);
     ~Lockstep();
     bool step();  // false: something differs, and result() says what
+    // The same change to the tables of both, between steps (State::tune, State::add, parameters).
+    void change(const std::function<void(State&)>& make);
     const LockstepResult& result() const;
     DeviceRunner& device();
 

@@ -11,10 +11,10 @@ std::string ReferenceRunner::device() const {
 
 void ReferenceRunner::attach(State& state) {
     state_ = &state;
-    if (plan_.empty()) {
-        plan_ = plan(state.substeps);
-        clock_ = StageClock(plan_);
-    }
+    if (planned_substeps_ == state.substeps) return;
+    planned_substeps_ = state.substeps;
+    plan_ = plan(state.substeps);
+    clock_ = StageClock(plan_);
 }
 
 bool ReferenceRunner::step() {

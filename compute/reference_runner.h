@@ -18,6 +18,7 @@ public:
     bool in_place() const override { return true; }
     void attach(State& state) override;
     bool step() override;
+    void fetch_body(std::size_t) override {}
     void fetch_bodies() override {}
     void fetch_contacts() override {}
     void fetch() override {}
@@ -30,6 +31,7 @@ private:
     Threads threads_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
+    int planned_substeps_ = 0;
     StageClock clock_;
 };
 

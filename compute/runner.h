@@ -22,18 +22,20 @@ public:
 
     virtual bool in_place() const = 0;  // works on the state's own tables, so all of them need memory
 
-    // Takes over the tables: sizes and contents. Called once, and again after the tables have grown. The state outlives the
-    // runner.
+    // Takes over the tables: sizes and contents. Called once, and again after the tables have grown or the substeps have changed.
+    // The state outlives the runner.
     virtual void attach(State& state) = 0;
     // Runs one step with the state's parameters and actions. False: a list would have outgrown its buffer; the bodies are as
     // before, and State::counts says what is needed.
     virtual bool step() = 0;
-    // Brings back into the attached state: counts, poses and velocities; the contacts of the last step (after the former); every
-    // table.
+    // Brings back into the attached state: counts, poses, velocities and rests; the contacts of the last step (after the former);
+    // every table.
+    virtual void fetch_body(std::size_t index) = 0;  // pose, velocity and rest of one
     virtual void fetch_bodies() = 0;
     virtual void fetch_contacts() = 0;
     virtual void fetch() = 0;
-    virtual StageTimes stage_times() const = 0;  // means over the steps since attach
+    virtual StageTimes stage_times() const = 0;  // means over the steps since the runner was first attached, or
+                                                 // the substeps changed
 };
 
 // On the CPU, in `threads` threads (0: one per core). No bit depends on how many.

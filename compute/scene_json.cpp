@@ -2,19 +2,16 @@
 #include "compute/scene_json.h"
 
 #include <algorithm>
-#include <cctype>
-#include <cmath>
-#include <nlohmann/json.hpp>
-#include <utility>
 #include <vector>
+
+#include "compute/json_reading.h"
 
 namespace scree {
 
 namespace {
 
-using nlohmann::json;
+using namespace json_reading;
 using Event = json::parse_event_t;
-using Names = std::vector<std::string>;
 
 const Names scene_keys = {"gravity", "bodies", "joints", "camera"};
 const Names body_keys = {
@@ -22,92 +19,11 @@ const Names body_keys = {
     "density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale"};
 const Names shape_names = {"box", "capsule", "sphere", "plane"};
 
-// Levenshtein's distance: how many letters must change, come or go.
-std::size_t distance(const std::string& a, const std::string& b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j) {
-            const std::size_t changed = diagonal + (a[i - 1] != b[j - 1]);
-            diagonal = std::exchange(row[j], std::min({changed, row[j] + 1, row[j - 1] + 1}));
-        }
-    }
-    return row.back();
-}
+}  // namespace
 
-std::string listed(const Names& names) {
-    std::string text;
-    for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
-    return text;
-}
+namespace json_reading {
 
-std::string unknown(const char* what, const std::string& name, const Names& known) {
-    const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
-        return distance(name, a) < distance(name, b);
-    });
-    const bool near = distance(name, *nearest) <= 1 + name.size() / 3;
-    return std::string("unknown ") + what + " \"" + name + "\"" + (near ? "; nearest: \"" + *nearest + "\"" : "") +
-           "; known: " + listed(known);
-}
-
-std::string escaped(std::string key) {  // RFC 6901
-    for (std::size_t at = 0; (at = key.find_first_of("~/", at)) != std::string::npos; at += 2)
-        key.replace(at, 1, key[at] == '~' ? "~0" : "~1");
-    return key;
-}
-
-// A place in the document; it becomes text only when something is wrong there.
-struct Place {
-    const Place* parent;
-    const char* key;
-    std::size_t index;
-
-    std::string pointer() const {
-        if (!parent && !key) return "";
-        return (parent ? parent->pointer() : "") + "/" + (key ? std::string(key) : std::to_string(index));
-    }
-    Place operator/(const char* child) const { return {this, child, 0}; }
-    Place operator/(std::size_t child) const { return {this, nullptr, child}; }
-};
-
-[[noreturn]] void refuse(const Place& place, const std::string& reason) {
-    throw SceneError(place.pointer(), reason);
-}
-
-std::string kind(const json& value) {
-    if (value.is_number()) return "the number " + value.dump();
-    if (value.is_string()) return "the string " + value.dump(-1, ' ', false, json::error_handler_t::replace);
-    if (value.is_boolean()) return value.dump();
-    if (value.is_array()) return "an array of " + std::to_string(value.size());
-    return value.is_object() ? "an object" : "null";
-}
-
-void read(const json& value, const Place& place, float& out) {
-    if (!value.is_number()) refuse(place, "must be a number, is " + kind(value));
-    const double wide = value.get<double>();
-    // Up to half a step above the largest float, values still round to it.
-    if (!(std::abs(wide) < 0x1.ffffffp127)) {
-        refuse(place, "must be at most 3.4e38, what a 32-bit float holds; is " + value.dump());
-    }
-    out = static_cast<float>(wide);
-}
-
-template <glm::length_t size>
-void read(const json& value, const Place& place, glm::vec<size, float>& out) {
-    if (!value.is_array() || value.size() != size) {
-        refuse(place, "must be an array of " + std::to_string(size) + " numbers, is " + kind(value));
-    }
-    for (glm::length_t i = 0; i < size; ++i)
-        read(value[static_cast<std::size_t>(i)], place / static_cast<std::size_t>(i), out[i]);
-}
-
-void read(const json& value, const Place& place, std::string& out) {
-    if (!value.is_string()) refuse(place, "must be a string, is " + kind(value));
-    out = value.get<std::string>();
-}
-
-void read(const json& value, const Place& place, Motion& out) {
+static void read(const json& value, const Place& place, Motion& out) {
     std::string word;
     read(value, place, word);
     const Names known = {"dynamic", "fixed", "kinematic"};
@@ -116,27 +32,7 @@ void read(const json& value, const Place& place, Motion& out) {
     out = static_cast<Motion>(found - known.begin());
 }
 
-void only(const json& object, const Place& place, const Names& known) {
-    if (!object.is_object()) refuse(place, "must be an object, is " + kind(object));
-    for (const auto& [key, value] : object.items()) {
-        if (std::find(known.begin(), known.end(), key) == known.end()) {
-            throw SceneError(place.pointer() + "/" + escaped(key), unknown("key", key, known));
-        }
-    }
-}
-
-template <class Value>
-void optional(const json& object, const Place& place, const char* key, Value& out) {
-    if (const auto found = object.find(key); found != object.end()) read(*found, place / key, out);
-}
-
-template <class Value>
-void required(const json& object, const Place& place, const char* key, Value& out) {
-    if (!object.contains(key)) refuse(place, std::string("lacks \"") + key + "\"");
-    read(object[key], place / key, out);
-}
-
-void read(const json& value, const Place& place, Shape& out) {
+static void read(const json& value, const Place& place, Shape& out) {
     if (value.is_string()) refuse(place, "must be an object such as {\"sphere\": {\"radius\": 0.5}}, is " + kind(value));
     if (!value.is_object()) refuse(place, "must be an object with one key, is " + kind(value));
     if (value.size() != 1) refuse(place, "must have one key (" + listed(shape_names) + "), has " + std::to_string(value.size()));
@@ -185,15 +81,49 @@ Body body_of(const json& value, const Place& place) {
     return body;
 }
 
-Viewpoint viewpoint_of(const json& value, const Place& place) {
-    only(value, place, {"eye", "target", "vertical_fov"});
-    Viewpoint view;
+// What a view that stands still and a moment of one that moves have alike.
+template <class View>
+static void read_view(const json& value, const Place& place, View& view) {
     required(value, place, "eye", view.eye);
     required(value, place, "target", view.target);
     optional(value, place, "vertical_fov", view.vertical_fov);
     if (!(view.vertical_fov >= 1 && view.vertical_fov <= 170))
         refuse(place / "vertical_fov", "must be between 1 and 170 degrees");
     if (view.eye == view.target) refuse(place / "target", "must differ from the eye");
+}
+
+static void read(const json& value, const Place& place, std::vector<ViewKey>& path) {
+    if (!value.is_array() || value.empty()) refuse(place, "must be an array of at least one moment, is " + kind(value));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const Place here = place / i;
+        only(value[i], here, {"time", "eye", "target", "vertical_fov"});
+        ViewKey& key = path.emplace_back();
+        required(value[i], here, "time", key.time);
+        read_view(value[i], here, key);
+        if (!(key.time >= 0 && key.time <= 1e6f)) refuse(here / "time", "must be between 0 and 1000000 s");
+        if (i > 0 && !(key.time > path[i - 1].time)) refuse(here / "time", "must be later than that of the moment before");
+    }
+}
+
+}  // namespace json_reading
+
+namespace {
+
+Viewpoint viewpoint_of(const json& value, const Place& place) {
+    only(value, place, {"eye", "target", "vertical_fov", "orthographic", "path"});
+    Viewpoint view;
+    optional(value, place, "orthographic", view.orthographic);
+    optional(value, place, "path", view.path);
+    if (view.path.empty()) {
+        read_view(value, place, view);
+        return view;
+    }
+    for (const char* key : {"eye", "target", "vertical_fov"}) {
+        if (value.contains(key)) refuse(place / key, "the path has its own, for each moment; leave it or the path out");
+    }
+    view.eye = view.path[0].eye;
+    view.target = view.path[0].target;
+    view.vertical_fov = view.path[0].vertical_fov;
     return view;
 }
 
@@ -236,31 +166,6 @@ private:
     const Place bodies_ = root_ / "bodies";
 };
 
-std::string line_and_column(std::string_view text, std::size_t at) {
-    const std::string_view before = text.substr(0, std::min(at, text.size()));
-    const auto line = 1 + std::count(before.begin(), before.end(), '\n');
-    const std::size_t last = before.rfind('\n');
-    return "line " + std::to_string(line) + ", column " +
-           std::to_string(before.size() - (last == before.npos ? 0 : last + 1) + 1);
-}
-
-// What the parser could not read, in words for a person; `byte` is where it stopped, counted from 1.
-[[noreturn]] void refuse_syntax(std::string_view text, const json::parse_error& error) {
-    std::size_t at = std::min(error.byte > 0 ? error.byte - 1 : 0, text.size());
-    std::size_t word = at;
-    const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) || c == '-' || c == '+'; };
-    while (word > 0 && letter(text[word - 1])) --word;
-    for (const char* name : {"NaN", "nan", "-NaN", "Infinity", "-Infinity", "inf", "-inf", "Inf", "-Inf"}) {
-        if (text.substr(word).starts_with(name)) {
-            throw SceneError(
-                "", line_and_column(text, word) + ": " + name + " is no JSON number; every number of a scene must be finite");
-        }
-    }
-    std::string what = error.what();  // "[json...] parse error at line 3, column 5: syntax error while ...: reason"
-    if (const auto colon = what.find("syntax error"); colon != std::string::npos) what.erase(0, colon);
-    throw SceneError("", line_and_column(text, at) + ": not valid JSON: " + what);
-}
-
 }  // namespace
 
 SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
@@ -270,13 +175,8 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
         rest = json::parse(text, Listener(document.scene, most_bodies));
     } catch (const json::parse_error& error) {
         refuse_syntax(text, error);
-    } catch (const json::out_of_range& error) {  // "[...406] number overflow parsing '1e999'"
-        const std::string what = error.what();
-        const auto open = what.find('\''), close = what.rfind('\'');
-        const std::string number = open < close ? what.substr(open + 1, close - open - 1) : "a number";
-        const std::size_t at = text.find(number);
-        const std::string where = at == text.npos ? "" : line_and_column(text, at) + ": ";
-        throw SceneError("", where + number + " is out of range; a scene's numbers are 32-bit floats, at most 3.4e38");
+    } catch (const json::out_of_range& error) {
+        refuse_number(text, error);
     }
     const Place root{nullptr, nullptr, 0};
     only(rest, root, scene_keys);

@@ -5,16 +5,27 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "compute/scene.h"
 
 namespace scree {
 
-// Where a scene is best seen from. The simulation never looks at it.
-struct Viewpoint {
+// Where a camera that moves is at a moment.
+struct ViewKey {
+    float time = 0;           // s
     vec3 eye{0};              // m
     vec3 target{0};           // m
     float vertical_fov = 45;  // degrees
+};
+
+// Where a scene is best seen from. The simulation never looks at it.
+struct Viewpoint {
+    vec3 eye{0};                // m; with a path its first eye, and so on
+    vec3 target{0};             // m
+    float vertical_fov = 45;    // degrees
+    bool orthographic = false;  // parallel rays; what lies as far as the target is as large as without
+    std::vector<ViewKey> path;  // in the order of time; empty: the camera stands still
 };
 
 struct SceneDocument {
@@ -29,5 +40,8 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies = s
 
 // One body a line. Keys that have their default value are left out. Finite values only (SceneError otherwise): JSON has no other.
 std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint = {});
+
+// One body of it, as an object on one line.
+std::string body_to_json(const Body& body);
 
 }  // namespace scree

@@ -112,15 +112,40 @@ void write(Text& text, const Body& body) {
     text << "}";
 }
 
+template <class View>
+void write_view(Text& text, const View& view) {
+    text << "\"eye\": " << view.eye << ", \"target\": " << view.target << ", \"vertical_fov\": " << view.vertical_fov;
+}
+
+void write(Text& text, const Viewpoint& view) {
+    text << " \"camera\": {" << (view.orthographic ? "\"orthographic\": true, " : "");
+    if (view.path.empty()) {
+        write_view(text, view);
+    } else {
+        const char* between = "\"path\": [\n  ";
+        for (const ViewKey& key : view.path) {
+            text << between << "{\"time\": " << key.time << ", ";
+            write_view(text, key);
+            text << "}";
+            between = ",\n  ";
+        }
+        text << "]";
+    }
+    text << "},\n";
+}
+
 }  // namespace
+
+std::string body_to_json(const Body& body) {
+    Text text;
+    write(text, body);
+    return text.take();
+}
 
 std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
     Text text;
     text << "{\"gravity\": " << scene.gravity << ",\n";
-    if (viewpoint) {
-        text << " \"camera\": {\"eye\": " << viewpoint->eye << ", \"target\": " << viewpoint->target
-             << ", \"vertical_fov\": " << viewpoint->vertical_fov << "},\n";
-    }
+    if (viewpoint) write(text, *viewpoint);
     text << " \"bodies\": [";
     const char* between = "\n  ";
     for (const Body& body : scene.bodies) {

@@ -27,6 +27,8 @@ Settings checked(const Settings& s) {
     demand(s.max_turn > 0 && s.max_turn <= 1.57f, "max_turn must be in (0, 1.57] rad");
     demand(s.sleep_speed >= 1e-6f && s.sleep_speed <= 10, "sleep_speed must be between 1e-6 and 10 m/s");
     demand(s.sleep_time > 0 && s.sleep_time <= 4, "sleep_time must be in (0, 4] s");
+    demand(s.friction_factor >= 0 && s.friction_factor <= 10, "friction_factor must be between 0 and 10");
+    demand(s.least_restitution >= 0 && s.least_restitution <= 1, "least_restitution must be between 0 and 1");
     return s;
 }
 

@@ -25,6 +25,10 @@ struct Settings {
                                 // creep freezes
     float sleep_time = 0.5f;    // s of quiet. Shorter, and a body sleeps at the turning point of its swing
 
+    // On top of what the bodies' materials say; see World::set_friction_factor and World::set_least_restitution.
+    float friction_factor = 1;    // 0 to 10, on the friction of every pair
+    float least_restitution = 0;  // 0 to 1, of every pair
+
     // Where the buffers start. They grow when a step needs more, and no result depends on it.
     std::uint32_t pairs_at_first = 0;     // 0: from the number of bodies
     std::uint32_t contacts_at_first = 0;  // 0: from the number of bodies

@@ -75,9 +75,8 @@ void mark_large(std::vector<physics::Traits>& traits, float cell) {
     }
 }
 
-physics::Parameters parameters_of(const Scene& scene, const Settings& settings) {
-    physics::Parameters p{};
-    p.gravity = scene.gravity;
+physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings) {
+    p.gravity = gravity;
     p.dt = 1 / settings.rate;
     p.h = p.dt / static_cast<float>(settings.substeps);
     p.inverse_h = 1 / p.h;
@@ -96,7 +95,30 @@ physics::Parameters parameters_of(const Scene& scene, const Settings& settings) 
     p.max_spin = settings.max_turn * p.inverse_h;
     p.sleep_speed = settings.sleep_speed;
     p.sleep_steps = sleep_steps_of(settings);
+    p.friction_factor = settings.friction_factor;
+    p.least_restitution = settings.least_restitution;
     return p;
+}
+
+physics::Impulse scaled(physics::Impulse impulse, float factor) {
+    impulse.normal *= factor;
+    impulse.friction *= factor;
+    impulse.twist *= factor;
+    impulse.rolling *= factor;
+    impulse.pressed *= factor;
+    return impulse;
+}
+
+physics::Pose start_of(const Body& body) {
+    const auto* plane = std::get_if<Plane>(&body.shape);
+    return {plane ? plane->normal * plane->offset : body.position, 0, plane ? vec4(0, 0, 0, 1) : body.orientation};
+}
+physics::Velocity start_velocity_of(const Body& body) {
+    const bool moves = body.motion != Motion::fixed;
+    return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
+}
+std::uint32_t buckets_for(std::uint32_t bodies) {
+    return std::bit_ceil(std::max(64u, 2 * bodies));
 }
 
 }  // namespace
@@ -122,26 +144,50 @@ State::State(const Scene& scene, const Settings& settings, std::uint32_t group_s
     traits.reserve(n + 1);
     for (const Body& body : scene.bodies) traits.push_back(traits_of(body));
 
-    parameters.assign(1, parameters_of(scene, settings));
+    parameters.assign(1, tuned({}, scene.gravity, settings));
     physics::Parameters& p = fixed();
     p.cell = cell_width(traits, p.speculative);
     p.inverse_cell = 1 / p.cell;
     mark_large(traits, p.cell);
     p.bodies = n;
-    p.buckets = std::bit_ceil(std::max(64u, 2 * n));
+    p.buckets = buckets_for(n);
     p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 4 * n;
     p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + 2 * n;
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
     allocate();
     for (std::uint32_t i = 0; i < n; ++i) {
-        const Body& body = scene.bodies[i];
-        const auto* plane = std::get_if<Plane>(&body.shape);
-        poses[i] = {plane ? plane->normal * plane->offset : body.position, 0, plane ? vec4(0, 0, 0, 1) : body.orientation};
-        const bool moves = body.motion != Motion::fixed;
-        velocities[i] = {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
+        poses[i] = start_of(scene.bodies[i]);
+        velocities[i] = start_velocity_of(scene.bodies[i]);
     }
     counted() = physics::emptied(counted(), p);
+}
+
+void State::tune(vec3 gravity, const Settings& settings) {
+    const float h_before = fixed().h;
+    fixed() = tuned(fixed(), gravity, settings);
+    if (settings.substeps == substeps) return;
+    substeps = settings.substeps;
+    const float factor = fixed().h / h_before;
+    const std::size_t lasting = std::min<std::size_t>(counted().contacts, std::min(contacts.size(), impulses.size()));
+    for (std::size_t i = 0; i < lasting; ++i) {
+        impulses[i] = scaled(impulses[i], factor);
+        contacts[i].load *= factor;
+    }
+}
+
+void State::add(const Body& body) {
+    physics::Parameters& p = fixed();
+    const std::uint32_t n = p.bodies++;
+    p.buckets = std::max(p.buckets, buckets_for(p.bodies));
+    allocate();
+    traits[n] = traits_of(body);
+    poses[n] = start_of(body);
+    velocities[n] = start_velocity_of(body);
+    rests[n] = 0;
+    // It has no contacts yet: where they begin, they end.
+    for (auto* starts : {&first_contacts, &first_contacts_before})
+        if (starts->size() > n + 1) (*starts)[n + 1] = (*starts)[n];
 }
 
 std::size_t State::allocated(Length length) const {

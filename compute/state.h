@@ -52,6 +52,13 @@ struct State {
     // Makes room for what the last step asked for and half as much again. What is in the tables stays.
     void grow();
 
+    // What may change between steps, into the parameters (grips, which depend on the substeps, are the caller's to make anew).
+    // Impulses that last are those of a substep; those of the last step are brought to the new length of one. They, and
+    // everything else that lasts, must be here (Runner::fetch), and the runner be attached again, if the substeps change.
+    void tune(vec3 gravity, const Settings& settings);
+    // One more body, the last. Everything that lasts must be here, and the runner be attached again.
+    void add(const Body& body);
+
     // Items of a table as allocated, and those that mean something at present.
     std::size_t allocated(Length length) const;
     std::size_t live(Length length) const;

@@ -3,20 +3,15 @@
 
 #include <cmath>
 #include <limits>
-#include <map>
 #include <stdexcept>
 
-#include "compute/state.h"
 #include "compute/statistics.h"
+#include "compute/world_interior.h"
 #include "shaders/physics/rest.h"
 
 namespace scree {
 
 namespace {
-
-bool finite(vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 // Sums that a step can calculate with: no mass is so small that this much pushes it beyond what a float holds.
 physics::Action bounded(physics::Action action) {
@@ -33,60 +28,53 @@ vec3 moment(vec3 offset, vec3 push) {
     return vec3(glm::clamp(turn, glm::dvec3(-most), glm::dvec3(most)));
 }
 
+bool finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
 }  // namespace
 
-struct World::Interior {
-    Scene scene;
-    Settings settings;
-    std::unique_ptr<Runner> runner;
-    State state;
-    std::map<std::size_t, physics::Action> actions;  // for the next step, by body
-    std::uint64_t steps = 0;
-    std::uint64_t growths = 0;
+World::Interior::Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r)
+    : scene(std::move(s)), settings(t), runner(std::move(r)), state(scene, settings, runner->group_size(), runner->in_place()) {
+    runner->attach(state);
+}
 
-    Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r)
-        : scene(std::move(s)),
-          settings(t),
-          runner(std::move(r)),
-          state(scene, settings, runner->group_size(), runner->in_place()) {
+void World::Interior::require_body(std::size_t body) const {
+    if (body < scene.bodies.size()) return;
+    throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()));
+}
+
+physics::Action& World::Interior::action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too) {
+    require_body(body);
+    if (!finite(value) || !finite(second)) throw std::invalid_argument("body " + std::to_string(body) + ": not finite");
+    const Motion motion = scene.bodies[body].motion;
+    if (motion == Motion::fixed || (motion == Motion::kinematic && !kinematic_too))
+        throw std::invalid_argument("body " + std::to_string(body) + " is not dynamic");
+    physics::Action& action = actions[body];
+    action.body = static_cast<physics::uint>(body);
+    return action;
+}
+
+void World::Interior::step() {
+    if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
+    broken = true;
+    take_up_grips();
+    physics::Parameters& parameters = state.fixed();
+    parameters.actions = 0;
+    for (const auto& [body, action] : actions) state.actions[parameters.actions++] = bounded(action);
+    actions.clear();
+    parameters.redo = 0;
+    while (!runner->step()) {
+        runner->fetch();
+        state.grow();
+        ++growths;
+        state.fixed().redo = 1;
         runner->attach(state);
     }
-
-    physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false) {
-        if (body >= scene.bodies.size())
-            throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()));
-        if (!finite(value) || !finite(second)) throw std::invalid_argument("body " + std::to_string(body) + ": not finite");
-        const Motion motion = scene.bodies[body].motion;
-        if (motion == Motion::fixed || (motion == Motion::kinematic && !kinematic_too))
-            throw std::invalid_argument("body " + std::to_string(body) + " is not dynamic");
-        physics::Action& action = actions[body];
-        action.body = static_cast<physics::uint>(body);
-        return action;
-    }
-
-    // Left true by a step that ended in an exception: the tables may be half grown.
-    bool broken = false;
-
-    void step() {
-        if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
-        broken = true;
-        physics::Parameters& parameters = state.fixed();
-        parameters.actions = 0;
-        for (const auto& [body, action] : actions) state.actions[parameters.actions++] = bounded(action);
-        actions.clear();
-        parameters.redo = 0;
-        while (!runner->step()) {
-            runner->fetch();
-            state.grow();
-            ++growths;
-            state.fixed().redo = 1;
-            runner->attach(state);
-        }
-        parameters.wake_all = 0;
-        ++steps;
-        broken = false;
-    }
-};
+    parameters.wake_all = 0;
+    ++steps;
+    broken = false;
+}
 
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
     : interior_(std::make_unique<Interior>(scree::checked(scene), scree::checked(settings), std::move(runner))) {}
@@ -145,25 +133,50 @@ void World::wake(std::size_t body) {
 void World::wake_all() {
     interior_->state.fixed().wake_all = 1;
 }
-void World::set_sleeping(bool allowed) {
-    interior_->settings.sleeping = allowed;
-    interior_->state.fixed().sleep_steps = sleep_steps_of(interior_->settings);
+BodyState World::Interior::body_state(std::size_t i) const {
+    return {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear, state.velocities[i].angular,
+            physics::is_asleep(state.rests[i], state.fixed().sleep_steps)};
 }
 
 std::vector<BodyState> World::bodies() const {
     interior_->runner->fetch_bodies();
-    const State& state = interior_->state;
-    std::vector<BodyState> bodies(state.fixed().bodies);
-    for (std::size_t i = 0; i < bodies.size(); ++i)
-        bodies[i] = {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear, state.velocities[i].angular,
-                     physics::is_asleep(state.rests[i], state.fixed().sleep_steps)};
+    std::vector<BodyState> bodies(interior_->scene.bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = interior_->body_state(i);
     return bodies;
+}
+
+BodyState World::body(std::size_t index) const {
+    interior_->require_body(index);
+    interior_->runner->fetch_body(index);
+    return interior_->body_state(index);
+}
+
+std::vector<Touching> World::touching(std::size_t body) const {
+    interior_->require_body(body);
+    interior_->runner->fetch_bodies();
+    interior_->runner->fetch_contacts();
+    const State& state = interior_->state;
+    std::vector<Touching> found;
+    for (std::size_t i = 0; i < state.counted().contacts; ++i) {
+        const physics::Contact& contact = state.contacts[i];
+        if (contact.a != body && contact.b != body) continue;
+        const physics::vec4 pushes = state.impulses[i].normal;
+        const float force = (pushes.x + pushes.y + pushes.z + pushes.w) * state.fixed().inverse_h;
+        found.push_back({contact.a == body ? contact.b : contact.a, static_cast<int>(contact.count), force});
+    }
+    return found;
 }
 
 Statistics World::statistics() const {
     interior_->runner->fetch_bodies();
     interior_->runner->fetch_contacts();
     return statistics_of(interior_->scene, interior_->state);
+}
+
+const State& World::state() const {
+    interior_->runner->fetch_bodies();
+    interior_->runner->fetch_contacts();
+    return interior_->state;
 }
 
 std::uint64_t World::state_hash() const {

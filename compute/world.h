@@ -25,6 +25,22 @@ struct BodyState {
     bool asleep = false;
 };
 
+// What touches a body, as the last step left it.
+struct Touching {
+    std::size_t body;  // the other one
+    int points;        // 1 to 4
+    float force;       // N, along the normal; 0 between bodies that are about to touch
+};
+
+// A hold on a body: a damped spring between a point of it and a place, solved implicitly and within every substep.
+struct GripSpring {
+    float hertz = 5;               // 0.1 to 30, of the body at the point where it is held. Below, it hangs far down
+    float damping_ratio = 1;       // 0 to 10
+    float max_acceleration = 300;  // m/s^2, 0 to 1e4: no greater force in proportion to the mass. More tears through stacks
+    float spin_damping = 5;        // 1/s, 0 to 100: without, a held body swings for long
+};
+constexpr std::size_t most_grips = 4;  // at once
+
 // Sums over the whole world, in double precision, and the extremes that a promise is made of.
 struct Statistics {
     std::size_t bodies = 0;                  // of every motion
@@ -59,10 +75,10 @@ public:
     // one that failed, and can be read; a further step throws std::logic_error.
     void step(int count = 1);
 
-    std::uint64_t steps() const;  // done so far
-    double time() const;          // s
-    const Scene& scene() const;   // as checked
-    const Settings& settings() const;
+    std::uint64_t steps() const;       // done so far
+    double time() const;               // s
+    const Scene& scene() const;        // as checked, with gravity as it is now and the bodies that were added
+    const Settings& settings() const;  // as they are now
     Runner& runner();
 
     // What acts on a body in the next step; calls add up. Indices are those of the scene; a wrong one throws std::out_of_range,
@@ -80,9 +96,34 @@ public:
     void wake_all();                  // in the next step
     void set_sleeping(bool allowed);  // false: from the next step on nobody sleeps
 
+    // Holds a dynamic body at `anchor` (in its own frame, from its centre; what lies outside of the box around it is brought to
+    // that box) and draws that point to `target` (world, within 1e6 m of 0), step by step, until released. A held body is awake.
+    // Returns the number of the grip. Throws as apply_force does, and std::length_error if most_grips are held already.
+    std::size_t grip(std::size_t body, vec3 anchor, vec3 target, const GripSpring& spring = {});
+    void move_grip(std::size_t grip, vec3 target);  // throws std::out_of_range for a grip that does not hold
+    void release(std::size_t grip);                 // throws the same
+
+    // Gives every dynamic body within `radius` (m) of a place a speed away from it: `speed` (m/s) in the middle, falling to 0
+    // at the radius. Throws std::invalid_argument for what is not finite or a radius that is not positive.
+    void explode(vec3 centre, float radius, float speed);
+
+    // From the next step on; they wake everybody. They throw for what a scene or Settings would not take.
+    void set_gravity(vec3 gravity);                 // m/s^2
+    void set_friction_factor(float factor);         // on the friction of every pair, 0 to 10
+    void set_least_restitution(float restitution);  // of every pair, 0 to 1
+    // From the next step on. It reads everything back and sends it again once.
+    void set_substeps(int substeps);  // 1 to 64
+
+    // One more body; returns its index, which is the highest. It reads everything back and sends it again once. Throws
+    // SceneError as the constructor does. Buffers that a canvas draws from are others afterwards.
+    std::size_t add_body(const Body& body);
+
     // Read back from wherever the world is.
+    BodyState body(std::size_t index) const;                 // throws std::out_of_range
+    std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts
     std::vector<BodyState> bodies() const;
     Statistics statistics() const;
+    const State& state() const;        // every table of a step (compute/state.h), with bodies and contacts as they are now
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
 
     std::uint64_t buffer_growths() const;

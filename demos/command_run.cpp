@@ -7,6 +7,7 @@
 
 #include "demos/commands.h"
 #include "demos/failure.h"
+#include "demos/input.h"
 #include "demos/interrupt.h"
 #include "demos/machine.h"
 #include "demos/message.h"
@@ -27,6 +28,8 @@ struct Options {
     MachineOptions machine;
     PictureOptions pictures;
     std::string report;
+    std::string input;            // a recording's file; may be empty
+    std::optional<Input> played;  // what is in it
     bool quiet = false;
 };
 
@@ -40,20 +43,25 @@ void require_writable(const Options& options) {
         throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
                                      options.scene.rate));
     }
+    if (options.pictures.takes_output() && options.report == "-") {
+        throw UsageError("--raw - and --report -: the standard output is for one of them; name a file for the other");
+    }
     require_writable_file("--report", options.report);
 }
 
-double step_alone(World& world) {
+double step_alone(World& world, const Script& before_step) {
+    if (before_step) before_step(world);
     const auto start = std::chrono::steady_clock::now();
     world.step();
     return seconds_since(start);
 }
 
-void step_timed(World& world, Recorder* recorder, RunReport& report) {
-    const double seconds = recorder ? recorder->step() : step_alone(world);
+void step_timed(const Subject& subject, World& world, Recorder* recorder, RunReport& report) {
+    const double seconds = recorder ? recorder->step() : step_alone(world, subject.before_step);
     if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
     if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
     report.step_ms.push_back(seconds * 1e3);
+    report.seconds_simulating += seconds;
 }
 
 // False if the user wished to end.
@@ -64,7 +72,7 @@ bool simulate(const Options& options, const Subject& subject, World& world, Pict
     if (pictures) pictures->after_step();
     for (int i = 0; i < steps; ++i) {
         if (is_interrupted()) return false;
-        step_timed(world, recorder, report);
+        step_timed(subject, world, recorder, report);
         if (pictures) pictures->after_step();
         progress.done(i + 1);
     }
@@ -80,15 +88,28 @@ void hold_to_promise(const Subject& subject, World& world, Recorder* recorder, R
     report.rows = report.judged ? subject.promise->judge(recorder->finish()) : judge(soundness(), sound);
 }
 
+// A recording that was played to its end must end as it did.
+void hold_to_recording(const Options& options, RunReport& report) {
+    if (!options.played || !options.played->end_hash || options.played->steps != report.steps) return;
+    const std::uint64_t hash = *options.played->end_hash;
+    report.rows.push_back(
+        {"state hash at the end", hash_text(hash) + ", as recorded", hash_text(report.state_hash), hash == report.state_hash});
+}
+
 void conclude(const Options& options, const Subject& subject, const RunReport& report) {
     if (!options.report.empty() && options.report != "-") host::write_atomically(options.report, json_of(report));
     if (options.report == "-") {
         fmt::print("{}", json_of(report));
     } else if (!options.quiet) {
-        fmt::print("{}", summary_of(report));
+        std::string text = summary_of(report);
         if (subject.promise && !report.judged) {
-            fmt::print("The promise was not judged: it takes {:g} s, and this run had {:g} s.\n", subject.seconds,
-                       static_cast<double>(report.steps) / static_cast<double>(report.rate));
+            text += fmt::format("The promise was not judged: it takes {:g} s, and this run had {:g} s.\n", subject.seconds,
+                                static_cast<double>(report.steps) / static_cast<double>(report.rate));
+        }
+        if (options.pictures.takes_output()) {
+            say("{}", text);
+        } else {
+            fmt::print("{}", text);
         }
     }
     if (all_pass(report.rows) || !options.quiet) return;
@@ -126,12 +147,18 @@ int work(const Options& options, const Subject& subject, const Machine& machine,
     std::optional<Recorder> recorder;
     if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
     Recorder* const records = recorder ? &*recorder : nullptr;
+    const auto start = std::chrono::steady_clock::now();
     if (!simulate(options, subject, world, pictures, records, report)) return end_early(world, pictures);
     if (pictures) pictures->finish();
+    report.seconds_running = seconds_since(start);
     report.name = subject.name;
     report.frames = pictures ? pictures->count() : 0;
+    const PictureTimes times = pictures ? pictures->times() : PictureTimes{};
+    report.seconds_drawing = times.draw;
+    report.seconds_waiting = times.encode_wait;
     measure(world, report);
     hold_to_promise(subject, world, records, report);
+    hold_to_recording(options, report);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();
     machine.require_valid();
@@ -154,14 +181,29 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
 int run(const Options& options) {
     RunReport report;
     require_writable(options);
-    const Subject subject = load_subject(options.scene);
+    Subject subject = load_subject(options.scene);
+    if (options.played) {  // happens again, and the demo's promise no longer binds
+        subject.before_step = replay(*options.played, options.input, std::move(subject.before_step));
+        subject.promise.reset();
+    }
     const Machine machine = choose_machine(options.machine);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
     World world(subject.scene, subject.settings(options.scene), machine.make_runner());
     std::optional<Pictures> pictures;
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
+    if (pictures) report.canvas = pictures->canvas();
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
+}
+
+int run(const CLI::App& command, Options options) {
+    if (!options.input.empty()) {
+        options.played = load_input(options.input);
+        options.scene = with_input(command, options.scene, *options.played, options.input);
+    } else if (options.scene.name.empty()) {
+        throw UsageError("run: name a demo (scree list) or a scene file, or give a recording with --input");
+    }
+    return run(options);
 }
 
 }  // namespace
@@ -173,11 +215,17 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     add_options(*command, options->pictures);
     command->add_option("--report", options->report, "a file for all numbers of the run as JSON; - is the standard output");
+    command->add_option("--input", options->input,
+                        "a recording of `scree view --record`: its scene, settings and steps, and all that was done, bit by bit");
+    command->get_option("scene")->required(false);
     command->add_flag("--quiet,-q", options->quiet, "no progress and no summary");
     command->footer(
-        "Examples:\n  scree run tower\n  scree run avalanche --bodies 20k --seconds 10 --video avalanche.mp4\n"
+        "Examples:\n  scree run tower\n  scree run --input played.json --video played.mp4\n  scree run avalanche --bodies 20k "
+        "--seconds 10 --video avalanche.mp4\n"
+        "  scree run wall --camera fit,orbit:10 --preview wall.gif\n"
+        "  scree run dominoes --camera follow:7 --raw - | ffplay -f rawvideo -pixel_format rgb24 -video_size 1280x720 -\n"
         "  scree run scene.json --backend cpu --threads 4 --report -");
-    command->callback([options, &status] { status = run(*options); });
+    command->callback([command, options, &status] { status = run(*command, *options); });
 }
 
 }  // namespace scree::demos

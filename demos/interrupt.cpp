@@ -8,6 +8,7 @@
 #include <csignal>
 
 #include "demos/failure.h"
+#include "host/unfinished.h"
 
 namespace scree::demos {
 
@@ -24,7 +25,9 @@ void on_signal(int) {
     clock_gettime(CLOCK_MONOTONIC, &now);
     const long long moment = now.tv_sec * 1000LL + now.tv_nsec / 1000000 + 1;
     long long first = 0;
-    if (!wished.compare_exchange_strong(first, moment) && moment - first > same_wish) _exit(interrupted);
+    if (wished.compare_exchange_strong(first, moment) || moment - first <= same_wish) return;
+    host::remove_unfinished();
+    _exit(interrupted);
 }
 
 }  // namespace

@@ -3,7 +3,8 @@
 
 namespace scree::demos {
 
-void listen_for_interrupt();  // SIGINT, SIGTERM and SIGHUP; a second one ends the program at once
+// SIGINT, SIGTERM and SIGHUP; a second one ends the program at once, and removes what is half written.
+void listen_for_interrupt();
 bool is_interrupted();
 
 }  // namespace scree::demos

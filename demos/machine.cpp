@@ -4,6 +4,7 @@
 #include "compute/device_runner.h"
 #include "demos/failure.h"
 #include "host/device.h"
+#include "shaders/physics/records.h"
 
 namespace scree::demos {
 
@@ -12,22 +13,30 @@ std::unique_ptr<Runner> Machine::make_runner() const {
 }
 
 void Machine::require_valid() const {
-    if (!device || !options.validate) return;
-    const std::vector<std::string> messages = device->validation_messages();
+    const std::shared_ptr<host::Device>& watched = device ? device : screen;
+    if (!watched || !options.validate) return;
+    const std::vector<std::string> messages = watched->validation_messages();
     if (messages.empty()) return;
     throw WorkFailed("Vulkan validation: " + std::to_string(messages.size()) + " messages, the first: " + messages.front());
 }
 
-Machine choose_machine(const MachineOptions& options) {
+Machine choose_machine(const MachineOptions& options, const std::vector<const char*>& window_extensions) {
     Machine machine{options, nullptr, ""};
+    const bool shows = !window_extensions.empty();
+    const auto open = [&] {
+        return host::Device::open(
+            {.which = options.device, .validation = options.validate, .window_extensions = window_extensions, .on_message = {}});
+    };
     if (options.backend == "cpu") {
         if (!options.device.empty())
             throw UsageError("--device: the backend cpu has no devices; use --threads, or --backend vulkan");
+        if (shows) machine.screen = open();
         return machine;
     }
-    const bool insist = options.backend == "vulkan" || !options.device.empty() || options.validate;
+    const bool insist = options.backend == "vulkan" || !options.device.empty() || options.validate || shows;
     try {
-        machine.device = host::Device::open({.which = options.device, .validation = options.validate, .on_message = {}});
+        machine.device = open();
+        if (shows) machine.screen = machine.device;
     } catch (const host::DeviceError& error) {
         if (insist) throw;
         machine.remark = std::string("no Vulkan device (") + error.what() + "); simulating on the processor";
@@ -35,14 +44,30 @@ Machine choose_machine(const MachineOptions& options) {
     return machine;
 }
 
-std::shared_ptr<host::Device> device_for_pictures(const Machine& machine) {
-    if (machine.device) return machine.device;
-    try {
-        return host::Device::open({.which = "", .validation = machine.options.validate, .on_message = {}});
-    } catch (const host::DeviceError& error) {
-        throw UsageError(std::string("--frames and --video need a Vulkan driver, though the simulation does not: ") +
-                         error.what());
-    }
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
+                                                 const host::CanvasOptions& options) {
+    std::shared_ptr<host::Device> device = machine.device ? machine.device : machine.screen;
+    if (!device) device = host::Device::open({.which = "", .validation = machine.options.validate, .on_message = {}});
+    return host::make_vulkan_canvas(std::move(device), instances, options);
+}
+
+host::BodyTables tables_on_device(Runner& runner) {
+    const auto& device = dynamic_cast<DeviceRunner&>(runner);
+    physics::Counts counts{};
+    device.counts().read(&counts, sizeof counts);
+    host::BodyTables tables{&device.traits(),   &device.poses(),    &device.velocities(),
+                            &device.contacts(), &device.impulses(), counts.contacts};
+    tables.slot_ends = &device.slot_ends();
+    tables.slot_sides = &device.slot_sides();
+    tables.rests = &device.rests();
+    tables.bounds = &device.bounds();
+    return tables;
+}
+
+vec3 position_on_device(Runner& runner, std::size_t body) {
+    physics::Pose pose{};
+    dynamic_cast<DeviceRunner&>(runner).poses().read(&pose, sizeof pose, body * sizeof pose);
+    return pose.position;
 }
 
 }  // namespace scree::demos

@@ -3,9 +3,12 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "compute/runner.h"
+#include "compute/scene.h"
 #include "demos/options.h"
+#include "host/canvas.h"
 
 namespace scree::host {
 class Device;
@@ -15,8 +18,9 @@ namespace scree::demos {
 
 struct Machine {
     MachineOptions options;
-    std::shared_ptr<host::Device> device;  // null on the processor
-    std::string remark;                    // why it is not what one might expect; may be empty
+    std::shared_ptr<host::Device> device;            // null on the processor
+    std::string remark;                              // why it is not what one might expect; may be empty
+    std::shared_ptr<host::Device> screen = nullptr;  // shows a window; null unless one was asked for
 
     std::unique_ptr<Runner> make_runner() const;
     // Throws WorkFailed with what the validation layers said, if they were asked for and said anything.
@@ -24,9 +28,15 @@ struct Machine {
 };
 
 // Throws host::DeviceError when the user named a backend or a device that is not there.
-Machine choose_machine(const MachineOptions& options);
+// `window_extensions`: for a machine with a screen (host::Display::extensions); it throws when no device can be that.
+Machine choose_machine(const MachineOptions& options, const std::vector<const char*>& window_extensions = {});
 
-// A device to draw with: the machine's own, else any. Throws UsageError that says what to install.
-std::shared_ptr<host::Device> device_for_pictures(const Machine& machine);
+// A canvas on the machine's own device, else on any. Throws host::DeviceError that says what to install.
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
+                                                 const host::CanvasOptions& options);
+
+// What a machine with a device keeps there.
+host::BodyTables tables_on_device(Runner& runner);
+vec3 position_on_device(Runner& runner, std::size_t body);
 
 }  // namespace scree::demos

@@ -1,6 +1,7 @@
 // Choosing where to simulate, in a build without Vulkan: the processor.
 #include "demos/failure.h"
 #include "demos/machine.h"
+#include "host/device_error.h"
 
 namespace scree::demos {
 
@@ -14,14 +15,22 @@ std::unique_ptr<Runner> Machine::make_runner() const {
 
 void Machine::require_valid() const {}
 
-Machine choose_machine(const MachineOptions& options) {
+Machine choose_machine(const MachineOptions& options, const std::vector<const char*>&) {
     if (options.backend == "vulkan") throw UsageError(std::string("--backend vulkan: ") + cure);
     if (!options.device.empty()) throw UsageError(std::string("--device: ") + cure);
     return {options, nullptr, ""};
 }
 
-std::shared_ptr<host::Device> device_for_pictures(const Machine&) {
-    throw UsageError(std::string("--frames and --video need Vulkan: ") + cure);
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine&, const host::ShapeInstances&, const host::CanvasOptions&) {
+    throw host::DeviceError(std::string("Vulkan: ") + cure);
+}
+
+host::BodyTables tables_on_device(Runner&) {
+    return {};
+}
+
+vec3 position_on_device(Runner&, std::size_t) {
+    return vec3(0);
 }
 
 }  // namespace scree::demos

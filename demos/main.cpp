@@ -15,6 +15,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   scree list                                            what there is to see
   scree run avalanche --frames out --video out.mp4      pictures, without a display
+  scree view wall                                       in a window: take hold of the bodies (scree view --help)
   scree run pile --bodies 10k --steps 300 --report -    numbers, as JSON
   scree export wall -o wall.json                        a scene as a file, to change
   scree run wall.json --seconds 5                       and to run
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
     demos::add_list(program, status);
     demos::add_devices(program, status);
     demos::add_run(program, status);
+    demos::add_view(program, status);
     demos::add_compare(program, status);
     demos::add_check(program, status);
     demos::add_bench(program, status);

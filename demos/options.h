@@ -2,8 +2,10 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <glm/glm.hpp>
 #include <optional>
 #include <string>
 #include <utility>
@@ -36,17 +38,32 @@ struct SceneOptions {
     int step_count(double default_seconds) const;
 };
 
+// From where pictures are taken: as the scene says, unless something here says otherwise.
+struct CameraOptions {
+    std::optional<glm::vec3> eye, target;  // m
+    std::optional<float> vertical_fov;     // degrees
+    bool orthographic = false;
+    bool fit = false;                   // as near as all of the scene is seen
+    std::optional<double> orbit;        // seconds of a turn about the target; negative: the other way round
+    std::optional<std::string> follow;  // a body, by name or index
+};
+
 struct PictureOptions {
-    std::string frames, video;  // empty: none
+    std::string frames, video, preview, raw;  // empty: none
+    std::string canvas = "auto";              // what draws: auto, vulkan or gl
     int width = 1280, height = 720;
+    int bits = 8;  // of a channel
     double fps = 30;
+    CameraOptions camera;
     std::string color = "momentum", color_map = "plasma";
     std::optional<std::pair<float, float>> color_range;
-    bool legend = true;
-    std::vector<std::string> show;  // besides the bodies: "contacts"
+    bool legend = true, caption = true;
+    bool logarithmic = false;
+    std::vector<std::string> show;  // besides the bodies: contacts, velocities, boxes, cells, sleep
 
-    bool shows_contacts() const { return !show.empty(); }
-    bool wanted() const { return !frames.empty() || !video.empty(); }
+    bool shows(const char* what) const { return std::find(show.begin(), show.end(), what) != show.end(); }
+    bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }
+    bool takes_output() const { return raw == "-"; }  // the standard output is for frames, and words go elsewhere
 };
 
 void add_options(CLI::App& command, MachineOptions& options);
@@ -57,8 +74,5 @@ void add_options(CLI::App& command, PictureOptions& options);
 std::size_t count_of(const std::string& word);
 std::uint64_t seed_of(const std::string& word);               // throws the same
 std::vector<std::size_t> counts_of(const std::string& list);  // parted by commas
-
-// The word of `known` that is nearest to `word` by changed letters; "" if none is near.
-std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace scree::demos

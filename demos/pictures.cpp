@@ -3,82 +3,67 @@
 
 #include <fmt/format.h>
 
-#include "compute/device_runner.h"
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <map>
+
 #include "compute/state.h"
+#include "demos/camera.h"
 #include "demos/color_range.h"
+#include "demos/drawing.h"
 #include "demos/failure.h"
 #include "host/canvas.h"
 #include "host/frame_writer.h"
-#include "shaders/physics/records.h"
+#include "shaders/physics/rest.h"
 
 namespace scree::demos {
 
 namespace {
 
-host::ShapeInstances instances_of(const Scene& scene) {
-    host::ShapeInstances instances;
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        // In the order of Shape's alternatives.
-        std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes,
-                                                     &instances.planes};
-        lists[scene.bodies[i].shape.index()]->push_back(i);
-    }
-    return instances;
+// Adds the time that the work takes, s.
+template <class Work>
+decltype(auto) timed(double& seconds, Work&& work) {
+    struct Watch {
+        double& seconds;
+        std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
+        ~Watch() { seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count(); }
+    } const watch{seconds};
+    return work();
 }
 
-// The bodies of a world on the processor, copied to a device to be drawn.
-struct Copies {
-    host::Buffer traits, poses, velocities;
-
-    Copies(const std::shared_ptr<host::Device>& device, const World& world) {
-        const State start(world.scene(), world.settings(), 1, false);
-        const auto copy = [&](const char* name, Table table) {
-            host::Buffer buffer(device, name, start.raw(table).size());
-            buffer.write(start.raw(table).data(), buffer.bytes());
-            return buffer;
-        };
-        traits = copy("drawn traits", Table::traits);
-        poses = copy("drawn poses", Table::poses);
-        velocities = copy("drawn velocities", Table::velocities);
+// The materials of the bodies that move, the most frequent first: as many as colours can tell apart.
+std::vector<host::Material> materials_of(const Scene& scene) {
+    std::map<std::array<float, 3>, std::size_t> found;
+    for (const Body& body : scene.bodies) {
+        if (body.motion == Motion::dynamic) ++found[{body.friction, body.restitution, body.density}];
     }
-    void update(const World& world) {
-        const std::vector<BodyState> bodies = world.bodies();
-        std::vector<physics::Pose> at(bodies.size());
-        std::vector<physics::Velocity> moving(bodies.size());
-        for (std::size_t i = 0; i < bodies.size(); ++i) {
-            at[i] = {bodies[i].position, 0, bodies[i].orientation};
-            moving[i] = {bodies[i].velocity, 0, bodies[i].angular_velocity, 0};
-        }
-        if (bodies.empty()) return;
-        poses.write(at.data(), at.size() * sizeof(physics::Pose));
-        velocities.write(moving.data(), moving.size() * sizeof(physics::Velocity));
+    std::vector<std::pair<std::size_t, std::array<float, 3>>> sorted;
+    for (const auto& [material, count] : found) sorted.emplace_back(count, material);
+    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+    std::vector<host::Material> materials;
+    for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 8); ++i) {
+        const std::array<float, 3>& m = sorted[i].second;
+        materials.push_back({{m[0], m[1], m[2]}, fmt::format("µ {:.3g}  e {:.3g}  {:.4g} kg/m³", m[0], m[1], m[2])});
     }
-};
-
-host::Camera camera_of(const Viewpoint& view) {
-    host::Camera camera;
-    camera.eye = view.eye;
-    camera.target = view.target;
-    camera.vertical_fov = view.vertical_fov;
-    const vec3 along = view.target - view.eye;
-    if (std::abs(along.y) > 0.999f * glm::length(along)) camera.up = {0, 0, -1};  // straight down or up
-    return camera;
-}
-
-host::ColorScale scale_of(const PictureOptions& options, const Subject& subject) {
-    host::ColorScale scale;
-    scale.by = host::color_by_named(options.color).value();
-    scale.map = host::color_map_named(options.color_map).value();
-    std::tie(scale.low, scale.high) = options.color_range.value_or(color_range(subject, options.color));
-    return scale;
+    return materials;
 }
 
 host::CanvasOptions canvas_of(const PictureOptions& options, const World& world) {
     host::CanvasOptions canvas;
     canvas.width = options.width;
     canvas.height = options.height;
+    canvas.bits = options.bits;
     canvas.legend = options.legend;
-    canvas.marks = options.shows_contacts();
+    canvas.marks = options.shows("contacts");
+    canvas.velocities = options.shows("velocities");
+    canvas.boxes = options.shows("boxes");
+    canvas.cells = options.shows("cells");
+    canvas.sleep = options.shows("sleep");
+    const physics::Parameters& fixed = world.state().fixed();
+    canvas.cell = fixed.cell;
+    canvas.step_seconds = fixed.dt;
+    canvas.sleep_steps = fixed.sleep_steps == physics::NO_SLEEP ? 0 : fixed.sleep_steps;
     // What a body's weight gives it in a substep.
     const Settings& settings = world.settings();
     const float weight = glm::length(world.scene().gravity) / (settings.rate * static_cast<float>(settings.substeps));
@@ -88,68 +73,78 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
 
 }  // namespace
 
+host::ColorScale scale_of(const PictureOptions& options, const Subject& subject, const Settings& settings) {
+    host::ColorScale scale;
+    scale.by = host::color_by_named(options.color).value();
+    scale.map = host::color_map_named(options.color_map).value();
+    std::pair<float, float> range = color_range(subject, settings, options.color);
+    if (options.logarithmic) range = logarithmic_range(range);
+    std::tie(scale.low, scale.high) = options.color_range.value_or(range);
+    scale.logarithmic = options.logarithmic && host::has_scale(scale.by);
+    if (scale.logarithmic && scale.low <= 0) {
+        throw UsageError(
+            fmt::format("--color-scale log: a logarithmic scale begins above 0, and the range begins at {:g}; say "
+                        "--color-range LOW:HIGH",
+                        scale.low));
+    }
+    if (scale.by == host::ColorBy::material) scale.materials = materials_of(subject.scene);
+    return scale;
+}
+
 struct Pictures::Interior {
     World& world;
-    DeviceRunner* runner;  // null on the processor
-    std::shared_ptr<host::Device> device;
-    std::optional<Copies> copies;
-    std::optional<host::Canvas> canvas;
+    std::optional<Drawing> drawing;
     std::unique_ptr<host::FrameWriter> writer;
-    host::Camera camera;
+    CameraMan camera;
     host::ColorScale scale;
     std::string name;
     vec3 low, high;
     double fps;
-    bool shows_contacts;
+    bool captioned;
+    PictureTimes times;
+    int begun = 0;             // pictures
+    bool drawing_one = false;  // the last of them, beside the steps after it
 
-    host::BodyTables tables() {
-        if (runner) {
-            return {&runner->traits(),   &runner->poses(),    &runner->velocities(),
-                    &runner->contacts(), &runner->impulses(), shows_contacts ? contact_count() : 0};
-        }
-        copies->update(world);
-        return {&copies->traits, &copies->poses, &copies->velocities};
+    // Hands the picture that was begun to the encoders.
+    void take() {
+        if (!drawing_one) return;
+        drawing_one = false;
+        host::Image picture = timed(times.draw, [&] { return drawing->canvas().finish(); });
+        timed(times.encode_wait, [&] { writer->add(std::move(picture)); });
     }
-    std::uint32_t contact_count() const {
-        physics::Counts counts{};
-        runner->counts().read(&counts, sizeof counts);
-        return counts.contacts;
-    }
+
     std::string caption() const {
-        const std::string contacts = shows_contacts ? fmt::format("{} contacts, ", contact_count()) : "";
-        return fmt::format("{}\n{} bodies, {}{:.2f} s", name, world.scene().bodies.size(), contacts, world.time());
+        if (!captioned) return "";
+        return fmt::format("{} · {:.2f} s\n{} bodies, {} contacts\n{}", name, world.time(), world.scene().bodies.size(),
+                           drawing->contacts(), world.runner().device());
     }
 };
 
 Pictures::Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world)
-    : interior_(new Interior{world,
-                             dynamic_cast<DeviceRunner*>(&world.runner()),
-                             device_for_pictures(machine),
-                             {},
-                             {},
-                             nullptr,
-                             camera_of(subject.viewpoint),
-                             scale_of(options, subject),
-                             subject.name,
-                             subject.low,
-                             subject.high,
-                             options.fps,
-                             options.shows_contacts()}) {
+    : interior_(
+          new Interior{world,
+                       {},
+                       nullptr,
+                       CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
+                       scale_of(options, subject, world.settings()),
+                       subject.name,
+                       subject.low,
+                       subject.high,
+                       options.fps,
+                       options.caption,
+                       {}}) {
     Interior& in = *interior_;
-    if (in.shows_contacts && !in.runner) {
-        throw UsageError(
-            "--show contacts: contacts are drawn where a Vulkan device keeps them, but this run is on the processor: use "
-            "--backend vulkan");
-    }
     host::FrameWriterOptions writer;
     writer.folder = options.frames;
     writer.video = options.video;
+    writer.preview = options.preview;
+    writer.raw = options.raw;
     writer.frames_per_second = options.fps;
     writer.width = options.width;
     writer.height = options.height;
+    writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    if (!in.runner) in.copies.emplace(in.device, world);
-    in.canvas.emplace(in.device, instances_of(world.scene()), in.tables(), canvas_of(options, world));
+    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, world));
 }
 
 Pictures::~Pictures() = default;
@@ -158,17 +153,34 @@ void Pictures::after_step() {
     Interior& in = *interior_;
     // The picture of moment n / fps is taken at the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
-    if (in.world.time() + half_step <= in.writer->frames() / in.fps) return;
-    in.canvas->set_tables(in.tables());
-    in.writer->add(in.canvas->draw(in.camera, in.scale, in.caption(), in.low, in.high));
+    if (in.world.time() + half_step <= in.begun / in.fps) return;
+    in.take();
+    timed(in.times.draw, [&] {
+        in.drawing->update();
+        const std::optional<std::size_t> body = in.camera.followed();
+        const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
+        in.drawing->canvas().begin(camera, in.scale, in.caption(), in.low, in.high);
+    });
+    in.drawing_one = true;
+    ++in.begun;
+    if (!in.drawing->beside_steps()) in.take();
 }
 
 void Pictures::finish() {
-    interior_->writer->finish();
+    interior_->take();
+    timed(interior_->times.encode_wait, [&] { interior_->writer->finish(); });
+}
+
+PictureTimes Pictures::times() const {
+    return interior_->times;
 }
 
 int Pictures::count() const {
-    return interior_->writer->frames();
+    return interior_->begun;
+}
+
+std::string Pictures::canvas() const {
+    return interior_->drawing->canvas().name();
 }
 
 const std::vector<std::string>& color_words() {

@@ -13,6 +13,12 @@
 
 namespace scree::demos {
 
+// Where the time of the one who simulates went, s.
+struct PictureTimes {
+    double draw = 0;         // until the device had drawn, and the picture was here
+    double encode_wait = 0;  // until the encoders, which work beside it, had room; and at the end until they were done
+};
+
 class Pictures {
 public:
     // Throws before anything is simulated if the folder, the video or the device will not do.
@@ -24,11 +30,16 @@ public:
     void after_step();  // draws if a picture is due; also before the first step
     void finish();      // waits until all is written, and throws what went wrong there
     int count() const;
+    PictureTimes times() const;
+    std::string canvas() const;  // for people: what draws them, and on which device
 
 private:
     struct Interior;
     std::unique_ptr<Interior> interior_;
 };
+
+// The colours that the options ask for. Throws UsageError for a logarithmic scale that begins at 0.
+host::ColorScale scale_of(const PictureOptions& options, const Subject& subject, const Settings& settings);
 
 // The words of --color and --color-map.
 const std::vector<std::string>& color_words();

@@ -51,6 +51,7 @@ std::string json_of(const RunReport& r) {
         {"demo", r.name},
         {"backend", r.backend},
         {"device", r.device},
+        {"canvas", r.canvas},
         {"bodies", s.bodies},
         {"steps", r.steps},
         {"dt", 1.0 / r.rate},
@@ -77,6 +78,12 @@ std::string json_of(const RunReport& r) {
         {"first_step_seconds", r.first_step_seconds},
         {"seconds_total", r.seconds_total},
         {"frames", r.frames},
+        {"frames_per_second", r.seconds_running > 0 ? r.frames / r.seconds_running : 0.0},
+        {"seconds",
+         {{"running", r.seconds_running},
+          {"simulate", r.seconds_simulating},
+          {"draw", r.seconds_drawing},
+          {"encode_wait", r.seconds_waiting}}},
         {"state_hash", hash_text(r.state_hash)},
         {"promise", {{"judged", r.judged}, {"pass", r.judged && all_pass(r.rows)}, {"rows", promise}}},
     };
@@ -101,7 +108,12 @@ std::string summary_of(const RunReport& r) {
     line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
                                 per_body(r, r.buffer_bytes), r.buffer_growths));
     line("state hash", hash_text(r.state_hash));
-    if (r.frames > 0) line("pictures", fmt::format("{}, {} in all", r.frames, duration(r.seconds_total)));
+    if (r.frames > 0) {
+        line("pictures",
+             fmt::format("{}, {} in all: {} simulating, {} drawing, {} waiting for encoders; {:.3g} a second", r.frames,
+                         duration(r.seconds_total), duration(r.seconds_simulating), duration(r.seconds_drawing),
+                         duration(r.seconds_waiting), r.frames / std::max(r.seconds_running, 1e-9)));
+    }
     if (r.rows.empty()) return text;
     std::vector<Cells> rows = {verdict_heading()};
     for (const Row& row : r.rows) rows.push_back(verdict(row));

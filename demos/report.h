@@ -13,6 +13,7 @@ namespace scree::demos {
 
 struct RunReport {
     std::string name, backend, device;
+    std::string canvas;  // what drew the pictures; empty: there are none
     std::uint64_t steps = 0;
     float rate = 60;  // Hz
     int substeps = 8;
@@ -25,7 +26,11 @@ struct RunReport {
     std::uint64_t buffer_growths = 0, state_hash = 0;
     std::size_t buffer_bytes = 0, peak_memory_bytes = 0;
     int frames = 0;
-    bool judged = false;  // whether the run was long enough for its promise
+    // Of the run itself, without what comes before the first step: where the time went that one waits, s.
+    double seconds_running =
+        0;  // the sum of those below, and what remains: looks at the bodies, the script, the report's numbers
+    double seconds_simulating = 0, seconds_drawing = 0, seconds_waiting = 0;  // the last for encoders
+    bool judged = false;                                                      // whether the run was long enough for its promise
     std::vector<Row> rows;
 };
 

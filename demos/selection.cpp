@@ -8,6 +8,7 @@
 
 #include "demos/failure.h"
 #include "demos/options.h"
+#include "demos/words.h"
 
 namespace scree::demos {
 

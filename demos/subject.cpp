@@ -11,6 +11,7 @@
 #include "demos/building.h"
 #include "demos/demos.h"
 #include "demos/failure.h"
+#include "demos/words.h"
 #include "host/file.h"
 
 namespace scree::demos {

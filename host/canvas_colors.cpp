@@ -81,7 +81,9 @@ std::optional<Enum> named(const std::vector<std::string>& names, std::string_vie
 }  // namespace
 
 const std::vector<std::string>& color_by_names() {
-    static const std::vector<std::string> names{"momentum", "speed", "spin", "kinetic-energy", "height", "body", "plain"};
+    static const std::vector<std::string> names{"momentum",        "speed",    "spin",  "kinetic-energy",
+                                                "height",          "body",     "plain", "angular-momentum",
+                                                "contact-impulse", "contacts", "sleep", "material"};
     return names;
 }
 const std::vector<std::string>& color_map_names() {
@@ -96,15 +98,34 @@ std::optional<ColorMap> color_map_named(std::string_view name) {
 }
 
 std::string color_title(ColorBy by) {
-    static const char* const titles[] = {"momentum |p|", "speed |v|", "spin |ω|", "kinetic energy", "height", "body", ""};
+    static const char* const titles[] = {"momentum |p|", "speed |v|", "spin |ω|",          "kinetic energy",       "height",
+                                         "body",         "",          "spin momentum |L|", "contact impulse Σ|j|", "contacts",
+                                         "quiet for",    "material"};
     return titles[static_cast<int>(by)];
 }
 std::string color_unit(ColorBy by) {
-    static const char* const units[] = {"kg m/s", "m/s", "rad/s", "J", "m", "", ""};
+    static const char* const units[] = {"kg m/s", "m/s", "rad/s", "J", "m", "", "", "kg m²/s", "N s", "", "s", ""};
     return units[static_cast<int>(by)];
 }
 bool has_scale(ColorBy by) {
-    return by != ColorBy::body && by != ColorBy::plain;
+    return by != ColorBy::body && by != ColorBy::plain && by != ColorBy::material;
+}
+
+// As name_color() in shaders/render/coloring.h.
+vec3 name_color(unsigned n) {
+    const float golden = static_cast<float>(n % 4096u) * 0.61803399f;
+    const float hue = golden - std::floor(golden);
+    vec3 color(0);
+    for (int k = 0; k < 3; ++k) {
+        const float c = 0.5f + 0.5f * std::cos(6.2831853f * (hue + (k == 0 ? 0.0f : k == 1 ? 0.33f : 0.67f)));
+        color[k] = 0.10f + 0.65f * c * c;
+    }
+    return color;
+}
+
+float scale_place(const ColorScale& scale, float value) {
+    const auto place = [&](float v) { return scale.logarithmic ? std::log(std::max(v, 1e-30f)) : v; };
+    return std::clamp((place(value) - place(scale.low)) / (place(scale.high) - place(scale.low)), 0.0f, 1.0f);
 }
 
 vec3 map_color(ColorMap map, float t) {

@@ -10,8 +10,26 @@
 
 namespace scree::host {
 
-enum class ColorBy { momentum, speed, spin, kinetic_energy, height, body, plain };  // as COLOR_BY_* in shaders/render/frame.h
-enum class ColorMap { plasma, inferno, viridis, cividis, turbo };                   // all but turbo grow lighter steadily
+enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
+    momentum,
+    speed,
+    spin,
+    kinetic_energy,
+    height,
+    body,
+    plain,
+    angular_momentum,  // about the body's own centre
+    contact_impulse,   // the sum of what its contacts push in a substep
+    contacts,          // with how many others it touches, or is about to
+    rest,              // how long it has been quiet; a sleeper has the highest colour
+    material
+};
+enum class ColorMap { plasma, inferno, viridis, cividis, turbo };  // all but turbo grow lighter steadily
+
+struct Material {
+    glm::vec3 nature{0};  // as shaders/render/frame.h has it
+    std::string label;    // in the legend
+};
 
 // Fixed for a run by its owner, so that colours mean the same in every frame.
 struct ColorScale {
@@ -20,6 +38,7 @@ struct ColorScale {
     float low = 0;    // in the unit of `by`; on a logarithmic scale > 0
     float high = 10;  // > low
     bool logarithmic = false;
+    std::vector<Material> materials;  // those that are told apart, at most 8; a body has the colour of the most alike
 };
 
 const std::vector<std::string>& color_by_names();   // in the order of ColorBy
@@ -29,7 +48,11 @@ std::optional<ColorMap> color_map_named(std::string_view name);
 
 std::string color_title(ColorBy by);  // "momentum |p|"
 std::string color_unit(ColorBy by);   // "kg m/s"; empty where there is none
-bool has_scale(ColorBy by);           // false for body and plain, which need no legend
+bool has_scale(ColorBy by);           // false for body, plain and material, which no range has
+// Of the n-th material (or body, which repeat after 4096), linear light.
+glm::vec3 name_color(unsigned n);
+// Where a value lies on the scale, from 0 to 1; outside of it clamped.
+float scale_place(const ColorScale& scale, float value);
 
 // The colour at t from 0 to 1, linear light.
 glm::vec3 map_color(ColorMap map, float t);

@@ -24,6 +24,10 @@ bool finite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+// How far before and behind the target an orthographic camera sees, in distances of the eye: more, and depths of bodies that
+// touch become the same number.
+constexpr float ORTHOGRAPHIC_REACH = 100;
+
 struct LightMap {
     mat4 matrix{1};
     float texel = 0;  // m
@@ -67,20 +71,37 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
     const Axes axes = axes_of(-glm::normalize(look), camera.up);
     const auto width = static_cast<float>(options.width), height = static_cast<float>(options.height);
     const float slope = std::tan(glm::radians(camera.vertical_fov) * 0.5f);
-    const float aspect = width / height;
+    const float aspect = width / height, distance = glm::length(look);
+    // Half the picture's height: at 1 m, or everywhere.
+    const float rise = camera.orthographic ? slope * distance : slope;
     mat4 m(0);
     for (int k = 0; k < 3; ++k) {
-        m[k][0] = axes.right[k] / (slope * aspect);
-        m[k][1] = -axes.up[k] / slope;
-        m[k][3] = -axes.back[k];
+        m[k][0] = axes.right[k] / (rise * aspect);
+        m[k][1] = -axes.up[k] / rise;
+        m[k][3] = camera.orthographic ? 0 : -axes.back[k];
     }
     m[3][2] = camera.near_plane;
+    if (camera.orthographic) {
+        // Depth falls from 1 to 0 over a stretch with the target in its middle; what lies farther before or behind is cut off.
+        const float depth = 1 / (2 * ORTHOGRAPHIC_REACH * distance);
+        for (int k = 0; k < 3; ++k) m[k][2] = axes.back[k] * depth;
+        m[3] = vec4(0, 0, 0.5f + distance * depth, 1);
+        frame.pixel.w = depth;
+    }
     frame.view_projection = m;
-    frame.ray_corner = vec4(-axes.back - axes.right * (slope * aspect) + axes.up * slope, camera.near_plane);
-    frame.ray_right = vec4(axes.right * (2 * slope * aspect / width), width);
-    frame.ray_down = vec4(axes.up * (-2 * slope / height), height);
-    frame.pixel = vec4(2 * slope / height, 0, 0, 0);
-    frame.eye = vec4(camera.eye, 3.5f * glm::length(look));
+    frame.forward = vec4(-axes.back, camera.orthographic ? 1.0f : 0.0f);
+    for (int k = 0; k < 4; ++k) {
+        const vec3 across = k < 2 ? axes.right : axes.up;
+        const float half = k < 2 ? rise * aspect : rise, sign = k % 2 == 0 ? 1.0f : -1.0f;
+        frame.sides[k] =
+            camera.orthographic ? vec4(sign * across, half) : vec4(glm::normalize(sign * across - half * axes.back), 0);
+    }
+    const vec3 corner = axes.up * rise - axes.right * (rise * aspect) - (camera.orthographic ? vec3(0) : axes.back);
+    frame.ray_corner = vec4(corner, camera.near_plane);
+    frame.ray_right = vec4(axes.right * (2 * rise * aspect / width), width);
+    frame.ray_down = vec4(axes.up * (-2 * rise / height), height);
+    frame.pixel.x = 2 * rise / height;
+    frame.eye = vec4(camera.eye, 3.5f * distance);
 }
 
 void set_scale(Frame& frame, const ColorScale& scale) {
@@ -114,7 +135,12 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.pixel.z = 20 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
     frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
-    frame.marks = vec4(options.marks ? 1.0f : 0.0f, options.mark_push, 0, 0);
+    const std::size_t materials = std::min<std::size_t>(scale.materials.size(), MOST_MATERIALS);
+    for (std::size_t i = 0; i < materials; ++i) frame.materials[i] = vec4(scale.materials[i].nature, 0);
+
+    frame.marks =
+        vec4(options.marks ? 1.0f : 0.0f, options.mark_push, static_cast<float>(materials), options.sleep ? 1.0f : 0.0f);
+    frame.rest = vec4(static_cast<float>(options.sleep_steps), options.step_seconds, options.cell, options.arrow_seconds);
     frame.maps = vec4(sun_map.texel, sky_map.texel, 1.0f / SUN_MAP_SIZE, 1.0f / SKY_MAP_SIZE);
     return frame;
 }

@@ -8,9 +8,10 @@ namespace {
 
 constexpr double PI = 3.14159265358979323846;
 
-glm::vec4 on_circle(int corner, int corners, double share) {
+glm::vec4 on_circle(int corner, int corners, double share, double stretch) {
     const double angle = 2 * PI * corner / corners;
-    return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), static_cast<float>(share), 0.0f};
+    return {static_cast<float>(std::cos(angle)), static_cast<float>(std::sin(angle)), static_cast<float>(share),
+            static_cast<float>(stretch)};
 }
 
 void add(RoundMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -22,14 +23,15 @@ void add(RoundMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 RoundMesh sphere_mesh(int corners) {
     RoundMesh mesh;
     // Rings from the silhouette inwards, each with half the corners of the last.
-    const double shares[] = {1.0, 0.66, 0.40, 0.22, 0.12};
+    const double shares[] = {1.0, 0.86, 0.59, 0.34, 0.19};
+    const double stretch = std::sqrt(2 * PI / corners / std::sin(2 * PI / corners));
     std::uint32_t outer = 0;
     int count = corners;
-    for (int i = 0; i < count; ++i) mesh.directions.push_back(on_circle(i, count, shares[0]));
+    for (int i = 0; i < count; ++i) mesh.directions.push_back(on_circle(i, count, shares[0], stretch));
     for (std::size_t ring = 1; ring < std::size(shares) && count % 2 == 0 && count >= 12; ++ring) {
         const auto inner = static_cast<std::uint32_t>(mesh.directions.size());
         const int half = count / 2;
-        for (int i = 0; i < half; ++i) mesh.directions.push_back(on_circle(i, half, shares[ring]));
+        for (int i = 0; i < half; ++i) mesh.directions.push_back(on_circle(i, half, shares[ring], stretch));
         for (int i = 0; i < half; ++i) {
             const auto at = static_cast<std::uint32_t>(i);
             const auto next = static_cast<std::uint32_t>((i + 1) % half);
@@ -41,7 +43,7 @@ RoundMesh sphere_mesh(int corners) {
         count = half;
     }
     const auto pole = static_cast<std::uint32_t>(mesh.directions.size());
-    mesh.directions.emplace_back(1, 0, 0, 0);
+    mesh.directions.emplace_back(1, 0, 0, stretch);
     for (int i = 0; i < count; ++i) {
         add(mesh, pole, outer + static_cast<std::uint32_t>(i), outer + static_cast<std::uint32_t>((i + 1) % count));
     }
@@ -75,10 +77,6 @@ RoundMesh capsule_mesh(int corners) {
         }
     }
     return mesh;
-}
-
-int round_corners(std::size_t bodies) {
-    return bodies <= 200 ? 64 : bodies <= 1000 ? 32 : bodies <= 20000 ? 20 : 16;
 }
 
 }  // namespace scree::host

@@ -103,13 +103,33 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
     sheet.bar(left, top, right, bottom);
     const float thin = std::max(1.0f, std::round(m.unit));
     for (const float value : scale_ticks(scale.low, scale.high, scale.logarithmic, 6)) {
-        const float t = scale.logarithmic ? std::log(value / scale.low) / std::log(scale.high / scale.low)
-                                          : (value - scale.low) / (scale.high - scale.low);
-        const float x = std::round(left + t * (right - left - thin));
+        // The middle of the tick on the middle of the pixel that has the value's colour: the first has the scale's lowest.
+        const float x = std::round(left + scale_place(scale, value) * (right - left - 1) - 0.5f * (thin - 1));
         sheet.panel(x, bottom, x + thin, bottom + std::round(5 * m.unit), 0, glm::vec4(INK, 0.8f));
         const std::string label = tick_label(value, scale.logarithmic);
         sheet.text(label, x + 0.5f * thin - 0.5f * text_width(label, m.small), bottom + std::round(5 * m.unit + 1.0f * m.small),
                    m.small);
+    }
+}
+
+// A swatch and a line of words for each material, in the place of the scale.
+void add_materials(Sheet& sheet, int width, int height, const ColorScale& scale) {
+    const Measures m(height);
+    float widest = text_width(color_title(scale.by), m.text);
+    const float step = std::round(1.3f * m.small), swatch = std::round(1.6f * m.small);
+    for (const Material& material : scale.materials) widest = std::max(widest, swatch + text_width(material.label, m.small));
+    const float bottom = static_cast<float>(height) - m.margin, right = static_cast<float>(width) - m.margin;
+    const float left = right - 2 * m.padding - widest;
+    const float top = bottom - 2 * m.padding - step * static_cast<float>(scale.materials.size()) - m.text;
+    if (left < 0 || top < 0) return;
+    sheet.panel(left, top, right, bottom, std::round(7 * m.unit), glm::vec4(PANEL, 0.62f));
+    float base = top + m.padding + std::round(0.80f * m.text);
+    sheet.text(color_title(scale.by), left + m.padding, base, m.text);
+    for (std::size_t i = 0; i < scale.materials.size(); ++i) {
+        base += step;
+        const float side = std::round(0.7f * m.small), x = left + m.padding;
+        sheet.panel(x, base - side, x + side, base, std::round(2 * m.unit), glm::vec4(name_color(static_cast<unsigned>(i)), 1));
+        sheet.text(scale.materials[i].label, x + swatch, base, m.small);
     }
 }
 
@@ -124,10 +144,11 @@ BarPlace legend_bar(int width, int height) {
     return {width - inset - long_side, height - below - thickness, width - inset, height - below};
 }
 
-std::vector<OverlayQuad> overlay_quads(int width, int height, const ColorScale& scale, const std::string& caption) {
+std::vector<OverlayQuad> overlay_quads(int width, int height, bool legend, const ColorScale& scale, const std::string& caption) {
     Sheet sheet;
     if (!caption.empty()) add_caption(sheet, height, caption);
-    if (has_scale(scale.by) && legend_bar(width, height).left >= 0) add_legend(sheet, width, height, scale);
+    if (legend && has_scale(scale.by) && legend_bar(width, height).left >= 0) add_legend(sheet, width, height, scale);
+    if (legend && scale.by == ColorBy::material && !scale.materials.empty()) add_materials(sheet, width, height, scale);
     return sheet.quads;
 }
 

@@ -16,7 +16,8 @@ struct BarPlace {
 
 BarPlace legend_bar(int width, int height);
 
-// The legend (if `scale` has one) in the lower right corner, the caption's lines in the lower left. Sizes follow the height.
-std::vector<OverlayQuad> overlay_quads(int width, int height, const ColorScale& scale, const std::string& caption);
+// The legend (if it shall be there and `scale` has one) in the lower right corner, the caption's lines in the lower left. Sizes
+// follow the height.
+std::vector<OverlayQuad> overlay_quads(int width, int height, bool legend, const ColorScale& scale, const std::string& caption);
 
 }  // namespace scree::host

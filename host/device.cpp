@@ -124,7 +124,7 @@ Device::Device() : interior_(std::make_unique<Interior>()) {}
 std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     std::shared_ptr<Device> device(new Device);
     Interior& in = *device->interior_;
-    in.instance = std::make_unique<Instance>(options.validation, options.on_message);
+    in.instance = std::make_unique<Instance>(options.validation, options.on_message, options.window_extensions);
     in.vk = in.instance->vk();
     in.staged = options.staged;
     const std::vector<VkPhysicalDevice> physical = in.instance->physical_devices();
@@ -148,6 +148,9 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
+    const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    info.enabledExtensionCount = options.window_extensions.empty() ? 0 : 1;
+    info.ppEnabledExtensionNames = &swapchain;
     check(in.vk.vkCreateDevice(in.physical, &info, nullptr, &in.device), ("opening " + in.report.name).c_str());
     if (const char* missing = in.vk.load_device(in.device)) {
         throw DeviceError("the driver of " + in.report.name + " lacks " + missing);
@@ -170,6 +173,9 @@ const DeviceReport& Device::report() const {
 }
 const VulkanFunctions& Device::vk() const {
     return interior_->vk;
+}
+VkInstance Device::instance() const {
+    return interior_->instance->handle();
 }
 VkPhysicalDevice Device::physical() const {
     return interior_->physical;
@@ -219,8 +225,17 @@ void Device::submit(const std::vector<VkCommandBuffer>& commands, VkFence fence)
     info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
     info.commandBufferCount = static_cast<std::uint32_t>(commands.size());
     info.pCommandBuffers = commands.data();
+    submit(info, fence);
+}
+
+void Device::submit(const VkSubmitInfo& info, VkFence fence) {
     const std::lock_guard lock(interior_->queue_mutex);
     check(interior_->vk.vkQueueSubmit(interior_->queue, 1, &info, fence), "submitting to the device");
+}
+
+VkResult Device::present(const VkPresentInfoKHR& info) {
+    const std::lock_guard lock(interior_->queue_mutex);
+    return interior_->vk.vkQueuePresentKHR(interior_->queue, &info);
 }
 
 void Device::submit_and_wait(const std::vector<VkCommandBuffer>& commands) {

@@ -4,18 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "host/device_error.h"
 #include "host/vulkan_functions.h"
 
 namespace scree::host {
-
-// No Vulkan, no such device, or a Vulkan call that failed. The message says what to do about it.
-struct DeviceError : std::runtime_error {
-    using std::runtime_error::runtime_error;
-};
 
 // One physical device as `scree devices` shows it.
 struct DeviceReport {
@@ -41,6 +36,8 @@ struct DeviceOptions {
     bool validation = false;  // validation and synchronisation validation layers (DeviceError if the layer is not installed)
     // Treats device memory as the host cannot see it, as on most discrete cards: buffers are read and written through staging.
     bool staged = false;
+    // What the window system asks of the instance (Display::extensions); not empty: the device can show pictures in a window.
+    std::vector<const char*> window_extensions = {};
     // Receives each validation message, from any thread; they are collected in Device::validation_messages() too.
     std::function<void(const std::string&)> on_message;
 };
@@ -54,6 +51,7 @@ public:
 
     const DeviceReport& report() const;
     const VulkanFunctions& vk() const;
+    VkInstance instance() const;
     VkPhysicalDevice physical() const;
     VkDevice handle() const;
     VkQueue queue() const;  // one queue with graphics, compute and transfer
@@ -73,6 +71,9 @@ public:
     void submit_and_wait(const std::vector<VkCommandBuffer>& commands);
     // For the canvas and the runner to share the queue from several threads.
     void submit(const std::vector<VkCommandBuffer>& commands, VkFence fence);
+    // For a window: a submission with semaphores, and the presentation, whose result (out of date, lost) is the caller's affair.
+    void submit(const VkSubmitInfo& info, VkFence fence);
+    VkResult present(const VkPresentInfoKHR& info);
     void wait_idle() const;
 
     // Names an object in validation messages; does nothing without validation.

@@ -84,7 +84,7 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
 }
 
 std::vector<DeviceReport> list_devices() {
-    const Instance instance(false, {});
+    const Instance instance(false, {}, {});
     std::vector<DeviceReport> reports;
     for (VkPhysicalDevice physical : instance.physical_devices()) {
         reports.push_back(describe(instance.vk(), physical, static_cast<int>(reports.size())));

@@ -9,6 +9,9 @@
 #include <cstring>
 #include <system_error>
 
+#include "host/pipe.h"
+#include "host/unfinished.h"
+
 namespace scree::host {
 namespace {
 
@@ -33,21 +36,10 @@ private:
     int number_;
 };
 
-// 0 or the error.
-int write_all(int descriptor, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return errno;
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
-    return 0;
-}
-
 void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     if (file.number() < 0) fail("write", path, errno);
-    if (const int error = write_all(file.number(), bytes)) fail("write", path, error);
+    if (const int error = write_all(file.number(), bytes.data(), bytes.size())) fail("write", path, error);
 }
 
 }  // namespace
@@ -78,9 +70,10 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
     static std::atomic<unsigned> serial{0};
     std::filesystem::path part = target;
     part += ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+    const Unfinished unfinished(part);
     Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
     if (file.number() < 0) fail("write", path, errno);
-    int error = write_all(file.number(), bytes);
+    int error = write_all(file.number(), bytes.data(), bytes.size());
     if (!file.close() && error == 0) error = errno;
     if (error == 0 && ::rename(part.c_str(), target.c_str()) != 0) error = errno;
     if (error != 0) {

@@ -1,4 +1,4 @@
-// Frames to PNG files and to a video, encoded beside the simulation.
+// Frames to PNG files, to a video, to an animated preview and as bare pixels, encoded beside the simulation.
 #include "host/frame_writer.h"
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "host/raw_frames.h"
 #include "host/video.h"
 
 namespace scree::host {
@@ -102,6 +103,12 @@ void require_no_frames(const std::filesystem::path& folder) {
     }
 }
 
+Clip clip_of(const std::filesystem::path& preview) {
+    if (preview.extension() == ".gif") return Clip::gif;
+    if (preview.extension() == ".webp") return Clip::webp;
+    throw ImageError(preview.string() + ": a preview is a .gif or a .webp; name a file such as scree.gif");
+}
+
 int encoders(int asked) {
     if (asked > 0) return asked;
     return std::thread::hardware_concurrency() > 4 ? 2 : 1;
@@ -112,29 +119,50 @@ int encoders(int asked) {
 struct FrameWriter::Interior {
     FrameWriterOptions options;
     int frames = 0;
-    std::unique_ptr<Video> video;
-    std::unique_ptr<Line> pictures, film;
+    std::unique_ptr<Video> video, preview;
+    std::unique_ptr<RawFrames> raw;
+    struct Output {
+        std::unique_ptr<Line> line;
+        std::function<void()> finish;  // what the line wrote to; may be empty
+    };
+    std::vector<Output> outputs;  // end before what they write to
+
+    void add_output(int threads, std::function<void(const Job&)> work, std::function<void()> finish) {
+        const auto longest = static_cast<std::size_t>(std::max(options.waiting, 1));
+        outputs.push_back({std::make_unique<Line>(longest, threads, std::move(work)), std::move(finish)});
+    }
+    void add_video(std::unique_ptr<Video>& owner, const std::filesystem::path& path, Clip clip) {
+        owner = std::make_unique<Video>(path,
+                                        VideoShape{options.width, options.height, options.bits, options.frames_per_second, clip});
+        Video* const to = owner.get();
+        add_output(
+            1, [to](const Job& job) { to->add(*job.image); }, [to] { to->finish(); });
+    }
 };
 
 FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::make_unique<Interior>()) {
-    interior_->options = options;
-    const auto longest = static_cast<std::size_t>(std::max(options.waiting, 1));
+    Interior& in = *interior_;
+    in.options = options;
+    const Clip preview = options.preview.empty() ? Clip::gif : clip_of(options.preview);
     if (!options.folder.empty()) {
         require_writable_folder(options.folder);
         require_no_frames(options.folder);
     }
-    if (!options.video.empty()) {
-        interior_->video = std::make_unique<Video>(options.video, options.width, options.height, options.frames_per_second);
-        interior_->film =
-            std::make_unique<Line>(longest, 1, [video = interior_->video.get()](const Job& job) { video->add(*job.image); });
+    if (!options.raw.empty()) {
+        in.raw = std::make_unique<RawFrames>(options.raw);
+        RawFrames* const raw = in.raw.get();
+        in.add_output(
+            1, [raw](const Job& job) { raw->add(*job.image); }, [raw] { raw->finish(); });
     }
+    if (!options.video.empty()) in.add_video(in.video, options.video, Clip::film);
+    if (!options.preview.empty()) in.add_video(in.preview, options.preview, preview);
     if (!options.folder.empty()) {
-        interior_->pictures =
-            std::make_unique<Line>(longest, encoders(options.threads), [folder = options.folder](const Job& job) {
-                char name[32];
-                std::snprintf(name, sizeof name, "frame_%06d.png", job.number);
-                write_png(folder / name, *job.image);
-            });
+        const auto write = [folder = options.folder](const Job& job) {
+            char name[32];
+            std::snprintf(name, sizeof name, "frame_%06d.png", job.number);
+            write_png(folder / name, *job.image);
+        };
+        in.add_output(encoders(options.threads), write, {});
     }
 }
 
@@ -148,16 +176,22 @@ FrameWriter::~FrameWriter() {
 
 void FrameWriter::add(Image image) {
     const Job job{interior_->frames++, std::make_shared<const Image>(std::move(image))};
-    if (interior_->film) interior_->film->add(job);
-    if (interior_->pictures) interior_->pictures->add(job);
+    for (const Interior::Output& output : interior_->outputs) output.line->add(job);
 }
 
 void FrameWriter::finish() {
-    if (interior_->pictures) interior_->pictures->close();
-    if (interior_->film) interior_->film->close();
-    if (interior_->film) interior_->film->rethrow();
-    if (interior_->video) interior_->video->finish();
-    if (interior_->pictures) interior_->pictures->rethrow();
+    // All to their ends before the first error is told: what can be whole, shall be.
+    std::exception_ptr first;
+    for (const Interior::Output& output : interior_->outputs) {
+        output.line->close();
+        try {
+            output.line->rethrow();
+            if (output.finish) output.finish();
+        } catch (const std::exception&) {
+            if (!first) first = std::current_exception();
+        }
+    }
+    if (first) std::rethrow_exception(first);
 }
 
 int FrameWriter::frames() const {

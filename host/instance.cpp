@@ -27,7 +27,9 @@ bool has_validation_layer(const VulkanFunctions& vk) {
 
 }  // namespace
 
-Instance::Instance(bool validation, std::function<void(const std::string&)> on_message) : on_message_(std::move(on_message)) {
+Instance::Instance(bool validation, std::function<void(const std::string&)> on_message,
+                   const std::vector<const char*>& extensions)
+    : on_message_(std::move(on_message)) {
     if (!vk_.load()) {
         throw DeviceError("no Vulkan loader (libvulkan.so.1) on this machine: apt-get install libvulkan1 mesa-vulkan-drivers");
     }
@@ -38,7 +40,7 @@ Instance::Instance(bool validation, std::function<void(const std::string&)> on_m
         throw DeviceError(std::string("the layer ") + validation_layer +
                           " is not installed: apt-get install vulkan-validationlayers");
     }
-    create(validation);
+    create(validation, extensions);
     if (const char* missing = vk_.load_instance(instance_)) {
         const std::string name = missing;
         if (vk_.vkDestroyInstance) vk_.vkDestroyInstance(instance_, nullptr);
@@ -46,7 +48,7 @@ Instance::Instance(bool validation, std::function<void(const std::string&)> on_m
     }
 }
 
-void Instance::create(bool validation) {
+void Instance::create(bool validation, std::vector<const char*> extensions) {
     const VkApplicationInfo application{.sType = VK_STRUCTURE_TYPE_APPLICATION_INFO,
                                         .pNext = nullptr,
                                         .pApplicationName = "scree",
@@ -69,7 +71,6 @@ void Instance::create(bool validation) {
     features.pEnabledValidationFeatures = enabled;
 
     const char* layers[] = {validation_layer};
-    const char* extensions[] = {VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME};
     VkInstanceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO;
     info.pApplicationInfo = &application;
@@ -77,9 +78,11 @@ void Instance::create(bool validation) {
         info.pNext = &features;
         info.enabledLayerCount = 1;
         info.ppEnabledLayerNames = layers;
-        info.enabledExtensionCount = 2;
-        info.ppEnabledExtensionNames = extensions;
+        extensions.push_back(VK_EXT_DEBUG_UTILS_EXTENSION_NAME);
+        extensions.push_back(VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME);
     }
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
     const VkResult result = vk_.vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         throw DeviceError(

@@ -13,18 +13,19 @@ namespace scree::host {
 class Instance {
 public:
     // Throws DeviceError, naming the package that brings what is missing.
-    Instance(bool validation, std::function<void(const std::string&)> on_message);
+    Instance(bool validation, std::function<void(const std::string&)> on_message, const std::vector<const char*>& extensions);
     ~Instance();
     Instance(const Instance&) = delete;
     Instance& operator=(const Instance&) = delete;
 
     const VulkanFunctions& vk() const { return vk_; }
+    VkInstance handle() const { return instance_; }
     std::vector<VkPhysicalDevice> physical_devices() const;
     std::vector<std::string> messages() const;
     void receive(const std::string& message);  // from the validation layer, on any thread
 
 private:
-    void create(bool validation);
+    void create(bool validation, std::vector<const char*> extensions);
 
     VulkanFunctions vk_;
     VkInstance instance_ = VK_NULL_HANDLE;

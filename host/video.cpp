@@ -1,4 +1,4 @@
-// A video file, encoded by ffmpeg from frames sent through a pipe.
+// A video file or an animated picture, encoded by ffmpeg from frames sent through a pipe.
 #include "host/video.h"
 
 #include <fcntl.h>
@@ -8,13 +8,18 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <bit>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
-#include <ctime>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "host/pipe.h"
+#include "host/unfinished.h"
 
 extern char** environ;
 
@@ -28,14 +33,14 @@ std::string find_ffmpeg() {
         const std::string candidate = (folder.empty() ? "." : folder) + "/ffmpeg";
         if (::access(candidate.c_str(), X_OK) == 0) return candidate;
     }
-    throw ImageError("ffmpeg not found: apt-get install ffmpeg, or leave out --video");
+    throw ImageError("ffmpeg not found: apt-get install ffmpeg, or leave out --video and --preview");
 }
 
 // The file that links lead to, so that it is replaced and not the link. Throws ImageError unless that is a file or nothing yet.
-std::filesystem::path target_of(const std::filesystem::path& path) {
+std::filesystem::path target_of(const std::filesystem::path& path, const char* such_as) {
     namespace fs = std::filesystem;
     const auto refuse = [&](const char* why) {
-        throw ImageError(path.string() + ": " + why + "; name a file such as scree.mp4");
+        throw ImageError(path.string() + ": " + why + "; name a file such as " + such_as);
     };
     std::error_code ignored;
     const fs::file_status status = fs::status(path, ignored);
@@ -50,61 +55,85 @@ std::filesystem::path target_of(const std::filesystem::path& path) {
     return target;
 }
 
-// Writing to a program that has ended raises SIGPIPE; this turns it into an error of write() for this thread alone.
-class PipeSignalHeld {
-public:
-    PipeSignalHeld() {
-        sigemptyset(&pipe_);
-        sigaddset(&pipe_, SIGPIPE);
-        sigset_t pending;
-        sigpending(&pending);
-        was_pending_ = sigismember(&pending, SIGPIPE) == 1;
-        pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
-    }
-    ~PipeSignalHeld() {
-        const timespec now{};
-        if (!was_pending_) sigtimedwait(&pipe_, nullptr, &now);
-        pthread_sigmask(SIG_SETMASK, &before_, nullptr);
-    }
-    PipeSignalHeld(const PipeSignalHeld&) = delete;
-    PipeSignalHeld& operator=(const PipeSignalHeld&) = delete;
+using Words = std::vector<std::string>;
 
-private:
-    sigset_t pipe_{};
-    sigset_t before_{};
-    bool was_pending_ = false;
-};
+std::string decimal(double number) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << number;
+    return text.str();
+}
+
+// What ffmpeg makes of the frames.
+Words output_of(const VideoShape& shape) {
+    const std::string smaller = "fps=" + decimal(std::min(shape.frames_per_second, 15.0)) +
+                                ",scale=" + std::to_string(std::min(shape.width, 480)) + ":-1:flags=lanczos";
+    if (shape.clip == Clip::webp) return {"-vf", smaller, "-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"};
+    if (shape.clip == Clip::gif) {
+        // The palette is of the first seconds: until it is known, ffmpeg holds the frames in memory. One for each frame would
+        // make the file eight times as large.
+        const std::string colored =
+            ",split[a][b];[a]trim=end=8,palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle";
+        return {"-filter_complex", smaller + colored, "-loop", "0", "-f", "gif"};
+    }
+    return {"-vf",
+            // The default would tag nothing and convert by BT.601, which players of HD video misread.
+            "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709",
+            "-color_primaries", "bt709", "-color_trc", "bt709", "-c:v", "libx264", "-preset", "fast", "-crf", "18", "-pix_fmt",
+            "yuv420p", "-movflags", "+faststart", "-f", "mp4"};
+}
+
+// What turns the frames on ffmpeg's standard input into the file.
+Words command_of(const std::string& program, const VideoShape& shape, const std::string& file) {
+    const char* sixteen = std::endian::native == std::endian::little ? "rgba64le" : "rgba64be";
+    Words words{program,
+                "-hide_banner",
+                "-loglevel",
+                "error",
+                "-nostdin",
+                "-y",
+                "-f",
+                "rawvideo",
+                "-pixel_format",
+                shape.bits == 16 ? sixteen : "rgba",
+                "-video_size",
+                std::to_string(shape.width) + "x" + std::to_string(shape.height),
+                "-framerate",
+                decimal(shape.frames_per_second),
+                "-i",
+                "pipe:0"};
+    const Words output = output_of(shape);
+    words.insert(words.end(), output.begin(), output.end());
+    words.push_back(file);
+    return words;
+}
+
+const char* example_of(Clip clip) {
+    return clip == Clip::film ? "scree.mp4" : clip == Clip::gif ? "scree.gif" : "scree.webp";
+}
 
 }  // namespace
 
 struct Video::Interior {
     std::filesystem::path path, target, partial;
-    int width = 0, height = 0;
+    VideoShape shape;
+    std::optional<Unfinished> unfinished;
     pid_t process = -1;
     int pipe = -1;    // to ffmpeg's input
     int errors = -1;  // what ffmpeg says, an unnamed file
 
-    void start(const std::string& program, double frames_per_second);
+    void start(const std::string& program);
     int wait();
     [[noreturn]] void fail();
     void discard();
 };
 
-void Video::Interior::start(const std::string& program, double frames_per_second) {
+void Video::Interior::start(const std::string& program) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw ImageError(std::string("ffmpeg: no pipe: ") + std::strerror(errno));
     pipe = ends[1];
     errors = ::memfd_create("ffmpeg", MFD_CLOEXEC);
-    std::ostringstream rate;
-    rate.imbue(std::locale::classic());
-    rate << frames_per_second;
-    std::vector<std::string> words{
-        program, "-hide_banner", "-loglevel", "error", "-nostdin", "-y", "-f", "rawvideo", "-pixel_format", "rgba", "-video_size",
-        std::to_string(width) + "x" + std::to_string(height), "-framerate", rate.str(), "-i", "pipe:0", "-vf",
-        // The default would tag nothing and convert by BT.601, which players of HD video misread.
-        "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709", "-color_primaries",
-        "bt709", "-color_trc", "bt709", "-c:v", "libx264", "-preset", "fast", "-crf", "18", "-pix_fmt", "yuv420p", "-movflags",
-        "+faststart", "-f", "mp4", partial.string()};
+    Words words = command_of(program, shape, partial.string());
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -131,6 +160,7 @@ void Video::Interior::start(const std::string& program, double frames_per_second
         discard();
         throw ImageError(program + ": cannot be started: " + std::strerror(error));
     }
+    unfinished.emplace(partial, process);
 }
 
 int Video::Interior::wait() {
@@ -142,6 +172,7 @@ int Video::Interior::wait() {
         }
     }
     process = -1;
+    if (unfinished) unfinished.emplace(partial);  // nobody writes it any more
     return status;
 }
 
@@ -162,22 +193,21 @@ void Video::Interior::discard() {
     errors = -1;
     std::error_code ignored;
     std::filesystem::remove(partial, ignored);
+    unfinished.reset();
 }
 
-Video::Video(const std::filesystem::path& path, int width, int height, double frames_per_second)
-    : interior_(std::make_unique<Interior>()) {
-    if (width < 2 || height < 2 || !(frames_per_second > 0)) {
+Video::Video(const std::filesystem::path& path, const VideoShape& shape) : interior_(std::make_unique<Interior>()) {
+    if (shape.width < 2 || shape.height < 2 || !(shape.frames_per_second > 0)) {
         throw ImageError(path.string() + ": a video needs at least 2 x 2 pixels and a positive frame rate");
     }
-    const std::filesystem::path target = target_of(path);
+    const std::filesystem::path target = target_of(path, example_of(shape.clip));
     const std::string program = find_ffmpeg();
     require_writable_folder(target.parent_path());
     interior_->path = path;
     interior_->target = target;
     interior_->partial = target.string() + ".part" + std::to_string(::getpid());
-    interior_->width = width;
-    interior_->height = height;
-    interior_->start(program, frames_per_second);
+    interior_->shape = shape;
+    interior_->start(program);
 }
 
 Video::~Video() {
@@ -186,21 +216,16 @@ Video::~Video() {
 
 void Video::add(const Image& image) {
     if (interior_->pipe < 0) throw ImageError(interior_->path.string() + ": the video is closed");
-    if (image.width != interior_->width || image.height != interior_->height) {
-        throw ImageError(interior_->path.string() + ": a frame is " + std::to_string(image.width) + " x " +
-                         std::to_string(image.height) + " pixels, the video " + std::to_string(interior_->width) + " x " +
-                         std::to_string(interior_->height));
+    const VideoShape& shape = interior_->shape;
+    if (image.width != shape.width || image.height != shape.height || image.bits != shape.bits) {
+        const auto words = [](int width, int height, int bits) {
+            return std::to_string(width) + " x " + std::to_string(height) + " pixels of " + std::to_string(bits) + " bits";
+        };
+        throw ImageError(interior_->path.string() + ": a frame has " + words(image.width, image.height, image.bits) +
+                         ", the video " + words(shape.width, shape.height, shape.bits));
     }
     const PipeSignalHeld held;
-    const std::uint8_t* from = image.rgba.data();
-    std::size_t left = image.rgba.size();
-    while (left > 0) {
-        const ssize_t written = ::write(interior_->pipe, from, left);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) interior_->fail();
-        from += written;
-        left -= static_cast<std::size_t>(written);
-    }
+    if (write_all(interior_->pipe, image.rgba.data(), image.rgba.size()) != 0) interior_->fail();
 }
 
 void Video::finish() {
@@ -210,6 +235,7 @@ void Video::finish() {
     std::error_code error;
     std::filesystem::rename(interior_->partial, interior_->target, error);
     if (error) throw ImageError(interior_->path.string() + ": cannot be written: " + error.message());
+    interior_->unfinished.reset();
 }
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// A video file, encoded by ffmpeg from frames sent through a pipe.
+// A video file or an animated picture, encoded by ffmpeg from frames sent through a pipe.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,25 @@
 
 namespace scree::host {
 
+enum class Clip {
+    film,  // H.264 in MP4, readable by browsers; an odd width or height loses its last column or row
+    gif,   // animated pictures that play again and again, at most 480 pixels wide and 15 frames a second
+    webp,
+};
+
+struct VideoShape {
+    int width = 1280;  // pixels, of the frames that are added
+    int height = 720;
+    int bits = 8;  // of a channel, as in Image
+    double frames_per_second = 30;
+    Clip clip = Clip::film;
+};
+
 class Video {
 public:
-    // Starts ffmpeg (H.264, readable by browsers). Throws ImageError at once when ffmpeg is missing or the folder is not
-    // writable, or when the path is there and not a file. An odd width or height loses its last column or row.
-    Video(const std::filesystem::path& path, int width, int height, double frames_per_second);
+    // Starts ffmpeg. Throws ImageError at once when ffmpeg is missing or the folder is not writable, or when the path is there
+    // and not a file.
+    Video(const std::filesystem::path& path, const VideoShape& shape);
     ~Video();  // an unfinished video is removed
     Video(const Video&) = delete;
     Video& operator=(const Video&) = delete;

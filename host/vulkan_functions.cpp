@@ -36,6 +36,7 @@ const char* VulkanFunctions::load_instance(VkInstance instance) {
     if (!name) missing = #name;
     SCREE_VULKAN_INSTANCE_FUNCTIONS(SCREE_LOAD_NEEDED)
     SCREE_VULKAN_DEBUG_FUNCTIONS(SCREE_LOAD)
+    SCREE_VULKAN_SURFACE_FUNCTIONS(SCREE_LOAD)
 #undef SCREE_LOAD_NEEDED
 #undef SCREE_LOAD
     return missing;
@@ -43,10 +44,13 @@ const char* VulkanFunctions::load_instance(VkInstance instance) {
 
 const char* VulkanFunctions::load_device(VkDevice device) {
     const char* missing = nullptr;
-#define SCREE_LOAD(name)                                                     \
-    name = reinterpret_cast<PFN_##name>(vkGetDeviceProcAddr(device, #name)); \
+#define SCREE_LOAD(name) name = reinterpret_cast<PFN_##name>(vkGetDeviceProcAddr(device, #name));
+#define SCREE_LOAD_NEEDED(name) \
+    SCREE_LOAD(name)            \
     if (!name) missing = #name;
-    SCREE_VULKAN_DEVICE_FUNCTIONS(SCREE_LOAD)
+    SCREE_VULKAN_DEVICE_FUNCTIONS(SCREE_LOAD_NEEDED)
+    SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(SCREE_LOAD)
+#undef SCREE_LOAD_NEEDED
 #undef SCREE_LOAD
     return missing;
 }

@@ -47,6 +47,13 @@ namespace scree::host {
 // Of VK_EXT_debug_utils: null unless validation is on.
 #define SCREE_VULKAN_DEBUG_FUNCTIONS(X) \
     X(vkCreateDebugUtilsMessengerEXT) X(vkDestroyDebugUtilsMessengerEXT) X(vkSetDebugUtilsObjectNameEXT)
+
+// Of VK_KHR_surface and VK_KHR_swapchain: null unless the device was opened for a window.
+#define SCREE_VULKAN_SURFACE_FUNCTIONS(X) \
+    X(vkDestroySurfaceKHR) X(vkGetPhysicalDeviceSurfaceSupportKHR) X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR) \
+    X(vkGetPhysicalDeviceSurfaceFormatsKHR)
+#define SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(X) \
+    X(vkCreateSwapchainKHR) X(vkDestroySwapchainKHR) X(vkGetSwapchainImagesKHR) X(vkAcquireNextImageKHR) X(vkQueuePresentKHR)
 // clang-format on
 
 struct VulkanFunctions {
@@ -56,6 +63,8 @@ struct VulkanFunctions {
     SCREE_VULKAN_INSTANCE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_DEVICE_FUNCTIONS(SCREE_VULKAN_POINTER)
     SCREE_VULKAN_DEBUG_FUNCTIONS(SCREE_VULKAN_POINTER)
+    SCREE_VULKAN_SURFACE_FUNCTIONS(SCREE_VULKAN_POINTER)
+    SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(SCREE_VULKAN_POINTER)
 #undef SCREE_VULKAN_POINTER
 
     // Finds libvulkan.so.1, once for the whole program, and what it offers without an instance. False if there is none.

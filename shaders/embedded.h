@@ -1,4 +1,4 @@
-// The compiled shaders, as words in the program.
+// The compiled shaders, as words and text in the program.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,13 @@
 namespace scree::shaders {
 
 // The SPIR-V of a shader: "count_pairs" for stages/count_pairs.comp or the variant of that name, "body.vert" for
-// render/body.vert. Empty if there is none of that name.
+// render/body.vert. Empty if there is none of that name, and without SCREE_VULKAN.
 std::span<const std::uint32_t> find(std::string_view name);
 
-// All names, stages first.
+// The same of render/ as GLSL of OpenGL ES 3.1. Empty if there is none of that name.
+std::string_view find_es(std::string_view name);
+
+// All names with SPIR-V, stages first.
 std::vector<std::string_view> names();
 
 }  // namespace scree::shaders

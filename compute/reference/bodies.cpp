@@ -1,11 +1,13 @@
 // Reference stages over bodies: loads, bounds, and the body halves of a substep.
 #include <algorithm>
 #include <atomic>
+#include <span>
 
 #include "compute/reference/stages.h"
 #include "shaders/physics/block.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
+#include "shaders/physics/grip.h"
 #include "shaders/physics/motion.h"
 #include "shaders/physics/rest.h"
 
@@ -99,6 +101,12 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
         if (first) crowd = physics::drifted(crowd, sum.carrying, state.counted().steps);
         crowd = physics::crowd_after(crowd, sum.carrying, sum.pressing);
     });
+    const std::span grips = std::span(state.fixed().grips).first(state.fixed().held);
+    for (const physics::Grip& grip : grips) {
+        if (!moved_by_contacts(state, grip.body)) continue;
+        physics::Velocity& velocity = state.velocities[grip.body];
+        velocity = physics::pulled(velocity, state.poses[grip.body], state.masses[grip.body], grip, state.fixed());
+    }
 }
 
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {

@@ -148,9 +148,9 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a,
     c.slot_a = slot_a;
     c.slot_b = slot_b;
     c.normal = contact.normal;
-    c.friction = square_root(ta.friction * tb.friction);
+    c.friction = parameters.friction_factor * square_root(ta.friction * tb.friction);
     c.rolling_resistance = larger(ta.rolling_resistance, tb.rolling_resistance);
-    c.restitution = larger(ta.restitution, tb.restitution);
+    c.restitution = larger(parameters.least_restitution, larger(ta.restitution, tb.restitution));
     c.count = contact.count;
     c.pair = NONE;
     c.anchor = anchor_of(contact, ta, tb);

@@ -83,6 +83,19 @@ struct Action {
     float pad7;
 };
 
+// A body held at a point and drawn to a place by a damped spring (grip.h), for as long as the user holds it.
+CONSTANT uint MOST_GRIPS = 4u;  // at once
+struct Grip {
+    vec3 anchor;  // where it is held, from the centre, in the body's frame, m
+    uint body;
+    vec3 target;      // where that point shall be, m
+    float bias_rate;  // soft constraint, 1/s (Catto 2011)
+    float mass_scale;
+    float most;       // m/s in a substep: the greatest push, as a change of the centre's velocity
+    float spin_kept;  // part of the spin that a substep leaves
+    float pad0;
+};
+
 // ---- what touches
 // Up to four points in which two bodies touch or are about to.
 struct Manifold {
@@ -185,7 +198,7 @@ struct Flight {     // of a body through the step
 };
 
 // ---- the step itself
-struct Parameters {  // fixed for a run
+struct Parameters {  // the same for every thread of a step
     vec3 gravity;    // m/s^2
     float dt;        // of a step, s
     float h;         // of a substep, s
@@ -205,13 +218,18 @@ struct Parameters {  // fixed for a run
     uint buckets;  // of the grid, a power of two; one more holds the large bodies
     uint pair_capacity;
     uint contact_capacity;
-    uint group_size;    // threads of a workgroup, a power of two
-    uint group_shift;   // its logarithm
-    uint actions;       // records in the list, for the coming step
-    uint redo;          // 1: the step is done again after a buffer grew; impulses have been applied already
-    uint wake_all;      // 1: all sleepers wake as the step begins
-    uint sleep_steps;   // quiet steps after which a body sleeps; rest.h's NO_SLEEP
-    float sleep_speed;  // m/s, slower is quiet
+    uint group_size;          // threads of a workgroup, a power of two
+    uint group_shift;         // its logarithm
+    uint actions;             // records in the list, for the coming step
+    uint redo;                // 1: the step is done again after a buffer grew; impulses have been applied already
+    uint wake_all;            // 1: all sleepers wake as the step begins
+    uint sleep_steps;         // quiet steps after which a body sleeps; rest.h's NO_SLEEP
+    float sleep_speed;        // m/s, slower is quiet
+    float friction_factor;    // on the friction of every pair
+    float least_restitution;  // of every pair
+    uint held;                // grips in use
+    uint pad0;
+    Grip grips[4];  // MOST_GRIPS
 };
 
 CONSTANT uint KINDS = 11u;  // of pairs: nine of shapes, those whose contact is kept, and those at rest

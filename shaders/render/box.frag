@@ -11,16 +11,17 @@ layout(location = 4) flat in vec4 color;
 layout(location = 0) out vec4 out_color;
 
 void main() {
-    float distance = length(point);
-    vec3 d = point / distance;
-    float pixel = distance * frame.pixel.x;
+    vec3 d = sight_to(point);
+    float pixel = pixel_at(point);
     vec3 size = size_axis.xyz;
     float smallest = min(size.x, min(size.y, size.z));
     float bevel = min(max(0.14 * smallest, 1.2 * pixel), 0.5 * smallest);
     bevel = min(bevel, max(0.06, 1.2 * pixel));  // m; a long slab keeps a narrow edge
     // The normal of a box with edges rounded by `bevel`, read on the flat face.
     vec3 over = max(abs(own) - (size - bevel), 0.0) * sign(own);
-    int axis = int(size_axis.w + 0.5);
+    // The side: where the point lies farthest out. At an edge either will do, for the normal is the same.
+    vec3 out_by = abs(own) - size;
+    int axis = out_by.x > out_by.y ? (out_by.x > out_by.z ? 0 : 2) : (out_by.y > out_by.z ? 1 : 2);
     vec3 face = vec3(0);
     face[axis] = sign(own[axis]);
     vec3 rounded = over - face * dot(over, face) + face * bevel;
@@ -29,5 +30,5 @@ void main() {
     // Worn, lighter edges; the two tones of a cube's sides tell them apart in the shade.
     float tone = (axis == 1 ? 1.0 : (axis == 0 ? 0.95 : 0.90)) * (1.0 + 0.22 * edge * edge);
     vec3 shaded = lit(color.rgb * tone, point, normal, d, 0.6) + color.rgb * (0.12 * color.a * color.a);
-    out_color = finished(hazed(shaded, distance));
+    out_color = finished(hazed(shaded, length(point)));
 }

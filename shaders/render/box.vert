@@ -1,26 +1,34 @@
-// Boxes: the 36 corners of 12 triangles, made from gl_VertexIndex.
+// Boxes: the seven corners of the three sides towards the eye.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/coloring.h"
+#include "shaders/render/batch.h"
 #include "shaders/render/cube.h"
 
 layout(location = 0) out vec3 out_point;      // relative to the eye
 layout(location = 1) out vec3 out_own;        // in the body's frame
-layout(location = 2) flat out vec4 out_size;  // half extents; w: the axis of this face, 0 to 2
+layout(location = 2) flat out vec4 out_size;  // half extents
 layout(location = 3) flat out vec4 out_turn;
 layout(location = 4) flat out vec4 out_color;  // w: how far up the colour scale
 
+// Depths and colours are drawn one after the other, and must lie in the same places.
+invariant gl_Position;
+
 void main() {
-    uint body = instances[gl_InstanceIndex];
-    Traits t = traits[body];
-    Pose pose = poses[body];
-    vec3 own = cube_corner(gl_VertexIndex) * t.size;
-    vec3 point = pose.position - frame.eye.xyz + turned(pose.orientation, own);
+    Corner at = corner_of_body();
+    gl_Position = vec4(0, 0, -1, 1);
+    if (!at.there) return;
+    Pose pose = poses[at.body];
+    vec3 center = pose.position - frame.eye.xyz;
+    // What is thinner than a pixel would flicker.
+    vec3 size = max(traits[at.body].size, vec3(0.5 * pixel_at(center)));
+    vec3 toward = turned_back(pose.orientation, orthographic() ? -frame.forward.xyz : -center);
+    vec3 own = near_corner(at.corner, toward) * size;
+    vec3 point = center + turned(pose.orientation, own);
     out_point = point;
     out_own = own;
-    out_size = vec4(t.size, float((gl_VertexIndex / 6) % 3));
+    out_size = vec4(size, 0.0);
     out_turn = pose.orientation;
-    out_color = body_color(body);
+    out_color = tints[at.body];
     gl_Position = frame.view_projection * vec4(point, 1.0);
 }

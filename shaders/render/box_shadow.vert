@@ -2,13 +2,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
+#include "shaders/render/batch.h"
 #include "shaders/render/cube.h"
-#include "shaders/render/scene.h"
 #include "shaders/render/shadow_map.h"
 
 void main() {
-    uint body = instances[gl_InstanceIndex];
-    Pose pose = poses[body];
-    vec3 own = cube_corner(gl_VertexIndex) * traits[body].size;
+    Corner at = corner_of_body();
+    gl_Position = vec4(0, 0, -1, 1);
+    if (!at.there) return;
+    Pose pose = poses[at.body];
+    vec3 own = near_corner(at.corner, turned_back(pose.orientation, toward_light())) * traits[at.body].size;
     gl_Position = light_position(pose.position - frame.eye.xyz + turned(pose.orientation, own));
 }

@@ -1,4 +1,4 @@
-// A body's colour from what it is and how it moves.
+// The colour map.
 #ifndef SCREE_RENDER_COLORING_H
 #define SCREE_RENDER_COLORING_H
 
@@ -9,51 +9,5 @@ vec3 map_color(float t) {
     uint i = min(uint(x), MAP_ENTRIES - 2u);
     return mix(frame.colors[i].rgb, frame.colors[i + 1u].rgb, x - float(i));
 }
-
-#ifdef READS_BODIES
-const vec3 STONE = vec3(0.40, 0.385, 0.36);
-const vec3 KINEMATIC = vec3(0.30, 0.34, 0.40);
-const vec3 PLAIN = vec3(0.62, 0.33, 0.13);
-
-float quantity(uint by, uint body) {
-    Traits t = traits[body];
-    Velocity v = velocities[body];
-    if (by == COLOR_BY_MOMENTUM) return length(v.linear) / t.inverse_mass;
-    if (by == COLOR_BY_SPEED) return length(v.linear);
-    if (by == COLOR_BY_SPIN) return length(v.angular);
-    if (by == COLOR_BY_HEIGHT) return poses[body].position.y;
-    // Kinetic energy, from the spin about the principal axes.
-    vec3 spin = turned_back(poses[body].orientation, v.angular);
-    vec3 turning = spin * spin / max(t.inverse_inertia, vec3(1e-30));
-    return 0.5 * (dot(v.linear, v.linear) / t.inverse_mass + turning.x + turning.y + turning.z);
-}
-
-// Colours that tell bodies apart: hues a golden ratio apart, all about as light.
-vec3 name_color(uint body) {
-    float hue = fract(float(body % 4096u) * 0.61803399);
-    vec3 c = 0.5 + 0.5 * cos(6.2831853 * (hue + vec3(0.0, 0.33, 0.67)));
-    return mix(vec3(0.10), vec3(0.75), c * c);
-}
-
-vec4 full_color(uint body) {
-    uint motion = traits[body].motion;
-    if (motion == MOTION_FIXED) return vec4(STONE, 0.0);
-    if (motion == MOTION_KINEMATIC) return vec4(KINEMATIC, 0.0);
-    uint by = uint(frame.scale.w);
-    if (by == COLOR_BY_NOTHING) return vec4(PLAIN, 0.0);
-    if (by == COLOR_BY_BODY) return vec4(name_color(body), 0.0);
-    float q = quantity(by, body);
-    float x = frame.scale.z > 0.5 ? log(max(q, 1e-30)) : q;
-    float t = clamp((x - frame.scale.x) / (frame.scale.y - frame.scale.x), 0.0, 1.0);
-    return vec4(map_color(t), t);
-}
-
-// rgb: the colour; a: how far up the scale, from 0 to 1. Under marks all are paler, so that those stand out.
-vec4 body_color(uint body) {
-    vec4 color = full_color(body);
-    float grey = dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
-    return vec4(mix(color.rgb, vec3(0.08 + 0.5 * grey), 0.45 * frame.marks.x), color.a * (1.0 - frame.marks.x));
-}
-#endif
 
 #endif

@@ -29,6 +29,12 @@ float lit_at(vec2 at, float depth) {
     return weighed(step(vec4(depth), textureGather(sun_depths, at)), at, frame.maps.z);
 }
 
+// Whether all looks around a place of a map fall outside of it, where nothing casts; `r` its texel.
+bool beside_map(vec2 at, float r) {
+    vec2 beyond = abs(at - 0.5) - 0.5;
+    return max(beyond.x, beyond.y) > 3.0 * r;
+}
+
 // What of the sun reaches a point: four filtered looks around it make the edge soft.
 float sun_visibility(vec3 point, vec3 normal) {
     if (frame.toward_sun.w < 0.5) return 1.0;
@@ -39,6 +45,7 @@ float sun_visibility(vec3 point, vec3 normal) {
     vec3 at = (frame.sun_map * vec4(lifted, 1.0)).xyz;
     at.z = min(at.z, 0.99999);  // beyond the map nothing casts
     float r = frame.maps.z;
+    if (beside_map(at.xy, r)) return 1.0;
     return 0.25 * (lit_at(at.xy + vec2(-0.55 * r, -1.35 * r), at.z) + lit_at(at.xy + vec2(1.35 * r, -0.55 * r), at.z) +
                    lit_at(at.xy + vec2(0.55 * r, 1.35 * r), at.z) + lit_at(at.xy + vec2(-1.35 * r, 0.55 * r), at.z));
 }
@@ -57,6 +64,7 @@ float sky_visibility(vec3 point, vec3 normal) {
     vec3 at = (frame.sky_map * vec4(lifted, 1.0)).xyz;
     at.z = min(at.z, 0.99999);
     float r = frame.maps.w;
+    if (beside_map(at.xy, r)) return mix(0.55, 1.0, smoothstep(-0.3, 0.2, dot(normal, frame.toward_sky.xyz)));
     float shut = shut_at(at.xy + vec2(-0.5 * r, -1.3 * r), at.z) + shut_at(at.xy + vec2(1.3 * r, -0.5 * r), at.z) +
                  shut_at(at.xy + vec2(0.5 * r, 1.3 * r), at.z) + shut_at(at.xy + vec2(-1.3 * r, 0.5 * r), at.z);
     // What faces down would only find its own body above it.
@@ -89,7 +97,12 @@ vec3 lit(vec3 color, vec3 point, vec3 normal, vec3 direction, float gloss) {
     float grazing2 = grazing * grazing;
     float fresnel = 0.04 + 0.96 * grazing2 * grazing2 * grazing;
     vec3 halfway = normalize(to_sun - direction);
-    float highlight = pow(max(dot(normal, halfway), 0.0), 48.0) * 0.35 * sun;
+    float shine = max(dot(normal, halfway), 0.0);
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    shine *= shine;
+    float highlight = shine * shine * shine * 0.35 * sun;  // to the power of 48
     vec3 mirrored = reflect(direction, normal);
     vec3 reflected = mix(BOUNCE, mix(SKY_HORIZON, SKY_ZENITH, clamp(mirrored.y, 0.0, 1.0)), smoothstep(-0.15, 0.15, mirrored.y));
     return light + gloss * (SUN * highlight + reflected * (fresnel * open * 0.7));
@@ -97,6 +110,7 @@ vec3 lit(vec3 color, vec3 point, vec3 normal, vec3 direction, float gloss) {
 
 // Far things take the colour of the horizon.
 vec3 hazed(vec3 color, float distance) {
+    if (orthographic()) return color;
     float x = distance / frame.eye.w;
     return mix(SKY_HORIZON, color, exp(-0.35 * x * x));
 }

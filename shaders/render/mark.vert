@@ -86,5 +86,6 @@ void main() {
     vec2 at = middle + along * out_at.x + vec2(-along.y, along.x) * out_at.y;
     // In front of the bodies that touch here, as deep as the point lies between them; behind all others.
     float nearer = max(length(point) - 0.4 * size, 0.5 * length(point)) / length(point);
-    gl_Position = vec4(at / vec2(frame.ray_right.w, frame.ray_down.w) * 2.0 - 1.0, min(near / (clip.w * nearer), 1.0), 1.0);
+    float depth = orthographic() ? clip.z + 0.4 * size * frame.pixel.w : near / (clip.w * nearer);
+    gl_Position = vec4(at / vec2(frame.ray_right.w, frame.ray_down.w) * 2.0 - 1.0, min(depth, 1.0), 1.0);
 }

@@ -17,15 +17,16 @@ float line(float x, float w, float half_width) {
 }
 
 void main() {
-    vec3 ray = frame.ray_corner.xyz + frame.ray_right.xyz * gl_FragCoord.x + frame.ray_down.xyz * gl_FragCoord.y;
+    vec3 start = ray_start(gl_FragCoord.xy), ray = ray_direction(gl_FragCoord.xy);
     float sinking = -dot(plane.xyz, ray);
-    float t = plane.w / max(sinking, 1e-6);
-    vec3 point = ray * t;
+    float t = (plane.w + dot(plane.xyz, start)) / max(sinking, 1e-6);
+    vec3 point = start + ray * t;
     float distance = length(point);
     vec2 at = vec2(axis_u.w + dot(axis_u.xyz, point), axis_v.w + dot(axis_v.xyz, point));
     // How far the next pixels are on the plane.
-    vec3 to_right = (frame.ray_right.xyz + ray * (dot(plane.xyz, frame.ray_right.xyz) / max(sinking, 1e-6))) * t;
-    vec3 to_below = (frame.ray_down.xyz + ray * (dot(plane.xyz, frame.ray_down.xyz) / max(sinking, 1e-6))) * t;
+    float spread = orthographic() ? 1.0 : t;
+    vec3 to_right = (frame.ray_right.xyz + ray * (dot(plane.xyz, frame.ray_right.xyz) / max(sinking, 1e-6))) * spread;
+    vec3 to_below = (frame.ray_down.xyz + ray * (dot(plane.xyz, frame.ray_down.xyz) / max(sinking, 1e-6))) * spread;
     float wu = max(abs(dot(axis_u.xyz, to_right)) + abs(dot(axis_u.xyz, to_below)), 1e-6);
     float wv = max(abs(dot(axis_v.xyz, to_right)) + abs(dot(axis_v.xyz, to_below)), 1e-6);
 

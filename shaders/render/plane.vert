@@ -1,4 +1,4 @@
-// Planes: four triangles around the point below the eye, whose far corners lie at infinity.
+// Planes: four triangles around the point below the eye, whose far corners lie at infinity, or with parallel rays far off.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
@@ -22,7 +22,10 @@ void main() {
     int quarter = gl_VertexIndex / 3 + (corner == 2 ? 1 : 0);
     float x = quarter == 0 || quarter == 3 || quarter == 4 ? 1.0 : -1.0;
     float y = quarter % 4 < 2 ? 1.0 : -1.0;
-    vec4 at = corner == 0 ? vec4(-n * height, 1.0) : vec4(u * x + v * y, 0.0);
+    vec3 along = u * x + v * y;
+    vec4 at = orthographic() ? vec4(along * (4.0 / frame.pixel.w) - n * height, 1.0) : vec4(along, 0.0);
+    if (corner == 0) at = vec4(-n * height, 1.0);
     // Behind the plane one sees through it.
-    gl_Position = height > 0.0 ? frame.view_projection * at : vec4(0, 0, -1, 1);
+    bool seen = orthographic() ? dot(n, frame.forward.xyz) < -1e-4 : height > 0.0;
+    gl_Position = seen ? frame.view_projection * at : vec4(0, 0, -1, 1);
 }

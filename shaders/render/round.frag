@@ -15,12 +15,11 @@ void main() {
     float s = clamp(dot(axis_height.xyz, from_center), -axis_height.w, axis_height.w);
     vec3 normal = normalize(from_center - axis_height.xyz * s);
     vec3 point = center_radius.xyz + axis_height.xyz * s + normal * center_radius.w;
-    float distance = length(point);
     // Two tones in the body's own octants, so that rolling is seen.
     vec3 own = turned_back(turn, normal);
-    float soft = 0.8 * distance * frame.pixel.x / center_radius.w + 0.01;
+    float soft = 0.8 * pixel_at(point) / center_radius.w + 0.01;
     vec3 halves = clamp(own / soft, -1.0, 1.0);
     float tone = 0.87 + 0.13 * halves.x * halves.y * halves.z;
-    vec3 shaded = lit(color.rgb * tone, point, normal, point / distance, 0.9) + color.rgb * (0.12 * color.a * color.a);
-    out_color = finished(hazed(shaded, distance));
+    vec3 shaded = lit(color.rgb * tone, point, normal, sight_to(point), 0.9) + color.rgb * (0.12 * color.a * color.a);
+    out_color = finished(hazed(shaded, length(point)));
 }

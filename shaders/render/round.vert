@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/coloring.h"
+#include "shaders/render/batch.h"
 
 layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
-    // Of a sphere: xy on a unit circle, z the share of the way to the silhouette.
-    // Of a capsule: unit direction, y along its axis; w: 1 or -1, the cap it belongs to.
+    // Of a sphere: xy on a unit circle, z the share of the way from the line of sight to the silhouette; w: stretch that makes
+    // the polygon as large as the circle. Of a capsule: unit direction, y along its axis; w: 1 or -1, the cap it belongs to.
     vec4 directions[];
 };
 layout(location = 0) out vec3 out_point;        // relative to the eye
@@ -15,23 +15,30 @@ layout(location = 2) flat out vec4 out_axis;    // unit; w: half height
 layout(location = 3) flat out vec4 out_turn;    // the body's orientation
 layout(location = 4) flat out vec4 out_color;   // w: how far up the colour scale
 
+// Depths and colours are drawn one after the other, and must lie in the same places.
+invariant gl_Position;
+
 void main() {
-    uint body = instances[gl_InstanceIndex];
+    Corner at = corner_of_body();
+    gl_Position = vec4(0, 0, -1, 1);
+    if (!at.there) return;
+    uint body = at.body;
     Traits t = traits[body];
     Pose pose = poses[body];
     bool capsule = t.shape == SHAPE_CAPSULE;
-    float radius = t.size.x;
-    float half_height = capsule ? t.size.y : 0.0;
     vec3 center = pose.position - frame.eye.xyz;
+    // What is thinner than a pixel would flicker.
+    float radius = max(t.size.x, 0.5 * pixel_at(center));
+    float half_height = capsule ? t.size.y : 0.0;
     vec3 axis = turned(pose.orientation, vec3(0, 1, 0));
     out_center = vec4(center, radius);
     out_axis = vec4(axis, half_height);
     out_turn = pose.orientation;
-    out_color = body_color(body);
+    out_color = tints[body];
 
     float distance = max(length(center), 1e-6);
-    vec3 toward = -center / distance;
-    vec4 given = directions[gl_VertexIndex];
+    vec3 toward = orthographic() ? -frame.forward.xyz : -center / distance;
+    vec4 given = directions[at.corner];
     // A frame turned to the eye: about a capsule's axis, or about the line of sight.
     vec3 pole = capsule ? axis : (abs(toward.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0));
     vec3 side = cross(pole, toward);
@@ -41,8 +48,10 @@ void main() {
     if (capsule) {
         local = axis * (half_height * given.w) + radius * (side * given.x + axis * given.y + cross(side, axis) * given.z);
     } else {
-        float angle = given.z * acos(clamp(radius / distance, 0.0, 1.0));
-        local = radius * (cos(angle) * toward + sin(angle) * (side * given.x + cross(toward, side) * given.y));
+        // How far off the line of sight, in radii; at the silhouette the line of sight touches.
+        float nearness = orthographic() ? 0.0 : min(radius / distance, 1.0);
+        float off = given.z * sqrt(1.0 - nearness * nearness);
+        local = radius * (sqrt(1.0 - off * off) * toward + off * given.w * (side * given.x + cross(toward, side) * given.y));
     }
     out_point = center + local;
     gl_Position = frame.view_projection * vec4(out_point, 1.0);

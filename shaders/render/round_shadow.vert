@@ -4,15 +4,19 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/render/scene.h"
+#include "shaders/render/batch.h"
 #include "shaders/render/shadow_map.h"
 
 layout(location = 0) out vec2 out_place;  // radii from the nearest cap's centre
 
-const vec2 CORNERS[6] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, -1), vec2(1, 1), vec2(-1, 1));
+const vec2 CORNERS[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 
 void main() {
-    uint body = instances[gl_InstanceIndex];
+    Corner chosen = corner_of_body();
+    gl_Position = vec4(0, 0, -1, 1);
+    out_place = vec2(0.0);
+    if (!chosen.there) return;
+    uint body = chosen.body;
     Traits t = traits[body];
     Pose pose = poses[body];
     float radius = t.size.x;
@@ -23,11 +27,11 @@ void main() {
     if (half_height > 0.0 && abs(dot(axis, w)) < 0.9999) u = axis - w * dot(axis, w);
     u = normalize(u);
     vec3 v = cross(w, u);
-    vec2 corner = CORNERS[gl_VertexIndex % 6];
-    int part = gl_VertexIndex / 6;  // a disc, a disc, the ribbon
+    vec2 corner = CORNERS[chosen.corner % 4u];
+    uint part = chosen.corner / 4u;  // a disc, a disc, the ribbon
     vec3 at = pose.position - frame.eye.xyz;
-    if (part < 2) {
-        at += axis * (part == 0 ? half_height : -half_height) + (u * corner.x + v * corner.y) * radius;
+    if (part < 2u) {
+        at += axis * (part == 0u ? half_height : -half_height) + (u * corner.x + v * corner.y) * radius;
         out_place = corner;
     } else {
         at += axis * (half_height * corner.x) + v * (radius * corner.y);

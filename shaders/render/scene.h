@@ -24,6 +24,27 @@ layout(std430, set = 0, binding = 3) readonly buffer InstanceTable {
 };
 #endif
 
+// The ray through a place in the picture, pixels: where it starts, relative to the eye, and where it goes, not of unit length.
+vec3 ray_offset(vec2 pixel) {
+    return frame.ray_corner.xyz + frame.ray_right.xyz * pixel.x + frame.ray_down.xyz * pixel.y;
+}
+bool orthographic() {
+    return frame.forward.w > 0.5;
+}
+vec3 ray_start(vec2 pixel) {
+    return orthographic() ? ray_offset(pixel) : vec3(0.0);
+}
+vec3 ray_direction(vec2 pixel) {
+    return orthographic() ? frame.forward.xyz : ray_offset(pixel);
+}
+// From the eye to a point, unit; and how wide a pixel is there, m.
+vec3 sight_to(vec3 point) {
+    return orthographic() ? frame.forward.xyz : normalize(point);
+}
+float pixel_at(vec3 point) {
+    return orthographic() ? frame.pixel.x : length(point) * frame.pixel.x;
+}
+
 vec3 turned(vec4 q, vec3 v) {
     vec3 u = cross(q.xyz, v) * 2.0;
     return v + q.w * u + cross(q.xyz, u);

@@ -2,15 +2,17 @@
 #ifndef SCREE_RENDER_SHADOW_MAP_H
 #define SCREE_RENDER_SHADOW_MAP_H
 
-layout(push_constant) uniform Light {
-    uint light;  // 0 the sun, 1 the sky straight above
-};
+#include "shaders/render/batch.h"
 
+// In the lowest byte of what is pushed: 0 the sun, 1 the sky straight above.
+bool is_sun() {
+    return (pushed & 255u) == 0u;
+}
 vec3 toward_light() {
-    return light == 0u ? frame.toward_sun.xyz : frame.toward_sky.xyz;
+    return is_sun() ? frame.toward_sun.xyz : frame.toward_sky.xyz;
 }
 vec4 light_position(vec3 point) {
-    vec3 at = light == 0u ? (frame.sun_map * vec4(point, 1.0)).xyz : (frame.sky_map * vec4(point, 1.0)).xyz;
+    vec3 at = is_sun() ? (frame.sun_map * vec4(point, 1.0)).xyz : (frame.sky_map * vec4(point, 1.0)).xyz;
     // What stands between the map's box and the light still casts.
     return vec4(at.xy * 2.0 - 1.0, max(at.z, 0.0), 1.0);
 }

@@ -6,6 +6,5 @@
 layout(location = 0) out vec4 out_color;
 
 void main() {
-    vec3 ray = frame.ray_corner.xyz + frame.ray_right.xyz * gl_FragCoord.x + frame.ray_down.xyz * gl_FragCoord.y;
-    out_color = finished(sky_color(normalize(ray)));
+    out_color = finished(sky_color(normalize(ray_direction(gl_FragCoord.xy))));
 }

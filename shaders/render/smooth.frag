@@ -28,7 +28,10 @@ void main() {
     float least = min(min(min(n, s), min(w, e)), m);
     float range = most - least;
     bool edge = range > max(0.035, 0.11 * most);
-    int steps = edge ? STEPS : 0;
+    if (!edge) {
+        out_color = vec4(here.rgb, 1.0);
+        return;
+    }
 
     float bend_across_rows = abs(n + s - 2.0 * m);
     float bend_across_columns = abs(w + e - 2.0 * m);
@@ -45,7 +48,7 @@ void main() {
     vec2 start = at + 0.5 * across;
     float left = 0.0, right = 0.0, left_end = 0.0, right_end = 0.0;
     bool left_done = false, right_done = false;
-    for (int i = 0; i < steps && !(left_done && right_done); ++i) {
+    for (int i = 0; i < STEPS && !(left_done && right_done); ++i) {
         float stride = i < 4 ? 1.0 : 2.0;
         if (!left_done) {
             left += stride;
@@ -65,6 +68,6 @@ void main() {
     float mean = (2.0 * (n + s + w + e) + low.w + high.y) / 10.0;
     float single = clamp(abs(mean - m) / max(range, 1e-4), 0.0, 1.0);
     single = single * single * (3.0 - 2.0 * single);
-    shift = edge ? max(shift, 0.55 * single * single) : 0.0;
+    shift = max(shift, 0.55 * single * single);
     out_color = vec4(textureLod(scene, at + across * shift, 0.0).rgb, 1.0);
 }

@@ -1,8 +1,10 @@
-// Gathers warm starts (and the last substep's relaxation), adds forces, and splits each body among the contacts that carry.
+// Gathers warm starts (and the last substep's relaxation), adds forces, pulls what the user holds, and splits each body among the
+// contacts that carry.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/block.h"
+#include "shaders/physics/grip.h"
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
@@ -15,7 +17,11 @@ void main() {
     Traits body = traits[i];
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
-    velocities[i] = accelerated(velocities[i], sum.change, loads[i], body, PARAMETERS);
+    Velocity velocity = accelerated(velocities[i], sum.change, loads[i], body, PARAMETERS);
+    for (uint k = 0u; k < PARAMETERS.held; ++k) {
+        if (PARAMETERS.grips[k].body == i) velocity = pulled(velocity, poses[i], masses[i], PARAMETERS.grips[k], PARAMETERS);
+    }
+    velocities[i] = velocity;
     float crowd = masses[i].split;
     if (push.pass != 0u) crowd = drifted(crowd, sum.carrying, COUNTS.steps);
     masses[i].split = crowd_after(crowd, sum.carrying, sum.pressing);

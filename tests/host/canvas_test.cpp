@@ -3,142 +3,13 @@
 
 #include <catch2/catch.hpp>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
 
 #include "host/canvas_overlay.h"
-#include "shaders/physics/records.h"
+#include "tests/host/canvas_stage.h"
 
 using namespace scree::host;
 using glm::vec3;
-using scree::physics::Contact;
-using scree::physics::Impulse;
-using scree::physics::Pose;
-using scree::physics::Traits;
-using scree::physics::Velocity;
-
-namespace {
-
-std::shared_ptr<Device> validated_device() {
-    static const std::shared_ptr<Device> device = [] {
-        DeviceOptions options;
-        options.validation = true;
-        return Device::open(options);
-    }();
-    return device;
-}
-
-// Bodies, and the canvas that draws them.
-class Stage {
-public:
-    void add(scree::physics::uint shape, vec3 size, vec3 position, vec3 velocity = vec3(0), float mass = 1,
-             glm::vec4 turn = {0, 0, 0, 1}) {
-        const auto index = static_cast<std::uint32_t>(traits_.size());
-        Traits traits{};
-        traits.shape = shape;
-        traits.size = size;
-        traits.inverse_mass = mass > 0 ? 1 / mass : 0;
-        traits.motion = mass > 0 ? scree::physics::MOTION_DYNAMIC : scree::physics::MOTION_FIXED;
-        traits_.push_back(traits);
-        poses_.push_back({position, 0, turn});
-        velocities_.push_back({velocity, 0, vec3(0), 0});
-        std::vector<std::uint32_t>* const lists[] = {&shapes_.spheres, &shapes_.capsules, &shapes_.boxes, &shapes_.planes};
-        lists[shape]->push_back(index);
-    }
-    // Between the last two bodies.
-    void add_touch(vec3 point, vec3 normal, float push) {
-        Contact touch{};
-        touch.b = static_cast<std::uint32_t>(traits_.size()) - 1;
-        touch.a = touch.b - 1;
-        touch.count = 1;
-        touch.normal = normal;
-        touch.d = poses_[touch.b].position - poses_[touch.a].position;
-        touch.points[0] = glm::vec4(point - poses_[touch.a].position, 0);
-        touch.turn_a = poses_[touch.a].orientation;
-        touch.turn_b = poses_[touch.b].orientation;
-        touches_.push_back(touch);
-        Impulse impulse{};
-        impulse.normal.x = push;
-        pushes_.push_back(impulse);
-    }
-    void add_ground() { add(scree::physics::SHAPE_PLANE, {0, 1, 0}, vec3(0), vec3(0), 0); }
-
-    Canvas canvas(const CanvasOptions& options) {
-        const std::shared_ptr<Device> device = validated_device();
-        traits_.resize(traits_.size() + 1);  // so that an empty stage has tables, too
-        poses_.resize(traits_.size());
-        velocities_.resize(traits_.size());
-        table(device, traits_table_, traits_);
-        table(device, poses_table_, poses_);
-        table(device, velocities_table_, velocities_);
-        BodyTables tables{&traits_table_, &poses_table_, &velocities_table_};
-        if (options.marks) {
-            tables.touch_count = static_cast<std::uint32_t>(touches_.size());
-            touches_.emplace_back().count = 4;  // behind the last one that means something
-            pushes_.resize(touches_.size());
-            table(device, touches_table_, touches_);
-            table(device, pushes_table_, pushes_);
-            tables.touches = &touches_table_;
-            tables.pushes = &pushes_table_;
-        }
-        return Canvas(device, shapes_, tables, options);
-    }
-    Image picture(const CanvasOptions& options, const Camera& camera, const ColorScale& scale = {},
-                  const std::string& caption = "") {
-        return canvas(options).draw(camera, scale, caption, vec3(-4, 0, -4), vec3(4, 4, 4));
-    }
-
-private:
-    template <typename Record>
-    static void table(const std::shared_ptr<Device>& device, Buffer& buffer, const std::vector<Record>& records) {
-        buffer = Buffer(device, "bodies", records.size() * sizeof(Record));
-        buffer.write(records.data(), buffer.bytes());
-    }
-
-    std::vector<Traits> traits_;
-    std::vector<Pose> poses_;
-    std::vector<Velocity> velocities_;
-    ShapeInstances shapes_;
-    std::vector<Contact> touches_;
-    std::vector<Impulse> pushes_;
-    Buffer traits_table_, poses_table_, velocities_table_, touches_table_, pushes_table_;
-};
-
-struct Pixel {
-    int r = 0, g = 0, b = 0, a = 0;
-    bool operator==(const Pixel&) const = default;
-    int sum() const { return r + g + b; }
-};
-
-Pixel at(const Image& image, int x, int y) {
-    const std::size_t i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
-    return {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3]};
-}
-
-// Whether two pixels differ by more than rounding.
-bool differ(const Pixel& a, const Pixel& b) {
-    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) > 24;
-}
-
-CanvasOptions small(int samples, bool shadows = true, bool legend = false) {
-    CanvasOptions options;
-    options.width = 320;
-    options.height = 200;
-    options.samples = samples;
-    options.shadows = shadows;
-    options.legend = legend;
-    return options;
-}
-
-const Camera AHEAD{.eye = {0, 2, 10}, .target = {0, 2, 0}, .vertical_fov = 40};
-
-void require_no_messages() {
-    const std::vector<std::string> messages = validated_device()->validation_messages();
-    for (const std::string& message : messages) UNSCOPED_INFO(message);
-    REQUIRE(messages.empty());
-}
-
-}  // namespace
 
 TEST_CASE("a body is drawn where it is and as large as it is", "[canvas]") {
     const int samples = GENERATE(1, 4);
@@ -210,12 +81,15 @@ TEST_CASE("a fixed body is grey whatever the scale says", "[canvas]") {
 TEST_CASE("every quantity can be drawn", "[canvas]") {
     Stage stage;
     stage.add(scree::physics::SHAPE_BOX, vec3(1), {0, 2, 0}, {3, 0, 0}, 2);
+    stage.add(scree::physics::SHAPE_BOX, vec3(1), {3, 2, 0}, {3, 0, 0}, 2);
+    stage.add_touch({1.5f, 2, 0}, {1, 0, 0}, 1);
+    stage.set_slots({1, 2, 2}, {0, 1});
     stage.add_ground();
-    Canvas canvas = stage.canvas(small(1, true, true));
+    const std::unique_ptr<Canvas> canvas = stage.canvas(small(1, true, true));
     for (const std::string& name : color_by_names()) {
         ColorScale scale;
         scale.by = *color_by_named(name);
-        const Image image = canvas.draw(AHEAD, scale, name, vec3(-4, 0, -4), vec3(4));
+        const Image image = canvas->draw(AHEAD, scale, name, vec3(-4, 0, -4), vec3(4));
         CHECK(image.rgba.size() == std::size_t{320} * 200 * 4);
         CHECK(at(image, 0, 0).a == 255);
     }
@@ -316,8 +190,8 @@ TEST_CASE("a canvas follows buffers that were made anew", "[canvas]") {
     Stage first, second;
     first.add(scree::physics::SHAPE_SPHERE, vec3(1), {0, 2, 0});
     second.add(scree::physics::SHAPE_SPHERE, vec3(1), {3, 2, 0});
-    Canvas canvas = first.canvas(small(1));
-    const Image before = canvas.draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4));
+    const std::unique_ptr<Canvas> canvas = first.canvas(small(1));
+    const Image before = canvas->draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4));
     const std::shared_ptr<Device> device = validated_device();
     Buffer traits(device, "traits", sizeof(Traits)), poses(device, "poses", sizeof(Pose)),
         velocities(device, "velocities", sizeof(Velocity));
@@ -327,8 +201,8 @@ TEST_CASE("a canvas follows buffers that were made anew", "[canvas]") {
     const Pose moved{{3, 2, 0}, 0, {0, 0, 0, 1}};
     traits.write(&body, sizeof body);
     poses.write(&moved, sizeof moved);
-    canvas.set_tables({&traits, &poses, &velocities});
-    CHECK(canvas.draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4)).rgba == second.picture(small(1), AHEAD).rgba);
+    canvas->set_tables({&traits, &poses, &velocities});
+    CHECK(canvas->draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4)).rgba == second.picture(small(1), AHEAD).rgba);
     CHECK(before.rgba != second.picture(small(1), AHEAD).rgba);
 }
 
@@ -344,9 +218,10 @@ TEST_CASE("a canvas refuses what it cannot draw", "[canvas]") {
     ColorScale flat;
     flat.low = flat.high = 1;
     CHECK_THROWS_AS(stage.picture(small(1), AHEAD, flat), std::invalid_argument);
-    CHECK_THROWS_AS(Canvas(validated_device(), {}, {}, small(1)), std::invalid_argument);
+    CHECK_THROWS_AS(make_vulkan_canvas(validated_device(), {}, small(1))->set_tables({}), std::invalid_argument);
     Buffer table(validated_device(), "a table", 1024);
     CanvasOptions marks = small(1);
     marks.marks = true;
-    CHECK_THROWS_WITH(Canvas(validated_device(), {}, {&table, &table, &table}, marks), Catch::Contains("marks"));
+    CHECK_THROWS_WITH(make_vulkan_canvas(validated_device(), {}, marks)->set_tables({&table, &table, &table}),
+                      Catch::Contains("touches"));
 }

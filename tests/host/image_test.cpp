@@ -4,13 +4,18 @@
 #include <unistd.h>
 
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <memory>
 #include <string>
 
+#include "host/file.h"
 #include "host/frame_writer.h"
+#include "host/raw_frames.h"
+#include "host/unfinished.h"
 #include "host/video.h"
 #include "tests/host/compiled.h"
 
@@ -64,6 +69,105 @@ TEST_CASE("a PNG gives back the pixels it was made from", "[image]") {
     CHECK(read.height == 23);
     CHECK(read.rgba == image.rgba);
     CHECK(files_in(folder.path()) == 1);
+}
+
+TEST_CASE("a PNG of 16 bits gives back all of them", "[image]") {
+    const TemporaryFolder folder;
+    Image image = pattern(74, 23, 1, GENERATE(true, false));  // every other byte is the upper half of a channel
+    image.width = 37;
+    image.bits = 16;
+    write_png(folder.path() / "a.png", image);
+    const Image read = read_png(folder.path() / "a.png");
+    CHECK(read.width == 37);
+    CHECK(read.bits == 16);
+    CHECK(read.rgba == image.rgba);
+}
+
+TEST_CASE("half floats of linear light become sRGB of 16 bits", "[image]") {
+    // 0, 1, 1/2, 2^-14, -1, infinity, 2; the fourth channel is opaque whatever it says.
+    const std::vector<std::uint16_t> halves{0x0000, 0x3C00, 0x3800, 0, 0x0400, 0xBC00, 0x7C00, 0x4000};
+    const Image image = image_of_halves(2, 1, halves);
+    const auto level = [&](std::size_t i) {
+        std::uint16_t value = 0;
+        std::memcpy(&value, &image.rgba[2 * i], 2);
+        return value;
+    };
+    CHECK(level(0) == 0);
+    CHECK(level(1) == 65535);
+    CHECK(level(2) == std::lround(65535 * (1.055 * std::pow(0.5, 1 / 2.4) - 0.055)));
+    CHECK(level(3) == 65535);
+    CHECK(level(4) == std::lround(65535 * 12.92 / 16384));
+    CHECK(level(5) == 0);
+    CHECK(level(6) == 65535);
+    CHECK(rgb_bytes(image).size() == 12);
+    CHECK_THROWS_WITH(image_of_halves(3, 1, halves), Catch::Contains("3 x 1"));
+}
+
+TEST_CASE("raw frames are the pixels and nothing else", "[image]") {
+    const TemporaryFolder folder;
+    const std::filesystem::path path = folder.path() / "frames.rgb";
+    FrameWriter writer({.folder = {}, .raw = path, .width = 5, .height = 4});
+    for (int i = 0; i < 3; ++i) writer.add(pattern(5, 4, i));
+    CHECK_FALSE(std::filesystem::exists(path));
+    writer.finish();
+    CHECK(files_in(folder.path()) == 1);
+    const std::string bytes = read_text(path);
+    REQUIRE(bytes.size() == 3 * 5 * 4 * 3);
+    for (int i = 0; i < 3; ++i) {
+        const std::vector<std::uint8_t> expected = rgb_bytes(pattern(5, 4, i));
+        CHECK(bytes.substr(static_cast<std::size_t>(i) * 60, 60) == std::string(expected.begin(), expected.end()));
+    }
+}
+
+TEST_CASE("raw frames that nobody finished, or that nobody reads, leave no file", "[image]") {
+    const TemporaryFolder folder;
+    {
+        RawFrames raw(folder.path() / "frames.rgb");
+        raw.add(pattern(4, 4, 1));
+        CHECK(files_in(folder.path()) == 1);
+    }
+    CHECK(files_in(folder.path()) == 0);
+    CHECK_THROWS_WITH(RawFrames(folder.path()), Catch::Contains("is a folder"));
+    CHECK_THROWS_WITH(RawFrames("/proc/none/frames.rgb"), Catch::Contains("/proc/none"));
+    CHECK_THROWS_WITH(RawFrames("/dev/full").add(pattern(4, 4, 1)), Catch::Contains("No space left"));
+}
+
+TEST_CASE("what is unfinished can be removed at once", "[image]") {
+    const TemporaryFolder folder;
+    std::ofstream(folder.path() / "half") << "half";
+    std::ofstream(folder.path() / "whole") << "whole";
+    const Unfinished half(folder.path() / "half");
+    { const Unfinished whole(folder.path() / "whole"); }
+    remove_unfinished();
+    CHECK_FALSE(std::filesystem::exists(folder.path() / "half"));
+    CHECK(std::filesystem::exists(folder.path() / "whole"));
+}
+
+TEST_CASE("a preview is a small animated picture, of a kind that its name says", "[image]") {
+    if (std::system("command -v ffprobe ffmpeg > /dev/null") != 0) {
+        WARN("ffmpeg is not installed: skipped");
+        return;
+    }
+    const TemporaryFolder folder;
+    const std::string name = GENERATE("clip.gif", "clip.webp");
+    const std::filesystem::path path = folder.path() / name;
+    FrameWriter writer({.folder = {}, .preview = path, .frames_per_second = 30, .width = 640, .height = 96});
+    for (int i = 0; i < 20; ++i) writer.add(pattern(640, 96, i));
+    writer.finish();
+    CHECK(files_in(folder.path()) == 1);
+    if (name == "clip.gif") {
+        const std::string seen = output_of(
+            "ffprobe -v error -count_frames -show_entries stream=nb_read_frames,width,height -of default=noprint_wrappers=1 " +
+            path.string());
+        CHECK_THAT(seen, Catch::Contains("width=480") && Catch::Contains("height=72") && Catch::Contains("nb_read_frames=10"));
+    } else {
+        const std::string bytes = read_text(path);  // RIFF....WEBPVP8X, and a chunk for each frame
+        CHECK(bytes.substr(8, 4) == "WEBP");
+        CHECK(bytes.find("ANIM") != std::string::npos);
+        CHECK(bytes.find("ANMF") != bytes.rfind("ANMF"));
+    }
+    CHECK_THROWS_WITH(FrameWriter({.folder = {}, .preview = folder.path() / "clip.png"}),
+                      Catch::Contains(".gif") && Catch::Contains(".webp"));
 }
 
 TEST_CASE("pictures that cannot be read or written say which file and why", "[image]") {
@@ -149,7 +253,7 @@ TEST_CASE("what ffmpeg says reaches the message when it fails", "[image]") {
     std::filesystem::permissions(folder.path() / "ffmpeg", std::filesystem::perms::owner_all);
     const OtherPath path(folder.path().string());
     const auto work = [&] {
-        Video video(folder.path() / "clip.mp4", 64, 64, 30);
+        Video video(folder.path() / "clip.mp4", {.width = 64, .height = 64});
         for (int i = 0; i < 100; ++i) video.add(pattern(64, 64, i));
         video.finish();
     };
@@ -164,11 +268,15 @@ TEST_CASE("an unfinished video leaves no file", "[image]") {
     }
     const TemporaryFolder folder;
     {
-        Video video(folder.path() / "clip.mp4", 64, 64, 30);
+        Video video(folder.path() / "clip.mp4", {.width = 64, .height = 64});
         video.add(pattern(64, 64, 1));
         CHECK_THROWS_WITH(video.add(pattern(32, 64, 1)), Catch::Contains("32 x 64"));
+        Image deep = pattern(128, 64, 1);
+        deep.width = 64;
+        deep.bits = 16;
+        CHECK_THROWS_WITH(video.add(deep), Catch::Contains("16 bits"));
     }
     CHECK(files_in(folder.path()) == 0);
-    CHECK_THROWS_AS(Video("/proc/none/clip.mp4", 64, 64, 30), ImageError);
-    CHECK_THROWS_AS(Video(folder.path(), 64, 64, 30), ImageError);
+    CHECK_THROWS_AS(Video("/proc/none/clip.mp4", {.width = 64, .height = 64}), ImageError);
+    CHECK_THROWS_AS(Video(folder.path(), {.width = 64, .height = 64}), ImageError);
 }

@@ -69,6 +69,11 @@ const std::map<std::string, Record>& records() {
                               M(angular_impulse), M(pad5), M(velocity), M(pad6), M(angular_velocity), M(pad7)}};
         }
         {
+            using R = Grip;
+            all["Grip"] = {sizeof(R),
+                           {M(anchor), M(body), M(target), M(bias_rate), M(mass_scale), M(most), M(spin_kept), M(pad0)}};
+        }
+        {
             using R = Manifold;
             all["Manifold"] = {sizeof(R), {M(normal), M(features), M(points)}};
         }
@@ -147,7 +152,12 @@ const std::map<std::string, Record>& records() {
                                   M(redo),
                                   M(wake_all),
                                   M(sleep_steps),
-                                  M(sleep_speed)}};
+                                  M(sleep_speed),
+                                  M(friction_factor),
+                                  M(least_restitution),
+                                  M(held),
+                                  M(pad0),
+                                  M(grips)}};
         }
         {
             using R = Counts;

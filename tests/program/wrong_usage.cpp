@@ -84,7 +84,7 @@ TEST_CASE("program: an unknown option or value is answered with what is known", 
     require_refused(run_scree("run wall --color-range -5:1e39"), {"--color-range", "1e39 is out of range"});
     require_refused(run_scree("run wall --seed -1"), {"--seed", "\"-1\""});
     require_refused(run_scree("export wall --seed 18446744073709551616"), {"--seed", "between 0 and 18446744073709551615"});
-    require_refused(run_scree("foo"), {"unknown command \"foo\"", "run, compare, check"});
+    require_refused(run_scree("foo"), {"unknown command \"foo\"", "run, view, compare, check"});
     require_refused(run_scree("run wall --rate nan"), {"--rate", "between 10 and 1000"});
     require_refused(run_scree("run wall --seconds nan"), {"--seconds"});
     require_refused(run_scree("run wall --color-range nan:1"), {"nan"});
@@ -200,7 +200,7 @@ TEST_CASE("program: a body that starts too fast is noted", "[program]") {
     REQUIRE(says(run.errors, "note: 1 body starts faster than 400 m/s and is slowed to that"));
 }
 
-TEST_CASE("program: a device that is not there is refused with those that are", "[program]") {
+TEST_CASE("program: a device that is not there is refused with those that are", "[program][vulkan]") {
     require_refused(run_scree("run rest --device 99"), {"99", "there are"});
     require_refused(run_scree("run rest --backend cpu --device 0"), {"--device", "--threads"});
 }
@@ -213,14 +213,14 @@ TEST_CASE("program: without ffmpeg a video is refused with the package to instal
     REQUIRE_FALSE(std::filesystem::exists(video));
 }
 
-TEST_CASE("program: without a Vulkan driver a run goes on with the processor and says so", "[program]") {
+TEST_CASE("program: without a Vulkan driver a run goes on with the processor and says so", "[program][vulkan]") {
     const std::string none = "VK_DRIVER_FILES=/nowhere.json VK_ICD_FILENAMES=/nowhere.json";
     const Outcome run = run_scree("run rest --steps 2", none);
     INFO(run.errors);
     REQUIRE(run.status == 0);
     REQUIRE(says(run.errors, "simulating on the processor"));
     require_refused(run_scree("run rest --steps 2 --backend vulkan", none), {"mesa-vulkan-drivers"});
-    require_refused(run_scree("run rest --steps 2 --frames frames-nowhere --backend cpu", none), {"mesa-vulkan-drivers"});
+    require_refused(run_scree("run rest --steps 2 --frames frames-nowhere --canvas vulkan", none), {"mesa-vulkan-drivers"});
     require_refused(run_scree("devices", none), {"mesa-vulkan-drivers"});
 }
 

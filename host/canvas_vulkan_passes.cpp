@@ -1,7 +1,8 @@
-// The render passes of the canvas and the pipelines that draw in them.
-#include "host/canvas_passes.h"
+// The render passes of the Vulkan canvas and the pipelines that draw in them.
+#include "host/canvas_vulkan_passes.h"
 
 #include <array>
+#include <string>
 
 namespace scree::host {
 namespace {
@@ -38,6 +39,24 @@ VkRenderPass make_pass(Objects& objects, std::span<const VkAttachmentDescription
     return objects.make(vk.vkCreateRenderPass, vk.vkDestroyRenderPass, info, "vkCreateRenderPass");
 }
 
+constexpr VkCullModeFlags cull_mode(Cull cull) {
+    return cull == Cull::none ? VK_CULL_MODE_NONE : cull == Cull::back ? VK_CULL_MODE_BACK_BIT : VK_CULL_MODE_FRONT_BIT;
+}
+
+constexpr VkCompareOp compare_op(Compare compare) {
+    switch (compare) {
+        case Compare::less:
+            return VK_COMPARE_OP_LESS;
+        case Compare::greater:
+            return VK_COMPARE_OP_GREATER;
+        case Compare::greater_or_equal:
+            return VK_COMPARE_OP_GREATER_OR_EQUAL;
+        case Compare::always:
+            break;
+    }
+    return VK_COMPARE_OP_ALWAYS;
+}
+
 // What all pipelines have alike, and what their shape says of the rest. Points to itself: not to be moved.
 struct FixedState {
     VkPipelineVertexInputStateCreateInfo input{};  // empty: corners come from the body buffers
@@ -52,9 +71,10 @@ struct FixedState {
     VkPipelineColorBlendStateCreateInfo blend{};
 
     explicit FixedState(const PipelineShape& shape) {
+        const DrawState& state = shape.state;
         input.sType = VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO;
         assembly.sType = VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO;
-        assembly.topology = shape.strip ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+        assembly.topology = state.strip ? VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP : VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
         viewport = {0, 0, static_cast<float>(shape.width), static_cast<float>(shape.height), 0, 1};
         scissor.extent = {static_cast<std::uint32_t>(shape.width), static_cast<std::uint32_t>(shape.height)};
         view.sType = VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO;
@@ -63,24 +83,24 @@ struct FixedState {
         view.pScissors = &scissor;
         raster.sType = VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO;
         raster.polygonMode = VK_POLYGON_MODE_FILL;
-        raster.cullMode = shape.cull;
+        raster.cullMode = cull_mode(state.cull);
         raster.frontFace = VK_FRONT_FACE_COUNTER_CLOCKWISE;
         raster.lineWidth = 1;
         samples.sType = VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO;
         samples.rasterizationSamples = static_cast<VkSampleCountFlagBits>(shape.samples);
         depth.sType = VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO;
         depth.depthTestEnable = VK_TRUE;
-        depth.depthWriteEnable = shape.writes_depth ? VK_TRUE : VK_FALSE;
-        depth.depthCompareOp = shape.depth;
-        target.blendEnable = shape.blends ? VK_TRUE : VK_FALSE;
+        depth.depthWriteEnable = state.writes_depth ? VK_TRUE : VK_FALSE;
+        depth.depthCompareOp = compare_op(state.depth);
+        target.blendEnable = state.blends ? VK_TRUE : VK_FALSE;
         target.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
         target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
         // The picture's alpha stays: what blends is smooth already, and smooth.frag looks for stairs in the alpha.
         target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
         target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-        target.colorWriteMask = 0xF;
+        target.colorWriteMask = shape.state.fragment.empty() ? 0 : 0xF;
         blend.sType = VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO;
-        blend.attachmentCount = shape.colors ? 1 : 0;
+        blend.attachmentCount = state.pass == Pass::sun_map || state.pass == Pass::sky_map ? 0 : 1;
         blend.pAttachments = &target;
     }
     FixedState(const FixedState&) = delete;
@@ -103,13 +123,13 @@ VkRenderPass make_shadow_pass(Objects& objects) {
     return make_pass(objects, attachments, subpass, dependencies);
 }
 
-VkRenderPass make_picture_pass(Objects& objects, int samples) {
+VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat format) {
     const bool resolves = samples > 1;
     std::array attachments{
-        attachment(COLOR_FORMAT, samples, !resolves,
+        attachment(format, samples, !resolves,
                    resolves ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
         attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-        attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+        attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
@@ -132,8 +152,8 @@ VkRenderPass make_picture_pass(Objects& objects, int samples) {
     return make_pass(objects, std::span(attachments).first(resolves ? 3 : 2), subpass, dependencies);
 }
 
-VkRenderPass make_smoothing_pass(Objects& objects) {
-    std::array attachments{attachment(COLOR_FORMAT, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+VkRenderPass make_smoothing_pass(Objects& objects, VkFormat format) {
+    std::array attachments{attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};
@@ -157,14 +177,15 @@ VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape) {
         stage.pName = "main";
     }
     stages[0].stage = VK_SHADER_STAGE_VERTEX_BIT;
-    stages[0].module = objects.shader(shape.vertex);
+    const std::string vertex(shape.state.vertex), fragment(shape.state.fragment);
+    stages[0].module = objects.shader(vertex.c_str());
     stages[1].stage = VK_SHADER_STAGE_FRAGMENT_BIT;
-    if (shape.fragment != nullptr) stages[1].module = objects.shader(shape.fragment);
+    if (!fragment.empty()) stages[1].module = objects.shader(fragment.c_str());
 
     const FixedState fixed(shape);
     VkGraphicsPipelineCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO;
-    info.stageCount = shape.fragment != nullptr ? 2 : 1;
+    info.stageCount = fragment.empty() ? 1 : 2;
     info.pStages = stages.data();
     info.pVertexInputState = &fixed.input;
     info.pInputAssemblyState = &fixed.assembly;
@@ -176,7 +197,7 @@ VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape) {
     info.layout = shape.layout;
     info.renderPass = shape.pass;
     VkPipeline pipeline = VK_NULL_HANDLE;
-    check(vk.vkCreateGraphicsPipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &pipeline), shape.vertex);
+    check(vk.vkCreateGraphicsPipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &pipeline), vertex.c_str());
     objects.on_end([device, pipeline] { device->vk().vkDestroyPipeline(device->handle(), pipeline, nullptr); });
     return pipeline;
 }

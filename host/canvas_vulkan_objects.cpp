@@ -1,5 +1,5 @@
 // Vulkan objects that live and die together, and images with their memory.
-#include "host/canvas_objects.h"
+#include "host/canvas_vulkan_objects.h"
 
 #include <string>
 

@@ -1,37 +1,16 @@
 // Which buffers and images the picture shaders read.
-#include <stdexcept>
-
-#include "host/canvas_interior.h"
+#include "host/canvas_vulkan_interior.h"
 
 namespace scree::host {
 namespace {
 
-// As in shaders/render: bodies and frame, the two shadow maps, the legend and its letters, the meshes, the picture to be
-// smoothed, where bodies touch and how they push.
-enum Binding : std::uint32_t {
-    TRAITS,
-    POSES,
-    VELOCITIES,
-    INSTANCES,
-    FRAME,
-    SUN_MAP,
-    SKY_MAP,
-    QUADS,
-    GLYPHS,
-    DIRECTIONS,
-    SCENE,
-    TOUCHES,
-    PUSHES
-};
-constexpr std::uint32_t BINDINGS = PUSHES + 1;
-
-constexpr bool is_sampler(std::uint32_t binding) {
-    return binding == SUN_MAP || binding == SKY_MAP || binding == GLYPHS || binding == SCENE;
+bool is_sampler(std::uint32_t binding) {
+    return binding_infos()[binding].source == Source::image;
 }
 
 }  // namespace
 
-void Canvas::Interior::make_layout() {
+void VulkanCanvas::Interior::make_layout() {
     const VulkanFunctions& vk = device->vk();
     std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
     std::uint32_t samplers = 0;
@@ -40,7 +19,7 @@ void Canvas::Interior::make_layout() {
         bindings[i].descriptorType =
             is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         bindings[i].descriptorCount = 1;
-        bindings[i].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+        bindings[i].stageFlags = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT | VK_SHADER_STAGE_COMPUTE_BIT;
         samplers += is_sampler(i) ? 1 : 0;
     }
     VkDescriptorSetLayoutCreateInfo set_info{};
@@ -74,20 +53,41 @@ void Canvas::Interior::make_layout() {
     check(vk.vkAllocateDescriptorSets(device->handle(), &allocation, &set), "vkAllocateDescriptorSets");
 }
 
-void Canvas::Interior::write_set(const BodyTables& tables) {
-    if (tables.traits == nullptr || tables.poses == nullptr || tables.velocities == nullptr || !*tables.traits ||
-        !*tables.poses || !*tables.velocities) {
-        throw std::invalid_argument("canvas: a table of the bodies is missing");
+// The buffer that a shader reads, filled with what lies in host memory.
+const Buffer& VulkanCanvas::Interior::table_of(std::uint32_t binding, ColorBy by) {
+    switch (binding) {
+        case INSTANCES:
+            return instances;
+        case FRAME:
+            return frame;
+        case QUADS:
+            return quads;
+        case DIRECTIONS:
+            return directions;
+        case RUN_TABLE:
+            return runs;
+        case ARGUMENTS:
+            return arguments;
+        case GROUP_COUNTS:
+            return group_counts;
+        case TINTS:
+            return tints;
+        default:
+            break;
     }
-    const bool touching =
-        options.marks && tables.touches != nullptr && tables.pushes != nullptr && *tables.touches && *tables.pushes;
-    if (options.marks && !touching) throw std::invalid_argument("canvas: a table for the marks is missing");
-    mark_count = touching ? MARKS_OF_A_TOUCH * tables.touch_count : 0;
-    const std::array<const Buffer*, BINDINGS> buffers{tables.traits, tables.poses, tables.velocities, &instances, &frame, nullptr,
-                                                      nullptr, &quads, nullptr, &directions, nullptr,
-                                                      // Without marks nothing reads these, but a descriptor must name something.
-                                                      touching ? tables.touches : &instances,
-                                                      touching ? tables.pushes : &instances};
+    const BindingInfo& info = binding_infos()[binding];
+    // What nothing reads has a descriptor, which must name something.
+    if (!reads(binding, options, by)) return instances;
+    const TableView& table = tables.*info.table;
+    if (table.buffer != nullptr) return *table.buffer;
+    if (table.bytes.empty()) return instances;
+    Buffer& copy = copies[binding];
+    if (copy.bytes() < table.bytes.size()) copy = Buffer(device, "canvas copy", table.bytes.size() + table.bytes.size() / 2);
+    copy.write(table.bytes.data(), table.bytes.size());
+    return copy;
+}
+
+void VulkanCanvas::Interior::write_set(ColorBy by) {
     std::array<VkDescriptorBufferInfo, BINDINGS> buffer_infos{};
     std::array<VkDescriptorImageInfo, BINDINGS> image_infos{};
     std::array<VkWriteDescriptorSet, BINDINGS> writes{};
@@ -104,7 +104,7 @@ void Canvas::Interior::write_set(const BodyTables& tables) {
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        if (buffers[i] != nullptr) buffer_infos[i] = {buffers[i]->handle(), 0, VK_WHOLE_SIZE};
+        if (!is_sampler(i)) buffer_infos[i] = {table_of(i, by).handle(), 0, VK_WHOLE_SIZE};
         writes[i].pBufferInfo = &buffer_infos[i];
         writes[i].pImageInfo = &image_infos[i];
     }

@@ -1,35 +1,33 @@
-// The render passes of the canvas and the pipelines that draw in them.
+// The render passes of the Vulkan canvas and the pipelines that draw in them.
 #pragma once
 
-#include "host/canvas_objects.h"
+#include "host/canvas_plan.h"
+#include "host/canvas_vulkan_objects.h"
 
 namespace scree::host {
 
-constexpr VkFormat COLOR_FORMAT = VK_FORMAT_R8G8B8A8_SRGB;  // the device encodes, so that samples are averaged as light
+// Of pictures with so many bits a channel. Both hold light as samples average it: the device encodes to sRGB, or the floats do
+// not.
+constexpr VkFormat color_format(int bits) {
+    return bits == 16 ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R8G8B8A8_SRGB;
+}
 constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
 // Depth only, left ready to be read by fragment shaders.
 VkRenderPass make_shadow_pass(Objects& objects);
 // Attachments: colour, depth and, with more than one sample, the picture into which the colour is resolved, to be copied. With
 // one sample the colour is left ready to be read by the fragment shader that smooths it.
-VkRenderPass make_picture_pass(Objects& objects, int samples);
+VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat format);
 
 // One attachment: the picture, drawn over wholly and left ready to be copied.
-VkRenderPass make_smoothing_pass(Objects& objects);
+VkRenderPass make_smoothing_pass(Objects& objects, VkFormat format);
 
 struct PipelineShape {
-    const char* vertex = nullptr;
-    const char* fragment = nullptr;  // none: depth only
+    DrawState state;
     VkRenderPass pass = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     int samples = 1;
     int width = 0, height = 0;  // pixels
-    VkCullModeFlags cull = VK_CULL_MODE_NONE;
-    VkCompareOp depth = VK_COMPARE_OP_ALWAYS;
-    bool writes_depth = false;
-    bool colors = true;  // the pass has a colour attachment
-    bool blends = false;
-    bool strip = false;  // a triangle strip instead of separate triangles
 };
 VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape);
 

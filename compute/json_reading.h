@@ -1,0 +1,73 @@
+// Reading JSON that people write: every mistake with its place, and unknown words with the nearest that is known.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compute/scene.h"
+
+namespace scree::json_reading {
+
+using nlohmann::json;
+using Names = std::vector<std::string>;
+
+// A place in the document; it becomes text only when something is wrong there.
+struct Place {
+    const Place* parent;
+    const char* key;
+    std::size_t index;
+
+    std::string pointer() const {
+        if (!parent && !key) return "";
+        return (parent ? parent->pointer() : "") + "/" + (key ? std::string(key) : std::to_string(index));
+    }
+    Place operator/(const char* child) const { return {this, child, 0}; }
+    Place operator/(std::size_t child) const { return {this, nullptr, child}; }
+};
+
+// All of these throw SceneError with the JSON pointer of the place.
+[[noreturn]] void refuse(const Place& place, const std::string& reason);
+void only(const json& object, const Place& place, const Names& known);  // an object with no other keys
+void read(const json& value, const Place& place, bool& out);
+void read(const json& value, const Place& place, float& out);  // finite
+void read(const json& value, const Place& place, std::string& out);
+void read(const json& value, const Place& place, std::size_t& out);
+Body body_of(const json& value, const Place& place);  // of a scene
+
+template <glm::length_t size>
+void read(const json& value, const Place& place, glm::vec<size, float>& out);
+
+template <class Value>
+void optional(const json& object, const Place& place, const char* key, Value& out) {
+    if (const auto found = object.find(key); found != object.end()) read(*found, place / key, out);
+}
+
+template <class Value>
+void required(const json& object, const Place& place, const char* key, Value& out) {
+    if (!object.contains(key)) refuse(place, std::string("lacks \"") + key + "\"");
+    read(object[key], place / key, out);
+}
+
+// For messages.
+std::string kind(const json& value);  // "an array of 3"
+std::string listed(const Names& names);
+std::string unknown(const char* what, const std::string& name, const Names& known);
+std::string escaped(std::string key);  // of a JSON pointer, RFC 6901
+
+// What the parser could not read, in words for a person, with line and column.
+[[noreturn]] void refuse_syntax(std::string_view text, const json::parse_error& error);
+[[noreturn]] void refuse_number(std::string_view text, const json::out_of_range& error);
+
+template <glm::length_t size>
+void read(const json& value, const Place& place, glm::vec<size, float>& out) {
+    if (!value.is_array() || value.size() != size) {
+        refuse(place, "must be an array of " + std::to_string(size) + " numbers, is " + kind(value));
+    }
+    for (glm::length_t i = 0; i < size; ++i)
+        read(value[static_cast<std::size_t>(i)], place / static_cast<std::size_t>(i), out[i]);
+}
+
+}  // namespace scree::json_reading

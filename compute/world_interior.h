@@ -1,0 +1,45 @@
+// What a world is made of.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+
+#include "compute/state.h"
+#include "compute/world.h"
+
+namespace scree {
+
+struct World::Interior {
+    struct Held {
+        std::size_t body = 0;
+        vec3 anchor{0}, target{0};
+        GripSpring spring;
+    };
+
+    Scene scene;
+    Settings settings;
+    std::unique_ptr<Runner> runner;
+    State state;
+    std::map<std::size_t, physics::Action> actions;  // for the next step, by body
+    std::array<std::optional<Held>, most_grips> grips;
+    std::uint64_t steps = 0;
+    std::uint64_t growths = 0;
+    bool broken = false;  // left true by a step that ended in an exception: the tables may be half grown
+
+    Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r);
+    void step();
+    void require_body(std::size_t body) const;
+    physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
+    BodyState body_state(std::size_t i) const;
+
+    // world_handling.cpp
+    Held& held(std::size_t grip);  // throws std::out_of_range
+    void take_up_grips();          // into the parameters of the coming step
+    void retune(const Settings& changed);
+};
+
+}  // namespace scree

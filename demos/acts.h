@@ -1,0 +1,57 @@
+// What a user does to a running world, as data: it can be done at once, written down, and done again.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "compute/world.h"
+
+namespace scree::demos {
+
+struct Grab {              // takes hold of a body; see World::grip
+    std::size_t grip = 0;  // the lowest that is free, 0 to most_grips - 1
+    std::size_t body = 0;
+    vec3 anchor{0};  // body frame, m
+    vec3 target{0};  // m
+};
+struct Drag {
+    std::size_t grip = 0;
+    vec3 target{0};  // m
+};
+struct Release {
+    std::size_t grip = 0;
+};
+struct Add {
+    Body body;
+};
+struct Push {  // for one step
+    std::size_t body = 0;
+    vec3 force{0};  // N
+};
+struct Explode {
+    vec3 centre{0};    // m
+    float radius = 1;  // m
+    float speed = 0;   // m/s
+};
+struct Turn {  // the dials; what is empty stays
+    std::optional<vec3> gravity;
+    std::optional<int> substeps;
+    std::optional<float> friction_factor;
+    std::optional<float> least_restitution;
+    std::optional<bool> sleeping;
+};
+
+using Act = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn>;
+
+struct TimedAct {
+    std::uint64_t step = 0;  // steps done before it
+    Act act;
+};
+
+// Throws what World throws, and std::invalid_argument for a grip that is not the lowest free one.
+void perform(const Act& act, World& world);
+
+}  // namespace scree::demos

@@ -1,0 +1,325 @@
+// What a person's hands mean.
+#include "demos/interaction.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+
+#include "demos/demos.h"
+#include "shaders/physics/arithmetic.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr double most_steps = 8;    // in one go, and seconds that they may take: a slow machine falls behind the clock rather
+constexpr double most_time = 0.05;  // than show nothing
+constexpr float push_acceleration = 20;  // m/s^2, of an arrow key: twice the weight, so that friction does not hold
+constexpr double slowest = 1.0 / 16;
+
+host::Key key(char character) {
+    return host::key_of(character);
+}
+
+Shape shape_of(Kind kind, float size) {
+    if (kind == Kind::sphere) return Sphere{size};
+    if (kind == Kind::capsule) return Capsule{0.6f * size, 0.8f * size};
+    return Box{vec3(size)};
+}
+
+}  // namespace
+
+const char* const key_help =
+    "  left button        take hold of a body and drag it (the wheel draws it nearer or farther);\n"
+    "                     beside bodies: look round\n"
+    "  right button       look round; with Shift, or the middle button: move the view; wheel: nearer, farther\n"
+    "  Space, B           throw a ball, a box through the pointer\n"
+    "  arrows, Page Up/Down  push the selected body; X: an explosion where the pointer points\n"
+    "  1, 2, 3            add a sphere, a capsule, a box\n"
+    "  F                  follow the selected body; Home: the first view again\n"
+    "  P, .               pause, a single step; L: slower (1/2 to 1/16), then full speed again\n"
+    "  R, Tab             begin again, the next demo (with Shift the one before)\n"
+    "  H, Q               hide the panel, close the window";
+
+Interaction::Interaction(Session& session, Extent extent)
+    : session_(session), extent_(extent), eye_(session.subject().viewpoint) {}
+
+void Interaction::perform(const Act& act) {
+    try {
+        session_.perform(act);
+        message_.clear();
+    } catch (const std::logic_error& error) {
+        message_ = error.what();
+    } catch (const SceneError& error) {
+        message_ = error.what();
+    }
+}
+
+// ---- events
+void Interaction::on(const host::Event& event) {
+    using enum host::EventKind;
+    switch (event.kind) {
+        case resized:
+            extent_ = {static_cast<int>(event.x), static_cast<int>(event.y)};
+            break;
+        case moved:
+            move(event);
+            break;
+        case pressed:
+            x_ = event.x;
+            y_ = event.y;
+            press(event);
+            break;
+        case released:
+            release_button();
+            break;
+        case scrolled:
+            scroll(event.amount);
+            break;
+        case key_pressed:
+            held_keys_.insert(event.key);
+            press_key(event);
+            break;
+        case key_released:
+            held_keys_.erase(event.key);
+            break;
+    }
+}
+
+void Interaction::press(const host::Event& event) {
+    if (motion_ != Motion::none) return;
+    if (event.button == host::Button::middle || event.shift) {
+        motion_ = Motion::pans;
+        return;
+    }
+    motion_ = Motion::orbits;
+    if (event.button == host::Button::right) return;
+    const std::optional<Hit> hit = hit_under_pointer();
+    const bool dynamic = hit && session_.world().scene().bodies[hit->body].motion == scree::Motion::dynamic;
+    if (dynamic) {
+        selected_ = hit->body;
+        grab(*hit);
+    }
+}
+
+void Interaction::release_button() {
+    if (motion_ == Motion::holds) let_go();
+    motion_ = Motion::none;
+}
+
+void Interaction::move(const host::Event& event) {
+    const double dx = event.x - x_, dy = event.y - y_;
+    x_ = event.x;
+    y_ = event.y;
+    if (motion_ == Motion::orbits) eye_.orbit(dx, dy);
+    if (motion_ == Motion::pans) {
+        follows = false;
+        eye_.pan(dx, dy, extent_);
+    }
+    if (motion_ == Motion::holds) drag();
+}
+
+void Interaction::scroll(double clicks) {
+    if (!hold_) {
+        eye_.zoom(clicks);
+        return;
+    }
+    hold_->depth *= std::pow(1.1f, static_cast<float>(clicks));
+    drag();
+}
+
+void Interaction::press_key(const host::Event& event) {
+    using enum host::Key;
+    const host::Key pressed = event.key;
+    if (pressed == space) throw_body(Kind::sphere);
+    if (pressed == key('B')) throw_body(Kind::box);
+    if (pressed == key('X')) explode();
+    if (pressed == key('1')) add(Kind::sphere);
+    if (pressed == key('2')) add(Kind::capsule);
+    if (pressed == key('3')) add(Kind::box);
+    if (pressed == key('P')) paused = !paused;
+    if (pressed == key('.')) step_once();
+    if (pressed == key('L')) pace = static_cast<double>(pace) > slowest ? pace / 2 : 1;
+    if (pressed == key('F')) follows = !follows && selected_;
+    if (pressed == home) eye_ = Eye(session_.subject().viewpoint);
+    if (pressed == key('R')) reset();
+    if (pressed == tab) open_next(event.shift ? -1 : 1);
+    if (pressed == key('Q') || pressed == escape) wants_to_close_ = true;
+}
+
+// ---- scenes
+void Interaction::begin_again() {
+    hold_.reset();
+    motion_ = Motion::none;
+    selected_.reset();
+    handled_.clear();
+    thrown_ = 0;
+    follows = false;
+    backlog_ = 0;
+    single_steps_ = 0;
+}
+
+void Interaction::reset() {
+    begin_again();
+    session_.reset();
+}
+
+void Interaction::open(const std::string& name) {
+    try {
+        session_.open(name);
+    } catch (const std::exception& error) {
+        message_ = error.what();
+        return;
+    }
+    message_.clear();
+    begin_again();
+    eye_ = Eye(session_.subject().viewpoint);
+}
+
+void Interaction::open_next(int direction) {
+    std::vector<std::string> names;
+    for (const Demo& demo : all_demos()) {
+        if (!demo.trial) names.emplace_back(demo.name);
+    }
+    const auto now = std::find(names.begin(), names.end(), session_.options().name);
+    const auto count = static_cast<std::ptrdiff_t>(names.size());
+    const std::ptrdiff_t at = now == names.end() ? (direction > 0 ? -1 : 0) : now - names.begin();
+    open(names[static_cast<std::size_t>((at + direction + count) % count)]);
+}
+
+// ---- forces
+std::optional<Hit> Interaction::hit_under_pointer() {
+    return pick(session_.world().scene(), session_.world().bodies(), eye_.ray(x_, y_, extent_));
+}
+
+void Interaction::grab(const Hit& hit) {
+    const BodyState body = session_.world().body(hit.body);
+    Hold hold;
+    hold.body = hit.body;
+    hold.anchor = physics::rotate_back(body.orientation, hit.point - body.position);
+    hold.target = hit.point;
+    hold.start = body.position;
+    hold.depth = glm::dot(hit.point - eye_.position(), eye_.forward());
+    perform(Grab{hold.grip, hold.body, hold.anchor, hold.target});
+    if (!message_.empty()) return;
+    hold_ = hold;
+    motion_ = Motion::holds;
+}
+
+void Interaction::drag() {
+    const Ray ray = eye_.ray(x_, y_, extent_);
+    const vec3 target = ray.from + ray.along * (hold_->depth / std::max(0.05f, glm::dot(ray.along, eye_.forward())));
+    if (target == hold_->target) return;
+    hold_->target = target;
+    perform(Drag{hold_->grip, target});
+}
+
+void Interaction::let_go() {
+    handled_.push_back({hold_->body, hold_->start, session_.world().body(hold_->body).position});
+    perform(Release{hold_->grip});
+    hold_.reset();
+}
+
+std::vector<Handled> Interaction::handled() {
+    std::vector<Handled> all = handled_;
+    if (hold_) all.push_back({hold_->body, hold_->start, session_.world().body(hold_->body).position});
+    return all;
+}
+
+std::optional<Pull> Interaction::pull() {
+    if (!hold_) return std::nullopt;
+    const BodyState body = session_.world().body(hold_->body);
+    const GripSpring spring;
+    Pull pull;
+    pull.body = hold_->body;
+    pull.from = body.position + physics::rotate(body.orientation, hold_->anchor);
+    pull.to = hold_->target;
+    const float omega = 2 * std::numbers::pi_v<float> * spring.hertz;
+    const float acceleration = std::min(omega * omega * glm::length(pull.to - pull.from), spring.max_acceleration);
+    const Body& held = session_.world().scene().bodies[hold_->body];
+    pull.strength = acceleration / spring.max_acceleration;
+    pull.force = acceleration * mass_properties(held.shape, held.density).mass;
+    return pull;
+}
+
+float Interaction::size_of_a_new_body() const {
+    return std::clamp(0.03f * eye_.distance(), 0.05f, 5.0f);
+}
+
+void Interaction::throw_body(Kind kind) {
+    const float size = size_of_a_new_body();
+    const Ray ray = eye_.ray(x_, y_, extent_);
+    Body body;
+    body.name = "thrown";
+    body.shape = shape_of(kind, size);
+    body.position = ray.from + ray.along * (3 * size);
+    body.velocity = ray.along * std::clamp(1.5f * eye_.distance(), 5.0f, 100.0f);
+    perform(Add{body});
+    if (message_.empty()) ++thrown_;
+}
+
+void Interaction::add(Kind kind) {
+    const float size = size_of_a_new_body();
+    Body body;
+    body.name = "added";
+    body.shape = shape_of(kind, size);
+    // From above onto what lies in the middle of the view, or onto what lies on that.
+    const Scene& scene = session_.world().scene();
+    const std::vector<BodyState> states = session_.world().bodies();
+    const std::optional<Hit> seen = pick(scene, states, eye_.ray(0.5 * extent_.width, 0.5 * extent_.height, extent_));
+    const vec3 middle = seen ? seen->point : eye_.target();
+    const std::optional<Hit> highest = pick(scene, states, {middle + vec3(0, 1000, 0), vec3(0, -1, 0)});
+    body.position = (highest ? highest->point : middle) + vec3(0, 3 * size, 0);
+    perform(Add{body});
+}
+
+void Interaction::explode() {
+    const std::optional<Hit> hit = hit_under_pointer();
+    const vec3 centre = hit ? hit->point : eye_.target();
+    perform(Explode{centre, 0.3f * eye_.distance(), std::clamp(0.8f * eye_.distance(), 3.0f, 60.0f)});
+}
+
+void Interaction::push_selected() {
+    if (!selected_ || held_keys_.empty()) return;
+    using enum host::Key;
+    const vec3 ahead = glm::normalize(glm::cross(vec3(0, 1, 0), eye_.right()));
+    const std::array<std::pair<host::Key, vec3>, 6> directions{{{left, -eye_.right()},
+                                                                {right, eye_.right()},
+                                                                {up, ahead},
+                                                                {down, -ahead},
+                                                                {page_up, {0, 1, 0}},
+                                                                {page_down, {0, -1, 0}}}};
+    vec3 push(0);
+    for (const auto& [pressed, direction] : directions) {
+        if (held_keys_.count(pressed) != 0) push += direction;
+    }
+    if (push == vec3(0)) return;
+    const Body& body = session_.world().scene().bodies[*selected_];
+    perform(Push{*selected_, push * (push_acceleration * mass_properties(body.shape, body.density).mass)});
+}
+
+// ---- the clock
+void Interaction::make_step() {
+    push_selected();
+    session_.step();
+}
+
+void Interaction::advance(double seconds) {
+    if (paused) {
+        backlog_ = 0;
+    } else {
+        backlog_ += seconds * static_cast<double>(pace * session_.world().settings().rate);
+        if (backlog_ > most_steps) backlog_ = most_steps;
+        const auto start = std::chrono::steady_clock::now();
+        for (; backlog_ >= 1; backlog_ -= 1) {
+            make_step();
+            const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+            if (taken.count() > most_time) backlog_ = std::min(backlog_, 1.0);
+        }
+    }
+    for (; single_steps_ > 0; --single_steps_) make_step();
+    if (follows && selected_) eye_.look_at(session_.world().body(*selected_).position);
+}
+
+}  // namespace scree::demos

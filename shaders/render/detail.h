@@ -1,0 +1,54 @@
+// Sorting the bodies that are seen by how finely they shall be drawn, on the device.
+#ifndef SCREE_RENDER_DETAIL_H
+#define SCREE_RENDER_DETAIL_H
+
+#include "shaders/physics/records.h"
+#include "shaders/render/frame.h"
+
+layout(local_size_x = 128) in;  // DETAIL_GROUP
+
+layout(std430, set = 0, binding = 0) readonly buffer TraitsTable {
+    Traits traits[];
+};
+layout(std430, set = 0, binding = 1) readonly buffer PoseTable {
+    Pose poses[];
+};
+layout(std430, set = 0, binding = 3) buffer InstanceTable {
+    uint instances[];  // all, by shape, then those that are seen, by run
+};
+layout(std430, set = 0, binding = 4) readonly buffer FrameBlock {
+    Frame frame;
+};
+layout(std430, set = 0, binding = 13) buffer RunTable {
+    BodyRun runs[];
+};
+struct Arguments {  // of an indexed draw
+    uint indices;
+    uint instances;
+    uint first_index;
+    uint vertex_offset;
+    uint first_instance;
+};
+layout(std430, set = 0, binding = 14) buffer ArgumentTable {
+    Arguments arguments[];
+};
+layout(std430, set = 0, binding = 15) buffer GroupTable {
+    uint group_counts[];
+};
+
+uint bodies_to_see() {
+    return runs[RUN_PLANES].first;
+}
+
+uint run_of_place(uint place) {
+    if (place >= bodies_to_see()) return NOT_SEEN;
+    uint body = instances[place];
+    Traits t = traits[body];
+    uint shape = place >= runs[RUN_ALL_BOXES].first      ? RUN_ALL_BOXES
+                 : place >= runs[RUN_ALL_CAPSULES].first ? RUN_ALL_CAPSULES
+                                                         : RUN_ALL_SPHERES;
+    float reach = shape == RUN_ALL_BOXES ? length(t.size) : (shape == RUN_ALL_CAPSULES ? t.size.x + t.size.y : t.size.x);
+    return run_of(frame, shape, poses[body].position - frame.eye.xyz, reach, t.size.x);
+}
+
+#endif

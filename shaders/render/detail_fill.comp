@@ -1,0 +1,18 @@
+// Lists the bodies that are seen, by how finely they are drawn.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/render/detail.h"
+
+shared uint found[DETAIL_GROUP];
+
+void main() {
+    uint group = gl_WorkGroupID.x, place = gl_GlobalInvocationID.x, own = gl_LocalInvocationID.x;
+    uint run = run_of_place(place);
+    found[own] = run;
+    barrier();
+    if (run == NOT_SEEN) return;
+    // Behind those of the same run that come before, so that bodies are drawn in one order on every device.
+    uint before = 0u;
+    for (uint k = 0u; k < own; ++k) before += found[k] == run ? 1u : 0u;
+    instances[runs[run].first + group_counts[group * SEEN_RUNS + run] + before] = instances[place];
+}

@@ -1,0 +1,125 @@
+// The colour of each body, from what it is and how it moves: once, and not for each corner that is drawn.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_BODIES
+#include "shaders/physics/rest.h"
+#include "shaders/render/coloring.h"
+
+layout(local_size_x = 128) in;  // DETAIL_GROUP
+
+layout(std430, set = 0, binding = 13) readonly buffer RunTable {
+    BodyRun runs[];
+};
+layout(std430, set = 0, binding = 20) writeonly buffer TintTable {
+    vec4 tints[];  // rgb: the colour; a: how far up the scale, from 0 to 1
+};
+const vec3 STONE = vec3(0.40, 0.385, 0.36);
+const vec3 KINEMATIC = vec3(0.30, 0.34, 0.40);
+const vec3 PLAIN = vec3(0.62, 0.33, 0.13);
+
+layout(std430, set = 0, binding = 12) readonly buffer ImpulseTable {
+    Impulse impulses[];
+};
+layout(std430, set = 0, binding = 16) readonly buffer SlotEndTable {
+    uint slot_ends[];  // of each body's slots, which begin where those of the body before end
+};
+layout(std430, set = 0, binding = 17) readonly buffer SlotSideTable {
+    uint slot_sides[];  // 2 * contact + side
+};
+layout(std430, set = 0, binding = 18) readonly buffer RestTable {
+    uint rests[];
+};
+
+bool sleeps(uint body) {
+    uint steps = uint(frame.rest.x);
+    return steps > 0u && has_slept(rests[body], steps);
+}
+
+// The sum of what its contacts push in a substep, N s.
+float contact_impulse(uint body) {
+    float sum = 0.0;
+    for (uint k = body == 0u ? 0u : slot_ends[body - 1u]; k < slot_ends[body]; ++k) {
+        vec4 push = impulses[slot_sides[k] >> 1].normal;
+        sum += push.x + push.y + push.z + push.w;
+    }
+    return sum;
+}
+
+float quantity(uint by, uint body) {
+    if (by == COLOR_BY_CONTACT_IMPULSE) return contact_impulse(body);
+    if (by == COLOR_BY_CONTACTS) return float(slot_ends[body] - (body == 0u ? 0u : slot_ends[body - 1u]));
+    if (by == COLOR_BY_REST) return sleeps(body) ? 1e30 : float(quiet_steps(rests[body])) * frame.rest.y;
+    Traits t = traits[body];
+    Velocity v = velocities[body];
+    if (by == COLOR_BY_MOMENTUM) return length(v.linear) / t.inverse_mass;
+    if (by == COLOR_BY_SPEED) return length(v.linear);
+    if (by == COLOR_BY_SPIN) return length(v.angular);
+    if (by == COLOR_BY_HEIGHT) return poses[body].position.y;
+    // Angular momentum and kinetic energy, from the spin about the principal axes.
+    vec3 spin = turned_back(poses[body].orientation, v.angular);
+    vec3 turning = spin * spin / max(t.inverse_inertia, vec3(1e-30));
+    if (by == COLOR_BY_ANGULAR_MOMENTUM) return length(spin / max(t.inverse_inertia, vec3(1e-30)));
+    return 0.5 * (dot(v.linear, v.linear) / t.inverse_mass + turning.x + turning.y + turning.z);
+}
+
+// Colours that tell bodies apart: hues a golden ratio apart, all about as light.
+vec3 name_color(uint body) {
+    float hue = fract(float(body % 4096u) * 0.61803399);
+    vec3 c = 0.5 + 0.5 * cos(6.2831853 * (hue + vec3(0.0, 0.33, 0.67)));
+    return mix(vec3(0.10), vec3(0.75), c * c);
+}
+
+float volume_of(Traits t) {
+    float r = t.size.x;
+    if (t.shape == SHAPE_BOX) return 8.0 * t.size.x * t.size.y * t.size.z;
+    return 3.14159265 * r * r * (1.33333333 * r + (t.shape == SHAPE_CAPSULE ? 2.0 * t.size.y : 0.0));
+}
+// The material of the frame's list that is most alike.
+uint material_of(uint body) {
+    Traits t = traits[body];
+    vec3 own = vec3(t.friction, t.restitution, log(1.0 / (t.inverse_mass * volume_of(t))));
+    uint best = 0u;
+    float least = 1e30;
+    for (uint k = 0u; k < uint(frame.marks.z); ++k) {
+        vec4 m = frame.materials[k];
+        vec3 apart = own - vec3(m.x, m.y, log(m.z));
+        if (dot(apart, apart) < least) {
+            least = dot(apart, apart);
+            best = k;
+        }
+    }
+    return best;
+}
+
+vec4 full_color(uint body) {
+    uint motion = traits[body].motion;
+    if (motion == MOTION_FIXED) return vec4(STONE, 0.0);
+    if (motion == MOTION_KINEMATIC) return vec4(KINEMATIC, 0.0);
+    uint by = uint(frame.scale.w);
+    if (by == COLOR_BY_NOTHING) return vec4(PLAIN, 0.0);
+    if (by == COLOR_BY_BODY) return vec4(name_color(body), 0.0);
+    if (by == COLOR_BY_MATERIAL) return vec4(name_color(material_of(body)), 0.0);
+    float q = quantity(by, body);
+    float x = frame.scale.z > 0.5 ? log(max(q, 1e-30)) : q;
+    float t = clamp((x - frame.scale.x) / (frame.scale.y - frame.scale.x), 0.0, 1.0);
+    return vec4(map_color(t), t);
+}
+
+// rgb: the colour; a: how far up the scale, from 0 to 1. Under marks all are paler, so that those stand out; sleepers, when they
+// shall be known, are dull and blue.
+vec4 body_color(uint body) {
+    vec4 color = full_color(body);
+    if (frame.marks.w > 0.5 && traits[body].motion == MOTION_DYNAMIC && sleeps(body)) {
+        float light = dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
+        color = vec4(mix(color.rgb, vec3(0.10, 0.16, 0.30) * (0.6 + light), 0.75), 0.0);
+    }
+    float grey = dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
+    return vec4(mix(color.rgb, vec3(0.08 + 0.5 * grey), 0.45 * frame.marks.x), color.a * (1.0 - frame.marks.x));
+}
+
+void main() {
+    uint place = gl_GlobalInvocationID.x;
+    if (place >= runs[RUN_PLANES].first) return;
+    uint body = instances[place];
+    tints[body] = body_color(body);
+}

@@ -1,0 +1,115 @@
+// The OpenGL ES canvas: draws without a window, from host memory, from any thread. It needs no Vulkan, and neither does this.
+#include <catch2/catch.hpp>
+#include <stdexcept>
+#include <thread>
+
+#include "host/canvas.h"
+#include "host/device_error.h"
+#include "shaders/physics/records.h"
+
+using namespace scree::host;
+using glm::vec3;
+using scree::physics::Pose;
+using scree::physics::Traits;
+using scree::physics::Velocity;
+
+namespace {
+
+// A ground and a box above it.
+struct Bodies {
+    std::vector<Traits> traits;
+    std::vector<Pose> poses;
+    std::vector<Velocity> velocities;
+    ShapeInstances shapes;
+
+    Bodies() : traits(2), poses(2), velocities(2) {
+        traits[0].shape = scree::physics::SHAPE_PLANE;
+        traits[0].motion = scree::physics::MOTION_FIXED;
+        traits[0].size = {0, 1, 0};
+        traits[1].shape = scree::physics::SHAPE_BOX;
+        traits[1].size = vec3(1);
+        traits[1].inverse_mass = 1;
+        poses[0].orientation = poses[1].orientation = {0, 0, 0, 1};
+        poses[1].position = {0, 2, 0};
+        shapes.planes = {0};
+        shapes.boxes = {1};
+    }
+    BodyTables tables() const { return {traits, poses, velocities}; }
+};
+
+CanvasOptions small(int samples = 0) {
+    CanvasOptions options;
+    options.width = 160;
+    options.height = 100;
+    options.samples = samples;
+    return options;
+}
+
+Image picture(Canvas& canvas) {
+    return canvas.draw({.eye = {0, 2, 10}, .target = {0, 2, 0}}, {}, "gl", vec3(-4, 0, -4), vec3(4));
+}
+
+int brightness(const Image& image, int x, int y) {
+    const std::size_t i = 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x));
+    return image.rgba[i] + image.rgba[i + 1] + image.rgba[i + 2];
+}
+
+}  // namespace
+
+TEST_CASE("gl: a box is drawn where it is, its upper side up", "[canvas][gl]") {
+    const int samples = GENERATE(1, 4);
+    Bodies bodies;
+    bodies.poses[1].position = {1, 3.4f, 0};
+    const auto canvas = make_gl_canvas(bodies.shapes, small(samples));
+    canvas->set_tables(bodies.tables());
+    const Image with = picture(*canvas);
+    REQUIRE(with.rgba.size() == std::size_t{160} * 100 * 4);
+    bodies.poses[1].position.x = 100;
+    const Image without = picture(*canvas);
+    // A metre is 50 / (10 tan 20) = 13.7 pixels: the middle of the box is 14 to the right and 19 above that of the picture.
+    const auto change = [&](int x, int y) { return std::abs(brightness(with, x, y) - brightness(without, x, y)); };
+    CHECK(change(94, 31) > 60);
+    CHECK(change(94, 69) < 10);
+    CHECK(change(66, 31) < 10);
+    CHECK(with.rgba[4 * (50 * 160 + 80) + 3] == 255);
+}
+
+TEST_CASE("gl: the same state gives the same pixels, on this canvas and on another, from this thread and from another",
+          "[canvas][gl]") {
+    const int samples = GENERATE(1, 4);
+    const Bodies bodies;
+    const auto first = make_gl_canvas(bodies.shapes, small(samples)), second = make_gl_canvas(bodies.shapes, small(samples));
+    first->set_tables(bodies.tables());
+    second->set_tables(bodies.tables());
+    const Image expected = picture(*first);
+    CHECK(picture(*first).rgba == expected.rgba);
+    CHECK(picture(*second).rgba == expected.rgba);
+    Image elsewhere;
+    std::thread([&] { elsewhere = picture(*first); }).join();
+    CHECK(elsewhere.rgba == expected.rgba);
+}
+
+TEST_CASE("gl: an empty scene is a picture, too", "[canvas][gl]") {
+    const std::vector<Traits> traits;
+    const std::vector<Pose> poses;
+    const std::vector<Velocity> velocities;
+    const auto canvas = make_gl_canvas({}, small());
+    canvas->set_tables({traits, poses, velocities});
+    CHECK(brightness(picture(*canvas), 80, 5) > 300);
+}
+
+TEST_CASE("gl: a canvas refuses what it cannot draw", "[canvas][gl]") {
+    CanvasOptions large = small();
+    large.width = 1000000;
+    CHECK_THROWS_WITH(make_gl_canvas({}, large), Catch::Contains("1000000 x 100"));
+    CHECK_THROWS_WITH(make_gl_canvas({}, small(3)), Catch::Contains("samples must be 1 or 4"));
+    const Bodies bodies;
+    CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, small())->set_tables({}), Catch::Contains("missing"));
+    CHECK_THROWS_WITH(picture(*make_gl_canvas(bodies.shapes, small())), Catch::Contains("missing"));
+    CanvasOptions marks = small();
+    marks.marks = true;
+    CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, marks)->set_tables(bodies.tables()), Catch::Contains("touches"));
+    BodyTables on_device = bodies.tables();
+    on_device.poses = TableView(reinterpret_cast<const Buffer*>(&bodies));  // never looked into
+    CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, small())->set_tables(on_device), Catch::Contains("host memory"));
+}

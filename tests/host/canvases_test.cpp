@@ -1,0 +1,248 @@
+// The two canvases check each other: the same state drawn by both looks the same.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <span>
+
+#include "compute/state.h"
+#include "compute/world.h"
+#include "host/buffer.h"
+#include "host/canvas.h"
+#include "host/device.h"
+
+using namespace scree;
+using namespace scree::host;
+
+namespace {
+
+std::shared_ptr<Device> validated_device() {
+    static const std::shared_ptr<Device> device = Device::open({.which = "", .validation = true, .on_message = {}});
+    return device;
+}
+
+// Every shape, moving and fixed, in a heap that has just come down.
+Scene heap() {
+    Scene scene;
+    Body ground;
+    ground.motion = Motion::fixed;
+    ground.shape = Plane{};
+    scene.bodies.push_back(ground);
+    Body wall;
+    wall.motion = Motion::fixed;
+    wall.shape = Box{{2.5f, 0.6f, 0.2f}};
+    wall.position = {0, 0.6f, -1.8f};
+    scene.bodies.push_back(wall);
+    for (int i = 0; i < 45; ++i) {
+        Body body;
+        const Shape shapes[] = {Sphere{0.28f}, Capsule{0.2f, 0.25f}, Box{{0.3f, 0.2f, 0.25f}}};
+        body.shape = shapes[i % 3];
+        body.position = {0.7f * static_cast<float>(i % 4) - 1.0f, 0.5f + 0.62f * static_cast<float>(i / 16),
+                         0.7f * static_cast<float>(i / 4 % 4) - 1.0f};
+        body.orientation = {0.1f * static_cast<float>(i % 5), 0.3f, 0.05f * static_cast<float>(i % 7), 1};
+        body.velocity = {0.4f * static_cast<float>(i % 3), -1, 0};
+        scene.bodies.push_back(body);
+    }
+    return scene;
+}
+
+ShapeInstances instances_of(const Scene& scene) {
+    ShapeInstances instances;
+    std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes, &instances.planes};
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) lists[scene.bodies[i].shape.index()]->push_back(i);
+    return instances;
+}
+
+BodyTables tables_of(const State& state) {
+    const std::uint32_t contacts = state.counted().contacts;
+    BodyTables tables{state.traits,
+                      state.poses,
+                      state.velocities,
+                      std::span(state.contacts).first(contacts),
+                      std::span(state.impulses).first(contacts),
+                      contacts};
+    tables.slot_ends = state.slot_ends;
+    tables.slot_sides = state.slot_sides;
+    tables.rests = state.rests;
+    tables.bounds = state.bounds;
+    return tables;
+}
+
+struct View {
+    Camera camera{.eye = {3.5f, 3, 5}, .target = {0, 0.7f, 0}, .vertical_fov = 40};
+    ColorScale scale;
+    std::string caption = "both canvases\n45 bodies";
+    vec3 low{-3, 0, -3}, high{3, 3, 3};  // what casts shadows, m
+};
+
+Image picture(Canvas& canvas, const World& world, const View& view) {
+    canvas.set_tables(tables_of(world.state()));
+    return canvas.draw(view.camera, view.scale, view.caption, view.low, view.high);
+}
+
+// The greatest difference of a channel between a pixel of one picture and one of another.
+int difference(const Image& a, const Image& b, std::size_t i, std::size_t j) {
+    int most = 0;
+    for (std::size_t k = 0; k < 4; ++k) most = std::max(most, std::abs(a.rgba[4 * i + k] - b.rgba[4 * j + k]));
+    return most;
+}
+
+// Whether a pixel of `a` is found in `b` where it is or, at an edge that falls a little otherwise, one pixel beside.
+bool found(const Image& a, const Image& b, int x, int y) {
+    const auto at = [&](int column, int row) { return static_cast<std::size_t>(row * a.width + column); };
+    for (int row = std::max(y - 1, 0); row <= std::min(y + 1, a.height - 1); ++row) {
+        for (int column = std::max(x - 1, 0); column <= std::min(x + 1, a.width - 1); ++column) {
+            if (difference(a, b, at(x, y), at(column, row)) <= 24) return true;
+        }
+    }
+    return false;
+}
+
+struct Likeness {
+    double mean = 0;            // difference of a channel, 1/255
+    double strayed = 0;         // share of the pixels that differ by more than 24/255
+    std::size_t misshapen = 0;  // such pixels that are not found a pixel beside either: no matter of an edge
+};
+
+Likeness likeness(const Image& a, const Image& b) {
+    REQUIRE(a.width == b.width);
+    REQUIRE(a.rgba.size() == b.rgba.size());
+    Likeness sums;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) sums.mean += std::abs(a.rgba[i] - b.rgba[i]);
+    sums.mean /= static_cast<double>(a.rgba.size());
+    const std::size_t pixels = a.rgba.size() / 4;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (difference(a, b, i, i) <= 24) continue;
+        sums.strayed += 1.0 / static_cast<double>(pixels);
+        const int x = static_cast<int>(i) % a.width, y = static_cast<int>(i) / a.width;
+        if (!found(a, b, x, y) || !found(b, a, x, y)) ++sums.misshapen;
+    }
+    return sums;
+}
+
+bool alike(const Likeness& found) {
+    return found.mean < 1 && found.strayed < 0.003 && found.misshapen == 0;
+}
+
+CanvasOptions options_of(int samples, bool shadows, bool marks) {
+    CanvasOptions options;
+    options.width = 400;
+    options.height = 250;
+    options.samples = samples;
+    options.shadows = shadows;
+    options.marks = marks;
+    options.mark_push = 9.81f / 480;
+    return options;
+}
+
+}  // namespace
+
+TEST_CASE("canvases: both draw the same picture of the same state", "[canvas][gl]") {
+    const int samples = GENERATE(1, 4);
+    const bool shadows = GENERATE(true, false), marks = GENERATE(true, false);
+    CAPTURE(samples, shadows, marks);
+    World world(heap(), {}, 1);
+    const CanvasOptions options = options_of(samples, shadows, marks);
+    const ShapeInstances instances = instances_of(world.scene());
+    const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
+    for (const int steps : {0, 25}) {
+        world.step(steps);
+        View view;
+        if (steps > 0) view.scale = {ColorBy::speed, ColorMap::viridis, 0.1f, 5, true};
+        const Likeness both = likeness(picture(*vulkan, world, view), picture(*gl, world, view));
+        CAPTURE(steps, both.mean, both.strayed, both.misshapen);
+        CHECK(alike(both));
+    }
+    if (marks) CHECK(world.state().counted().contacts > 20);
+    CHECK(validated_device()->validation_messages().empty());
+}
+
+TEST_CASE("canvases: both draw alike from far above, close by, and in every colour", "[canvas][gl]") {
+    World world(heap(), {}, 1);
+    world.step(10);
+    const CanvasOptions options = options_of(1, true, false);
+    const ShapeInstances instances = instances_of(world.scene());
+    const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
+    const auto require_alike = [&](const View& view) {
+        const Likeness both = likeness(picture(*vulkan, world, view), picture(*gl, world, view));
+        CAPTURE(view.caption, both.mean, both.strayed, both.misshapen);
+        CHECK(alike(both));
+    };
+    View view;
+    for (const std::string& name : color_by_names()) {
+        view.scale.by = *color_by_named(name);
+        view.caption = name;
+        view.scale.high = view.scale.by == ColorBy::contact_impulse ? 5.0f : 10.0f;
+        view.scale.materials = {{{0.6f, 0, 1000}, "stone"}, {{0.1f, 0.5f, 2000}, "rubber"}};
+        require_alike(view);
+    }
+    view.caption = "parallel rays";
+    view.camera.orthographic = true;
+    require_alike(view);
+    view.caption = "";
+    view.camera = {.eye = {0.1f, 200, 0}, .target = {0, 0, 0}, .vertical_fov = 5};
+    require_alike(view);
+    view.camera = {.eye = {0.4f, 0.9f, 1.6f}, .target = {0, 0.6f, 0}, .vertical_fov = 70};
+    require_alike(view);
+    view = {};
+    view.caption = "bodies beyond the shadow maps";
+    view.low = vec3(-0.4f, 0, -0.4f);
+    view.high = vec3(0.4f, 1, 0.4f);
+    require_alike(view);
+}
+
+TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[canvas][gl]") {
+    World world(heap(), {}, 1);
+    CanvasOptions options = options_of(1, true, false);
+    options.sleep_steps = 12;  // so that some seem to sleep soon
+    options.cell = world.state().fixed().cell;
+    const ShapeInstances instances = instances_of(world.scene());
+    const View view;
+    const auto plain = make_vulkan_canvas(validated_device(), instances, options);
+    for (bool CanvasOptions::*what :
+         {&CanvasOptions::velocities, &CanvasOptions::boxes, &CanvasOptions::cells, &CanvasOptions::sleep}) {
+        CanvasOptions shown = options;
+        shown.*what = true;
+        world.step(what == &CanvasOptions::sleep ? 200 : 10);  // arrows want motion, sleepers have come to rest
+        const Image without = picture(*plain, world, view);
+        const auto vulkan = make_vulkan_canvas(validated_device(), instances, shown), gl = make_gl_canvas(instances, shown);
+        const Image with = picture(*vulkan, world, view);
+        CHECK(likeness(with, without).strayed > 0.001);
+        const Likeness both = likeness(with, picture(*gl, world, view));
+        CAPTURE(both.mean, both.strayed, both.misshapen);
+        CHECK(alike(both));
+    }
+    CHECK(validated_device()->validation_messages().empty());
+}
+
+TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
+    World world(heap(), {}, 1);
+    const ShapeInstances instances = instances_of(world.scene());
+    const View view;
+    const auto canvas = make_gl_canvas(instances, options_of(1, true, false));
+    const Image image = picture(*canvas, world, view);
+    Scene moved = heap();
+    moved.bodies.back().position.x += 0.1f;  // about 5 pixels
+    CHECK_FALSE(alike(likeness(image, picture(*canvas, World(moved, {}, 1), view))));
+    const auto without = make_gl_canvas(instances, options_of(1, false, false));
+    CHECK_FALSE(alike(likeness(image, picture(*without, world, view))));
+    CHECK(alike(likeness(image, picture(*canvas, world, view))));
+}
+
+TEST_CASE("canvases: tables in host memory and on the device give the same pixels", "[canvas]") {
+    World world(heap(), {}, 1);
+    world.step(20);
+    const ShapeInstances instances = instances_of(world.scene());
+    const auto canvas = make_vulkan_canvas(validated_device(), instances, options_of(1, true, true));
+    const Image from_memory = picture(*canvas, world, {});
+    BodyTables tables = tables_of(world.state());
+    std::vector<std::unique_ptr<Buffer>> buffers;
+    for (TableView* const table : {&tables.traits, &tables.poses, &tables.velocities, &tables.touches, &tables.pushes}) {
+        buffers.push_back(std::make_unique<Buffer>(validated_device(), "a table", table->bytes.size()));
+        buffers.back()->write(table->bytes.data(), table->bytes.size());
+        *table = buffers.back().get();
+    }
+    canvas->set_tables(tables);
+    const View view;
+    CHECK(canvas->draw(view.camera, view.scale, view.caption, view.low, view.high).rgba == from_memory.rgba);
+    CHECK(validated_device()->validation_messages().empty());
+}

@@ -1,0 +1,187 @@
+// Pictures as the program makes them: raw frames, previews, 16 bits, cameras, what is shown, and what is refused.
+#include <signal.h>
+
+#include <catch2/catch.hpp>
+#include <chrono>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/program/program.h"
+
+using nlohmann::json;
+using scree::program::Outcome;
+using scree::program::Place;
+using scree::program::run_scree;
+using scree::program::says;
+
+namespace {
+
+const std::string small = "--backend cpu --size 96x64 ";
+
+void require_refused(const std::string& arguments, const std::vector<std::string>& words) {
+    const Outcome outcome = run_scree("run " + arguments);
+    INFO(arguments << "\n" << outcome.errors);
+    REQUIRE(outcome.status == 2);
+    for (const std::string& word : words) {
+        INFO(word);
+        REQUIRE(says(outcome.errors, word));
+    }
+}
+
+// Bytes of the only picture of a run.
+std::string picture_of(const std::string& arguments) {
+    const Place place;
+    const Outcome run = run_scree("run " + arguments + " --frames '" + place.path().string() + "/f' --quiet");
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    return place.read("f/frame_000000.png");
+}
+
+std::string scene_with_camera(const std::string& camera) {
+    return R"({"bodies": [{"name": "ground", "motion": "fixed", "shape": {"plane": {}}},
+        {"name": "ball", "shape": {"sphere": {"radius": 0.5}}, "position": [0, 2, 0]}], "camera": )" +
+           camera + "}";
+}
+
+}  // namespace
+
+TEST_CASE("program: raw frames go to the standard output, and words elsewhere", "[program]") {
+    const Outcome raw = run_scree("run rest " + small + "--steps 2 --fps 60 --raw -");
+    INFO(raw.errors);
+    REQUIRE(raw.status == 0);
+    REQUIRE(raw.output.size() == 3 * 96 * 64 * 3);
+    REQUIRE(says(raw.errors, "state hash"));
+    const Outcome fine = run_scree("run rest " + small + "--steps 1 --fps 10 --quiet --png-depth 16 --canvas vulkan --raw -");
+    REQUIRE(fine.output.size() == 96 * 64 * 6);
+    REQUIRE(fine.errors.empty());
+    require_refused("rest --steps 1 --raw - --report -", {"--raw -", "--report -"});
+    const Outcome broken = run_scree("run rest " + small + "--steps 200 --fps 60 --quiet --raw /dev/full");
+    REQUIRE(broken.status == 1);
+    REQUIRE(says(broken.errors, "/dev/full"));
+}
+
+TEST_CASE("program: frames are the same bits from run to run, drawn beside the steps or not", "[program]") {
+    const std::string run = "run mix --bodies 60 --size 96x64 --steps 20 --fps 30 --quiet --raw -";
+    const std::string once = run_scree(run).output;
+    REQUIRE(once.size() == 11 * 96 * 64 * 3);
+    REQUIRE(run_scree(run).output == once);
+    // The same moments with fewer steps between the pictures.
+    const std::string sparse = run_scree("run mix --bodies 60 --size 96x64 --steps 20 --fps 15 --quiet --raw -").output;
+    REQUIRE(sparse.substr(0, 96 * 64 * 3) == once.substr(0, 96 * 64 * 3));
+    REQUIRE(sparse.substr(96 * 64 * 3, 96 * 64 * 3) == once.substr(2 * 96 * 64 * 3, 96 * 64 * 3));
+}
+
+TEST_CASE("program: the report tells the rate of pictures and where the time went", "[program]") {
+    const Place place;
+    const std::string report = (place / "r.json").string();
+    REQUIRE(run_scree("run rest " + small + "--steps 10 --fps 60 --quiet --raw /dev/null --report '" + report + "'").status == 0);
+    const json r = json::parse(place.read("r.json"));
+    REQUIRE(r["frames"] == 11);
+    const json& seconds = r["seconds"];
+    REQUIRE(r["frames_per_second"].get<double>() == Approx(11 / seconds["running"].get<double>()));
+    for (const char* part : {"simulate", "draw", "encode_wait"}) REQUIRE(seconds[part].get<double>() >= 0);
+    REQUIRE(seconds["draw"].get<double>() > 0);
+    REQUIRE(seconds["simulate"].get<double>() + seconds["draw"].get<double>() + seconds["encode_wait"].get<double>() <=
+            seconds["running"].get<double>());
+    REQUIRE(seconds["running"].get<double>() <= r["seconds_total"].get<double>());
+}
+
+TEST_CASE("program: a second Ctrl-C leaves nothing half written", "[program]") {
+    const Place place;
+    const std::string at = place.path().string();
+    std::filesystem::permissions(
+        place.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\necho part >\"$last\"\nexec cat >/dev/null\n"),
+        std::filesystem::perms::owner_all);
+    std::thread interrupter([&] {
+        const auto parts = [&] {
+            for (const auto& entry : std::filesystem::directory_iterator(place.path())) {
+                if (says(entry.path().filename().string(), ".mp4.part")) return true;
+            }
+            return false;
+        };
+        for (int i = 0; i < 600 && !parts(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+        const int process = std::atoi(place.read("pid").c_str());
+        if (process <= 0) return;
+        ::kill(process, SIGINT);
+        std::this_thread::sleep_for(std::chrono::milliseconds(250));
+        ::kill(process, SIGINT);
+    });
+    // The reader of the raw frames never reads, so the run cannot end by itself.
+    REQUIRE(std::system(("mkfifo '" + at + "/pipe'").c_str()) == 0);
+    const Outcome outcome = run_scree(
+        "run dominoes --backend cpu --seconds 10000 --size 320x180 --video '" + at + "/clip.mp4' --raw '" + at + "/pipe' --quiet",
+        "PATH='" + at + "':\"$PATH\"; export PATH; sleep 60 <>'" + at + "/pipe' & echo $$ >'" + at + "/pid'; exec");
+    interrupter.join();
+    INFO(outcome.errors);
+    REQUIRE(outcome.status == 130);
+    for (const auto& entry : std::filesystem::directory_iterator(place.path())) {
+        INFO(entry.path());
+        REQUIRE_FALSE(says(entry.path().filename().string(), "clip.mp4"));
+    }
+}
+
+TEST_CASE("program: cameras change the picture, and a path in the scene file is followed", "[program]") {
+    const std::string run = "dominoes --steps 1 --fps 10 " + small;
+    const std::string plain = picture_of(run);
+    for (const char* camera : {"--camera fit --fov 60", "--camera follow:7", "--eye 3,4,5", "--target -1,0.5,2 --fov 20",
+                               "--orthographic", "--eye -3,2,-1 --target 0,0,0"}) {
+        INFO(camera);
+        REQUIRE(picture_of(run + camera) != plain);
+    }
+    const Place place;
+    const std::string moving = place.write("moving.json", scene_with_camera(R"({"path": [
+        {"time": 0, "eye": [0, 2, 8], "target": [0, 1, 0]}, {"time": 0.1, "eye": [8, 2, 0], "target": [0, 1, 0]}]})"));
+    const std::string still = place.write("still.json", scene_with_camera(R"({"eye": [0, 2, 8], "target": [0, 1, 0]})"));
+    const std::string frames = " " + small + "--steps 12 --fps 10 --quiet --no-caption --raw -";
+    const std::string a = run_scree("run '" + moving + "'" + frames).output, b = run_scree("run '" + still + "'" + frames).output;
+    const std::size_t frame = 96 * 64 * 3;
+    REQUIRE(a.size() == 3 * frame);
+    REQUIRE(a.substr(0, frame) == b.substr(0, frame));
+    REQUIRE(a.substr(2 * frame) != b.substr(2 * frame));
+    // Half a turn in half a second, and all of it in a second: the first and the last camera are one.
+    const std::string orbit =
+        run_scree("run '" + still + "' " + small + "--steps 12 --fps 10 --quiet --no-caption --camera orbit:0.2 --raw -").output;
+    REQUIRE(orbit.substr(frame, frame) != b.substr(frame, frame));
+    const std::string exported = run_scree("export '" + moving + "'").output;
+    REQUIRE(json::parse(exported)["camera"]["path"][1]["eye"] == json::parse("[8.0, 2.0, 0.0]"));
+}
+
+TEST_CASE("program: a camera that cannot be is refused with its place and the cure", "[program]") {
+    require_refused("dominoes --camera zoom", {"--camera", "fit, orbit, follow"});
+    require_refused("dominoes --camera orbit:fast", {"\"fast\" is not a number"});
+    require_refused("dominoes --camera orbit:0", {"orbit", "0.1"});
+    require_refused("dominoes --camera follow", {"follow:NAME"});
+    require_refused("dominoes --steps 1 --frames none --camera follow:1000", {"follow:1000", "the scene has"});
+    require_refused("dominoes --steps 1 --frames none --camera follow:nobody", {"no body has this name"});
+    require_refused("dominoes --steps 1 --frames none --camera follow:0", {"plane"});
+    require_refused("dominoes --eye 1,2", {"--eye", "X,Y,Z"});
+    require_refused("dominoes --fov 0", {"--fov", "between 1 and 170"});
+    require_refused("dominoes --steps 1 --frames none --eye 1,1,1 --target 1,1,1", {"0.1 mm apart"});
+    const Place place;
+    const auto refused = [&](const std::string& camera, const std::vector<std::string>& words) {
+        require_refused("'" + place.write("scene.json", scene_with_camera(camera)) + "' --steps 1", words);
+    };
+    refused(R"({"path": []})", {"/camera/path: must be an array of at least one moment"});
+    refused(
+        R"({"path": [{"time": 1, "eye": [0, 0, 1], "target": [0, 0, 0]}, {"time": 1, "eye": [0, 0, 2], "target": [0, 0, 0]}]})",
+        {"/camera/path/1/time: must be later"});
+    refused(R"({"path": [{"time": 0, "eye": [0, 0, 1]}]})", {"/camera/path/0: lacks \"target\""});
+    refused(R"({"path": [{"time": 0, "eye": [0, 0, 1], "target": [0, 0, 1]}]})", {"/camera/path/0/target: must differ"});
+    refused(R"({"eye": [0, 0, 1], "path": [{"time": 0, "eye": [0, 0, 1], "target": [0, 0, 0]}]})", {"/camera/eye"});
+    refused(R"({"eye": [0, 0, 1], "target": [0, 0, 0], "orthographic": 1})", {"/camera/orthographic: must be true or false"});
+    refused(R"({"eye": [0, 0, 1], "target": [0, 0, 0], "orthografic": true})", {"nearest: \"orthographic\""});
+}
+
+TEST_CASE("program: what pictures show is chosen by words", "[program]") {
+    const std::string run = "rest --steps 1 --fps 10 " + small;
+    const std::string plain = picture_of(run);
+    REQUIRE(picture_of(run + "--no-caption") != plain);
+    REQUIRE(picture_of(run + "--no-legend") != plain);
+    REQUIRE(picture_of(run + "--color angular-momentum --color-scale log") != plain);
+    REQUIRE(picture_of(run + "--show contacts,velocities,boxes,cells,sleep").size() > 100);
+    require_refused("rest --show joints", {"--show", "contacts, velocities, boxes, cells, sleep"});
+    require_refused("rest --color-scale cubic", {"--color-scale", "linear, log"});
+    require_refused("rest --steps 1 --frames none --color-scale log --color-range 0:5", {"above 0", "--color-range"});
+    require_refused("rest --png-depth 12", {"--png-depth"});
+    require_refused("rest --steps 1 --preview clip.png", {".gif", ".webp"});
+}
