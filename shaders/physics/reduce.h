@@ -29,9 +29,9 @@ LAW float merit(uint step, vec4 a, vec4 b, vec4 c, float area_abc, vec4 p) {
     return larger(beyond_ab, larger(beyond_bc, beyond_ca));
 }
 
-// What a corner counts for: 1 where it touches, a quarter where it is `slop` (m) above, less beyond. Without this, or with ten
-// times the slop, corners that are far out but in the air displaced one that carried, and boxes rocked for ever between two
-// choices.
+// What a corner counts for: 1 where it touches (or is the lowest of those in the air), a quarter where it is `slop` (m) above,
+// less beyond. Without this, or with ten times the slop, corners that are far out but in the air displaced one that carried, and
+// boxes rocked for ever between two choices.
 LAW float nearness(float height, float slop) {
     float near = height > 0.0f ? slop * reciprocal(slop + height) : 1.0f;
     return near * near;
@@ -68,6 +68,7 @@ LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
             }
         }
     }
+    float ground = larger(lowest, 0.0f);
     vec4 b = a;
     vec4 c = a;
     float area_abc = 0.0f;
@@ -78,7 +79,7 @@ LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
         for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
             if ((present & (1u << k)) != 0u) {
                 vec4 p = overlay_corner(overlay, k);
-                float score = merit(step, a, b, c, area_abc, p) * nearness(p.x, flat_within);
+                float score = merit(step, a, b, c, area_abc, p) * nearness(p.x - ground, flat_within);
                 if (REDUCE_BIAS * score > best) {
                     best = score;
                     bit = 1u << k;

@@ -220,3 +220,16 @@ TEST_CASE("corners that touch are kept before corners further out in the air", "
     for (uint point = 0; point < touch.count; ++point) touching += touch.manifold.points[point].w < 0;
     CHECK(touching >= 3);
 }
+
+TEST_CASE("boxes that fly at each other face to face will meet in four points", "[collide]") {
+    // As far apart as fast ones may be when their contact is made: all eight corners are in the air.
+    for (const float gap : {0.001f, 0.01f, 0.1f, 0.5f}) {
+        CAPTURE(gap);
+        const vec4 turned = turn(vec3(0, 1, 0), 0.3f);
+        const Touch touch = collide(cube, at(0, 0, 0), cube, at(0, 1 + gap, 0, turned), 1);
+        REQUIRE(touch.count == 4u);
+        vec3 middle(0);
+        for (uint point = 0; point < 4; ++point) middle += 0.25f * point_of(touch, point);
+        CHECK(std::hypot(middle.x, middle.z) < 0.2f);
+    }
+}

@@ -1,0 +1,115 @@
+// When a contact is kept, what its points resist, and among how many contacts a body's mass is shared.
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "shaders/physics/crowd.h"
+#include "shaders/physics/persistence.h"
+
+using namespace scree;
+using namespace scree::physics;
+
+namespace {
+
+Traits box(float half) {
+    Traits traits{};
+    traits.shape = SHAPE_BOX;
+    traits.size = vec3(half);
+    traits.friction = 0.6f;
+    return traits;
+}
+Traits ball(float radius) {
+    Traits traits{};
+    traits.shape = SHAPE_SPHERE;
+    traits.size = vec3(radius);
+    traits.friction = 0.6f;
+    return traits;
+}
+
+vec4 about_x(double degrees) {
+    const double half = degrees * 3.14159265358979 / 360;
+    return {static_cast<float>(std::sin(half)), 0, 0, static_cast<float>(std::cos(half))};
+}
+
+// A box of 1 m on another, touching at four corners, and how both have turned since.
+bool kept(vec4 turn_a, vec4 turn_b) {
+    Contact contact{};
+    contact.count = 4;
+    contact.normal = vec3(0, 1, 0);
+    contact.d = vec3(0, 1, 0);
+    contact.turn_a = contact.turn_b = vec4(0, 0, 0, 1);
+    // Narrow along the axis of turning, so that slip lets it go no sooner.
+    for (int k = 0; k < 4; ++k) contact.points[k] = vec4(k % 2 == 0 ? 0.5f : -0.5f, 0.5f, k < 2 ? 0.01f : -0.01f, 0);
+    Impulse impulse = no_impulse(contact.d);
+    impulse.normal = vec4(1);
+    Pose a{}, b{};
+    a.orientation = turn_a;
+    b.orientation = turn_b;
+    // B goes with A's face.
+    b.position = rotate(turn_a, vec3(0, 0.5f, 0)) + rotate(turn_b, vec3(0, 0.5f, 0));
+    return is_kept(contact, impulse, box(0.5f), a, Velocity{}, box(0.5f), b, Velocity{});
+}
+
+Parameters relaxed() {
+    Parameters parameters{};
+    parameters.inverse_relaxation = 1 / 1.5f;
+    parameters.speculative = 0.02f;
+    return parameters;
+}
+
+float counted(float crowd) {
+    return contacts_of(crowd);
+}
+
+}  // namespace
+
+TEST_CASE("a contact is let go when a body tips against the other, not when both turn together") {
+    const vec4 still(0, 0, 0, 1);
+    CHECK(kept(still, still));
+    CHECK(kept(still, about_x(0.3)));
+    CHECK_FALSE(kept(still, about_x(0.5)));
+    CHECK_FALSE(kept(about_x(-0.5), still));
+    CHECK(kept(about_x(3), about_x(3.3)));
+    CHECK_FALSE(kept(about_x(6), about_x(6)));
+}
+
+TEST_CASE("a corner resists twisting as a patch of a hundredth of the body, a ball does not") {
+    Contact contact{};
+    contact.count = 1;
+    contact.normal = vec3(0, 1, 0);
+    contact.turn_a = contact.turn_b = vec4(0, 0, 0, 1);
+    CHECK(constraint_of(contact, box(0.5f), box(2), 0, 1, relaxed()).reach == Approx(0.005f));
+    CHECK(constraint_of(contact, box(0.5f), ball(2), 0, 1, relaxed()).reach == 0);
+    CHECK(constraint_of(contact, ball(0.5f), ball(2), 0, 1, relaxed()).reach == 0);
+}
+
+TEST_CASE("the count of contacts that share a body lags behind those that carry") {
+    CHECK(counted(crowd_after(0, 1, 5)) == 1);
+    CHECK(counted(crowd_after(crowd_of(4, 5), 1, 5)) == 1);  // a blow has the whole body
+    float crowd = crowd_of(2, 5);
+    crowd = crowd_after(crowd, 3, 5);
+    CHECK(counted(crowd) == Approx(2.31f).margin(0.02));  // at once, what the iteration needs to converge
+    int rise = 0, fall = 0;
+    while (counted(crowd) < 3 && rise < 1000) crowd = drifted(crowd, 3, static_cast<std::uint32_t>(++rise));
+    CHECK(rise > 30);
+    CHECK(rise < 60);
+    CHECK(counted(drifted(crowd, 3, 4)) == 3);
+    while (counted(crowd_after(crowd, 2, 5)) > 2 && fall < 1000) crowd = drifted(crowd, 2, static_cast<std::uint32_t>(++fall));
+    CHECK(fall > 200);
+    CHECK(fall < 300);
+}
+
+TEST_CASE("of a body's mass half is shared alike and half by what presses") {
+    const Parameters parameters = relaxed();
+    const float crowd = crowd_of(3, 8);
+    const float parts[] = {1 / split_for(crowd, 4, parameters), 1 / split_for(crowd, 4, parameters),
+                           1 / split_for(crowd, 0, parameters)};
+    CHECK(parts[0] == Approx(1.5 * (0.5 / 3 + 0.25)).epsilon(0.01));
+    CHECK(parts[2] == Approx(1.5 * (0.5 / 3)).epsilon(0.01));
+    CHECK(parts[0] + parts[1] + parts[2] == Approx(1.5).epsilon(0.01));
+    // As many as the count may lag behind: the relaxation stays below 2.
+    const float late = crowd_after(crowd_of(2, 8), 4, 8);
+    CHECK(4 / split_for(late, 2, parameters) < 2);
+    CHECK(4 / split_for(late, 2, parameters) > 1.5f);
+    CHECK(split_for(crowd_of(1, 8), 8, parameters) == 1);
+    CHECK(split_for(0, 0, parameters) == 1);  // of a new body nothing is known
+}
