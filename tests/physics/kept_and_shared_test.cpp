@@ -65,10 +65,10 @@ float counted(float crowd) {
 TEST_CASE("a contact is let go when a body tips against the other, not when both turn together") {
     const vec4 still(0, 0, 0, 1);
     CHECK(kept(still, still));
-    CHECK(kept(still, about_x(0.3)));
-    CHECK_FALSE(kept(still, about_x(0.5)));
-    CHECK_FALSE(kept(about_x(-0.5), still));
-    CHECK(kept(about_x(3), about_x(3.3)));
+    CHECK(kept(still, about_x(0.06)));
+    CHECK_FALSE(kept(still, about_x(0.08)));
+    CHECK_FALSE(kept(about_x(-0.08), still));
+    CHECK(kept(about_x(3), about_x(3.06)));
     CHECK_FALSE(kept(about_x(6), about_x(6)));
 }
 

@@ -191,7 +191,9 @@ TEST_CASE("a row of sleeping balls passes on a blow as it does awake") {
                 other.step(30);
                 const double mass = static_cast<double>(mass_properties(Sphere{}, 1000).mass);
                 const double momentum = mass * static_cast<double>(speed);
-                CHECK(world.statistics().momentum[0] / momentum == Approx(1).epsilon(1e-4));
+                // Whom it shakes by less than a hundredth of the speed of sleep sleeps on (rest.h).
+                const double lost = 0.01 * static_cast<double>(settings.sleep_speed * static_cast<float>(row) / speed);
+                CHECK(std::abs(world.statistics().momentum[0] / momentum - 1) < 1e-5 + lost);
                 for (std::size_t i = 1; i <= static_cast<std::size_t>(row) + 1; ++i) {
                     CAPTURE(i);
                     CHECK(std::abs(world.bodies()[i].velocity.x - other.bodies()[i].velocity.x) < 0.03f * speed);
