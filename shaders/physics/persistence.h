@@ -5,7 +5,7 @@
 // take away the sideways shift of the load that makes a column of soft contacts buckle, and what is the same in every step
 // can come to true rest. The price: the two forces of a contact act up to the tolerance apart, and a resting pair's
 // angular momentum is exact only to that. So the tolerance is small against the bodies: what slides or rolls lets go at once,
-// what tips after 0.07 degrees.
+// and so does what tips.
 #ifndef SCREE_PHYSICS_PERSISTENCE_H
 #define SCREE_PHYSICS_PERSISTENCE_H
 
@@ -20,10 +20,13 @@ CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the turn (5 degrees) aft
 // about them without slip, and where the normal of two edges is frozen while they turn, it rocks on for ever.
 CONSTANT float KEPT_ROCKING = 0.9999875f;
 
-// Sine of half the turn of B against A (0.07 degrees) after which their contact is made anew. What tips over two of its four
-// points falls upon a corner that was not chosen: with 0.4 degrees it met it 4 mm deep and was thrown back, and columns rocked on
-// for ever at 0.3 m/s; with 0.1 one heap of 50 did.
-CONSTANT float KEPT_TILT = 0.0006f;
+// What tips over two of its four points falls upon a corner that was not chosen, and is thrown back: columns rocked on for ever.
+// So a contact is made anew in every step in which B turns so fast against A (rad/s; with 0.1, four heaps of 50 never came to
+// rest),
+CONSTANT float KEPT_SPIN = 0.05f;
+// and when it has turned so far (sine of half of 0.4 degrees). With less, columns whose choice of four points shifts them by more
+// than that hop between two choices; with degrees, a corner falls 17 mm deep.
+CONSTANT float KEPT_TILT = 0.0035f;
 
 // From the mark of a point on A to its mark on B, as the bodies lie now.
 LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
@@ -55,7 +58,8 @@ LAW bool is_kept(Contact contact, Impulse impulse, Traits ta, Pose a, Velocity v
     if (!turned_little(contact.turn_b, b.orientation, contact.count)) return false;
     vec4 since_a = turn_since(contact.turn_a, a.orientation), since_b = turn_since(contact.turn_b, b.orientation);
     vec3 tilt = xyz(since_a) - xyz(since_b);
-    if (dot3(tilt, tilt) > KEPT_TILT * KEPT_TILT) return false;
+    vec3 spin = vb.angular - va.angular;
+    if (dot3(tilt, tilt) > KEPT_TILT * KEPT_TILT || dot3(spin, spin) > KEPT_SPIN * KEPT_SPIN) return false;
     float size = smaller(thickness(ta), thickness(tb));
     float tolerance = KEPT_SLIP * size;
     float fastest = KEPT_SPEED * size;

@@ -31,7 +31,7 @@ vec4 about_x(double degrees) {
 }
 
 // A box of 1 m on another, touching at four corners, and how both have turned since.
-bool kept(vec4 turn_a, vec4 turn_b) {
+bool kept(vec4 turn_a, vec4 turn_b, vec3 spin_b = vec3(0)) {
     Contact contact{};
     contact.count = 4;
     contact.normal = vec3(0, 1, 0);
@@ -46,7 +46,10 @@ bool kept(vec4 turn_a, vec4 turn_b) {
     b.orientation = turn_b;
     // B goes with A's face.
     b.position = rotate(turn_a, vec3(0, 0.5f, 0)) + rotate(turn_b, vec3(0, 0.5f, 0));
-    return is_kept(contact, impulse, box(0.5f), a, Velocity{}, box(0.5f), b, Velocity{});
+    Velocity va{}, vb{};
+    vb.angular = spin_b;
+    vb.linear = cross3(spin_b, vec3(0, 0.5f, 0));  // about the middle of the contact
+    return is_kept(contact, impulse, box(0.5f), a, va, box(0.5f), b, vb);
 }
 
 Parameters relaxed() {
@@ -65,11 +68,13 @@ float counted(float crowd) {
 TEST_CASE("a contact is let go when a body tips against the other, not when both turn together") {
     const vec4 still(0, 0, 0, 1);
     CHECK(kept(still, still));
-    CHECK(kept(still, about_x(0.06)));
-    CHECK_FALSE(kept(still, about_x(0.08)));
-    CHECK_FALSE(kept(about_x(-0.08), still));
-    CHECK(kept(about_x(3), about_x(3.06)));
+    CHECK(kept(still, about_x(0.3)));
+    CHECK_FALSE(kept(still, about_x(0.5)));
+    CHECK_FALSE(kept(about_x(-0.5), still));
+    CHECK(kept(about_x(3), about_x(3.3)));
     CHECK_FALSE(kept(about_x(6), about_x(6)));
+    CHECK(kept(still, still, vec3(0.04f, 0, 0)));
+    CHECK_FALSE(kept(still, still, vec3(0.06f, 0, 0)));
 }
 
 TEST_CASE("a corner resists twisting as a patch of a hundredth of the body, a ball does not") {
