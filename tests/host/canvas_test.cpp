@@ -37,6 +37,15 @@ TEST_CASE("a body is drawn where it is and as large as it is", "[canvas]") {
     require_no_messages();
 }
 
+TEST_CASE("a body of a millimetre is seen from nearby", "[canvas]") {
+    Stage empty, stage;
+    stage.add(scree::physics::SHAPE_SPHERE, {0.001f, 0, 0}, {0, 2, 0});
+    Camera camera;
+    camera.target = {0, 2, 0};
+    camera.eye = {0, 2, 0.01f};
+    CHECK(differ(at(stage.picture(small(1), camera), 160, 100), at(empty.picture(small(1), camera), 160, 100)));
+}
+
 TEST_CASE("a turned capsule lies as it is turned", "[canvas]") {
     const float h = std::sqrt(0.5f);
     Stage empty, stage;
