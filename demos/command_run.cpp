@@ -91,13 +91,14 @@ bool simulate(const Options& options, const Subject& subject, World& world, Pict
     return !is_interrupted();
 }
 
-// A run that is held to no promise must be sound all the same.
-void hold_to_soundness(World& world, RunReport& report) {
+// A run that is held to no promise, or went on after it, must be sound all the same. Hands may throw from below the ground.
+void hold_to_soundness(bool played, World& world, RunReport& report) {
     report.statistics = world.statistics();
-    if (report.judged) return;
-    Trace sound;
-    sound.statistics = report.statistics;
-    report.rows = judge(soundness(), sound);
+    Trace trace;
+    trace.statistics = report.statistics;
+    for (Row& row : judge(played ? std::vector<Claim>{finite()} : soundness(), trace)) {
+        if (!report.judged || !row.pass) report.rows.push_back(std::move(row));
+    }
 }
 
 // A recording that was played to its end must end as it did.
@@ -166,7 +167,7 @@ int work(const Options& options, const Subject& subject, const Machine& machine,
     report.seconds_drawing = times.draw;
     report.seconds_waiting = times.encode_wait;
     measure(world, report);
-    hold_to_soundness(world, report);
+    hold_to_soundness(options.played.has_value(), world, report);
     hold_to_recording(options, report);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();

@@ -60,6 +60,17 @@ TEST_CASE("what was done after the last recorded step is part of the state at it
     REQUIRE(says(shorter.output, "\"bodies\": 12"));
 }
 
+TEST_CASE("a recording may leave a body below the ground, a scene may not") {
+    const Place place;
+    const std::string body = R"({"shape": {"sphere": {"radius": 0.3}}, "position": [9, -5, 0]})";
+    const std::string played = place.write(
+        "played.json", R"({"scree_input": 1, "scene": "stack", "steps": 3, "acts": [{"step": 1, "add": )" + body + "}]}");
+    REQUIRE(run_scree("run --quiet --backend cpu --input '" + played + "'").status == 0);
+    const std::string scene =
+        place.write("scene.json", R"({"bodies": [{"motion": "fixed", "shape": {"plane": {}}}, )" + body + "]}");
+    REQUIRE(run_scree("run --quiet --backend cpu --steps 2 '" + scene + "'").status == 1);
+}
+
 TEST_CASE("pictures of a recording show the bodies that were added, on either canvas") {
     const Place place;
     const std::string file = place.write("played.json", recording(""));

@@ -10,7 +10,7 @@ using scree::program::says;
 
 namespace {
 
-const std::string brief = "run rest --backend cpu --steps 1 --quiet --size 64x48 ";
+const std::string brief = "run rest --backend cpu --steps 1 --quiet ";
 
 void require_refused(const std::string& arguments, const std::vector<std::string>& words) {
     const Outcome outcome = run_scree(arguments);
@@ -37,6 +37,18 @@ TEST_CASE("program: a run that is refused replaces no earlier file", "[program][
     REQUIRE(std::distance(begin(files), end(files)) == 1);
 }
 
+TEST_CASE("program: a file that may not grow is a failure of the work, and nothing half written is left", "[program]") {
+    const Place place;
+    const std::string at = place.path().string();
+    for (const std::string output : {"--raw '" + at + "/raw'", "--frames '" + at + "/frames' --png-depth 16 --canvas vulkan"}) {
+        const Outcome outcome = run_scree(brief + "--size 640x360 " + output, "ulimit -f 8;");
+        INFO(output << "\n" << outcome.errors);
+        REQUIRE(outcome.status == 1);
+        REQUIRE(says(outcome.errors, "File too large"));
+    }
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(place.path())) REQUIRE(entry.is_directory());
+}
+
 TEST_CASE("program: outputs that contradict each other or say nothing are refused", "[program]") {
     const Place place;
     const std::string at = place.path().string();
@@ -48,7 +60,7 @@ TEST_CASE("program: outputs that contradict each other or say nothing are refuse
     for (const std::string option : {"--color speed", "--png-depth 16", "--no-legend", "--eye 1,2,3", "--camera fit"})
         require_refused("run rest --steps 1 " + option, {option.substr(0, option.find(' ')), "no pictures are asked for"});
     REQUIRE(std::filesystem::is_empty(place.path()));
-    REQUIRE(run_scree(brief + "--raw /dev/null --report /dev/null").status == 0);
+    REQUIRE(run_scree(brief + "--size 64x48 --raw /dev/null --report /dev/null").status == 0);
 }
 
 TEST_CASE("program: options that would change nothing are refused", "[program]") {
