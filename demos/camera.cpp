@@ -169,7 +169,7 @@ Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov,
     // it.
     float distance = 0;
     for (int round = 0; round < 8; ++round) {
-        distance = 0.1f;
+        distance = 1e-3f;
         for (const vec3& point : points) {
             const vec3 p = point - view.target;
             const float side = std::abs(glm::dot(p, right)) / (rise * aspect), height = std::abs(glm::dot(p, up)) / rise;

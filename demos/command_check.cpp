@@ -46,14 +46,26 @@ std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const M
     return outcomes;
 }
 
+// A word that is no demo's name and yet chooses some was perhaps mistyped.
+void note_beginning(const std::string& word) {
+    std::string found;
+    for (const Demo* demo : select_demos({word})) found += (found.empty() ? "" : ", ") + std::string(demo->name);
+    if (found != word) say("scree: \"{}\" is {}\n", word, found);
+}
+
 int check(const Options& options) {
     const std::vector<const Demo*> chosen = select_demos(options.names);
     if (options.list) {
+        if (!options.report.empty())
+            throw UsageError("--list and --report: with --list nothing runs, and there is nothing to report");
         fmt::print("{}", promises_of(chosen));
         return done;
     }
     require_writable_file("--report", options.report);
     const Machine machine = choose_machine(options.machine);
+    if (!options.quiet) {
+        for (const std::string& word : options.names) note_beginning(word);
+    }
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     const std::vector<Outcome> outcomes = outcomes_of(chosen, machine, options.quiet);
     machine.require_valid();

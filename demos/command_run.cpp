@@ -64,28 +64,41 @@ void step_timed(const Subject& subject, World& world, Recorder* recorder, RunRep
     report.seconds_simulating += seconds;
 }
 
+// At the end of the time that the promise speaks of: what a longer run shows is no part of it.
+void hold_to_promise(const Subject& subject, const World& world, std::optional<Recorder>& recorder, RunReport& report) {
+    if (!recorder || world.time() < subject.seconds - 0.5 / static_cast<double>(world.settings().rate)) return;
+    report.rows = subject.promise->judge(recorder->finish());
+    report.judged = true;
+    recorder.reset();
+}
+
 // False if the user wished to end.
-bool simulate(const Options& options, const Subject& subject, World& world, Pictures* pictures, Recorder* recorder,
-              RunReport& report) {
+bool simulate(const Options& options, const Subject& subject, World& world, Pictures* pictures, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds);
+    std::optional<Recorder> recorder;
+    if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
     Progress progress(subject.name, steps, "steps", options.quiet);
     if (pictures) pictures->after_step();
     for (int i = 0; i < steps; ++i) {
         if (is_interrupted()) return false;
-        step_timed(subject, world, recorder, report);
+        step_timed(subject, world, recorder ? &*recorder : nullptr, report);
+        hold_to_promise(subject, world, recorder, report);
         if (pictures) pictures->after_step();
         progress.done(i + 1);
     }
+    // What was done after the last recorded step is part of the state that the recording ended in.
+    if (options.played && options.played->steps == world.steps()) subject.before_step(world);
     return !is_interrupted();
 }
 
-void hold_to_promise(const Subject& subject, World& world, Recorder* recorder, RunReport& report) {
+// A run that is held to no promise, or went on after it, must be sound all the same. Hands may throw from below the ground.
+void hold_to_soundness(bool played, World& world, RunReport& report) {
     report.statistics = world.statistics();
-    const bool long_enough = world.time() >= subject.seconds - 0.5 / static_cast<double>(world.settings().rate);
-    report.judged = recorder && long_enough;
-    Trace sound;
-    sound.statistics = report.statistics;
-    report.rows = report.judged ? subject.promise->judge(recorder->finish()) : judge(soundness(), sound);
+    Trace trace;
+    trace.statistics = report.statistics;
+    for (Row& row : judge(played ? std::vector<Claim>{finite()} : soundness(), trace)) {
+        if (!report.judged || !row.pass) report.rows.push_back(std::move(row));
+    }
 }
 
 // A recording that was played to its end must end as it did.
@@ -107,9 +120,9 @@ void conclude(const Options& options, const Subject& subject, const RunReport& r
                                 static_cast<double>(report.steps) / static_cast<double>(report.rate));
         }
         if (options.pictures.takes_output()) {
-            say("{}", text);
+            say("{}", printable(text));
         } else {
-            fmt::print("{}", text);
+            fmt::print("{}", printable(text));
         }
     }
     if (all_pass(report.rows) || !options.quiet) return;
@@ -144,11 +157,8 @@ void measure(World& world, RunReport& report) {
 
 int work(const Options& options, const Subject& subject, const Machine& machine, World& world, Pictures* pictures,
          RunReport& report) {
-    std::optional<Recorder> recorder;
-    if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
-    Recorder* const records = recorder ? &*recorder : nullptr;
     const auto start = std::chrono::steady_clock::now();
-    if (!simulate(options, subject, world, pictures, records, report)) return end_early(world, pictures);
+    if (!simulate(options, subject, world, pictures, report)) return end_early(world, pictures);
     if (pictures) pictures->finish();
     report.seconds_running = seconds_since(start);
     report.name = subject.name;
@@ -157,7 +167,7 @@ int work(const Options& options, const Subject& subject, const Machine& machine,
     report.seconds_drawing = times.draw;
     report.seconds_waiting = times.encode_wait;
     measure(world, report);
-    hold_to_promise(subject, world, records, report);
+    hold_to_soundness(options.played.has_value(), world, report);
     hold_to_recording(options, report);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();
@@ -197,6 +207,7 @@ int run(const Options& options) {
 }
 
 int run(const CLI::App& command, Options options) {
+    options.pictures.require_sense(command, options.report);
     if (!options.input.empty()) {
         options.played = load_input(options.input);
         options.scene = with_input(command, options.scene, *options.played, options.input);

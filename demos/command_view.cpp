@@ -15,6 +15,7 @@
 #include "demos/panel.h"
 #include "demos/pictures.h"
 #include "demos/report.h"
+#include "demos/words.h"
 #include "demos/writable.h"
 #include "host/file.h"
 #include "host/window.h"
@@ -142,9 +143,10 @@ void Viewer::draw() {
     drawing_->update();
     const Subject& subject = session_.subject();
     const World& world = session_.world();
-    const std::string caption = panel_.shown ? ""
-                                             : fmt::format("{}\n{} bodies, {:.2f} s{}", subject.name, world.scene().bodies.size(),
-                                                           world.time(), interaction_.paused ? ", paused" : "");
+    const std::string caption =
+        panel_.shown ? ""
+                     : fmt::format("{}\n{}, {:.2f} s{}", subject.name, counted(world.scene().bodies.size(), "body", "bodies"),
+                                   world.time(), interaction_.paused ? ", paused" : "");
     PictureOptions colors;
     colors.color = color_;
     const host::View view{camera_of(interaction_.eye()), scale_of(colors, subject, world.settings()), caption, subject.low,
@@ -226,15 +228,11 @@ std::unique_ptr<host::Display> open_display(const Options& options) {
 
 int view(Options options) {
     options.extent = extent_of(options.size);
-    if (!host::color_by_named(options.color)) {
-        std::string known;
-        for (const std::string& word : color_words()) known += (known.empty() ? "" : ", ") + word;
-        throw UsageError(fmt::format("--color: unknown value \"{}\"; known: {}", options.color, known));
-    }
     require_writable_file("--record", options.record);
     require_writable_file("--report", options.report);
     const std::unique_ptr<host::Display> display = open_display(options);
     const Machine machine = choose_machine(options.machine, display->extensions());
+    if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     {
         Viewer viewer(options, *display, machine);
         at_work([&] {
@@ -257,7 +255,9 @@ void add_view(CLI::App& program, int& status) {
     command->get_option("--seconds")->description("close the window after so many simulated seconds");
     add_options(*command, options->machine);
     command->add_option("--size", options->size, "of the window, WIDTHxHEIGHT (1280x720)")->group("Window");
-    command->add_option("--color", options->color, "what colour tells at first (the words: scree run --help)")->group("Window");
+    command->add_option("--color", options->color, "what colour tells at first (the words: scree run --help)")
+        ->check(one_of(color_words()))
+        ->group("Window");
     command
         ->add_option(
             "--record", options->record,

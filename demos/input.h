@@ -53,8 +53,8 @@ Input input_from_json(std::string_view text);
 // The input in a file. Throws UsageError naming the file, the place and the reason.
 Input load_input(const std::string& path);
 
-// The script that does what was recorded, after `first` (which may be empty). It throws UsageError, naming `path` and the place,
-// when an act does not fit the world.
+// The script that does what was recorded, after `first` (which may be empty); to be called after the last step, too. It throws
+// UsageError, naming `path` and the place, when an act does not fit the world.
 Script replay(Input input, std::string path, Script first);
 
 // What a session of these options records before anything was done.

@@ -44,6 +44,7 @@ void listen_for_interrupt() {
     struct sigaction ignore {};
     ignore.sa_handler = SIG_IGN;  // a pipe that breaks is an error of a write, not the end of the program
     sigaction(SIGPIPE, &ignore, nullptr);
+    sigaction(SIGXFSZ, &ignore, nullptr);  // and so is a file that has reached its limit
 }
 
 bool is_interrupted() {

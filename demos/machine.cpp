@@ -33,10 +33,14 @@ Machine choose_machine(const MachineOptions& options, const std::vector<const ch
         if (shows) machine.screen = open();
         return machine;
     }
+    if (options.backend == "vulkan" && options.threads > 0)
+        throw UsageError("--threads: the backend vulkan has none to choose; leave it out, or say --backend cpu");
     const bool insist = options.backend == "vulkan" || !options.device.empty() || options.validate || shows;
     try {
         machine.device = open();
         if (shows) machine.screen = machine.device;
+        if (options.threads > 0)
+            machine.remark = "--threads is for --backend cpu; simulating on " + machine.device->report().name;
     } catch (const host::DeviceError& error) {
         if (insist) throw;
         machine.remark = std::string("no Vulkan device (") + error.what() + "); simulating on the processor";

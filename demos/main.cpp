@@ -25,7 +25,7 @@ constexpr const char* examples = R"(Examples:
 Exit status: 0 done, 1 the work failed or missed its promise, 2 wrong usage or input, 130 interrupted.)";
 
 int tell(const std::string& message, int status = scree::demos::wrong_usage) {
-    scree::demos::say("scree: {}\n", message);
+    scree::demos::say("scree: {}\n", scree::demos::printable(message));
     return status;
 }
 

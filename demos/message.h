@@ -9,6 +9,16 @@
 
 namespace scree::demos {
 
+// The text with control characters, which may stand in names, written as \xNN: a terminal would obey them. Lines stay lines.
+inline std::string printable(const std::string& text) {
+    std::string shown;
+    for (const char c : text) {
+        const auto code = static_cast<unsigned char>(c);
+        shown += (code < 0x20 && c != '\n') || code == 0x7f ? fmt::format("\\x{:02x}", code) : std::string(1, c);
+    }
+    return shown;
+}
+
 // Unlike fmt::print, it does not throw where nobody can listen: the exit status still tells.
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> form, Arguments&&... arguments) {

@@ -68,7 +68,7 @@ void add_options(CLI::App& command, MachineOptions& options) {
         ->group("Where");
     command.add_option("--device", options.device, "the Vulkan device: its index or part of its name (see scree devices)")
         ->group("Where");
-    command.add_option("--threads", options.threads, "of the cpu backend; 0 is one a core")
+    command.add_option("--threads", options.threads, "of --backend cpu, and of no other; 0 is one a core")
         ->check(CLI::Range(0, 1024))
         ->group("Where");
     command.add_flag("--validate", options.validate, "check every Vulkan call with the validation layers (slow)")->group("Where");

@@ -63,6 +63,9 @@ struct PictureOptions {
 
     bool shows(const char* what) const { return std::find(show.begin(), show.end(), what) != show.end(); }
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }
+    // Throws UsageError for an output without a name, for pictures described that nobody takes, and for two outputs (`report`
+    // among them) in one file.
+    void require_sense(const CLI::App& command, const std::string& report) const;
     bool takes_output() const { return raw == "-"; }  // the standard output is for frames, and words go elsewhere
 };
 

@@ -2,7 +2,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <filesystem>
+#include <map>
 
+#include "demos/failure.h"
 #include "demos/options.h"
 #include "demos/pictures.h"
 #include "demos/words.h"
@@ -114,7 +117,35 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
         ->group(group);
 }
 
+std::string place_of(const std::string& file) {
+    std::error_code ignored;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
+    return std::filesystem::is_other(place) ? "" : place.string();  // /dev/null takes what comes
+}
+
 }  // namespace
+
+void PictureOptions::require_sense(const CLI::App& command, const std::string& report) const {
+    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--report"}) {
+        for (const std::string& name : command.get_option(option)->results())
+            if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
+    }
+    const std::pair<const char*, const std::string*> files[] = {
+        {"--video", &video}, {"--preview", &preview}, {"--raw", &raw}, {"--report", &report}};
+    std::map<std::string, const char*> taken;
+    for (const auto& [option, name] : files) {
+        const std::string place = name->empty() || *name == "-" ? "" : place_of(*name);
+        if (place.empty()) continue;
+        const auto [other, is_new] = taken.emplace(place, option);
+        if (!is_new) throw UsageError(fmt::format("{} and {}: both are {}; name another file", other->second, option, *name));
+    }
+    if (wanted()) return;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string& group = option->get_group();
+        if (option->count() == 0 || (group != "Pictures" && group != "Camera")) continue;
+        throw UsageError(option->get_name() + ": no pictures are asked for; add --frames, --video, --preview or --raw");
+    }
+}
 
 void add_options(CLI::App& command, PictureOptions& options) {
     add_outputs(command, options);

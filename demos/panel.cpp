@@ -56,7 +56,7 @@ void Panel::show_clock(Session& session, Interaction& interaction, const Rates& 
     if (ImGui::Button("Again")) interaction.reset();
     ImGui::SameLine();
     if (ImGui::Button("Next demo")) interaction.open_next(1);
-    ImGui::SliderFloat("pace", &interaction.pace, 1.0f / 16, 1, "%.3f x");
+    ImGui::SliderFloat("pace", &interaction.pace, 1.0f / 16, 1, "%.3f x", ImGuiSliderFlags_AlwaysClamp);
 }
 
 void Panel::show_dials(Session& session, Interaction& interaction) {

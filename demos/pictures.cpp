@@ -13,6 +13,7 @@
 #include "demos/color_range.h"
 #include "demos/drawing.h"
 #include "demos/failure.h"
+#include "demos/words.h"
 #include "host/canvas.h"
 #include "host/frame_writer.h"
 #include "shaders/physics/rest.h"
@@ -115,8 +116,9 @@ struct Pictures::Interior {
 
     std::string caption() const {
         if (!captioned) return "";
-        return fmt::format("{} · {:.2f} s\n{} bodies, {} contacts\n{}", name, world.time(), world.scene().bodies.size(),
-                           drawing->contacts(), world.runner().device());
+        return fmt::format("{} · {:.2f} s\n{}, {}\n{}", name, world.time(),
+                           counted(world.scene().bodies.size(), "body", "bodies"),
+                           counted(drawing->contacts(), "contact", "contacts"), world.runner().device());
     }
 };
 

@@ -66,11 +66,14 @@ std::vector<Row> Promise::judge(const Trace& trace) const {
     return rows;
 }
 
+Claim finite() {
+    return at_most("bodies that are not finite", 0, "", "position, orientation and velocity at the end",
+                   [](const Trace& trace) { return static_cast<double>(trace.statistics.not_finite); });
+}
+
 std::vector<Claim> soundness() {
-    return {at_most("bodies that are not finite", 0, "", "position, orientation and velocity at the end",
-                    [](const Trace& trace) { return static_cast<double>(trace.statistics.not_finite); }),
-            at_most("bodies below the ground", 0, "", "centres behind a plane of the scene at the end",
-                    [](const Trace& trace) { return static_cast<double>(trace.statistics.below_ground); })};
+    return {finite(), at_most("bodies below the ground", 0, "", "centres behind a plane of the scene at the end",
+                              [](const Trace& trace) { return static_cast<double>(trace.statistics.below_ground); })};
 }
 
 std::vector<Row> judge(const std::vector<Claim>& claims, const Trace& trace) {

@@ -114,7 +114,8 @@ private:
     std::vector<double> kept_;  // s
 };
 
-// What holds for any run: all bodies finite, none behind a plane.
+// What holds for any run: all bodies finite, none behind a plane (where hands did not put it).
+Claim finite();
 std::vector<Claim> soundness();
 std::vector<Row> judge(const std::vector<Claim>& claims, const Trace& trace);
 bool all_pass(const std::vector<Row>& rows);

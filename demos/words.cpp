@@ -50,6 +50,10 @@ std::pair<std::string, std::string> halves(const std::string& word, char mark, c
     return {word.substr(0, at), word.substr(at + 1)};
 }
 
+std::string counted(std::size_t count, const char* one, const char* many) {
+    return fmt::format("{} {}", count, count == 1 ? one : many);
+}
+
 CLI::Validator between(double low, double high) {
     return CLI::Validator(
         [low, high](std::string& word) {

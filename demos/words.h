@@ -18,6 +18,9 @@ glm::vec3 vector_of(const std::string& word, const char* option);
 // What stands before and after the mark.
 std::pair<std::string, std::string> halves(const std::string& word, char mark, const char* option, const char* form);
 
+// "1 body", "2 bodies"
+std::string counted(std::size_t count, const char* one, const char* many);
+
 // As CLI::Range, which lets NaN pass.
 CLI::Validator between(double low, double high);
 // One of some words, or a message that names the nearest.

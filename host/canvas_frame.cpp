@@ -74,13 +74,14 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
     const float aspect = width / height, distance = glm::length(look);
     // Half the picture's height: at 1 m, or everywhere.
     const float rise = camera.orthographic ? slope * distance : slope;
+    const float near_plane = std::min(camera.near_plane, 0.05f * distance);
     mat4 m(0);
     for (int k = 0; k < 3; ++k) {
         m[k][0] = axes.right[k] / (rise * aspect);
         m[k][1] = -axes.up[k] / rise;
         m[k][3] = camera.orthographic ? 0 : -axes.back[k];
     }
-    m[3][2] = camera.near_plane;
+    m[3][2] = near_plane;
     if (camera.orthographic) {
         // Depth falls from 1 to 0 over a stretch with the target in its middle; what lies farther before or behind is cut off.
         const float depth = 1 / (2 * ORTHOGRAPHIC_REACH * distance);
@@ -97,7 +98,7 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
             camera.orthographic ? vec4(sign * across, half) : vec4(glm::normalize(sign * across - half * axes.back), 0);
     }
     const vec3 corner = axes.up * rise - axes.right * (rise * aspect) - (camera.orthographic ? vec3(0) : axes.back);
-    frame.ray_corner = vec4(corner, camera.near_plane);
+    frame.ray_corner = vec4(corner, near_plane);
     frame.ray_right = vec4(axes.right * (2 * rise * aspect / width), width);
     frame.ray_down = vec4(axes.up * (-2 * rise / height), height);
     frame.pixel.x = 2 * rise / height;

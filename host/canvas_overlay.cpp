@@ -13,12 +13,12 @@ namespace {
 constexpr glm::vec3 INK{0.87f, 0.88f, 0.90f};
 constexpr glm::vec3 PANEL{0.012f, 0.014f, 0.020f};
 
-// Lengths in pixels for a picture of this height; at 720 the text is 19 high.
+// Lengths in pixels for a picture of this height; at 720 the text is 19 high, and it is never below 10.
 struct Measures {
     float unit, text, small, margin, padding, side;
     explicit Measures(int height)
-        : unit(static_cast<float>(height) / 720.0f),
-          text(std::max(10.0f, std::round(19 * unit))),
+        : unit(std::max(static_cast<float>(height) / 720.0f, 10.0f / 19)),
+          text(std::round(19 * unit)),
           small(std::max(9.0f, std::round(16 * unit))),
           margin(std::round(18 * unit)),
           padding(std::round(12 * unit)),
@@ -89,6 +89,24 @@ void add_caption(Sheet& sheet, int height, const std::string& caption) {
     }
 }
 
+// As many ticks as leave room between their labels on a bar of this length.
+std::vector<float> ticks_with_room(const ColorScale& scale, float length, float size) {
+    std::vector<float> ticks;
+    for (int most = 6; most > 1; --most) {
+        ticks = scale_ticks(scale.low, scale.high, scale.logarithmic, most);
+        float end = -length;
+        bool apart = true;
+        for (const float value : ticks) {
+            const float middle = scale_place(scale, value) * length;
+            const float half = 0.5f * text_width(tick_label(value, scale.logarithmic), size);
+            apart = apart && middle - half >= end;
+            end = middle + half + 0.3f * size;
+        }
+        if (apart) break;
+    }
+    return ticks;
+}
+
 void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
     const Measures m(height);
     const BarPlace place = legend_bar(width, height);
@@ -102,7 +120,7 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
     sheet.text(unit, right - text_width(unit, m.small), title_base, m.small, 0.75f);
     sheet.bar(left, top, right, bottom);
     const float thin = std::max(1.0f, std::round(m.unit));
-    for (const float value : scale_ticks(scale.low, scale.high, scale.logarithmic, 6)) {
+    for (const float value : ticks_with_room(scale, right - left, m.small)) {
         // The middle of the tick on the middle of the pixel that has the value's colour: the first has the scale's lowest.
         const float x = std::round(left + scale_place(scale, value) * (right - left - 1) - 0.5f * (thin - 1));
         sheet.panel(x, bottom, x + thin, bottom + std::round(5 * m.unit), 0, glm::vec4(INK, 0.8f));

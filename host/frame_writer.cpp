@@ -109,6 +109,14 @@ Clip clip_of(const std::filesystem::path& preview) {
     throw ImageError(preview.string() + ": a preview is a .gif or a .webp; name a file such as scree.gif");
 }
 
+// What ffmpeg makes is MP4 whatever the name says. What is no regular file is refused with that as the reason.
+void require_film(const std::filesystem::path& video) {
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(video, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return;
+    if (video.extension() != ".mp4") throw ImageError(video.string() + ": a video is an .mp4; name a file such as scree.mp4");
+}
+
 int encoders(int asked) {
     if (asked > 0) return asked;
     return std::thread::hardware_concurrency() > 4 ? 2 : 1;
@@ -143,6 +151,7 @@ struct FrameWriter::Interior {
 FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::make_unique<Interior>()) {
     Interior& in = *interior_;
     in.options = options;
+    if (!options.video.empty()) require_film(options.video);
     const Clip preview = options.preview.empty() ? Clip::gif : clip_of(options.preview);
     if (!options.folder.empty()) {
         require_writable_folder(options.folder);
@@ -167,6 +176,7 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
 }
 
 FrameWriter::~FrameWriter() {
+    if (interior_->frames == 0) return;  // nothing replaces what stood under the names
     try {
         finish();
     } catch (const std::exception&) {

@@ -24,9 +24,9 @@ struct FrameWriterOptions {
 class FrameWriter {
 public:
     // Makes the folder. Throws ImageError now for what can be known now: an unwritable place, frames that are there already,
-    // no ffmpeg, a preview of an unknown kind.
+    // no ffmpeg, a video or preview of an unknown kind.
     explicit FrameWriter(const FrameWriterOptions& options);
-    ~FrameWriter();  // finishes what waits, and stays silent about errors
+    ~FrameWriter();  // finishes what waits, and stays silent about errors; without a frame it leaves no file
     FrameWriter(const FrameWriter&) = delete;
     FrameWriter& operator=(const FrameWriter&) = delete;
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "host/canvas_meshes.h"
+#include "host/canvas_overlay.h"
 #include "host/glyphs.h"
 
 using namespace scree::host;
@@ -49,6 +50,32 @@ TEST_CASE("text is measured by its letters and broken UTF-8 does no harm", "[can
     CHECK(broken.empty());
     std::string_view omega = "ω";
     CHECK(take_code(omega) == 0x3C9);
+}
+
+TEST_CASE("the words of a legend lie beside each other on their panel", "[canvas]") {
+    const int height = GENERATE(120, 180, 360, 720, 2160);
+    ColorScale scale;
+    scale.by = GENERATE(ColorBy::momentum, ColorBy::contact_impulse);
+    scale.low = 0;
+    scale.high = GENERATE(1e-5f, 2000.0f, 2e4f, 2e13f);
+    scale.logarithmic = GENERATE(false, true);
+    if (scale.logarithmic) scale.low = scale.high / 1000;
+    CAPTURE(height, scale.high, scale.logarithmic);
+    const int width = height * 16 / 9;
+    const BarPlace bar = legend_bar(width, height);
+    std::vector<OverlayQuad> quads = overlay_quads(width, height, true, scale, "");
+    const float rim = 0.2f * std::max(9.0f, static_cast<float>(height) / 45);  // of a letter's rectangle, without ink
+    const glm::vec4 panel = quads.front().rectangle;
+    for (const bool below : {false, true}) {  // the ticks' labels, the title and the unit
+        float end = panel.x;
+        for (const OverlayQuad& quad : quads) {
+            if (quad.kind != OVERLAY_GLYPH || (quad.rectangle.y >= static_cast<float>(bar.bottom)) != below) continue;
+            CHECK(quad.rectangle.x >= end - rim);
+            end = quad.rectangle.z;
+        }
+        CHECK(end > panel.x);
+        CHECK(end <= panel.z + rim);
+    }
 }
 
 TEST_CASE("meshes of round bodies are closed", "[canvas]") {

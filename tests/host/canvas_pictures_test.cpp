@@ -290,17 +290,3 @@ TEST_CASE("what is not seen is not drawn, and what is far is drawn with fewer tr
     CHECK(around.picture(small(1, false), inside).rgba == ahead.picture(small(1, false), inside).rgba);
     require_no_messages();
 }
-
-TEST_CASE("a picture that was begun is that of its moment", "[canvas]") {
-    Stage stage, moved;
-    stage.add(scree::physics::SHAPE_SPHERE, vec3(1), {0, 2, 0});
-    moved.add(scree::physics::SHAPE_SPHERE, vec3(1), {2, 2, 0});
-    const auto canvas = stage.canvas(small(1));
-    const vec3 low(-4, 0, -4), high(4);
-    const Image before = canvas->draw(AHEAD, {}, "", low, high);
-    canvas->begin(AHEAD, {}, "", low, high);
-    CHECK(canvas->finish().rgba == before.rgba);
-    canvas->begin(AHEAD, {}, "", low, high);  // and is left alone
-    CHECK(moved.picture(small(1), AHEAD).rgba != before.rgba);
-    require_no_messages();
-}

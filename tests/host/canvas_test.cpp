@@ -37,6 +37,15 @@ TEST_CASE("a body is drawn where it is and as large as it is", "[canvas]") {
     require_no_messages();
 }
 
+TEST_CASE("a body of a millimetre is seen from nearby", "[canvas]") {
+    Stage empty, stage;
+    stage.add(scree::physics::SHAPE_SPHERE, {0.001f, 0, 0}, {0, 2, 0});
+    Camera camera;
+    camera.target = {0, 2, 0};
+    camera.eye = {0, 2, 0.01f};
+    CHECK(differ(at(stage.picture(small(1), camera), 160, 100), at(empty.picture(small(1), camera), 160, 100)));
+}
+
 TEST_CASE("a turned capsule lies as it is turned", "[canvas]") {
     const float h = std::sqrt(0.5f);
     Stage empty, stage;
@@ -204,6 +213,20 @@ TEST_CASE("a canvas follows buffers that were made anew", "[canvas]") {
     canvas->set_tables({&traits, &poses, &velocities});
     CHECK(canvas->draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4)).rgba == second.picture(small(1), AHEAD).rgba);
     CHECK(before.rgba != second.picture(small(1), AHEAD).rgba);
+}
+
+TEST_CASE("a picture that was begun is that of its moment", "[canvas]") {
+    Stage stage, moved;
+    stage.add(scree::physics::SHAPE_SPHERE, vec3(1), {0, 2, 0});
+    moved.add(scree::physics::SHAPE_SPHERE, vec3(1), {2, 2, 0});
+    const auto canvas = stage.canvas(small(1));
+    const vec3 low(-4, 0, -4), high(4);
+    const Image before = canvas->draw(AHEAD, {}, "", low, high);
+    canvas->begin(AHEAD, {}, "", low, high);
+    CHECK(canvas->finish().rgba == before.rgba);
+    canvas->begin(AHEAD, {}, "", low, high);  // and is left alone
+    CHECK(moved.picture(small(1), AHEAD).rgba != before.rgba);
+    require_no_messages();
 }
 
 TEST_CASE("a canvas refuses what it cannot draw", "[canvas]") {

@@ -47,6 +47,30 @@ TEST_CASE("a recording plays to the same state on both processors, and is held t
     REQUIRE(says(outcome.errors, "state hash at the end: promised 0123456789abcdef, as recorded, measured " + hash));
 }
 
+TEST_CASE("what was done after the last recorded step is part of the state at its end") {
+    const Place place;
+    std::string text = recording("");
+    text.replace(text.rfind("\n {\"step\": 15"), std::string::npos,
+                 R"({"step": 20, "add": {"shape": {"sphere": {"radius": 0.3}}, "position": [0, 9, 0]}}]})");
+    const std::string file = place.write("played.json", text);
+    const std::string run = "run --quiet --backend cpu --report - --input '" + file + "'";
+    const Outcome whole = run_scree(run), shorter = run_scree(run + " --steps 19");
+    INFO(whole.errors);
+    REQUIRE(says(whole.output, "\"bodies\": 13"));
+    REQUIRE(says(shorter.output, "\"bodies\": 12"));
+}
+
+TEST_CASE("a recording may leave a body below the ground, a scene may not") {
+    const Place place;
+    const std::string body = R"({"shape": {"sphere": {"radius": 0.3}}, "position": [9, -5, 0]})";
+    const std::string played = place.write(
+        "played.json", R"({"scree_input": 1, "scene": "stack", "steps": 3, "acts": [{"step": 1, "add": )" + body + "}]}");
+    REQUIRE(run_scree("run --quiet --backend cpu --input '" + played + "'").status == 0);
+    const std::string scene =
+        place.write("scene.json", R"({"bodies": [{"motion": "fixed", "shape": {"plane": {}}}, )" + body + "]}");
+    REQUIRE(run_scree("run --quiet --backend cpu --steps 2 '" + scene + "'").status == 1);
+}
+
 TEST_CASE("pictures of a recording show the bodies that were added, on either canvas") {
     const Place place;
     const std::string file = place.write("played.json", recording(""));

@@ -53,6 +53,7 @@ std::uint64_t replayed(const Input& input, const SceneOptions& options) {
         script(world);
         world.step();
     }
+    script(world);
     return world.state_hash();
 }
 
@@ -95,6 +96,15 @@ TEST_CASE("of the places that a body is drawn to before one step only the last i
     REQUIRE(input.acts.size() == 3);
     REQUIRE(std::get<Drag>(input.acts[1].act).target.y == 9);
     REQUIRE(input.acts[2].step == 1);
+}
+
+TEST_CASE("what was done after the last step is done again") {
+    Session session(options_of("stack"), on_cpu);
+    session.step();
+    const std::uint64_t before = session.world().state_hash();
+    session.perform(Add{});
+    REQUIRE(session.world().state_hash() != before);
+    REQUIRE(replayed(session.input(), session.options()) == session.world().state_hash());
 }
 
 TEST_CASE("an act that the world refuses is not recorded") {
