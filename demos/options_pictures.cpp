@@ -175,7 +175,8 @@ void add_options(CLI::App& command, PictureOptions& options) {
             "--show", options.show,
             "what else to draw, a list parted by commas: contacts (their points, and along the normal how hard they push), "
             "velocities "
-            "(arrows, the way in 0.2 s), boxes (bounds over the next step), cells (of the broadphase's grid, where bodies are), "
+            "(arrows, the way in 0.2 s), boxes (bounds over the next step), cells (of the broadphase's grid, where bodies are; "
+            "both from the first step on), "
             "sleep (sleepers dull and blue)")
         ->check(one_of({"contacts", "velocities", "boxes", "cells", "sleep"}))
         ->delimiter(',')

@@ -125,8 +125,9 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
         const float x = std::round(left + scale_place(scale, value) * (right - left - 1) - 0.5f * (thin - 1));
         sheet.panel(x, bottom, x + thin, bottom + std::round(5 * m.unit), 0, glm::vec4(INK, 0.8f));
         const std::string label = tick_label(value, scale.logarithmic);
-        sheet.text(label, x + 0.5f * thin - 0.5f * text_width(label, m.small), bottom + std::round(5 * m.unit + 1.0f * m.small),
-                   m.small);
+        // Below its tick, but on the panel.
+        const float wide = text_width(label, m.small), outmost = right + m.padding + m.side - wide;
+        sheet.text(label, std::min(x + 0.5f * (thin - wide), outmost), bottom + std::round(5 * m.unit + 1.0f * m.small), m.small);
     }
 }
 

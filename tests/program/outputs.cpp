@@ -40,7 +40,7 @@ TEST_CASE("program: a run that is refused replaces no earlier file", "[program][
 TEST_CASE("program: a file that may not grow is a failure of the work, and nothing half written is left", "[program]") {
     const Place place;
     const std::string at = place.path().string();
-    for (const std::string output : {"--raw '" + at + "/raw'", "--frames '" + at + "/frames' --png-depth 16 --canvas vulkan"}) {
+    for (const std::string& output : {"--raw '" + at + "/raw'", "--frames '" + at + "/frames' --png-depth 16 --canvas vulkan"}) {
         const Outcome outcome = run_scree(brief + "--size 640x360 " + output, "ulimit -f 8;");
         INFO(output << "\n" << outcome.errors);
         REQUIRE(outcome.status == 1);
