@@ -267,7 +267,7 @@ void DeviceRunner::fetch() {
     fetch_bodies();
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
-        if (table_infos()[i].length == Length::blocks || table == Table::parameters || table == Table::actions) continue;
+        if (table_infos()[i].length == Length::candidates || table == Table::parameters || table == Table::actions) continue;
         if (table == Table::contacts_before || table == Table::impulses_before) {
             state_->make(table);
             read(table, state_->raw(table));

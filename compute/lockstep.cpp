@@ -28,9 +28,9 @@ std::string words_of(const std::byte* cpu, const std::byte* device, std::size_t 
 }
 
 // The first record of the table in which the device differs from the state, into the result.
-bool table_equal(const State& state, const DeviceRunner& device, Table table, LockstepResult& result) {
+bool table_equal(const State& state, const DeviceRunner& device, const Stage& stage, Table table, LockstepResult& result) {
     const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    const auto expected = state.raw(table).first(state.live(info.length) * info.record_bytes);
+    const auto expected = state.raw(table).first(state.live(stage.as_long_as.value_or(info.length)) * info.record_bytes);
     if (expected.empty()) return true;
     std::vector<std::byte> found(expected.size());
     device.read(table, found);
@@ -70,7 +70,7 @@ struct Lockstep::Interior {
         result.stage = stage.name;
         // After an overflow nobody writes anything but the counts.
         return std::all_of(stage.writes.begin(), stage.writes.end(), [&](Table table) {
-            return (state.counted().overflow != 0 && table != Table::counts) || table_equal(state, there, table, result);
+            return (state.counted().overflow != 0 && table != Table::counts) || table_equal(state, there, stage, table, result);
         });
     }
 

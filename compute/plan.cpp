@@ -30,7 +30,7 @@ std::vector<Stage> plan(int substeps) {
     // what pushes the bodies, where they will be
     s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, rests, counts}});
     s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads, rests}});
-    s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts, flights}});
+    s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts}});
     // broadphase: who is near whom
     scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
     s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
@@ -40,14 +40,15 @@ std::vector<Stage> plan(int substeps) {
     s.push_back({"fill_pairs", Over::bodies, fill_pairs, {}});
     s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});
     // narrowphase: who touches whom, and where
-    s.push_back({"count_kinds", Over::spans, count_kinds, {kind_starts}});
-    scan(s, "kinds", Over::kind_blocks, kind_starts, scan_nothing, scan_kinds_offsets);
+    s.push_back({"count_kinds", Over::spans, count_kinds, {contact_starts}, 0, true, Length::kinds});
+    scan(s, "kinds", Over::kind_blocks, contact_starts, scan_nothing, scan_kinds_offsets);
+    s.back().as_long_as = Length::kinds;
     s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
     for (std::uint32_t kind = 0; kind < std::size(kind_names); ++kind)
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
     s.push_back({"collide_kept", Over::kind, collide_kept, {}, physics::KIND_KEPT, /* feeds_next */ false});
     s.push_back({"collide_still", Over::kind, collide_still, {manifolds, touching}, physics::KIND_STILL});
-    s.push_back({"foresee_impacts", Over::flights, foresee_impacts, {touching, flights}});
+    s.push_back({"foresee_impacts", Over::flights, foresee_impacts, {touching, bounds}});
     s.push_back({"drop_passers", Over::flights, drop_passers, {touching}});
     // contacts: who touches
     scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
@@ -71,10 +72,10 @@ std::vector<Stage> plan(int substeps) {
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
         s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});
     }
-    s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, flights, counts}});
+    s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, bounds, counts}});
     // what is fast stops before it passes through something
     for (std::uint32_t round = 0; round < physics::FLIGHT_ROUNDS; ++round)
-        s.push_back({"find_impacts", Over::flights, find_impacts, {flights}, round});
+        s.push_back({"find_impacts", Over::flights, find_impacts, {bounds}, round});
     s.push_back({"stop_bodies", Over::bodies, stop_bodies, {poses, velocities}});
     return s;
 }

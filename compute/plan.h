@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,9 +35,10 @@ struct Stage {
     std::string name;  // of the shader, and of the time measured
     Over over;
     void (*reference)(State&, const Threads&, std::uint32_t pass);
-    std::vector<Table> writes;  // what a comparison of two runners looks at afterwards
-    std::uint32_t pass = 0;     // told to the stage; for Over::kind which kind
-    bool feeds_next = true;     // a barrier follows
+    std::vector<Table> writes;              // what a comparison of two runners looks at afterwards
+    std::uint32_t pass = 0;                 // told to the stage; for Over::kind which kind
+    bool feeds_next = true;                 // a barrier follows
+    std::optional<Length> as_long_as = {};  // what was written, if it is not what the table ends up with
 };
 
 // The stages of one step. Both texts of a stage bear its name: shaders/stages/<name>.comp and a function in compute/reference/.

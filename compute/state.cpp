@@ -206,16 +206,17 @@ std::size_t State::allocated(Length length) const {
             return p.buckets + 2;
         case Length::pairs:
             return p.pair_capacity;
-        case Length::pairs_and_end:
-            return p.pair_capacity + 1;
+        case Length::pairs_and_end:  // or, before there are contacts, the kinds
+            return std::max(kinds, std::size_t{p.pair_capacity} + 1);
         case Length::kinds:
             return kinds;
+        case Length::candidates:  // or blocks of a scan
+            return std::max(std::size_t{p.pair_capacity},
+                            std::max({kinds, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2);
         case Length::contacts:
             return p.contact_capacity;
         case Length::slots:
             return 2 * std::size_t{p.contact_capacity};
-        case Length::blocks:
-            return std::max({kinds, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2;
     }
     return 0;
 }
@@ -235,8 +236,8 @@ std::size_t State::live(Length length) const {
             return c.contacts;
         case Length::slots:
             return fixed().bodies ? slot_ends[fixed().bodies - 1] : 0;
-        case Length::blocks:
-            return 0;  // scratch of the device's scans
+        case Length::candidates:
+            return 0;  // dead when the pairs are in order
         default:
             return allocated(length);
     }

@@ -77,7 +77,6 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         const physics::Traits& traits = state.traits[i];
         physics::Bounds& bounds = state.bounds[i];
         bounds = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.loads[i], state.fixed());
-        state.flights[i] = physics::flight_of(state.poses[i]);
         if (physics::will_be_fast(traits, state.velocities[i], state.fixed())) note(counts.fast, 1u);
         state.masses[i] = physics::mass_in_world(traits, state.poses[i].orientation, state.masses[i].split);
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
@@ -143,7 +142,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         const float pace = physics::pace_of(traits, velocity, state.fixed());
         state.rests[i] = physics::rest_after(state.rests[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);
         if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
-        physics::Flight& flight = state.flights[i];
+        physics::Flight& flight = state.bounds[i].flight;
         if (!physics::was_fast(traits, flight, state.poses[i])) return;
         flight = physics::stopped_at(flight, physics::seen_part(traits, flight, state.poses[i], state.bounds[i]));
         any_fast.store(true, std::memory_order_relaxed);

@@ -19,7 +19,7 @@ void lower(physics::uint& bits, physics::uint to) {
 }
 
 physics::Course course(const State& state, std::uint32_t body, float until) {
-    const physics::Flight& flight = state.flights[body];
+    const physics::Flight& flight = state.bounds[body].flight;
     return physics::course_of(state.traits[body], flight.position, flight.orientation, state.poses[body], until);
 }
 
@@ -43,7 +43,7 @@ void foresee_impacts(State& state, const Threads& threads, std::uint32_t) {
             state.touching[i] |= physics::DOUBTFUL;
         } else if (physics::is_blow(manifold.normal, state.velocities[a], state.velocities[b], p)) {
             for (const std::uint32_t body : {a, b})
-                std::atomic_ref(state.flights[body].struck).store(1, std::memory_order_relaxed);
+                std::atomic_ref(state.bounds[body].flight.struck).store(1, std::memory_order_relaxed);
         }
     });
 }
@@ -53,7 +53,7 @@ void drop_passers(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         physics::uint& points = state.touching[i];
         if (points < physics::DOUBTFUL) return;
-        const bool foreseen = !state.flights[state.pairs[i].a].struck && !state.flights[state.pairs[i].b].struck;
+        const bool foreseen = !state.bounds[state.pairs[i].a].flight.struck && !state.bounds[state.pairs[i].b].flight.struck;
         points = foreseen ? 0 : points - physics::DOUBTFUL;
     });
 }
@@ -65,7 +65,7 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         const std::uint32_t bodies[2] = {state.pairs[i].a, state.pairs[i].b};
         float stops[2];
         for (int side = 0; side < 2; ++side) {
-            physics::Flight& flight = state.flights[bodies[side]];
+            physics::Flight& flight = state.bounds[bodies[side]].flight;
             stops[side] = physics::uintBitsToFloat(flight.stops[now]);
             if (round > 0) lower(flight.stops[next], flight.stops[now]);
         }
@@ -75,17 +75,17 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
             ta, course(state, bodies[0], stops[0]), tb, course(state, bodies[1], stops[1]),
             physics::limits_of(ta, tb, physics::hold_of(state.touching[i], stops[0], stops[1]), state.fixed()), false);
         for (int side = 0; side < 2; ++side)
-            if (stops[side] <= 1) lower(state.flights[bodies[side]].stops[next], physics::floatBitsToUint(impact.fraction));
+            if (stops[side] <= 1) lower(state.bounds[bodies[side]].flight.stops[next], physics::floatBitsToUint(impact.fraction));
     });
 }
 
 void stop_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const float stop = physics::stop_of(state.flights[i]);
+        const float stop = physics::stop_of(state.bounds[i].flight);
         if (stop >= 1) return;
         const physics::Halted after =
-            physics::halted(state.flights[i], state.poses[i], state.velocities[i], state.loads[i], stop);
+            physics::halted(state.bounds[i].flight, state.poses[i], state.velocities[i], state.loads[i], stop);
         state.poses[i] = after.pose;
         state.velocities[i] = after.velocity;
     });

@@ -38,7 +38,7 @@ void count_kinds(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(spans, [&](std::size_t i) {
         const auto pairs = span_of(state, i);
         for (std::size_t kind = 0; kind < physics::KINDS; ++kind)
-            state.kind_starts[kind * spans + i] = static_cast<physics::uint>(
+            state.contact_starts[kind * spans + i] = static_cast<physics::uint>(
                 std::count_if(pairs.begin(), pairs.end(), [&](const physics::Pair& pair) { return pair.kind == kind; }));
     });
 }
@@ -48,13 +48,13 @@ void fill_kinds(State& state, const Threads& threads, std::uint32_t) {
     if (spans == 0) return;
     threads.for_each(spans, [&](std::size_t i) {
         std::array<physics::uint, physics::KINDS> next;
-        for (std::size_t kind = 0; kind < next.size(); ++kind) next[kind] = state.kind_starts[kind * spans + i];
+        for (std::size_t kind = 0; kind < next.size(); ++kind) next[kind] = state.contact_starts[kind * spans + i];
         std::size_t pair = i * physics::SPAN;
         for (const physics::Pair& p : span_of(state, i)) state.binned[next[p.kind]++] = static_cast<physics::uint>(pair++);
     });
     for (physics::uint kind = 0; kind < physics::KINDS; ++kind)
-        state.counted() = physics::with_kinds(state.counted(), kind, state.kind_starts[kind * spans],
-                                              state.kind_starts[(kind + 1) * spans], state.fixed());
+        state.counted() = physics::with_kinds(state.counted(), kind, state.contact_starts[kind * spans],
+                                              state.contact_starts[(kind + 1) * spans], state.fixed());
 }
 
 void collide(State& state, const Threads& threads, std::uint32_t kind) {

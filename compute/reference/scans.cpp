@@ -32,7 +32,7 @@ void scan_pairs_offsets(State& state, const Threads&, std::uint32_t) {
 }
 
 void scan_kinds_offsets(State& state, const Threads&, std::uint32_t) {
-    scan_in_place(state.kind_starts, physics::KINDS * physics::spans_of(state.counted().pairs));
+    scan_in_place(state.contact_starts, physics::KINDS * physics::spans_of(state.counted().pairs));
 }
 
 void scan_contacts_spine(State& state, const Threads&, std::uint32_t) {

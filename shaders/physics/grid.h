@@ -88,6 +88,7 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Par
     }
     bounds.level = 0u;
     bounds.bucket = parameters.buckets;
+    bounds.flight = flight_of(pose);
     if (traits.large == 0u) {
         vec3 extent = bounds.upper - bounds.lower;
         bounds.level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);

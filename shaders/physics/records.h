@@ -109,12 +109,24 @@ struct Touch {
     uint pad0, pad1, pad2;
 };
 
+// ---- fast bodies
+struct Flight {     // of a body through the step
+    vec3 position;  // at the start, m
+    float pad0;
+    vec4 orientation;  // at the start
+    uint stops[2];     // bits of the fraction of the step at which it is stopped; NEVER for a body that is not. Rounds of search
+                       // read one of them and write the other
+    uint struck;       // 1: something will strike it in this step and change its course
+    uint pad1;
+};
+
 // ---- who is near whom
 struct Bounds {   // of a body over the coming step, with its margin
     vec3 lower;   // m
     uint level;   // of the grid; cells of level l are cell * 2^l wide; with STILL (grid.h)
     vec3 upper;   // m
     uint bucket;  // of its centre's cell; the last one for a large body
+    Flight flight;
 };
 struct CellEntry {  // the same, in the order of buckets, then of bodies
     vec3 lower;     // m
@@ -184,17 +196,6 @@ struct Slot {       // what one contact did to one body; a body sums its slots i
     float carries;  // 1: the contact pushes, or will in the next substep; it counts in the split
     vec3 angular;   // rad/s
     float told;     // the normal impulse, N s; in the last pass what the other body tells of its rest (rest.h), steps
-};
-
-// ---- fast bodies
-struct Flight {     // of a body through the step
-    vec3 position;  // at the start, m
-    float pad0;
-    vec4 orientation;  // at the start
-    uint stops[2];     // bits of the fraction of the step at which it is stopped; NEVER for a body that is not. Rounds of search
-                       // read one of them and write the other
-    uint struck;       // 1: something will strike it in this step and change its course
-    uint pad1;
 };
 
 // ---- the step itself

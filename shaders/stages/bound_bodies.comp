@@ -14,7 +14,6 @@ void main() {
     Traits body = traits[i];
     Pose pose = poses[i];
     Bounds around = bounds_of(body, pose, velocities[i], loads[i], PARAMETERS);
-    flights[i] = flight_of(pose);
     if (will_be_fast(body, velocities[i], PARAMETERS)) atomicOr(COUNTS.fast, 1u);
     masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
     atomicAdd(cells[around.bucket], 1u);

@@ -12,5 +12,5 @@ void main() {
     for (uint k = 0u; k < KINDS; ++k) found[k] = 0u;
     uint last = min((i + 1u) * SPAN, COUNTS.pairs);
     for (uint pair = i * SPAN; pair < last; ++pair) ++found[pairs[pair].kind];
-    for (uint k = 0u; k < KINDS; ++k) kind_starts[k * spans + i] = found[k];
+    for (uint k = 0u; k < KINDS; ++k) contact_starts[k * spans + i] = found[k];
 }

@@ -8,6 +8,6 @@
 void main() {
     uint i = thread();
     if (i >= COUNTS.pairs || (touching[i] & DOUBTFUL) == 0u) return;
-    bool struck = (flights[pairs[i].a].struck | flights[pairs[i].b].struck) != 0u;
+    bool struck = (bounds[pairs[i].a].flight.struck | bounds[pairs[i].b].flight.struck) != 0u;
     touching[i] = struck ? touching[i] & ~DOUBTFUL : 0u;
 }

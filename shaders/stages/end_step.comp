@@ -29,9 +29,9 @@ void main() {
         velocity.angular = vec3(0.0f);
     }
     velocities[i] = velocity;
-    Flight flight = flights[i];
+    Flight flight = bounds[i].flight;
     if (!was_fast(body, flight, poses[i])) return;
-    flights[i] = stopped_at(flight, seen_part(body, flight, poses[i], bounds[i]));
+    bounds[i].flight = stopped_at(flight, seen_part(body, flight, poses[i], bounds[i]));
     atomicOr(COUNTS.fast, 1u);
     atomicMax(COUNTS.arguments[WORK_FLIGHTS].x, COUNTS.arguments[WORK_PAIRS].x);
     atomicMax(COUNTS.arguments[WORK_FLIGHTS].w, COUNTS.arguments[WORK_PAIRS].w);

@@ -11,19 +11,19 @@ void main() {
     if (i >= COUNTS.pairs) return;
     uint now = push.pass & 1u, next = now ^ 1u;
     uint a = pairs[i].a, b = pairs[i].b;
-    uint bits_a = flights[a].stops[now], bits_b = flights[b].stops[now];
+    uint bits_a = bounds[a].flight.stops[now], bits_b = bounds[b].flight.stops[now];
     float stop_a = uintBitsToFloat(bits_a), stop_b = uintBitsToFloat(bits_b);
     if (stop_a > 1.0f && stop_b > 1.0f) return;
     if (push.pass > 0u) {
-        atomicMin(flights[a].stops[next], bits_a);
-        atomicMin(flights[b].stops[next], bits_b);
+        atomicMin(bounds[a].flight.stops[next], bits_a);
+        atomicMin(bounds[b].flight.stops[next], bits_b);
         if (!(stop_a < 1.0f || stop_b < 1.0f)) return;
     }
     Traits ta = traits[a], tb = traits[b];
-    Course ca = course_of(ta, flights[a].position, flights[a].orientation, poses[a], stop_a);
-    Course cb = course_of(tb, flights[b].position, flights[b].orientation, poses[b], stop_b);
+    Course ca = course_of(ta, bounds[a].flight.position, bounds[a].flight.orientation, poses[a], stop_a);
+    Course cb = course_of(tb, bounds[b].flight.position, bounds[b].flight.orientation, poses[b], stop_b);
     float fraction =
         impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(touching[i], stop_a, stop_b), PARAMETERS), false).fraction;
-    if (stop_a <= 1.0f) atomicMin(flights[a].stops[next], floatBitsToUint(fraction));
-    if (stop_b <= 1.0f) atomicMin(flights[b].stops[next], floatBitsToUint(fraction));
+    if (stop_a <= 1.0f) atomicMin(bounds[a].flight.stops[next], floatBitsToUint(fraction));
+    if (stop_b <= 1.0f) atomicMin(bounds[b].flight.stops[next], floatBitsToUint(fraction));
 }

@@ -18,7 +18,7 @@ void main() {
         !will_meet(normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS)) {
         touching[i] = touching[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
-        atomicOr(flights[a].struck, 1u);
-        atomicOr(flights[b].struck, 1u);
+        atomicOr(bounds[a].flight.struck, 1u);
+        atomicOr(bounds[b].flight.struck, 1u);
     }
 }

@@ -20,8 +20,8 @@
 #define SCAN_TOTAL(total) COUNTS = with_pairs(COUNTS, total, PARAMETERS)
 #elif defined(SCAN_KINDS)
 #define SCAN_ITEMS_OF (KINDS * spans_of(COUNTS.pairs))
-#define SCAN_READ(i) kind_starts[i]
-#define SCAN_WRITE(i, sum) kind_starts[i] = sum
+#define SCAN_READ(i) contact_starts[i]
+#define SCAN_WRITE(i, sum) contact_starts[i] = sum
 #define SCAN_TOTAL(total)
 #elif defined(SCAN_CONTACTS)
 #define SCAN_ITEMS_OF COUNTS.pairs

@@ -8,9 +8,9 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.fast == 0u) return;
-    float stop = stop_of(flights[i]);
+    float stop = stop_of(bounds[i].flight);
     if (stop >= 1.0f) return;
-    Halted after = halted(flights[i], poses[i], velocities[i], loads[i], stop);
+    Halted after = halted(bounds[i].flight, poses[i], velocities[i], loads[i], stop);
     poses[i] = after.pose;
     velocities[i] = after.velocity;
 }

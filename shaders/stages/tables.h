@@ -19,24 +19,21 @@
     X(10, cell_entries, CellEntriesTable, CellEntry, bodies)                                                                     \
     X(11, pair_starts, PairStartsTable, uint, bodies_and_end)                                                                    \
     X(12, pairs, PairsTable, Pair, pairs)                                                                                        \
-    X(13, kind_starts, KindStartsTable, uint, kinds)                                                                             \
-    X(14, binned, BinnedTable, uint, pairs) /* pairs by kind; later the contacts that the solver works on */                     \
-    X(15, manifolds, ManifoldsTable, Manifold, pairs)                                                                            \
-    X(16, touching, TouchingTable, uint, pairs) /* points of each pair's manifold */                                             \
-    X(17, contact_starts, ContactStartsTable, uint, pairs_and_end)                                                               \
-    X(18, contacts, ContactsTable, Contact, contacts)                                                                            \
-    X(19, contacts_before, ContactsBeforeTable, Contact, contacts)                                                               \
-    X(20, impulses, ImpulsesTable, Impulse, contacts)                                                                            \
-    X(21, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                                                               \
-    X(22, first_contacts, FirstContactsTable, uint, bodies_and_end) /* of those that a body owns */                              \
-    X(23, first_contacts_before, FirstContactsBeforeTable, uint, bodies_and_end)                                                 \
-    X(24, slot_ends, SlotEndsTable, uint, bodies_and_end) /* counted, scanned, and after filling the end of each body's slots */ \
-    X(25, slot_sides, SlotSidesTable, uint, slots)        /* which side of which contact owns a slot: 2 * contact + side */      \
-    X(26, constraints, ConstraintsTable, Constraint, contacts)                                                                   \
-    X(27, slots, SlotsTable, Slot, slots)                                                                                        \
-    X(28, block_sums, BlockSumsTable, uint, blocks)                                                                              \
-    X(29, candidates, CandidatesTable, Candidate, pairs) /* what each body found near it, in any order */                        \
-    X(30, flights, FlightsTable, Flight, bodies)                                                                                 \
-    X(31, rests, RestsTable, uint, bodies) /* how long each body has been quiet, and what woke it: rest.h */
+    X(13, binned, BinnedTable, uint, pairs) /* pairs by kind; later the contacts that the solver works on */                     \
+    X(14, manifolds, ManifoldsTable, Manifold, pairs)                                                                            \
+    X(15, touching, TouchingTable, uint, pairs)                    /* points of each pair's manifold */                          \
+    X(16, contact_starts, ContactStartsTable, uint, pairs_and_end) /* before: where the kinds of each span begin in `binned` */  \
+    X(17, contacts, ContactsTable, Contact, contacts)                                                                            \
+    X(18, contacts_before, ContactsBeforeTable, Contact, contacts)                                                               \
+    X(19, impulses, ImpulsesTable, Impulse, contacts)                                                                            \
+    X(20, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                                                               \
+    X(21, first_contacts, FirstContactsTable, uint, bodies_and_end) /* of those that a body owns */                              \
+    X(22, first_contacts_before, FirstContactsBeforeTable, uint, bodies_and_end)                                                 \
+    X(23, slot_ends, SlotEndsTable, uint, bodies_and_end) /* counted, scanned, and after filling the end of each body's slots */ \
+    X(24, slot_sides, SlotSidesTable, uint, slots)        /* which side of which contact owns a slot: 2 * contact + side */      \
+    X(25, constraints, ConstraintsTable, Constraint, contacts)                                                                   \
+    X(26, slots, SlotsTable, Slot, slots)                                                                                        \
+    X(27, candidates, CandidatesTable, Candidate, candidates) /* near each body, in any order; or a scan's sums */               \
+    X(28, rests, RestsTable, uint, bodies)                    /* how long each body has been quiet, and what woke it: rest.h */
 
 #endif

@@ -83,7 +83,7 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Bounds;
-            all["Bounds"] = {sizeof(R), {M(lower), M(level), M(upper), M(bucket)}};
+            all["Bounds"] = {sizeof(R), {M(lower), M(level), M(upper), M(bucket), M(flight)}};
         }
         {
             using R = CellEntry;

@@ -94,13 +94,13 @@ TEST_CASE("both processors stop fast bodies alike") {
         wall.position.x = 6;
         scene.bodies.push_back(wall);
         Lockstep lockstep(scene, {}, watched.device, 1);
-        std::vector<physics::Flight> flights(scene.bodies.size());
+        std::vector<physics::Bounds> bounds(scene.bodies.size());
         int stopped = 0;
         for (int step = 0; step < 30; ++step) {
             lockstep.step();
             require_equal(lockstep.result());
-            lockstep.device().read(Table::flights, std::as_writable_bytes(std::span(flights)));
-            for (const physics::Flight& flight : flights) stopped += physics::stop_of(flight) < 1;
+            lockstep.device().read(Table::bounds, std::as_writable_bytes(std::span(bounds)));
+            for (const physics::Bounds& around : bounds) stopped += physics::stop_of(around.flight) < 1;
         }
         REQUIRE(stopped > 50);
     }
