@@ -63,7 +63,7 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 void DeviceRunner::attach(State& state) {
     device_->wait_idle();
     state_ = &state;
-    if (planned_substeps_ != state.substeps) make_plan();
+    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex()) make_plan();
     make_buffers();
     upload();
     record();
@@ -71,7 +71,8 @@ void DeviceRunner::attach(State& state) {
 
 void DeviceRunner::make_plan() {
     planned_substeps_ = state_->substeps;
-    plan_ = plan(state_->substeps);
+    planned_convex_ = state_->has_convex();
+    plan_ = plan(planned_substeps_, planned_convex_);
     clock_ = StageClock(plan_);
     if (!layout_) {
         layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));
@@ -104,7 +105,7 @@ void DeviceRunner::upload() {
     using enum Table;
     parity_ = 0;
     const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests}) send(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls}) send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
     for (const Table table :
@@ -238,8 +239,8 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts,  traits,          poses,           velocities,           rests,
-                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
+    const auto lasting = {parameters, counts, traits,  poses,           velocities,      rests,
+                          hulls,      masses, actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;

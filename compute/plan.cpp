@@ -18,13 +18,14 @@ void scan(std::vector<Stage>& stages, const std::string& what, Over blocks, Tabl
     stages.push_back({"scan_" + what + "_offsets", blocks, offsets, {result}});
 }
 
-const char* const kind_names[] = {"sphere_sphere", "sphere_capsule", "sphere_box", "sphere_plane", "capsule_capsule",
-                                  "capsule_box",   "capsule_plane",  "box_box",    "box_plane"};
+const char* const kind_names[] = {"sphere_sphere",   "sphere_capsule", "sphere_box",    "sphere_plane",
+                                  "capsule_capsule", "capsule_box",    "capsule_plane", "box_box",
+                                  "box_plane",       "plane_convex",   "convex"};
 
 }  // namespace
 
 // clang-format off
-std::vector<Stage> plan(int substeps) {
+std::vector<Stage> plan(int substeps, bool convex) {
     using enum Table;
     std::vector<Stage> s;
     // what pushes the bodies, where they will be
@@ -44,7 +45,7 @@ std::vector<Stage> plan(int substeps) {
     scan(s, "kinds", Over::kind_blocks, contact_starts, scan_nothing, scan_kinds_offsets);
     s.back().as_long_as = Length::kinds;
     s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
-    for (std::uint32_t kind = 0; kind < std::size(kind_names); ++kind)
+    for (std::uint32_t kind = 0; kind < (convex ? std::size(kind_names) : physics::KIND_PLANE_CONVEX); ++kind)
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
     s.push_back({"collide_kept", Over::kind, collide_kept, {}, physics::KIND_KEPT, /* feeds_next */ false});
     s.push_back({"collide_still", Over::kind, collide_still, {manifolds, touching}, physics::KIND_STILL});

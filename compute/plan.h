@@ -42,6 +42,8 @@ struct Stage {
 };
 
 // The stages of one step. Both texts of a stage bear its name: shaders/stages/<name>.comp and a function in compute/reference/.
-std::vector<Stage> plan(int substeps);
+// `convex`: some body is a cylinder, cone or hull; else their collisions, which take seconds to compile on a processor, are left
+// out.
+std::vector<Stage> plan(int substeps, bool convex);
 
 }  // namespace scree

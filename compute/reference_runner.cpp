@@ -11,9 +11,10 @@ std::string ReferenceRunner::device() const {
 
 void ReferenceRunner::attach(State& state) {
     state_ = &state;
-    if (planned_substeps_ == state.substeps) return;
+    if (planned_substeps_ == state.substeps && planned_convex_ == state.has_convex()) return;
     planned_substeps_ = state.substeps;
-    plan_ = plan(state.substeps);
+    planned_convex_ = state.has_convex();
+    plan_ = plan(planned_substeps_, planned_convex_);
     clock_ = StageClock(plan_);
 }
 

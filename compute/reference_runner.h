@@ -32,6 +32,7 @@ private:
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     int planned_substeps_ = 0;
+    bool planned_convex_ = false;
     StageClock clock_;
 };
 

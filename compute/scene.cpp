@@ -1,10 +1,17 @@
 // What a scene may say: ranges, unit vectors, and the mass of each shape.
 #include "compute/scene.h"
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstring>
+#include <glm/gtc/quaternion.hpp>
+#include <map>
 #include <numbers>
 #include <utility>
+
+#include "compute/hull.h"
+#include "shaders/physics/hulls.h"
 
 namespace scree {
 
@@ -50,6 +57,7 @@ public:
         throw SceneError("/bodies/" + std::to_string(index_) + key,
                          reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
     }
+    std::string place() const { return "/bodies/" + std::to_string(index_); }
     void between(const char* key, float value, float low, float high, const char* unit) const {
         if (!(value >= low && value <= high)) refuse(key, out_of_range(value, low, high, unit));
     }
@@ -85,6 +93,15 @@ void examine_shape(const Examination& body, Shape& shape, Motion motion) {
         body.between("/shape/capsule/half_height", capsule->half_height, 0, largest_size, " m");
     } else if (auto* box = std::get_if<Box>(&shape)) {
         body.between("/shape/box/half_extents", box->half_extents, smallest_size, largest_size, " m");
+    } else if (auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        body.between("/shape/cylinder/radius", cylinder->radius, smallest_size, largest_size, " m");
+        body.between("/shape/cylinder/half_height", cylinder->half_height, smallest_size, largest_size, " m");
+    } else if (auto* cone = std::get_if<Cone>(&shape)) {
+        body.between("/shape/cone/radius", cone->radius, smallest_size, largest_size, " m");
+        body.between("/shape/cone/height", cone->height, smallest_size, largest_size, " m");
+    } else if (auto* hull = std::get_if<Hull>(&shape)) {
+        for (std::size_t k = 0; k < hull->points.size(); ++k)
+            body.between(("/shape/hull/points/" + std::to_string(k)).c_str(), hull->points[k], -largest_size, largest_size, " m");
     } else if (auto* plane = std::get_if<Plane>(&shape)) {
         body.make_unit("/shape/plane/normal", plane->normal, "it says which way the plane faces");
         body.between("/shape/plane/offset", plane->offset, -largest_position, largest_position, " m");
@@ -92,10 +109,69 @@ void examine_shape(const Examination& body, Shape& shape, Motion motion) {
     }
 }
 
-void examine(const Examination& body, Body& b) {
+// Hulls of a scene by their points: equal ones are made once.
+struct Hulls {
+    struct Made {
+        Hull hull;  // about its centre of mass, along its principal axes
+        dvec3 centre{0};
+        glm::dquat axes{1, 0, 0, 0};
+        bool simplified = false;
+    };
+    std::map<std::vector<float>, Made> made;
+
+    const Made& of(const std::vector<vec3>& points);
+};
+
+// What lies about its centre and along its axes already, to rounding, stays: checking twice changes no bit.
+const Hulls::Made& Hulls::of(const std::vector<vec3>& points) {
+    std::vector<float> key(points.size() * 3);
+    std::memcpy(key.data(), points.data(), key.size() * sizeof(float));
+    const auto [at, fresh] = made.try_emplace(std::move(key));
+    Made& one = at->second;
+    if (!fresh) return one;
+    try {
+        HullForm form = hull_form(points);
+        const glm::dmat3 axes = principal_axes(form.inertia);
+        const double size = std::cbrt(form.volume);
+        one.simplified = form.simplified;
+        one.hull.points = points;
+        if (form.simplified || axes != glm::dmat3(1) || glm::length(form.centre) > 1e-5 * size) {
+            one.centre = form.centre;
+            one.axes = glm::normalize(glm::quat_cast(axes));
+            one.hull.points.clear();
+            for (const dvec3& v : form.vertices) one.hull.points.push_back(vec3(glm::conjugate(one.axes) * (v - form.centre)));
+            form = hull_form(one.hull.points);
+        }
+        one.hull.form = std::make_shared<const HullForm>(std::move(form));
+    } catch (...) {
+        made.erase(at);
+        throw;
+    }
+    return one;
+}
+
+void examine_hull(const Examination& body, Body& b, Hull& hull, Hulls& hulls, std::vector<std::string>* notes) {
+    try {
+        const Hulls::Made& made = hulls.of(hull.points);
+        if (made.simplified && notes) {
+            notes->push_back(body.place() + "/shape/hull: simplified to " + std::to_string(physics::MOST_CORNERS) + " corners");
+        }
+        hull = made.hull;
+        if (made.centre == dvec3(0) && made.axes == glm::dquat(1, 0, 0, 0)) return;
+        const glm::dquat turn(b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z);
+        b.position = vec3(dvec3(b.position) + turn * made.centre);
+        const glm::dquat after = glm::normalize(turn * made.axes);
+        b.orientation = vec4(glm::dvec4(after.x, after.y, after.z, after.w));
+    } catch (const HullError& error) {
+        body.refuse("/shape/hull/points", error.what());
+    }
+}
+
+void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
     examine_shape(body, b.shape, b.motion);
     body.between("/position", b.position, -largest_position, largest_position, " m");
     body.make_unit("/orientation", b.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
+    if (auto* hull = std::get_if<Hull>(&b.shape)) examine_hull(body, b, *hull, hulls, notes);
     body.between("/velocity", b.velocity, -largest_velocity, largest_velocity, " m/s");
     body.between("/angular_velocity", b.angular_velocity, -largest_velocity, largest_velocity, " rad/s");
     body.between("/density", b.density, smallest_density, largest_density, " kg/m^3");
@@ -142,19 +218,39 @@ MassProperties of_capsule(double radius, double half_height, double density) {
     return {static_cast<float>(cylinder + caps), vec3(dvec3(across, along, across))};
 }
 
+MassProperties of_cylinder(double radius, double half_height, double density) {
+    const double mass = density * std::numbers::pi * radius * radius * 2 * half_height;
+    const double across = mass * (radius * radius / 4 + half_height * half_height / 3);
+    return {static_cast<float>(mass), vec3(dvec3(across, mass * radius * radius / 2, across))};
+}
+
+MassProperties of_cone(double radius, double height, double density) {
+    const double mass = density * std::numbers::pi * radius * radius * height / 3;
+    const double across = mass * (0.15 * radius * radius + 0.0375 * height * height);
+    return {static_cast<float>(mass), vec3(dvec3(across, mass * 0.3 * radius * radius, across))};
+}
+
+MassProperties of_hull(const Hull& hull, double density) {
+    const HullForm form = hull.form ? *hull.form : hull_form(hull.points);
+    const glm::dmat3 axes = principal_axes(form.inertia);
+    const glm::dmat3 principal = glm::transpose(axes) * form.inertia * axes;
+    return {static_cast<float>(form.volume * density), vec3(dvec3(principal[0][0], principal[1][1], principal[2][2]) * density)};
+}
+
 }  // namespace
 
 SceneError::SceneError(std::string place, const std::string& reason)
     : std::runtime_error(place.empty() ? reason : place + ": " + reason), pointer(std::move(place)) {}
 
-Scene checked(Scene scene) {
+Scene checked(Scene scene, std::vector<std::string>* notes) {
+    Hulls hulls;
     for (int i = 0; i < 3; ++i) {
         const float g = scene.gravity[i];
         if (g >= -largest_gravity && g <= largest_gravity) continue;
         throw SceneError("/gravity/" + std::to_string(i), out_of_range(g, -largest_gravity, largest_gravity, " m/s^2"));
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        examine(Examination(i, scene.bodies[i]), scene.bodies[i]);
+        examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
     }
     return scene;
 }
@@ -163,6 +259,10 @@ MassProperties mass_properties(const Shape& shape, float density) {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return of_sphere(sphere->radius, density);
     if (const auto* box = std::get_if<Box>(&shape)) return of_box(dvec3(box->half_extents), density);
     if (const auto* capsule = std::get_if<Capsule>(&shape)) return of_capsule(capsule->radius, capsule->half_height, density);
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape))
+        return of_cylinder(cylinder->radius, cylinder->half_height, density);
+    if (const auto* cone = std::get_if<Cone>(&shape)) return of_cone(cone->radius, cone->height, density);
+    if (const auto* hull = std::get_if<Hull>(&shape)) return of_hull(*hull, density);
     return {};
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glm/glm.hpp>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -26,7 +27,20 @@ struct Plane {             // infinite, solid behind the normal; fixed bodies on
     vec3 normal{0, 1, 0};  // normalised when the scene is checked
     float offset = 0;      // m, along the normal from the origin
 };
-using Shape = std::variant<Sphere, Capsule, Box, Plane>;
+struct Cylinder {              // along the body's y axis
+    float radius = 0.3f;       // m
+    float half_height = 0.3f;  // m
+};
+struct Cone {             // along the body's y axis, the apex up; its centre of mass is a quarter of its height above its base
+    float radius = 0.3f;  // of the base, m
+    float height = 0.6f;  // m
+};
+struct HullForm;                             // compute/hull.h
+struct Hull {                                // the convex hull of points
+    std::vector<vec3> points;                // m, at least 4, not in a plane; inner and repeated ones do not matter
+    std::shared_ptr<const HullForm> form{};  // made when the scene is checked
+};
+using Shape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull>;
 
 enum class Motion {
     dynamic,    // moved by forces and contacts
@@ -38,7 +52,8 @@ struct Body {
     std::string name;  // for messages; may be empty
     Motion motion = Motion::dynamic;
     Shape shape = Box{};
-    vec3 position{0};              // of the centre of mass, m
+    // Of the centre of mass, m; of a hull where its points' origin lies, until the scene is checked.
+    vec3 position{0};
     vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
     vec3 velocity{0};              // m/s, at most Settings::max_speed
     vec3 angular_velocity{0};      // rad/s, world axes
@@ -65,7 +80,10 @@ struct SceneError : std::runtime_error {
 // The scene with quaternions and normals of unit length. Throws SceneError, naming the body, for what is not finite, out of range
 // (sizes 1e-3 to 1e5 m, positions to 1e6 m, density 1e-3 to 1e6 kg/m^3, velocities to 1e4), or contradictory (a plane that
 // moves).
-Scene checked(Scene scene);
+// A hull is brought to its centre of mass and its principal axes of inertia: its points are moved, and the body's position and
+// orientation with them, so that every point stays where it is in the world. `notes`, if given, is told of hulls that had more
+// than 64 corners and were simplified.
+Scene checked(Scene scene, std::vector<std::string>* notes = nullptr);
 
 // kg and kg m^2 (principal, body frame) of a shape of a given density. A plane has neither: 0.
 struct MassProperties {

@@ -17,7 +17,7 @@ const Names scene_keys = {"gravity", "bodies", "joints", "camera"};
 const Names body_keys = {
     "name",    "motion",   "shape",       "position",           "orientation",    "velocity",        "angular_velocity",
     "density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale"};
-const Names shape_names = {"box", "capsule", "sphere", "plane"};
+const Names shape_names = {"box", "capsule", "cone", "cylinder", "hull", "sphere", "plane"};
 
 }  // namespace
 
@@ -30,6 +30,12 @@ static void read(const json& value, const Place& place, Motion& out) {
     const auto found = std::find(known.begin(), known.end(), word);
     if (found == known.end()) refuse(place, unknown("motion", word, known));
     out = static_cast<Motion>(found - known.begin());
+}
+
+static void read(const json& value, const Place& place, std::vector<vec3>& points) {
+    if (!value.is_array()) refuse(place, "must be an array of points [x, y, z], is " + kind(value));
+    points.resize(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) read(value[i], place / i, points[i]);
 }
 
 static void read(const json& value, const Place& place, Shape& out) {
@@ -53,6 +59,19 @@ static void read(const json& value, const Place& place, Shape& out) {
     } else if (name == "box") {
         only(sizes, inside, {"half_extents"});
         required(sizes, inside, "half_extents", out.emplace<Box>().half_extents);
+    } else if (name == "cylinder") {
+        only(sizes, inside, {"radius", "half_height"});
+        auto& cylinder = out.emplace<Cylinder>();
+        required(sizes, inside, "radius", cylinder.radius);
+        required(sizes, inside, "half_height", cylinder.half_height);
+    } else if (name == "cone") {
+        only(sizes, inside, {"radius", "height"});
+        auto& cone = out.emplace<Cone>();
+        required(sizes, inside, "radius", cone.radius);
+        required(sizes, inside, "height", cone.height);
+    } else if (name == "hull") {
+        only(sizes, inside, {"points"});
+        required(sizes, inside, "points", out.emplace<Hull>().points);
     } else {
         only(sizes, inside, {"normal", "offset"});
         auto& plane = out.emplace<Plane>();

@@ -82,6 +82,14 @@ void write(Text& text, const Shape& shape) {
         text << "{\"box\": {\"half_extents\": " << box->half_extents;
     } else if (const auto* plane = std::get_if<Plane>(&shape)) {
         text << "{\"plane\": {\"normal\": " << plane->normal << ", \"offset\": " << plane->offset;
+    } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        text << "{\"cylinder\": {\"radius\": " << cylinder->radius << ", \"half_height\": " << cylinder->half_height;
+    } else if (const auto* cone = std::get_if<Cone>(&shape)) {
+        text << "{\"cone\": {\"radius\": " << cone->radius << ", \"height\": " << cone->height;
+    } else if (const auto* hull = std::get_if<Hull>(&shape)) {
+        text << "{\"hull\": {\"points\": [";
+        for (std::size_t i = 0; i < hull->points.size(); ++i) text << (i == 0 ? "" : ", ") << hull->points[i];
+        text << "]";
     }
     text << "}}";
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "compute/hull.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/rest.h"
@@ -23,37 +24,44 @@ float width_of(const physics::Traits& traits) {
     const physics::vec3 size = traits.size;
     if (traits.shape == physics::SHAPE_SPHERE) return 2 * size.x;
     if (traits.shape == physics::SHAPE_CAPSULE) return 2 * (size.x + size.y);
+    if (traits.shape == physics::SHAPE_CONE) return std::max(2 * size.x, 1.5f * size.y);
     return 2 * std::max({size.x, size.y, size.z});
 }
 
-physics::Traits traits_of(const Body& body) {
-    physics::Traits traits{};
-    traits.motion = static_cast<physics::uint>(body.motion);
-    traits.shape = static_cast<physics::uint>(body.shape.index());
-    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) traits.size = vec3(sphere->radius, 0, 0);
-    if (const auto* capsule = std::get_if<Capsule>(&body.shape)) traits.size = vec3(capsule->radius, capsule->half_height, 0);
-    if (const auto* box = std::get_if<Box>(&body.shape)) traits.size = box->half_extents;
-    if (const auto* plane = std::get_if<Plane>(&body.shape)) traits.size = plane->normal;
-    if (body.motion == Motion::dynamic) {
-        const MassProperties properties = mass_properties(body.shape, body.density);
-        traits.inverse_mass = 1 / properties.mass;
-        traits.inverse_inertia = vec3(1 / properties.inertia.x, 1 / properties.inertia.y, 1 / properties.inertia.z);
+vec3 half_extents_of(const Hull& hull) {
+    vec3 half(0);
+    for (const glm::dvec3& v : hull.form->vertices) half = glm::max(half, glm::abs(vec3(v)));
+    return half;
+}
+
+physics::uvec4 record_of(vec3 v, float w) {
+    return {std::bit_cast<physics::uint>(v.x), std::bit_cast<physics::uint>(v.y), std::bit_cast<physics::uint>(v.z),
+            std::bit_cast<physics::uint>(w)};
+}
+// In the form of shaders/physics/hulls.h.
+std::vector<physics::uvec4> hull_records(const Hull& hull) {
+    const HullForm& form = *hull.form;
+    std::vector<physics::uvec4> records{{form.vertices.size(), form.faces.size(), 0, 0}};
+    for (const glm::dvec3& v : form.vertices) records.push_back(record_of(vec3(v), 0));
+    for (const HullForm::Face& face : form.faces)
+        records.push_back(record_of(vec3(face.normal), static_cast<float>(face.distance)));
+    std::vector<std::uint32_t> corners;
+    for (const HullForm::Face& face : form.faces) {
+        records.emplace_back(corners.size(), face.corners.size(), 0, 0);
+        corners.insert(corners.end(), face.corners.begin(), face.corners.end());
     }
-    traits.friction = body.friction;
-    traits.restitution = body.restitution;
-    traits.rolling_resistance = body.rolling_resistance;
-    traits.gravity_scale = body.gravity_scale;
-    traits.linear_damping = body.linear_damping;
-    traits.angular_damping = body.angular_damping;
-    traits.large = traits.shape == physics::SHAPE_PLANE ? 1 : 0;
-    return traits;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        if (k % 16 == 0) records.emplace_back(0);
+        records.back()[static_cast<int>(k / 4 % 4)] |= corners[k] << (8 * (k % 4));
+    }
+    return records;
 }
 
 // The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.
 float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
     std::vector<float> widths;
     for (const physics::Traits& body : traits)
-        if (!body.large && body.motion == physics::MOTION_DYNAMIC) widths.push_back(width_of(body));
+        if (!physics::is_large(body) && body.motion == physics::MOTION_DYNAMIC) widths.push_back(width_of(body));
     if (widths.empty()) return 1;
     const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
     std::nth_element(widths.begin(), tenth, widths.end());
@@ -65,13 +73,13 @@ void mark_large(std::vector<physics::Traits>& traits, float cell) {
     std::array<std::size_t, physics::LEVELS> population{};
     const auto level = [&](const physics::Traits& body) { return physics::level_of(width_of(body), 1 / cell); };
     for (const physics::Traits& body : traits)
-        if (!body.large) ++population[level(body)];
+        if (!physics::is_large(body)) ++population[level(body)];
     std::size_t room = most_large;
     for (std::size_t l = population.size(); l-- > 0;) {
         if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
         room -= population[l];
         for (physics::Traits& body : traits)
-            if (!body.large && level(body) == l) body.large = 1;
+            if (!physics::is_large(body) && level(body) == l) body.large |= 1;
     }
 }
 
@@ -138,6 +146,49 @@ const std::array<TableInfo, table_count>& table_infos() {
     return infos;
 }
 
+// Where the hull's records begin. Equal hulls made one by one are looked for only while the table is small: a long search for
+// each of ten thousand different ones would take minutes.
+physics::uint State::place_of(const Hull& hull) {
+    constexpr std::size_t small_table = 65536;
+    const auto [known, fresh] = places_.try_emplace(hull.form);
+    if (!fresh) return known->second;
+    const std::vector<physics::uvec4> records = hull_records(hull);
+    auto found = hulls.end();
+    if (hulls.size() < small_table) found = std::search(hulls.begin(), hulls.end(), records.begin(), records.end());
+    known->second = static_cast<physics::uint>(found - hulls.begin());
+    if (found == hulls.end()) hulls.insert(hulls.end(), records.begin(), records.end());
+    return known->second;
+}
+
+physics::Traits State::traits_of(const Body& body) {
+    physics::Traits made{};
+    made.motion = static_cast<physics::uint>(body.motion);
+    made.shape = static_cast<physics::uint>(body.shape.index());
+    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) made.size = vec3(sphere->radius, 0, 0);
+    if (const auto* capsule = std::get_if<Capsule>(&body.shape)) made.size = vec3(capsule->radius, capsule->half_height, 0);
+    if (const auto* box = std::get_if<Box>(&body.shape)) made.size = box->half_extents;
+    if (const auto* plane = std::get_if<Plane>(&body.shape)) made.size = plane->normal;
+    if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) made.size = vec3(cylinder->radius, cylinder->half_height, 0);
+    if (const auto* cone = std::get_if<Cone>(&body.shape)) made.size = vec3(cone->radius, cone->height, 0);
+    if (const auto* hull = std::get_if<Hull>(&body.shape)) {
+        made.size = half_extents_of(*hull);
+        made.large = place_of(*hull) << 1;
+    }
+    if (body.motion == Motion::dynamic) {
+        const MassProperties properties = mass_properties(body.shape, body.density);
+        made.inverse_mass = 1 / properties.mass;
+        made.inverse_inertia = vec3(1 / properties.inertia.x, 1 / properties.inertia.y, 1 / properties.inertia.z);
+    }
+    made.friction = body.friction;
+    made.restitution = body.restitution;
+    made.rolling_resistance = body.rolling_resistance;
+    made.gravity_scale = body.gravity_scale;
+    made.linear_damping = body.linear_damping;
+    made.angular_damping = body.angular_damping;
+    if (made.shape == physics::SHAPE_PLANE) made.large = 1;
+    return made;
+}
+
 State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all)
     : substeps(settings.substeps), all_(all) {
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
@@ -178,10 +229,11 @@ void State::tune(vec3 gravity, const Settings& settings) {
 
 void State::add(const Body& body) {
     physics::Parameters& p = fixed();
+    const physics::Traits added = traits_of(body);
     const std::uint32_t n = p.bodies++;
     p.buckets = std::max(p.buckets, buckets_for(p.bodies));
     allocate();
-    traits[n] = traits_of(body);
+    traits[n] = added;
     poses[n] = start_of(body);
     velocities[n] = start_velocity_of(body);
     rests[n] = 0;
@@ -217,6 +269,8 @@ std::size_t State::allocated(Length length) const {
             return p.contact_capacity;
         case Length::slots:
             return 2 * std::size_t{p.contact_capacity};
+        case Length::hulls:
+            return std::max<std::size_t>(1, hulls.size());
     }
     return 0;
 }
@@ -256,7 +310,7 @@ void State::make(Table table) {
 
 void State::allocate() {
     using enum Table;
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions}) make(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls}) make(table);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }
@@ -279,6 +333,10 @@ void State::grow() {
     if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);
     counted().overflow = 0;
     allocate();
+}
+
+bool State::has_convex() const {
+    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.shape >= physics::SHAPE_CYLINDER; });
 }
 
 std::size_t State::bytes() const {

@@ -4,18 +4,21 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "compute/scene.h"
 #include "compute/settings.h"
+#include "shaders/physics/hulls.h"
 #include "shaders/physics/records.h"
 #include "shaders/stages/tables.h"
 
 namespace scree {
 
 // What tables are as long as.
-enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots };
+enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots, hulls };
 
 enum class Table : std::uint32_t {
 #define SCREE_NAME(binding, name, block, record, length) name = binding,
@@ -62,6 +65,8 @@ struct State {
     // Items of a table as allocated, and those that mean something at present.
     std::size_t allocated(Length length) const;
     std::size_t live(Length length) const;
+    // Whether some body is a cylinder, cone or hull.
+    bool has_convex() const;
     std::size_t bytes() const;  // of all tables, wherever they are
 
     std::span<std::byte> raw(Table table);
@@ -80,11 +85,18 @@ struct State {
         return counts[0];
     }
 
+    physics::Hulls hull_table() const {
+        return {hulls.data()};
+    }
+
     int substeps = 1;
 
 private:
     void allocate();
+    physics::Traits traits_of(const Body& body);
+    physics::uint place_of(const Hull& hull);
     bool all_ = true;
+    std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table
 };
 
 }  // namespace scree

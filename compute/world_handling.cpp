@@ -26,7 +26,12 @@ vec3 half_extents(const Shape& shape) {
     if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents;
     if (const auto* capsule = std::get_if<Capsule>(&shape))
         return {capsule->radius, capsule->radius + capsule->half_height, capsule->radius};
-    return vec3(0);
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return {cylinder->radius, cylinder->half_height, cylinder->radius};
+    if (const auto* cone = std::get_if<Cone>(&shape)) return {cone->radius, 0.75f * cone->height, cone->radius};
+    vec3 half(0);
+    if (const auto* hull = std::get_if<Hull>(&shape))
+        for (const vec3& point : hull->points) half = glm::max(half, glm::abs(point));
+    return half;
 }
 
 void check(const GripSpring& s) {

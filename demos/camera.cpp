@@ -20,13 +20,6 @@ vec3 turned_about_y(vec3 v, float angle) {
     return {c * v.x + s * v.z, v.y, c * v.z - s * v.x};
 }
 
-float reach_of(const Shape& shape) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius + capsule->half_height;
-    if (const auto* box = std::get_if<Box>(&shape)) return glm::length(box->half_extents);
-    return 1;
-}
-
 std::size_t body_named(const std::string& word, const Scene& scene) {
     std::size_t index = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), index);
@@ -80,6 +73,21 @@ std::vector<vec3> swept(const std::vector<vec3>& corners, vec3 middle) {
 }
 
 }  // namespace
+
+float reach_of(const Shape& shape) {
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
+    if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius + capsule->half_height;
+    if (const auto* box = std::get_if<Box>(&shape)) return glm::length(box->half_extents);
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return std::hypot(cylinder->radius, cylinder->half_height);
+    if (const auto* cone = std::get_if<Cone>(&shape))
+        return std::max(0.75f * cone->height, std::hypot(cone->radius, 0.25f * cone->height));
+    if (const auto* hull = std::get_if<Hull>(&shape)) {
+        float reach = 0;
+        for (const vec3& point : hull->points) reach = std::max(reach, glm::length(point));
+        return reach;
+    }
+    return 1;
+}
 
 CameraMan::CameraMan(const CameraOptions& options, const Subject& subject, float aspect)
     : view_(subject.viewpoint), orbit_(options.orbit) {

@@ -1,10 +1,12 @@
 // Where a world is drawn: the choice between the two canvases, and the tables that the chosen one draws from.
 #include "demos/drawing.h"
 
+#include <map>
 #include <span>
 
 #include "compute/state.h"
 #include "demos/failure.h"
+#include "demos/solid_meshes.h"
 #include "host/device_error.h"
 
 namespace scree::demos {
@@ -13,11 +15,23 @@ namespace {
 
 host::ShapeInstances instances_of(const Scene& scene) {
     host::ShapeInstances instances;
+    std::map<const void*, std::uint32_t> meshes;  // of cylinders, of cones, of each hull
+    const char cylinders = 0, cones = 0;
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         // In the order of Shape's alternatives.
         std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes,
                                                      &instances.planes};
-        lists[scene.bodies[i].shape.index()]->push_back(i);
+        const Shape& shape = scene.bodies[i].shape;
+        if (shape.index() < std::size(lists)) {
+            lists[shape.index()]->push_back(i);
+            continue;
+        }
+        instances.solids.push_back(i);
+        const auto* hull = std::get_if<Hull>(&shape);
+        const void* key = hull ? static_cast<const void*>(hull->form.get()) : (std::get_if<Cone>(&shape) ? &cones : &cylinders);
+        const auto [mesh, fresh] = meshes.try_emplace(key, static_cast<std::uint32_t>(instances.meshes.size()));
+        if (fresh) instances.meshes.push_back(hull ? hull_mesh(*hull) : (key == &cones ? cone_mesh() : cylinder_mesh()));
+        instances.solid_meshes.push_back(mesh->second);
     }
     return instances;
 }

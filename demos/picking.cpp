@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
+#include "compute/hull.h"
 #include "shaders/physics/arithmetic.h"
 
 namespace scree::demos {
@@ -54,6 +57,58 @@ std::optional<double> to_box(dvec3 from, dvec3 along, dvec3 half) {
     return enter;
 }
 
+// Into a body that is the inside of some half spaces: (outward normal, distance).
+template <class Planes>
+std::optional<double> to_planes(dvec3 from, dvec3 along, const Planes& planes) {
+    double enter = 0, leave = std::numeric_limits<double>::infinity();
+    for (const auto& [normal, distance] : planes) {
+        const double above = glm::dot(normal, from) - distance, towards = glm::dot(normal, along);
+        if (std::abs(towards) < 1e-12) {
+            if (above > 0) return std::nullopt;
+            continue;
+        }
+        const double at = -above / towards;
+        (towards < 0 ? enter : leave) = towards < 0 ? std::max(enter, at) : std::min(leave, at);
+    }
+    if (enter > leave || enter <= 0) return std::nullopt;
+    return enter;
+}
+
+// Along y between two heights, of a radius that changes evenly from `below` to `above`: a cylinder, or a cone.
+std::optional<double> to_frustum(dvec3 from, dvec3 along, double low, double high, double below, double above) {
+    const double slope = (above - below) / (high - low), at_zero = below - slope * low;
+    const auto radius = [&](double y) { return at_zero + slope * y; };
+    std::optional<double> best;
+    const auto offer = [&](double at, bool on) {
+        if (on && at > 0 && (!best || at < *best)) best = at;
+    };
+    const double r = radius(from.y), dr = slope * along.y;
+    const double a = along.x * along.x + along.z * along.z - dr * dr;
+    const double b = from.x * along.x + from.z * along.z - r * dr, c = from.x * from.x + from.z * from.z - r * r;
+    const auto on_side = [&](double at) {
+        const double y = from.y + at * along.y;
+        offer(at, y >= low && y <= high);
+    };
+    if (std::abs(a) > 1e-12 && b * b - a * c >= 0) {
+        for (const double sign : {-1.0, 1.0}) on_side((-b + sign * std::sqrt(b * b - a * c)) / a);
+    } else if (std::abs(b) > 1e-12) {
+        on_side(-c / (2 * b));
+    }
+    for (const double y : {low, high}) {
+        if (std::abs(along.y) < 1e-12) continue;
+        const double at = (y - from.y) / along.y;
+        offer(at, std::hypot(from.x + at * along.x, from.z + at * along.z) <= radius(y));
+    }
+    const bool inside = from.y > low && from.y < high && std::hypot(from.x, from.z) < r;
+    return inside ? std::nullopt : best;
+}
+
+std::vector<std::pair<dvec3, double>> planes_of(const Hull& hull) {
+    std::vector<std::pair<dvec3, double>> planes;
+    for (const HullForm::Face& face : hull.form->faces) planes.emplace_back(face.normal, face.distance);
+    return planes;
+}
+
 }  // namespace
 
 std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray) {
@@ -65,6 +120,13 @@ std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orienta
     if (const auto* box = std::get_if<Box>(&shape)) at = to_box(from, along, dvec3(box->half_extents));
     if (const auto* capsule = std::get_if<Capsule>(&shape))
         at = to_capsule(from, along, static_cast<double>(capsule->radius), static_cast<double>(capsule->half_height));
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
+        const double h = cylinder->half_height, r = cylinder->radius;
+        at = to_frustum(from, along, -h, h, r, r);
+    }
+    if (const auto* cone = std::get_if<Cone>(&shape))
+        at = to_frustum(from, along, -0.25 * cone->height, 0.75 * cone->height, static_cast<double>(cone->radius), 0);
+    if (const auto* hull = std::get_if<Hull>(&shape)) at = to_planes(from, along, planes_of(*hull));
     if (const auto* plane = std::get_if<Plane>(&shape)) {
         const float above = glm::dot(ray.from, plane->normal) - plane->offset, down = -glm::dot(ray.along, plane->normal);
         if (above > 0 && down > 1e-6f) at = static_cast<double>(above / down);

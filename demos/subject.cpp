@@ -9,8 +9,10 @@
 #include <limits>
 
 #include "demos/building.h"
+#include "demos/camera.h"
 #include "demos/demos.h"
 #include "demos/failure.h"
+#include "demos/message.h"
 #include "demos/words.h"
 #include "host/file.h"
 
@@ -57,11 +59,8 @@ void set_bounds(Subject& subject) {
     vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const bool moving : {true, false}) {
         for (const Body& body : subject.scene.bodies) {
-            float reach = 0;
             if (std::holds_alternative<Plane>(body.shape) || (moving && body.motion != Motion::dynamic)) continue;
-            if (const auto* sphere = std::get_if<Sphere>(&body.shape)) reach = sphere->radius;
-            if (const auto* capsule = std::get_if<Capsule>(&body.shape)) reach = capsule->radius + capsule->half_height;
-            if (const auto* box = std::get_if<Box>(&body.shape)) reach = glm::length(box->half_extents);
+            const float reach = reach_of(body.shape);
             low = glm::min(low, body.position - reach);
             high = glm::max(high, body.position + reach);
         }
@@ -77,7 +76,9 @@ Subject from_file(const std::string& path) {
     subject.name = path;
     try {
         SceneDocument document = scene_from_json(host::read_text(path), most_bodies());
-        subject.scene = checked(std::move(document.scene));
+        std::vector<std::string> notes;
+        subject.scene = checked(std::move(document.scene), &notes);
+        for (const std::string& note : notes) say("scree: note: {}: {}\n", path, note);
         set_bounds(subject);
         subject.viewpoint = document.viewpoint ? *document.viewpoint : view_of(subject.low, subject.high, 30, 20);
     } catch (const SceneError& error) {

@@ -56,9 +56,18 @@ struct BodyTables {
     TableView bounds;      // Bounds, for CanvasOptions::boxes and cells
 };
 
+// Triangles, counterclockwise from outside, in a body's frame.
+struct SolidMesh {
+    bool stretched = false;          // x and z by the first of the body's sizes, y by the second; else in m
+    std::vector<glm::vec4> corners;  // three a triangle, and for each corner two: its place, and its normal
+};
+
 // Which bodies have which shape: their indices in the tables, fixed for a run.
 struct ShapeInstances {
     std::vector<std::uint32_t> spheres, capsules, boxes, planes;
+    std::vector<std::uint32_t> solids;        // all others
+    std::vector<std::uint32_t> solid_meshes;  // the mesh of each of them
+    std::vector<SolidMesh> meshes;
 };
 
 struct CanvasOptions {

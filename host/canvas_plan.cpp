@@ -64,6 +64,7 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         shadow(round, Mesh::discs, RUN_ALL_CAPSULES);
         // The maps are not mirrored as pictures are, so this keeps the sides towards the light.
         shadow({map, "box_shadow.vert", "", Cull::front, Compare::less, true}, Mesh::box, RUN_ALL_BOXES);
+        shadow({map, "solid_shadow.vert", "", Cull::front, Compare::less, true}, Mesh::solid, RUN_ALL_SOLIDS);
     }
     // Depth falls from 1 to 0 with distance, which spends a float's precision evenly. What usually lies behind comes last, so
     // that most of it is never shaded.
@@ -75,6 +76,7 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         bodies.push_back({body(vertex, fragment, Cull::back), Items::bodies, mesh, 0, run, pushed_for_run(run, 0)});
     };
     seen("box.vert", "box.frag", Mesh::box, RUN_BOXES);
+    seen("solid.vert", "solid.frag", Mesh::solid, RUN_SOLIDS);
     const auto finer = [](Mesh coarsest, std::uint32_t k) { return static_cast<Mesh>(static_cast<std::uint32_t>(coarsest) + k); };
     for (std::uint32_t k = 0; k < SPHERE_DETAILS; ++k)
         seen("round.vert", "round.frag", finer(Mesh::sphere_0, k), RUN_SPHERES + k);

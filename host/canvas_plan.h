@@ -64,8 +64,8 @@ enum class Pass {
 enum class Cull { none, back, front };  // which sides of triangles are left out; those counterclockwise in shaders are fronts
 enum class Compare { always, less, greater, greater_or_equal };  // a new depth with the old one
 // none: corners come from gl_VertexIndex alone. Spheres and capsules from fine to coarse; discs are shadows of round bodies.
-enum class Mesh { none, sphere_0, sphere_1, sphere_2, sphere_3, capsule_0, capsule_1, capsule_2, box, disc, discs };
-constexpr std::size_t MESHES = 11;
+enum class Mesh { none, sphere_0, sphere_1, sphere_2, sphere_3, capsule_0, capsule_1, capsule_2, box, disc, discs, solid };
+constexpr std::size_t MESHES = 12;
 enum class Items { one, planes, marks, quads, bodies };  // what there is an instance of for each; of bodies several in one
 
 // Shaders and fixed state: a pipeline of Vulkan.

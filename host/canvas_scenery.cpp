@@ -2,6 +2,7 @@
 #include "host/canvas_scenery.h"
 
 #include <algorithm>
+#include <numeric>
 
 #include "host/canvas_meshes.h"
 
@@ -25,7 +26,7 @@ Mesh nth(Mesh first, std::uint32_t n) {
 
 Scenery::Scenery(const ShapeInstances& bodies) {
     std::uint32_t run = RUN_ALL_SPHERES;
-    for (const auto* list : {&bodies.spheres, &bodies.capsules, &bodies.boxes, &bodies.planes}) {
+    for (const auto* list : {&bodies.spheres, &bodies.capsules, &bodies.boxes, &bodies.solids, &bodies.planes}) {
         runs[run].first = static_cast<std::uint32_t>(instances.size());
         runs[run++].count = static_cast<std::uint32_t>(list->size());
         instances.insert(instances.end(), list->begin(), list->end());
@@ -34,6 +35,7 @@ Scenery::Scenery(const ShapeInstances& bodies) {
     instances.resize(std::max<std::size_t>(2 * instances.size(), 1));
     for (BodyRun& each : runs) each.together = each.corners = 1;
     add_meshes();
+    add_solids(bodies);
     for (const std::uint32_t lines : {RUN_ARROWS, RUN_CUBES}) {
         runs[lines] = {0, runs[RUN_PLANES].first, lines == RUN_ARROWS ? ARROW_CORNERS : CUBE_CORNERS, 1, 0, 0, 0, 0};
         runs[lines].together = CORNERS_OF_AN_INSTANCE / runs[lines].corners;
@@ -76,6 +78,30 @@ void Scenery::add_meshes() {
     runs[RUN_ALL_BOXES].corners = box.corners;
     runs[RUN_ALL_BOXES].together = box.together;
     if (directions.empty()) directions.emplace_back(0);
+}
+
+// As shaders/render/solid_mesh.h reads it. Every body is drawn with as many corners as the largest mesh has.
+void Scenery::add_solids(const ShapeInstances& bodies) {
+    std::vector<glm::vec4> table(bodies.solids.empty() ? 0 : records);
+    std::vector<std::size_t> begins;
+    std::size_t most = 3;
+    for (const SolidMesh& mesh : bodies.meshes) {
+        begins.push_back(table.size());
+        most = std::max(most, mesh.corners.size() / 2);
+        table.insert(table.end(), mesh.corners.begin(), mesh.corners.end());
+    }
+    for (std::size_t i = 0; i < bodies.solids.size(); ++i) {
+        const std::uint32_t mesh = bodies.solid_meshes.at(i);
+        table[bodies.solids[i]] = {begins[mesh], bodies.meshes[mesh].corners.size() / 2, bodies.meshes[mesh].stretched, 0};
+    }
+    std::vector<std::uint32_t> triangles(most);
+    std::iota(triangles.begin(), triangles.end(), 0u);
+    add_mesh(Mesh::solid, RUN_SOLIDS, static_cast<std::uint32_t>(most), triangles, table);
+    const BodyRun& seen = runs[RUN_SOLIDS];
+    BodyRun& all = runs[RUN_ALL_SOLIDS];
+    all.corners = seen.corners;
+    all.together = seen.together;
+    all.directions = seen.directions;
 }
 
 std::array<DrawArguments, SEEN_RUNS> arguments_of(const Scenery& scenery, const std::vector<Draw>& draws) {

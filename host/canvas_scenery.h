@@ -23,7 +23,7 @@ struct Scenery {
     // Bodies in the order of their shapes, planes last; and behind them as much room for those that are seen.
     std::vector<std::uint32_t> instances;
     std::array<BodyRun, RUNS> runs{};    // those that are seen are empty until the device has looked
-    std::vector<glm::vec4> directions;   // corners of the meshes of round bodies, see round.vert
+    std::vector<glm::vec4> directions;   // corners of meshes, see round.vert and solid_mesh.h
     std::vector<std::uint32_t> indices;  // triangles, of as many bodies as are drawn together
     std::array<Run, MESHES> meshes;      // where each Mesh lies in `indices`
 
@@ -38,6 +38,7 @@ private:
     void add_mesh(Mesh as, std::uint32_t run, std::uint32_t corners, const std::vector<std::uint32_t>& triangles,
                   const std::vector<glm::vec4>& at);
     void add_meshes();
+    void add_solids(const ShapeInstances& bodies);
 };
 
 // Indexed draws of the bodies that are seen, whose number of instances the device writes.

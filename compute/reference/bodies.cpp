@@ -81,9 +81,10 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         state.masses[i] = physics::mass_in_world(traits, state.poses[i].orientation, state.masses[i].split);
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs = physics::stirs(traits.motion, state.velocities[i], state.rests[i], sleep_steps);
-        if (!traits.large) note(counts.levels, 1u << bounds.level);
-        if (!traits.large && stirs) note(counts.levels_stirring, 1u << bounds.level);
-        if (traits.large && stirs) note(counts.large_stirring, 1u);
+        const bool large = physics::is_large(traits);
+        if (!large) note(counts.levels, 1u << bounds.level);
+        if (!large && stirs) note(counts.levels_stirring, 1u << bounds.level);
+        if (large && stirs) note(counts.large_stirring, 1u);
         if (physics::has_slept(state.rests[i], sleep_steps)) note(counts.sleepers, 1u);
         if (!stirs) bounds.level |= physics::STILL;
     });

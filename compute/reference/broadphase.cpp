@@ -52,10 +52,10 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& found
     const physics::Bounds& around = state.bounds[body];
     for_each_carried_over(state, body, found);
     for (const physics::CellEntry& other : bucket(state, p.buckets)) {
-        if (!physics::finds_large(body, around.level, own.large, other.body, other.level)) continue;
+        if (!physics::finds_large(body, around.level, physics::is_large(own), other.body, other.level)) continue;
         if (physics::can_touch(own, state.traits[other.body]) && near_large(state, body, other)) found(other.body);
     }
-    if (own.large) return;
+    if (physics::is_large(own)) return;
     for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
         const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);

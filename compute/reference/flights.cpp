@@ -38,7 +38,7 @@ void foresee_impacts(State& state, const Threads& threads, std::uint32_t) {
         const bool holds =
             physics::is_near(manifold, state.touching[i], p) ||
             physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a], state.loads[a],
-                               state.traits[b], state.poses[b], state.velocities[b], state.loads[b], p);
+                               state.traits[b], state.poses[b], state.velocities[b], state.loads[b], p, state.hull_table());
         if (!holds) {
             state.touching[i] |= physics::DOUBTFUL;
         } else if (physics::is_blow(manifold.normal, state.velocities[a], state.velocities[b], p)) {
@@ -71,9 +71,10 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         }
         if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
         const physics::Traits &ta = state.traits[bodies[0]], &tb = state.traits[bodies[1]];
-        const physics::Impact impact = physics::impact_of(
-            ta, course(state, bodies[0], stops[0]), tb, course(state, bodies[1], stops[1]),
-            physics::limits_of(ta, tb, physics::hold_of(state.touching[i], stops[0], stops[1]), state.fixed()), false);
+        const physics::Impact impact =
+            physics::impact_of(ta, course(state, bodies[0], stops[0]), tb, course(state, bodies[1], stops[1]),
+                               physics::limits_of(ta, tb, physics::hold_of(state.touching[i], stops[0], stops[1]), state.fixed()),
+                               false, state.hull_table());
         for (int side = 0; side < 2; ++side)
             if (stops[side] <= 1) lower(state.bounds[bodies[side]].flight.stops[next], physics::floatBitsToUint(impact.fraction));
     });

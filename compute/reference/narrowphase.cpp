@@ -8,6 +8,7 @@
 #include "shaders/physics/collide_capsule_box.h"
 #include "shaders/physics/collide_capsule_capsule.h"
 #include "shaders/physics/collide_capsule_plane.h"
+#include "shaders/physics/collide_convex.h"
 #include "shaders/physics/collide_sphere_box.h"
 #include "shaders/physics/collide_sphere_capsule.h"
 #include "shaders/physics/collide_sphere_plane.h"
@@ -25,6 +26,9 @@ using Law = physics::Touch (*)(physics::Traits, physics::Pose, physics::Traits, 
 constexpr std::array<Law, 9> laws{physics::collide_sphere_sphere, physics::collide_sphere_capsule,  physics::collide_sphere_box,
                                   physics::collide_sphere_plane,  physics::collide_capsule_capsule, physics::collide_capsule_box,
                                   physics::collide_capsule_plane, physics::collide_box_box,         physics::collide_box_plane};
+
+using ConvexLaw = physics::Touch (*)(physics::Traits, physics::Pose, physics::Traits, physics::Pose, float, physics::Hulls);
+constexpr std::array<ConvexLaw, 2> laws_of_convex{physics::collide_plane_convex, physics::collide_convex};
 
 std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
     const std::size_t first = span * physics::SPAN;
@@ -66,8 +70,11 @@ void collide(State& state, const Threads& threads, std::uint32_t kind) {
                                                 state.velocities[other], state.fixed());
         const bool swapped = state.traits[simpler].shape > state.traits[other].shape;
         if (swapped) std::swap(simpler, other);
-        physics::Touch touch =
-            laws[kind](state.traits[simpler], state.poses[simpler], state.traits[other], state.poses[other], margin);
+        const physics::Traits &ta = state.traits[simpler], &tb = state.traits[other];
+        const physics::Pose &pa = state.poses[simpler], &pb = state.poses[other];
+        physics::Touch touch = kind < laws.size()
+                                   ? laws[kind](ta, pa, tb, pb, margin)
+                                   : laws_of_convex[kind - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
         if (swapped) touch = physics::flipped(touch, state.poses[other].position - state.poses[simpler].position);
         state.manifolds[index] = touch.manifold;
         state.touching[index] = touch.count;

@@ -108,9 +108,13 @@ LAW vec4 separations_of(Manifold manifold) {
 LAW bool is_round(Traits traits) {
     return traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE;
 }
+// What can roll on its side, or on its rim.
+LAW bool rolls(Traits traits) {
+    return is_round(traits) || traits.shape == SHAPE_CYLINDER || traits.shape == SHAPE_CONE;
+}
 LAW uint anchor_of(Contact contact, Traits a, Traits b) {
     if (is_round(a) && is_round(b) && contact.count == 1u) return ANCHOR_ROUND;
-    if (is_round(a) != is_round(b)) return is_round(a) ? ANCHOR_A : ANCHOR_B;
+    if (rolls(a) != rolls(b)) return rolls(a) ? ANCHOR_A : ANCHOR_B;
     return thickness(b) < thickness(a) ? ANCHOR_B : ANCHOR_A;
 }
 
@@ -168,7 +172,7 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a,
         reach = reach + length3(arm - centre);
     }
     c.reach = reach * reciprocal(float(contact.count));
-    if (contact.count == 1u) c.reach = is_round(ta) || is_round(tb) ? 0.0f : POINT_PATCH * smaller(thickness(ta), thickness(tb));
+    if (contact.count == 1u) c.reach = rolls(ta) || rolls(tb) ? 0.0f : POINT_PATCH * smaller(thickness(ta), thickness(tb));
     c.centre = c.anchor == ANCHOR_B ? centre - contact.d : centre;
     if (c.anchor == ANCHOR_ROUND) {
         vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);

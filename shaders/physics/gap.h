@@ -7,6 +7,7 @@
 #include "shaders/physics/collide_capsule_box.h"
 #include "shaders/physics/collide_capsule_capsule.h"
 #include "shaders/physics/collide_capsule_plane.h"
+#include "shaders/physics/collide_convex.h"
 #include "shaders/physics/collide_sphere_box.h"
 #include "shaders/physics/collide_sphere_capsule.h"
 #include "shaders/physics/collide_sphere_plane.h"
@@ -59,8 +60,25 @@ LAW Gap gap_of_touch(Touch touch) {
     return gap;
 }
 
+// Of a cylinder, cone or hull (the second) and any other shape.
+LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
+    Gap gap;
+    Solid of_b = solid_of(b, pose_b.orientation);
+    vec3 d = pose_b.position - pose_a.position;
+    if (a.shape == SHAPE_PLANE) {
+        gap.normal = a.size;
+        gap.distance = dot3(a.size, d + support_of(of_b, -a.size, hulls));
+        return gap;
+    }
+    Separation s = separation_of(solid_of(a, pose_a.orientation), of_b, d, 1.0e30f, hulls);
+    gap.normal = s.normal;
+    gap.distance = s.distance;
+    return gap;
+}
+
 // The simpler shape first, as the laws of touching want it.
-LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b) {
+LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
+    if (b.shape >= SHAPE_CYLINDER) return gap_of_convex(a, pose_a, b, pose_b, hulls);
     float any = 1.0e30f;
     if (a.shape == SHAPE_SPHERE) {
         if (b.shape == SHAPE_SPHERE) return gap_of_touch(collide_sphere_sphere(a, pose_a, b, pose_b, any));
@@ -76,7 +94,7 @@ LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b) {
     if (b.shape == SHAPE_BOX) return gap_of_boxes(a, pose_a, b, pose_b);
     return gap_of_touch(collide_box_plane(a, pose_a, b, pose_b, any));
 }
-LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b) {
+LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
     bool swap = a.shape > b.shape;
     Traits first = a, second = b;
     Pose first_pose = pose_a, second_pose = pose_b;
@@ -86,7 +104,7 @@ LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b) {
         first_pose = pose_b;
         second_pose = pose_a;
     }
-    Gap gap = gap_in_order(first, first_pose, second, second_pose);
+    Gap gap = gap_in_order(first, first_pose, second, second_pose, hulls);
     if (swap) gap.normal = -gap.normal;
     return gap;
 }

@@ -62,13 +62,15 @@ LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
     return (uint(cell.x) + (row ^ (row >> 13))) & (buckets - 1u);
 }
 
+LAW bool is_large(Traits traits) {
+    return (traits.large & 1u) != 0u;
+}
+
 // Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
 // fast may not leave them, so the fall is in them too.
 LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Parameters parameters) {
     vec3 half_size = half_extents_of(traits, pose.orientation);
-    float reach = traits.size.x;
-    if (traits.shape == SHAPE_CAPSULE) reach = traits.size.x + traits.size.y;
-    if (traits.shape == SHAPE_BOX) reach = length3(traits.size);
+    float reach = farthest_of(traits);
     if (traits.shape == SHAPE_PLANE) {
         half_size = vec3(1.0e30f);
     } else if (traits.shape != SHAPE_SPHERE) {
@@ -89,7 +91,7 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Par
     bounds.level = 0u;
     bounds.bucket = parameters.buckets;
     bounds.flight = flight_of(pose);
-    if (traits.large == 0u) {
+    if (!is_large(traits)) {
         vec3 extent = bounds.upper - bounds.lower;
         bounds.level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);
         bounds.bucket = bucket_of(cell_of(bounds.lower, bounds.upper, bounds.level, parameters.inverse_cell), bounds.level,
@@ -127,10 +129,10 @@ LAW bool finds(uint body, uint level, uint other, uint other_level) {
     return other_still ? level <= other_level - STILL : owns_pair(body, level, other, other_level);
 }
 // The same in the list of large bodies.
-LAW bool finds_large(uint body, uint level, uint large, uint other, uint other_level) {
+LAW bool finds_large(uint body, uint level, bool large, uint other, uint other_level) {
     bool other_still = (other_level & STILL) != 0u;
-    if ((level & STILL) != 0u) return large == 0u && !other_still;
-    return large == 0u || other_still || body < other;
+    if ((level & STILL) != 0u) return !large && !other_still;
+    return !large || other_still || body < other;
 }
 // Levels on which a body has partners to find.
 LAW uint levels_to_search(uint level, Counts counts) {
@@ -142,13 +144,16 @@ LAW bool can_touch(Traits a, Traits b) {
     return (a.motion == MOTION_DYNAMIC || b.motion == MOTION_DYNAMIC) && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE);
 }
 
-// Shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); KIND_KEPT is a contact that is kept,
-// KIND_STILL one between two bodies that do not stir.
-CONSTANT uint KIND_KEPT = 9u;
-CONSTANT uint KIND_STILL = 10u;
+// The first four shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); with the others all have
+// one law, but for planes. KIND_KEPT is a contact that is kept, KIND_STILL one between two bodies that do not stir.
+CONSTANT uint KIND_PLANE_CONVEX = 9u;
+CONSTANT uint KIND_CONVEX = 10u;
+CONSTANT uint KIND_KEPT = 11u;
+CONSTANT uint KIND_STILL = 12u;
 LAW uint kind_of(uint shape_a, uint shape_b) {
     uint low = shape_a < shape_b ? shape_a : shape_b;
     uint high = shape_a < shape_b ? shape_b : shape_a;
+    if (high >= SHAPE_CYLINDER) return low == SHAPE_PLANE ? KIND_PLANE_CONVEX : KIND_CONVEX;
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 

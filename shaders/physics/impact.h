@@ -90,7 +90,7 @@ struct Impact {
 // Where the two must be stopped: as they come to touch, if they then overlap. Those that touch from the start have contacts, and
 // are stopped only where one is driven into the other. Out of rounds, they are stopped as far as they are known to be free.
 // `until_touch`: as they come to touch, whatever follows.
-LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bool until_touch) {
+LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bool until_touch, Hulls hulls) {
     Impact impact;
     impact.normal = vec3(0.0f);
     impact.fraction = NEVER;
@@ -99,7 +99,7 @@ LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bo
     float tolerance = 0.1f * limits.touch;
     bool met = false;
     for (uint k = 0u; k < IMPACT_ROUNDS; ++k) {
-        Gap gap = gap_between(ta, pose_on(a, t), tb, pose_on(b, t));
+        Gap gap = gap_between(ta, pose_on(a, t), tb, pose_on(b, t), hulls);
         bool touched = k == 0u && gap.distance <= limits.touch;
         if (touched) {
             met = true;
@@ -166,10 +166,10 @@ LAW bool is_blow(vec3 normal, Velocity a, Velocity b, Parameters parameters) {
     return dot3(normal, b.linear - a.linear) < -0.25f * parameters.restitution_threshold;
 }
 LAW bool will_meet(vec3 normal, Traits ta, Pose a, Velocity va, Load la, Traits tb, Pose b, Velocity vb, Load lb,
-                   Parameters parameters) {
+                   Parameters parameters, Hulls hulls) {
     Course ca = course_of(ta, a.position, a.orientation, foreseen(a, va, la, parameters), 1.0f);
     Course cb = course_of(tb, b.position, b.orientation, foreseen(b, vb, lb, parameters), 1.0f);
-    Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, UNHELD, parameters), true);
+    Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, UNHELD, parameters), true, hulls);
     return impact.fraction <= 1.0f && dot3(impact.normal, normal) > SAME_NORMAL;
 }
 

@@ -6,10 +6,13 @@
 
 LAWS_BEGIN
 
-CONSTANT uint SHAPE_SPHERE = 0u;   // size: radius, -, -                     m
-CONSTANT uint SHAPE_CAPSULE = 1u;  // size: radius, half height, - (along y) m
-CONSTANT uint SHAPE_BOX = 2u;      // size: half extents                     m
-CONSTANT uint SHAPE_PLANE = 3u;    // size: unit normal; the pose's position is a point of it
+CONSTANT uint SHAPE_SPHERE = 0u;    // size: radius, -, -                     m
+CONSTANT uint SHAPE_CAPSULE = 1u;   // size: radius, half height, - (along y) m
+CONSTANT uint SHAPE_BOX = 2u;       // size: half extents                     m
+CONSTANT uint SHAPE_PLANE = 3u;     // size: unit normal; the pose's position is a point of it
+CONSTANT uint SHAPE_CYLINDER = 4u;  // size: radius, half height, - (along y) m
+CONSTANT uint SHAPE_CONE = 5u;      // size: radius, height, - (along y, apex up) m
+CONSTANT uint SHAPE_HULL = 6u;      // size: half extents of the box about its centre of mass that holds it, m
 
 CONSTANT uint MOTION_DYNAMIC = 0u;
 CONSTANT uint MOTION_FIXED = 1u;
@@ -30,7 +33,7 @@ struct Traits {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;  // 1: kept out of the grid, in the short list of large bodies
+    uint large;  // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
 };
 
 // ---- bodies, state
@@ -233,7 +236,7 @@ struct Parameters {  // the same for every thread of a step
     Grip grips[4];  // MOST_GRIPS
 };
 
-CONSTANT uint KINDS = 11u;  // of pairs: nine of shapes, those whose contact is kept, and those at rest
+CONSTANT uint KINDS = 13u;  // of pairs: eleven of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind
 CONSTANT uint SPAN_SHIFT = 4u;
 CONSTANT uint SCAN_ITEMS = 8u;  // items that one thread of a scan adds up
@@ -246,10 +249,10 @@ CONSTANT uint WORK_KIND_BLOCKS = 2u;
 CONSTANT uint WORK_PAIR_BLOCKS = 3u;
 CONSTANT uint WORK_CONTACTS = 4u;
 CONSTANT uint WORK_KIND = 5u;  // and the KINDS - 1 rows after it
-CONSTANT uint WORK_SOLVED = 16u;
-CONSTANT uint WORK_SHAKEN = 17u;
-CONSTANT uint WORK_FLIGHTS = 18u;  // all pairs if some body is fast, else none
-CONSTANT uint WORKS = 19u;
+CONSTANT uint WORK_SOLVED = 18u;
+CONSTANT uint WORK_SHAKEN = 19u;
+CONSTANT uint WORK_FLIGHTS = 20u;  // all pairs if some body is fast, else none
+CONSTANT uint WORKS = 21u;
 CONSTANT uint OVERFLOW_PAIRS = 1u;
 CONSTANT uint OVERFLOW_CONTACTS = 2u;
 
@@ -264,10 +267,10 @@ struct Counts {  // what the device counts in a step
     uint large_stirring;   // 1: some large body stirs
     uint sleepers;         // 1: some body is asleep as the step begins
     uint solved;           // contacts that move somebody: those of the solver
-    uint kind_first[12];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint kind_first[14];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uint fast;             // 1: some body will be fast in this step
-    uint pad0, pad1, pad2;
-    uvec4 arguments[19];  // per WORK_*: workgroups x, y, z, and threads
+    uint pad0;
+    uvec4 arguments[21];  // per WORK_*: workgroups x, y, z, and threads
 };
 
 LAWS_END

@@ -81,14 +81,10 @@ LAW bool is_restless(uint motion, uint rest) {
 }
 
 // ---- falling asleep
-LAW float reach_of(Traits traits) {
-    if (traits.shape == SHAPE_BOX) return length3(traits.size);
-    return traits.shape == SHAPE_CAPSULE ? traits.size.x + traits.size.y : traits.size.x;
-}
 // The speed of a body's fastest point, 1 where sleep ends.
 LAW float pace_of(Traits traits, Velocity velocity, Parameters parameters) {
     float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * thickness(traits));
-    return (length3(velocity.linear) + length3(velocity.angular) * reach_of(traits)) * reciprocal(limit);
+    return (length3(velocity.linear) + length3(velocity.angular) * farthest_of(traits)) * reciprocal(limit);
 }
 // What a body tells those who touch it: its quiet steps; less than none if it moves whatever it meets.
 LAW float told_quiet(uint motion, Velocity velocity, uint rest) {

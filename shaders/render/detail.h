@@ -44,10 +44,11 @@ uint run_of_place(uint place) {
     if (place >= bodies_to_see()) return NOT_SEEN;
     uint body = instances[place];
     Traits t = traits[body];
-    uint shape = place >= runs[RUN_ALL_BOXES].first      ? RUN_ALL_BOXES
+    uint shape = place >= runs[RUN_ALL_SOLIDS].first     ? RUN_ALL_SOLIDS
+                 : place >= runs[RUN_ALL_BOXES].first    ? RUN_ALL_BOXES
                  : place >= runs[RUN_ALL_CAPSULES].first ? RUN_ALL_CAPSULES
                                                          : RUN_ALL_SPHERES;
-    float reach = shape == RUN_ALL_BOXES ? length(t.size) : (shape == RUN_ALL_CAPSULES ? t.size.x + t.size.y : t.size.x);
+    float reach = shape >= RUN_ALL_BOXES ? length(t.size) : (shape == RUN_ALL_CAPSULES ? t.size.x + t.size.y : t.size.x);
     return run_of(frame, shape, poses[body].position - frame.eye.xyz, reach, t.size.x);
 }
 

@@ -74,15 +74,17 @@ RENDER_CONSTANT uint CAPSULE_DETAILS = 3u;
 RENDER_CONSTANT uint RUN_SPHERES = 0u;
 RENDER_CONSTANT uint RUN_CAPSULES = 4u;
 RENDER_CONSTANT uint RUN_BOXES = 7u;
-RENDER_CONSTANT uint SEEN_RUNS = 8u;
-RENDER_CONSTANT uint RUN_ALL_SPHERES = 8u;
-RENDER_CONSTANT uint RUN_ALL_CAPSULES = 9u;
-RENDER_CONSTANT uint RUN_ALL_BOXES = 10u;
-RENDER_CONSTANT uint RUN_PLANES = 11u;
-RENDER_CONSTANT uint RUN_ARROWS = 12u;  // all but planes, for lines
-RENDER_CONSTANT uint RUN_CUBES = 13u;
-RENDER_CONSTANT uint RUNS = 14u;
-RENDER_CONSTANT uint NOT_SEEN = 8u;        // instead of a run
+RENDER_CONSTANT uint RUN_SOLIDS = 8u;  // cylinders, cones, hulls
+RENDER_CONSTANT uint SEEN_RUNS = 9u;
+RENDER_CONSTANT uint RUN_ALL_SPHERES = 9u;
+RENDER_CONSTANT uint RUN_ALL_CAPSULES = 10u;
+RENDER_CONSTANT uint RUN_ALL_BOXES = 11u;
+RENDER_CONSTANT uint RUN_ALL_SOLIDS = 12u;
+RENDER_CONSTANT uint RUN_PLANES = 13u;
+RENDER_CONSTANT uint RUN_ARROWS = 14u;  // all but planes, for lines
+RENDER_CONSTANT uint RUN_CUBES = 15u;
+RENDER_CONSTANT uint RUNS = 16u;
+RENDER_CONSTANT uint NOT_SEEN = 9u;        // instead of a run
 RENDER_CONSTANT uint DETAIL_GROUP = 128u;  // bodies that a workgroup sorts by detail
 
 // Where the vertices of round bodies are: the mesh whose outline is nowhere more than a third of a pixel inside the circle.
@@ -105,6 +107,7 @@ RENDER_LAW uint run_of(Frame frame, uint shape, vec3 center, float reach, float 
     bool parallel = forward.w > 0.5f;
     if (!parallel && ahead < -reach) return NOT_SEEN;
     if (shape == RUN_ALL_BOXES) return RUN_BOXES;
+    if (shape == RUN_ALL_SOLIDS) return RUN_SOLIDS;
     float nearest = ahead - reach > 1.0e-3f ? ahead - reach : 1.0e-3f;
     float pixels = radius / (frame.pixel.x * (parallel ? 1.0f : nearest));
     return shape == RUN_ALL_SPHERES ? sphere_run(pixels) : capsule_run(pixels);

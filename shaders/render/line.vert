@@ -94,7 +94,8 @@ void main() {
         out_half_width = max(0.6, 0.9 * unit);
         out_color = vec4(VELOCITY, 0.95);
         vec3 velocity = velocities[at.body].linear;
-        float reach = t.shape == SHAPE_BOX ? length(t.size) : t.size.x + (t.shape == SHAPE_CAPSULE ? t.size.y : 0.0);
+        float reach = t.shape == SHAPE_BOX || t.shape >= SHAPE_CYLINDER ? length(t.size)
+                                                                        : t.size.x + (t.shape == SHAPE_CAPSULE ? t.size.y : 0.0);
         if (t.motion != MOTION_FIXED && length(velocity) > SLOWEST)
             draw_arrow(poses[at.body].position - frame.eye.xyz, velocity, reach, at.corner);
         return;
@@ -106,7 +107,7 @@ void main() {
     if (kind == LINES_BOXES) {
         out_color = vec4(BOX, 0.85);
         draw_edge(around.lower - frame.eye.xyz, around.upper - frame.eye.xyz, at.corner);
-    } else if (t.large == 0u) {
+    } else if (!is_large(t)) {
         out_color = vec4(CELL, 0.55);
         float width = frame.rest.z * power_of_two(int(level));
         vec3 low = vec3(cell_of(around.lower, around.upper, level, 1.0 / frame.rest.z)) * width - frame.eye.xyz;

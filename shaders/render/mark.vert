@@ -23,7 +23,8 @@ const float LONGEST = 0.95;  // half a line, of the thinner body's half width: l
 
 float thickness(Traits t) {
     if (t.shape == SHAPE_PLANE) return 1e30;
-    return t.shape == SHAPE_BOX ? min(t.size.x, min(t.size.y, t.size.z)) : t.size.x;
+    if (t.shape == SHAPE_CYLINDER || t.shape == SHAPE_CONE) return min(t.size.x, 0.5 * t.size.y);
+    return t.shape == SHAPE_BOX || t.shape == SHAPE_HULL ? min(t.size.x, min(t.size.y, t.size.z)) : t.size.x;
 }
 bool is_round(Traits t) {
     return t.shape == SHAPE_SPHERE || t.shape == SHAPE_CAPSULE;

@@ -72,6 +72,9 @@ vec3 name_color(uint body) {
 float volume_of(Traits t) {
     float r = t.size.x;
     if (t.shape == SHAPE_BOX) return 8.0 * t.size.x * t.size.y * t.size.z;
+    if (t.shape == SHAPE_CYLINDER) return 6.28318531 * r * r * t.size.y;
+    if (t.shape == SHAPE_CONE) return 1.04719755 * r * r * t.size.y;
+    if (t.shape == SHAPE_HULL) return 4.0 * t.size.x * t.size.y * t.size.z;  // about half of the box around it
     return 3.14159265 * r * r * (1.33333333 * r + (t.shape == SHAPE_CAPSULE ? 2.0 * t.size.y : 0.0));
 }
 // The material of the frame's list that is most alike.

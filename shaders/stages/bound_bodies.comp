@@ -17,10 +17,10 @@ void main() {
     if (will_be_fast(body, velocities[i], PARAMETERS)) atomicOr(COUNTS.fast, 1u);
     masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
     atomicAdd(cells[around.bucket], 1u);
-    if (body.large == 0u) atomicOr(COUNTS.levels, 1u << around.level);
+    if (!is_large(body)) atomicOr(COUNTS.levels, 1u << around.level);
     if (has_slept(rests[i], PARAMETERS.sleep_steps)) atomicOr(COUNTS.sleepers, 1u);
     if (stirs(body.motion, velocities[i], rests[i], PARAMETERS.sleep_steps)) {
-        if (body.large == 0u)
+        if (!is_large(body))
             atomicOr(COUNTS.levels_stirring, 1u << around.level);
         else
             atomicOr(COUNTS.large_stirring, 1u);

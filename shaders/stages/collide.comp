@@ -7,6 +7,8 @@
 // variants: collide_capsule_plane -DKIND=6 -DCOLLIDE=collide_capsule_plane
 // variants: collide_box_box -DKIND=7 -DCOLLIDE=collide_box_box
 // variants: collide_box_plane -DKIND=8 -DCOLLIDE=collide_box_plane
+// variants: collide_plane_convex -DKIND=9 -DCOLLIDE=collide_plane_convex -DWITH_HULLS
+// variants: collide_convex -DKIND=10 -DCOLLIDE=collide_convex -DWITH_HULLS
 // Finds where the pairs of one kind touch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -29,10 +31,18 @@
 #include "shaders/physics/collide_box_box.h"
 #elif KIND == 8
 #include "shaders/physics/collide_box_plane.h"
+#else
+#include "shaders/physics/collide_convex.h"
 #endif
 #include "shaders/physics/grid.h"
 #include "shaders/physics/touch.h"
+#ifdef WITH_HULLS
+#include "shaders/stages/hulls.glsl"
+#define AND_HULLS , Hulls(0u)
+#else
 #include "shaders/stages/stage.glsl"
+#define AND_HULLS
+#endif
 
 void main() {
     uint i = thread() + COUNTS.kind_first[KIND];
@@ -48,7 +58,7 @@ void main() {
     Traits second_traits = swap ? ta : tb;
     Pose first = swap ? pb : pa;
     Pose second = swap ? pa : pb;
-    Touch touch = COLLIDE(first_traits, first, second_traits, second, margin);
+    Touch touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
     manifolds[pair] = touch.manifold;
     touching[pair] = touch.count;

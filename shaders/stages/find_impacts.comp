@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/impact.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/hulls.glsl"
 
 void main() {
     uint i = thread();
@@ -23,7 +23,7 @@ void main() {
     Course ca = course_of(ta, bounds[a].flight.position, bounds[a].flight.orientation, poses[a], stop_a);
     Course cb = course_of(tb, bounds[b].flight.position, bounds[b].flight.orientation, poses[b], stop_b);
     float fraction =
-        impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(touching[i], stop_a, stop_b), PARAMETERS), false).fraction;
+        impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(touching[i], stop_a, stop_b), PARAMETERS), false, Hulls(0u)).fraction;
     if (stop_a <= 1.0f) atomicMin(bounds[a].flight.stops[next], floatBitsToUint(fraction));
     if (stop_b <= 1.0f) atomicMin(bounds[b].flight.stops[next], floatBitsToUint(fraction));
 }

@@ -4,7 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/impact.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/hulls.glsl"
 
 void main() {
     uint i = thread();
@@ -15,7 +15,7 @@ void main() {
     if (!will_be_fast(ta, va, PARAMETERS) && !will_be_fast(tb, vb, PARAMETERS)) return;
     vec3 normal = manifolds[i].normal;
     if (!is_near(manifolds[i], touching[i], PARAMETERS) &&
-        !will_meet(normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS)) {
+        !will_meet(normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS, Hulls(0u))) {
         touching[i] = touching[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
         atomicOr(bounds[a].flight.struck, 1u);

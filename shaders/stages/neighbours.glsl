@@ -9,7 +9,7 @@ void look_through_large(uint body, Traits own, Bounds around) {
     for (uint k = cells[PARAMETERS.buckets - 1u]; k < cells[PARAMETERS.buckets]; ++k) {
         uint other = cell_entries[k].body;
         CellEntry entry = cell_entries[k];
-        if (!finds_large(body, around.level, own.large, other, entry.level)) continue;
+        if (!finds_large(body, around.level, is_large(own), other, entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         Traits theirs = traits[other];
         if (!can_touch(own, theirs)) continue;
@@ -57,7 +57,7 @@ void look_around(uint body) {
     if (still && levels == 0u && COUNTS.large_stirring == 0u) return;
     Traits own = traits[body];
     look_through_large(body, own, around);
-    if (own.large != 0u) return;
+    if (is_large(own)) return;
     for (uint level = 0u; level < LEVELS && (levels >> level) != 0u; ++level) {
         if (((levels >> level) & 1u) == 0u) continue;
         CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);

@@ -105,8 +105,8 @@ TEST_CASE("program: a scene file that is not there or not JSON is refused with l
 }
 
 TEST_CASE("program: a scene file with a wrong key or value is refused with its JSON pointer", "[program]") {
-    require_scene_refused(scene_with(R"({"shape": {"cone": {"radius": 1}}})"),
-                          {"/bodies/1/shape: unknown shape \"cone\"; known: box, capsule, sphere, plane"});
+    require_scene_refused(scene_with(R"({"shape": {"torus": {"radius": 1}}})"),
+                          {"/bodies/1/shape: unknown shape \"torus\"; known: box, capsule, cone, cylinder, hull, sphere, plane"});
     require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "frictoin": 1})"),
                           {"/bodies/1/frictoin: unknown key \"frictoin\"; nearest: \"friction\""});
     require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "position": [0, NaN, 0]})"),

@@ -159,7 +159,7 @@ TEST_CASE("a mistake in a recording is told with its place") {
     CHECK_THAT(wrong(R"({"step": 1, "drag": {"grip": 0}})"), Contains("/acts/0/drag: lacks \"target\""));
     CHECK_THAT(wrong(R"({"step": 1, "drag": {"grip": 0, "target": [1, 2]}})"),
                Contains("/acts/0/drag/target: must be an array of 3"));
-    CHECK_THAT(wrong(R"({"step": 1, "add": {"shape": {"cone": {}}}})"), Contains("/acts/0/add/shape: unknown shape"));
+    CHECK_THAT(wrong(R"({"step": 1, "add": {"shape": {"torus": {}}}})"), Contains("/acts/0/add/shape: unknown shape"));
     CHECK_THAT(wrong(R"({"step": 1, "add": {"shape": {"sphere": {"radius": 0}}}})"),
                Contains("/acts/0/add/shape/sphere/radius: must be"));
     CHECK_THAT(wrong(R"({"step": 1, "turn": {}})"), Contains("/acts/0/turn: turns nothing"));

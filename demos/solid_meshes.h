@@ -1,0 +1,13 @@
+// Triangles of cylinders, cones and hulls, for the canvas.
+#pragma once
+
+#include "compute/scene.h"
+#include "host/canvas.h"
+
+namespace scree::demos {
+
+host::SolidMesh cylinder_mesh();              // of radius 1 and half height 1
+host::SolidMesh cone_mesh();                  // of radius 1 and height 1, about its centre of mass
+host::SolidMesh hull_mesh(const Hull& hull);  // of a checked scene
+
+}  // namespace scree::demos

@@ -1,0 +1,209 @@
+// What all convex shapes can be asked alike: how far they reach in a direction, and what faces they have.
+#ifndef SCREE_PHYSICS_SOLID_H
+#define SCREE_PHYSICS_SOLID_H
+
+#include "shaders/physics/flight.h"
+#include "shaders/physics/hulls.h"
+
+LAWS_BEGIN
+
+// A body as a convex core and a radius around it (of spheres and capsules; else 0). Directions and points are along the world's
+// axes, from the body's centre.
+struct Solid {
+    Axes axes;
+    vec3 size;     // as in Traits
+    uint shape;    // SHAPE_*, but no plane
+    uint hull;     // its place in the table
+    float radius;  // m
+    float scale;   // its thickness, m
+    float pad;
+};
+LAW Solid solid_of(Traits traits, vec4 orientation) {
+    Solid solid;
+    solid.axes = axes_of(orientation);
+    solid.size = traits.size;
+    solid.shape = traits.shape;
+    solid.hull = hull_of(traits);
+    solid.radius = traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE ? traits.size.x : 0.0f;
+    solid.scale = thickness(traits);
+    solid.pad = 0.0f;
+    return solid;
+}
+
+LAW vec3 in_body(Axes axes, vec3 v) {
+    return vec3(dot3(axes.x, v), dot3(axes.y, v), dot3(axes.z, v));
+}
+LAW vec3 in_world(Axes axes, vec3 v) {
+    return (axes.x * v.x + axes.y * v.y) + axes.z * v.z;
+}
+
+// Across a body's y axis, unit, the way v points; the body's x axis where it points neither way. What rounding leaves along the
+// axis of a v that points almost along it is taken away once more: it would lift a rim by a hundredth of its radius.
+LAW vec3 outward_from_axis(Axes axes, vec3 v) {
+    vec3 across = v - axes.y * dot3(axes.y, v);
+    if (dot3(across, across) <= 1.0e-10f * dot3(v, v)) return axes.x;
+    across = unit3(across, axes.x);
+    return unit3(across - axes.y * dot3(axes.y, across), axes.x);
+}
+
+// A cone's centre of mass lies a quarter of its height above its base. Its side's normal has these parts: outward, and upward.
+LAW float cone_apex(vec3 size) {
+    return 0.75f * size.y;
+}
+LAW float cone_base(vec3 size) {
+    return -0.25f * size.y;
+}
+LAW vec3 cone_normal(Axes axes, vec3 size, vec3 outward) {
+    float scale = inverse_square_root(size.x * size.x + size.y * size.y);
+    return outward * (size.y * scale) + axes.y * (size.x * scale);
+}
+
+LAW vec3 rim_point(Solid solid, vec3 outward, float height) {
+    return outward * solid.size.x + solid.axes.y * height;
+}
+
+LAW uint farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
+    uint best = 0u;
+    float farthest = -1.0e30f;
+    uint vertices = hull_vertices(hulls, solid.hull);
+    for (uint k = 0u; k < vertices; ++k) {
+        float reach = dot3(hull_vertex(hulls, solid.hull, k), local);
+        if (reach > farthest) {
+            farthest = reach;
+            best = k;
+        }
+    }
+    return best;
+}
+
+// The point of the core farthest in a direction (of any length but 0).
+LAW vec3 support_of(Solid solid, vec3 direction, Hulls hulls) {
+    if (solid.shape == SHAPE_HULL) {
+        uint vertex = farthest_vertex(solid, in_body(solid.axes, direction), hulls);
+        return in_world(solid.axes, hull_vertex(hulls, solid.hull, vertex));
+    }
+    float along = dot3(solid.axes.y, direction);
+    if (solid.shape == SHAPE_BOX) {
+        vec3 x = solid.axes.x * (dot3(solid.axes.x, direction) < 0.0f ? -solid.size.x : solid.size.x);
+        vec3 y = solid.axes.y * (along < 0.0f ? -solid.size.y : solid.size.y);
+        vec3 z = solid.axes.z * (dot3(solid.axes.z, direction) < 0.0f ? -solid.size.z : solid.size.z);
+        return (x + y) + z;
+    }
+    if (solid.shape == SHAPE_CYLINDER)
+        return rim_point(solid, outward_from_axis(solid.axes, direction), along < 0.0f ? -solid.size.y : solid.size.y);
+    if (solid.shape == SHAPE_CONE) {
+        vec3 apex = solid.axes.y * cone_apex(solid.size);
+        vec3 rim = rim_point(solid, outward_from_axis(solid.axes, direction), cone_base(solid.size));
+        return dot3(apex - rim, direction) > 0.0f ? apex : rim;
+    }
+    return solid.axes.y * (along < 0.0f ? -solid.size.y : solid.size.y);  // of a sphere 0, of a capsule half its axis
+}
+
+LAW uint faces_of(Solid solid, Hulls hulls) {
+    if (solid.shape == SHAPE_HULL) return hull_faces(hulls, solid.hull);
+    if (solid.shape == SHAPE_BOX) return 6u;
+    if (solid.shape == SHAPE_CYLINDER) return 2u;
+    return solid.shape == SHAPE_CONE ? 1u : 0u;
+}
+// xyz: outward, unit; w: distance of the face from the centre, m. Faces 2k and 2k + 1 of a box look down and up axis k; a
+// cylinder's look down and up y.
+LAW vec4 plane_of(Solid solid, uint face, Hulls hulls) {
+    if (solid.shape == SHAPE_HULL) {
+        vec4 plane = hull_plane(hulls, solid.hull, face);
+        vec3 normal = in_world(solid.axes, vec3(plane.x, plane.y, plane.z));
+        return vec4(normal.x, normal.y, normal.z, plane.w);
+    }
+    vec3 axis = solid.axes.y;
+    float reach = solid.size.y;
+    if (solid.shape == SHAPE_BOX && face < 2u) {
+        axis = solid.axes.x;
+        reach = solid.size.x;
+    }
+    if (solid.shape == SHAPE_BOX && face > 3u) {
+        axis = solid.axes.z;
+        reach = solid.size.z;
+    }
+    if (solid.shape == SHAPE_CONE) reach = -cone_base(solid.size);
+    if ((face & 1u) == 0u) axis = -axis;
+    return vec4(axis.x, axis.y, axis.z, reach);
+}
+
+// What of a body looks in a direction: a face, a line or a point. A face of many corners is taken as one of every second, or
+// third ... of them, at most MOST_SIDES.
+CONSTANT uint MOST_SIDES = 16u;
+struct Feature {
+    vec3 first;   // of a line or point, m
+    uint points;  // 1, 2, or corners of the face
+    vec3 second;  // of a line, m; of a disc the way from its middle to the first corner, unit
+    uint face;
+    uint stride;  // from corner to corner
+    uint pad0, pad1, pad2;
+};
+LAW Feature line_between(vec3 first, vec3 second) {
+    Feature feature;
+    feature.first = first;
+    feature.second = second;
+    feature.points = 2u;
+    feature.face = 0u;
+    feature.stride = 1u;
+    feature.pad0 = 0u;
+    feature.pad1 = 0u;
+    feature.pad2 = 0u;
+    return feature;
+}
+LAW Feature point_at(vec3 point) {
+    Feature feature = line_between(point, point);
+    feature.points = 1u;
+    return feature;
+}
+// A disc's corners begin where it reaches farthest in the direction, so that what rolls on a rim has its lowest point; as long as
+// it leans by less than FLAT, they stay where they are on the body.
+CONSTANT float FLAT = 0.02f;
+LAW Feature face_as_feature(Solid solid, uint face, vec3 direction, Hulls hulls) {
+    Feature feature = line_between(solid.axes.y, solid.axes.x);
+    feature.face = face;
+    feature.points = 4u;
+    if (solid.shape == SHAPE_HULL) {
+        uint corners = hull_face_corners(hulls, solid.hull, face);
+        for (uint k = 0u; k < 4u; ++k)
+            if (corners > MOST_SIDES * feature.stride) feature.stride = feature.stride + 1u;
+        feature.points = 0u;
+        for (uint k = 0u; k < corners; k += feature.stride) feature.points = feature.points + 1u;
+    } else if (solid.shape != SHAPE_BOX) {
+        feature.points = MOST_SIDES;
+        vec3 across = direction - solid.axes.y * dot3(solid.axes.y, direction);
+        if (dot3(across, across) > FLAT * FLAT * dot3(direction, direction)) feature.second = unit3(across, solid.axes.x);
+    }
+    return feature;
+}
+
+// Sines and cosines of a sixteenth of a turn and its multiples.
+LAW vec3 sixteenth(uint k, vec3 from, vec3 quarter) {
+    uint eighth = k & 3u;
+    float along = eighth == 0u ? 1.0f : (eighth == 1u ? 0.92387953f : (eighth == 2u ? 0.70710678f : 0.38268343f));
+    float across = eighth == 1u ? 0.38268343f : (eighth == 2u ? 0.70710678f : 0.92387953f);
+    vec3 v = eighth == 0u ? from : from * along + quarter * across;
+    vec3 w = eighth == 0u ? quarter : quarter * along - from * across;
+    if (k >= 12u) return -w;
+    if (k >= 8u) return -v;
+    return k >= 4u ? w : v;
+}
+// Corner k, counter-clockwise seen from outside.
+LAW vec3 corner_of(Solid solid, Feature feature, uint k, Hulls hulls) {
+    if (feature.points <= 2u) return k == 0u ? feature.first : feature.second;
+    if (solid.shape == SHAPE_HULL) return in_world(solid.axes, hull_corner(hulls, solid.hull, feature.face, k * feature.stride));
+    vec4 plane = plane_of(solid, feature.face, hulls);
+    vec3 normal = vec3(plane.x, plane.y, plane.z);
+    if (solid.shape == SHAPE_BOX) {
+        vec3 e = feature.face < 2u ? solid.axes.y * solid.size.y : solid.axes.x * solid.size.x;
+        vec3 f = feature.face > 3u ? solid.axes.y * solid.size.y : solid.axes.z * solid.size.z;
+        if (dot3(cross3(e, f), normal) < 0.0f) f = -f;
+        vec3 side = k == 0u || k == 3u ? e : -e;
+        return (normal * plane.w + side) + (k < 2u ? f : -f);
+    }
+    return normal * plane.w + sixteenth(k * feature.stride, feature.second, cross3(normal, feature.second)) * solid.size.x;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,30 @@
+// Cylinders, cones and hulls: their triangles, with a normal at each corner.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_BODIES
+#include "shaders/render/solid_mesh.h"
+
+layout(location = 0) out vec3 out_point;   // relative to the eye
+layout(location = 1) out vec3 out_normal;  // in the body's frame
+layout(location = 2) out vec3 out_own;     // in the body's frame, in half sizes
+layout(location = 3) flat out vec4 out_turn;
+layout(location = 4) flat out vec4 out_color;  // w: how far up the colour scale
+
+// Depths and colours are drawn one after the other, and must lie in the same places.
+invariant gl_Position;
+
+void main() {
+    Corner at = corner_of_body();
+    gl_Position = vec4(0, 0, -1, 1);
+    if (!at.there) return;
+    Traits t = traits[at.body];
+    MeshCorner corner = mesh_corner(at, t.size);
+    if (!corner.there) return;
+    Pose pose = poses[at.body];
+    out_point = pose.position - frame.eye.xyz + turned(pose.orientation, corner.point);
+    out_normal = corner.normal;
+    out_own = t.shape == SHAPE_HULL ? vec3(0.0) : corner.point / t.size.x;
+    out_turn = pose.orientation;
+    out_color = tints[at.body];
+    gl_Position = frame.view_projection * vec4(out_point, 1.0);
+}

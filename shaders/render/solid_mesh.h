@@ -1,0 +1,32 @@
+// A corner of the mesh of a cylinder, cone or hull.
+#ifndef SCREE_RENDER_SOLID_MESH_H
+#define SCREE_RENDER_SOLID_MESH_H
+
+#include "shaders/render/batch.h"
+
+layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
+    // From where the run's directions begin: for each body where its mesh begins (x), how many corners it has (y), and whether it
+    // is stretched by radius and height (z); then the meshes: for each corner its place (xyz) and its normal.
+    vec4 directions[];
+};
+
+struct MeshCorner {
+    vec3 point;  // in the body's frame, m
+    vec3 normal;
+    bool there;
+};
+MeshCorner mesh_corner(Corner at, vec3 size) {
+    uint first = runs[pushed >> 8].directions;
+    // The runs of all bodies and of those that are seen have the same meshes.
+    vec4 mesh = directions[first + at.body];
+    uint k = at.corner - first;
+    MeshCorner corner;
+    corner.there = k < uint(mesh.y);
+    uint place = first + uint(mesh.x) + 2u * (corner.there ? k : 0u);
+    vec3 stretch = mesh.z > 0.5 ? vec3(size.x, size.y, size.x) : vec3(1.0);
+    corner.point = directions[place].xyz * stretch;
+    corner.normal = normalize(directions[place + 1u].xyz / stretch);
+    return corner;
+}
+
+#endif

@@ -1,0 +1,16 @@
+// Shadows of cylinders, cones and hulls: the sides towards the light.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#define READS_BODIES
+#include "shaders/render/shadow_map.h"
+#include "shaders/render/solid_mesh.h"
+
+void main() {
+    Corner at = corner_of_body();
+    gl_Position = vec4(0, 0, -1, 1);
+    if (!at.there) return;
+    MeshCorner corner = mesh_corner(at, traits[at.body].size);
+    if (!corner.there) return;
+    Pose pose = poses[at.body];
+    gl_Position = light_position(pose.position - frame.eye.xyz + turned(pose.orientation, corner.point));
+}

@@ -1,0 +1,12 @@
+// The table of hulls, as the laws ask for it.
+#ifndef SCREE_STAGES_HULLS_GLSL
+#define SCREE_STAGES_HULLS_GLSL
+
+#include "shaders/physics/hulls.h"
+#include "shaders/stages/stage.glsl"
+
+uvec4 hull_record(Hulls table, uint place) {
+    return hulls[place];
+}
+
+#endif

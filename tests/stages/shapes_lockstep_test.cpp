@@ -1,0 +1,39 @@
+// Every stage with all shapes mixed, on the device and on the CPU.
+#include <catch2/catch.hpp>
+#include <random>
+
+#include "compute/lockstep.h"
+#include "host/device.h"
+
+using namespace scree;
+
+TEST_CASE("every stage gives the same bits on both processors for cylinders, cones and hulls among all other shapes") {
+    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+    std::mt19937 chance(5);
+    const auto any = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(chance); };
+    Scene scene;
+    scene.bodies.resize(1);
+    scene.bodies[0].motion = Motion::fixed;
+    scene.bodies[0].shape = Plane{};
+    std::vector<Hull> hulls(3);
+    for (Hull& hull : hulls)
+        for (int k = 0; k < 20; ++k) hull.points.emplace_back(any(-0.4f, 0.4f), any(-0.4f, 0.4f), any(-0.4f, 0.4f));
+    for (int k = 0; k < 90; ++k) {
+        const Shape shapes[] = {Cylinder{0.3f, any(0.1f, 0.4f)},
+                                Cone{0.3f, any(0.4f, 0.8f)},
+                                hulls[static_cast<std::size_t>(k) % 3],
+                                Sphere{0.3f},
+                                Capsule{0.2f, 0.2f},
+                                Box{{0.3f, 0.2f, 0.25f}}};
+        Body& body = scene.bodies.emplace_back();
+        body.shape = shapes[k % 6];
+        body.position = {any(-1, 1), 0.3f + 0.25f * static_cast<float>(k), any(-1, 1)};
+        body.orientation = {any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)};
+        body.velocity = {0, k % 7 == 0 ? -40.0f : -1.0f, 0};
+    }
+    const LockstepResult result = compare_in_lockstep(scene, {}, device, 1, 40);
+    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                 << result.detail);
+    REQUIRE(result.equal);
+    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
