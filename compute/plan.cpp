@@ -49,7 +49,7 @@ std::vector<Stage> plan(int substeps, bool convex) {
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
     s.push_back({"collide_kept", Over::kind, collide_kept, {}, physics::KIND_KEPT, /* feeds_next */ false});
     s.push_back({"collide_still", Over::kind, collide_still, {manifolds, touching}, physics::KIND_STILL});
-    s.push_back({"foresee_impacts", Over::flights, foresee_impacts, {touching, bounds}});
+    s.push_back({convex ? "foresee_impacts_convex" : "foresee_impacts", Over::flights, foresee_impacts, {touching, bounds}});
     s.push_back({"drop_passers", Over::flights, drop_passers, {touching}});
     // contacts: who touches
     scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
@@ -76,7 +76,7 @@ std::vector<Stage> plan(int substeps, bool convex) {
     s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, bounds, counts}});
     // what is fast stops before it passes through something
     for (std::uint32_t round = 0; round < physics::FLIGHT_ROUNDS; ++round)
-        s.push_back({"find_impacts", Over::flights, find_impacts, {bounds}, round});
+        s.push_back({convex ? "find_impacts_convex" : "find_impacts", Over::flights, find_impacts, {bounds}, round});
     s.push_back({"stop_bodies", Over::bodies, stop_bodies, {poses, velocities}});
     return s;
 }

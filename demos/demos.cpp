@@ -19,6 +19,7 @@ const std::vector<Demo>& all_demos() {
         {"pile", "boxes fall into a pit and come to rest", 1000, true, pile},
         {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
         {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
+        {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
@@ -31,6 +32,8 @@ const std::vector<Demo>& all_demos() {
         {"pile1m", "boxes of 1 m lie still in a pit, fall asleep, and wake where a ball strikes", 10000, true, pile1m, true},
         {"mix1m", "spheres, capsules and boxes of about 1 m lie still in a pit", 10000, true, mix1m, true},
         {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},
+
+        {"solids", "cylinders, cones and hulls stand, stack and roll", 17, false, solids, true},
 
         {"onset", "boxes begin to slide at the angle atan(mu)", 18, false, onset, true},
         {"hold", "boxes below that angle do not creep", 9, false, hold, true},

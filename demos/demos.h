@@ -55,6 +55,7 @@ DemoScene dominoes(const DemoOptions&);
 DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
+DemoScene assortment(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);
@@ -67,6 +68,7 @@ DemoScene tray(const DemoOptions&);
 DemoScene pile1m(const DemoOptions&);
 DemoScene mix1m(const DemoOptions&);
 DemoScene overlap(const DemoOptions&);
+DemoScene solids(const DemoOptions&);
 DemoScene onset(const DemoOptions&);
 DemoScene hold(const DemoOptions&);
 DemoScene steep(const DemoOptions&);

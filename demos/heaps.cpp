@@ -57,4 +57,8 @@ DemoScene mix(const DemoOptions& options) {
     return heap(options, random_mixed, 0.25f);
 }
 
+DemoScene assortment(const DemoOptions& options) {
+    return heap(options, random_assorted, 0.2f);
+}
+
 }  // namespace scree::demos

@@ -7,11 +7,15 @@
 #include "shaders/physics/collide_capsule_box.h"
 #include "shaders/physics/collide_capsule_capsule.h"
 #include "shaders/physics/collide_capsule_plane.h"
-#include "shaders/physics/collide_convex.h"
 #include "shaders/physics/collide_sphere_box.h"
 #include "shaders/physics/collide_sphere_capsule.h"
 #include "shaders/physics/collide_sphere_plane.h"
 #include "shaders/physics/collide_sphere_sphere.h"
+#include "shaders/physics/hulls.h"
+// A scene without cylinders, cones and hulls leaves out what takes a second to compile on a processor.
+#ifndef WITHOUT_CONVEX
+#include "shaders/physics/collide_convex.h"
+#endif
 
 LAWS_BEGIN
 
@@ -60,6 +64,7 @@ LAW Gap gap_of_touch(Touch touch) {
     return gap;
 }
 
+#ifndef WITHOUT_CONVEX
 // Of a cylinder, cone or hull (the second) and any other shape.
 LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
     Gap gap;
@@ -75,10 +80,13 @@ LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls)
     gap.distance = s.distance;
     return gap;
 }
+#endif
 
 // The simpler shape first, as the laws of touching want it.
 LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
+#ifndef WITHOUT_CONVEX
     if (b.shape >= SHAPE_CYLINDER) return gap_of_convex(a, pose_a, b, pose_b, hulls);
+#endif
     float any = 1.0e30f;
     if (a.shape == SHAPE_SPHERE) {
         if (b.shape == SHAPE_SPHERE) return gap_of_touch(collide_sphere_sphere(a, pose_a, b, pose_b, any));

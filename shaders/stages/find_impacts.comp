@@ -1,3 +1,5 @@
+// variants: find_impacts -DWITHOUT_CONVEX
+// variants: find_impacts_convex -DWITH_CONVEX
 // Finds where the fast bodies must be stopped so that no pair passes through each other. push.pass is the round: in the first the
 // ways are whole, in later ones those end that the round before has stopped, lest whoever follows runs into them.
 #version 460

@@ -1,3 +1,5 @@
+// variants: foresee_impacts -DWITHOUT_CONVEX
+// variants: foresee_impacts_convex -DWITH_CONVEX
 // Looks ahead for the contacts of fast pairs: which will strike their bodies, and which are doubtful because the two pass each
 // other or touch elsewhere.
 #version 460
