@@ -130,16 +130,18 @@ const Hulls::Made& Hulls::of(const std::vector<vec3>& points) {
     Made& one = at->second;
     if (!fresh) return one;
     try {
-        HullForm form = hull_form(points);
-        const glm::dmat3 axes = principal_axes(form.inertia);
-        const double size = std::cbrt(form.volume);
-        one.simplified = form.simplified;
         one.hull.points = points;
-        if (form.simplified || axes != glm::dmat3(1) || glm::length(form.centre) > 1e-5 * size) {
-            one.centre = form.centre;
-            one.axes = glm::normalize(glm::quat_cast(axes));
+        HullForm form = hull_form(points);
+        one.simplified = form.simplified;
+        // Moved points are rounded, and faces that were one may be two: until nothing is left to move.
+        for (int round = 0; round < 8; ++round) {
+            const glm::dmat3 axes = principal_axes(form.inertia);
+            if (!form.simplified && axes == glm::dmat3(1) && glm::length(form.centre) <= 1e-5 * std::cbrt(form.volume)) break;
+            const glm::dquat turn = glm::normalize(glm::quat_cast(axes));
+            one.centre += one.axes * form.centre;
+            one.axes = glm::normalize(one.axes * turn);
             one.hull.points.clear();
-            for (const dvec3& v : form.vertices) one.hull.points.push_back(vec3(glm::conjugate(one.axes) * (v - form.centre)));
+            for (const dvec3& v : form.vertices) one.hull.points.push_back(vec3(glm::conjugate(turn) * (v - form.centre)));
             form = hull_form(one.hull.points);
         }
         one.hull.form = std::make_shared<const HullForm>(std::move(form));
