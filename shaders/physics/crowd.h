@@ -53,7 +53,7 @@ LAW float split_for(float crowd, float pressed, Parameters parameters) {
     float contacts = contacts_of(crowd);
     float all = uintBitsToFloat(floatBitsToUint(crowd) & 0xFFFF0000u);
     float split = contacts * parameters.inverse_relaxation;
-    if (contacts > 1.0f && all > 2.0f * LEAST_PRESSING) {
+    if (contacts > 1.0f && 0.5f * all > LEAST_PRESSING) {
         float part = 0.5f * reciprocal(contacts) + 0.5f * smaller(1.0f, pressed * reciprocal(all));
         split = parameters.inverse_relaxation * reciprocal(part);
     }

@@ -1,8 +1,8 @@
 // The common subset of GLSL and C++ in which shaders/physics is written: glm gives C++ the words of GLSL.
 //
-// Rules (a test holds them): literals end in f or u; no `/`, sqrt, dot, normalize, mix, fma, min, max on floats (arithmetic.h has
-// ours); a vec3 member is followed by a scalar; no arrays of vec3; quaternions are vec4 (x, y, z, w); no swizzles; functions take
-// values and return values.
+// Rules (a test holds them): literals end in f or u; no two constants meet (GLSL compilers reckon with them in double precision);
+// no `/`, sqrt, dot, normalize, mix, fma, min, max on floats (arithmetic.h has ours); a vec3 member is followed by a scalar; no
+// arrays of vec3; quaternions are vec4 (x, y, z, w); no swizzles; functions take values and return values.
 #ifndef SCREE_PHYSICS_LANGUAGE_H
 #define SCREE_PHYSICS_LANGUAGE_H
 
