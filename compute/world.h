@@ -122,6 +122,9 @@ public:
     BodyState body(std::size_t index) const;                 // throws std::out_of_range
     std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts
     std::vector<BodyState> bodies() const;
+    // The scene with every body where it is now and as fast. A world made of it goes on from there, but not to the same bits: its
+    // contacts begin anew, sleepers are awake, and what a position has below its last bit is gone.
+    Scene snapshot() const;
     Statistics statistics() const;
     const State& state() const;        // every table of a step (compute/state.h), with bodies and contacts as they are now
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
