@@ -208,5 +208,8 @@ std::size_t World::buffer_bytes() const {
 StageTimes World::stage_times() const {
     return interior_->runner->stage_times();
 }
+StageTimes World::last_stage_times() const {
+    return interior_->runner->last_stage_times();
+}
 
 }  // namespace scree

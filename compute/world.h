@@ -130,8 +130,9 @@ public:
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
 
     std::uint64_t buffer_growths() const;
-    std::size_t buffer_bytes() const;  // at present, all tables together
-    StageTimes stage_times() const;    // milliseconds per step, mean so far
+    std::size_t buffer_bytes() const;     // at present, all tables together
+    StageTimes stage_times() const;       // milliseconds per step, mean so far
+    StageTimes last_stage_times() const;  // the same of the last step alone
 
 private:
     struct Interior;
