@@ -12,7 +12,7 @@ namespace {
 constexpr double smallest_share = 0.005;  // of a step: stages below are told together
 
 std::string percent(double part, double whole) {
-    return whole > 0 ? fmt::format("{:.1f}", 100 * part / whole) : "";
+    return whole > 0 ? fmt::format("{:.1f}", 100 * part / whole) : std::string();
 }
 
 Cells stage_row(const StageCost& stage, const Measurement& m, double sum) {

@@ -247,7 +247,8 @@ TEST_CASE("program: bench writes a table and CSV with a row for every stage", "[
                  "demo,backend,device,bodies,manifolds,points,asleep,buffer_bytes,stage,ms_median,ms_25,ms_75,ms_mean,bytes,"
                  "copy_bytes_per_s,share_of_copy"));
     REQUIRE(std::count(csv.begin(), csv.end(), '\n') > 20);
-    REQUIRE(says(bench.output, "solve_contacts"));
+    REQUIRE(says(csv, "solve_contacts"));
+    REQUIRE(says(bench.output, "bound_bodies"));
     REQUIRE(says(bench.output, "% of copying"));
 }
 
