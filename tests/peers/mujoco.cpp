@@ -91,7 +91,7 @@ public:
         model_ = load(model_text(scene));
         // It allocates for a number of contacts that it is told; more are left out, which would make it faster than it is.
         for (begin(); overflowed(); begin()) rows_of_a_body_ *= 1.3;
-        rows_of_a_body_ *= 1.2;
+        rows_of_a_body_ *= 1.5;  // for what comes to touch on the way
         begin();
     }
 

@@ -98,12 +98,13 @@ Quartiles quartiles_of(std::vector<double> ms) {
 
 std::string table_of(const std::vector<Lap>& laps) {
     const double first = laps.empty() || laps.front().ms.empty() ? 0 : quartiles_of(laps.front().ms).median;
+    const std::string first_name = laps.empty() ? "" : laps.front().name.substr(0, laps.front().name.find(','));
     std::vector<demos::Cells> rows = {
-        {"program", "ms/step", "25%", "75%", "of " + (laps.empty() ? "" : laps.front().name), "points", "moved mm", "at most"}};
+        {"program", "ms/step", "25%", "75%", "ratio to " + first_name, "points", "moved mm", "at most"}};
     std::string left_out;
     for (const Lap& lap : laps) {
         if (lap.ms.empty()) {
-            rows.push_back({lap.name, "-", "-", "-", "-", "-", "-", "-"});
+            rows.push_back({lap.name, "", "", "", "", "", "", ""});
             left_out += fmt::format("{}: left out: {}\n", lap.name, lap.why_not);
             continue;
         }
