@@ -23,6 +23,7 @@ public:
     void fetch_contacts() override {}
     void fetch() override {}
     StageTimes stage_times() const override { return clock_.means(); }
+    StageTimes last_stage_times() const override { return clock_.last(); }
 
     // A step whose every stage is followed by a look at the state; stops, returning false, when the look says so.
     bool step(const std::function<bool(const Stage&, std::size_t index)>& look);

@@ -3,6 +3,7 @@
 
 #include "compute/device_runner.h"
 #include "demos/failure.h"
+#include "host/copy_speed.h"
 #include "host/device.h"
 #include "shaders/physics/records.h"
 
@@ -10,6 +11,10 @@ namespace scree::demos {
 
 std::unique_ptr<Runner> Machine::make_runner() const {
     return device ? make_device_runner(device) : make_reference_runner(options.threads);
+}
+
+double Machine::copy_speed() const {
+    return device ? host::device_copy_speed(device) : host::processor_copy_speed(options.threads);
 }
 
 void Machine::require_valid() const {

@@ -23,6 +23,7 @@ struct Machine {
     std::shared_ptr<host::Device> screen = nullptr;  // shows a window; null unless one was asked for
 
     std::unique_ptr<Runner> make_runner() const;
+    double copy_speed() const;  // bytes read and written a second (host/copy_speed.h); takes a moment
     // Throws WorkFailed with what the validation layers said, if they were asked for and said anything.
     void require_valid() const;
 };

@@ -1,6 +1,7 @@
 // Choosing where to simulate, in a build without Vulkan: the processor.
 #include "demos/failure.h"
 #include "demos/machine.h"
+#include "host/copy_speed.h"
 #include "host/device_error.h"
 
 namespace scree::demos {
@@ -11,6 +12,10 @@ constexpr const char* cure = "this scree was built without Vulkan; configure it 
 
 std::unique_ptr<Runner> Machine::make_runner() const {
     return make_reference_runner(options.threads);
+}
+
+double Machine::copy_speed() const {
+    return host::processor_copy_speed(options.threads);
 }
 
 void Machine::require_valid() const {}
