@@ -72,7 +72,7 @@ int bench(const Options& options) {
         throw UsageError("--settled: say with --settle for how many seconds");
     const std::vector<SceneOptions> scenes = scenes_of(options);
     require_writable_file("--csv", options.csv);
-    const Machine machine = choose_machine(options.machine);
+    const Machine machine = choose_machine(options.machine, Choice::a_device);
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     const double copy_speed = at_work([&] { return machine.copy_speed(); });
     std::vector<Measurement> all;

@@ -200,7 +200,7 @@ int run(const Options& options) {
         subject.before_step = replay(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
-    const Machine machine = choose_machine(options.machine);
+    const Machine machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
     World world(subject.scene, subject.settings(options.scene), machine.make_runner());

@@ -233,7 +233,7 @@ int view(Options options) {
     require_writable_file("--record", options.record);
     require_writable_file("--report", options.report);
     const std::unique_ptr<host::Display> display = open_display(options);
-    const Machine machine = choose_machine(options.machine, display->extensions());
+    const Machine machine = choose_machine(options.machine, Choice::fastest, display->extensions());
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     {
         Viewer viewer(options, *display, machine);

@@ -20,7 +20,7 @@ double Machine::copy_speed() const {
 
 void Machine::require_valid() const {}
 
-Machine choose_machine(const MachineOptions& options, const std::vector<const char*>&) {
+Machine choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {
     if (options.backend == "vulkan") throw UsageError(std::string("--backend vulkan: ") + cure);
     if (!options.device.empty()) throw UsageError(std::string("--device: ") + cure);
     return {options, nullptr, ""};
