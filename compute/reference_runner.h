@@ -11,7 +11,7 @@ namespace scree {
 
 class ReferenceRunner : public Runner {
 public:
-    explicit ReferenceRunner(int threads) : threads_(threads) {}
+    explicit ReferenceRunner(int threads, int lanes = Threads::most_lanes) : threads_(threads, lanes) {}
     std::string backend() const override { return "cpu"; }
     std::string device() const override;
     std::uint32_t group_size() const override { return 64; }
