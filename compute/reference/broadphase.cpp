@@ -143,9 +143,13 @@ void order_cells(State& state, const Threads& threads, std::uint32_t) {
 
 void count_pairs(State& state, const Threads& threads, std::uint32_t) {
     std::atomic_ref coarse(state.counted().pairs_coarse);
+    state.partners.resize(state.fixed().bodies);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         std::uint32_t count = 0;
-        for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t) { ++count; });
+        for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t other) {
+            if (count < State::noted) state.partners[i][count] = other;
+            ++count;
+        });
         state.pair_starts[i] = count;
         coarse.fetch_add((count + 255) / 256, std::memory_order_relaxed);
     });
@@ -156,7 +160,12 @@ void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const auto owner = static_cast<std::uint32_t>(i);
         auto next = state.candidates.begin() + state.pair_starts[i];
-        for_each_partner(state, owner, [&](std::uint32_t other) { *next++ = {owner, other}; });
+        const auto list = [&](std::uint32_t other) { *next++ = {owner, other}; };
+        const std::size_t count = state.pair_starts[i + 1] - state.pair_starts[i];
+        if (count <= State::noted)
+            std::for_each_n(state.partners[i].begin(), count, list);
+        else
+            for_each_partner(state, owner, list);
     });
 }
 

@@ -86,14 +86,20 @@ SCREE_INLINE Float told_by(const std::uint32_t* told, const Indices& bodies) {
     return uintBitsToFloat(words);
 }
 
+// physics::shared_for, which asks for a load only where there is a blow.
+SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const Indices& bodies, const Parameters& p) {
+    const Mass mass = gather<Mass>(tables.masses, bodies);
+    if (none(blow_of(impulse) > 0.0f)) return lent(mass, impulse, p);
+    return shared_for(impulse, mass, gather<Load>(tables.loads, bodies), p);
+}
+
 void relax(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Group group(tables, first, last);
         const Impulse& was = group.impulse;
-        const Mass ma = shared_for(was, gather<Mass>(tables.masses, group.a), gather<Load>(tables.loads, group.a), p);
-        const Mass mb = shared_for(was, gather<Mass>(tables.masses, group.b), gather<Load>(tables.loads, group.b), p);
+        const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
         const Solved after = relaxed(group.c, was, group.before, ma, mb, group.pull(tables), p);
         Impulse impulse = without_blows(after.impulse, group.c.count);
         impulse.pressed = pressing(impulse);
