@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cstring>
 #include <numeric>
 
 #include "compute/reference/stages.h"
@@ -22,8 +23,15 @@ std::span<const physics::CellEntry> bucket(const State& state, std::size_t b) {
 
 // physics::boxes_overlap without a branch: half of the neighbours do, and no processor foresees which.
 bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
-    return (a.lower.x <= b.upper.x) & (b.lower.x <= a.upper.x) & (a.lower.y <= b.upper.y) & (b.lower.y <= a.upper.y) &
-           (a.lower.z <= b.upper.z) & (b.lower.z <= a.upper.z);
+    using Four [[gnu::vector_size(16)]] = float;  // a bound and the integer behind it
+    using Halves [[gnu::vector_size(16)]] = std::uint64_t;
+    Four lower_a, upper_a, lower_b, upper_b;
+    std::memcpy(&lower_a, &a.lower, sizeof lower_a);
+    std::memcpy(&upper_a, &a.upper, sizeof upper_a);
+    std::memcpy(&lower_b, &b.lower, sizeof lower_b);
+    std::memcpy(&upper_b, &b.upper, sizeof upper_b);
+    const Halves both = (Halves)((lower_a <= upper_b) & (lower_b <= upper_a));
+    return (both[0] & (both[1] | 0xFFFFFFFF00000000u)) == ~std::uint64_t{0};
 }
 
 // Calls visit(entries) for the bodies in a row of cells along x, whose buckets follow each other round the end of the grid.
