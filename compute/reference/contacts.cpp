@@ -89,6 +89,7 @@ void order_slots(State& state, const Threads& threads, std::uint32_t) {
 
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const physics::Parameters& p = state.fixed();
+    const WideStages* wide = wide_stages(threads.lanes());
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         physics::Constraint& c = state.constraints[i];
         const std::uint32_t index = c.pair;
@@ -121,12 +122,16 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c.pair = index;
 
         impulse.pressed = physics::pressing(impulse);
+        if (wide) return;
         const physics::Mass ma = physics::lent(state.masses[c.a], impulse, p), mb = physics::lent(state.masses[c.b], impulse, p);
         const physics::Couple now = velocities_of(state, c);
         const float carrying = physics::carries(c, impulse, now, p);
         hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying,
                  {impulse.pressed, impulse.pressed});
     });
+    if (!wide) return;
+    const WideTables tables = wide_tables(state, state.binned);
+    threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->hand_out(tables, first, end); });
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {

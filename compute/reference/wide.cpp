@@ -62,10 +62,27 @@ struct Group {
     SCREE_INLINE void hand_out(const WideTables& tables, const Impulse& after, const Couple& share, Float carrying, Float told_a,
                                Float told_b) const {
         scatter(tables.impulses, contacts.only(live), after);
+        hand_out(tables, share, carrying, told_a, told_b);
+    }
+    SCREE_INLINE void hand_out(const WideTables& tables, const Couple& share, Float carrying, Float told_a, Float told_b) const {
         scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), slot_of(share.a, carrying, told_b));
         scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), slot_of(share.b, carrying, told_a));
     }
 };
+
+void hand_out(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Group group(tables, first, last);
+        const Mass ma = lent(gather<Mass>(tables.masses, group.a), group.impulse, p);
+        const Mass mb = lent(gather<Mass>(tables.masses, group.b), group.impulse, p);
+        const Float carrying = carries(group.c, group.impulse, group.before, p);
+        const Couple share = shares_of(group.before, group.before, ma, mb);
+        group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), carrying, group.impulse.pressed,
+                       group.impulse.pressed);
+    }
+}
 
 void solve(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
@@ -185,7 +202,8 @@ LAWS_END
 namespace scree::reference {
 
 #define SCREE_STAGES(count) SCREE_JOINED(wide_stages_, count)
-const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_NAMED(SCREE_LANES)::begin, SCREE_NAMED(SCREE_LANES)::solve,
-                                              SCREE_NAMED(SCREE_LANES)::move, SCREE_NAMED(SCREE_LANES)::relax};
+const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_NAMED(SCREE_LANES)::hand_out, SCREE_NAMED(SCREE_LANES)::begin,
+                                              SCREE_NAMED(SCREE_LANES)::solve, SCREE_NAMED(SCREE_LANES)::move,
+                                              SCREE_NAMED(SCREE_LANES)::relax};
 
 }  // namespace scree::reference

@@ -1,4 +1,5 @@
-// The four stages of a substep, for several contacts or bodies at once in the lanes of the processor's vectors.
+// The first warm start and the four stages of a substep, for several contacts or bodies at once in the lanes of the processor's
+// vectors.
 #pragma once
 
 #include <cstddef>
@@ -26,6 +27,7 @@ struct WideTables {
 
 // The stages for the items [first, last); the bits are those of the plain loops in contacts.cpp and bodies.cpp.
 struct WideStages {
+    void (*hand_out)(const WideTables&, std::size_t first, std::size_t last);  // the end of prepare_contacts
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);
     void (*move)(const WideTables&, std::size_t first, std::size_t last);
