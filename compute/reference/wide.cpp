@@ -2,8 +2,10 @@
 // (compute/CMakeLists.txt), and compute/reference/wide_choice.cpp picks the widest that the processor has.
 #include "compute/reference/wide.h"
 
+// Says what the words of the laws mean, so before them.
 #include "compute/reference/lanes.h"
-// (above: what the words mean of)
+
+// The laws.
 #include "shaders/physics/block.h"
 #include "shaders/physics/motion.h"
 #undef float
