@@ -209,6 +209,7 @@ bool DeviceRunner::step() {
     begin_step();
     device_->submit_and_wait({steps_[parity_]->handle()});
     counts_back_.read(&state_->counted(), sizeof(physics::Counts));
+    clock_.begin_step();
     const std::vector<double> seconds = steps_[parity_]->timestamp_seconds();
     for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
     clock_.end_step();

@@ -34,6 +34,7 @@ public:
     void fetch_contacts() override;
     void fetch() override;
     StageTimes stage_times() const override { return clock_.means(); }
+    StageTimes last_stage_times() const override { return clock_.last(); }
 
     // What a canvas draws from. They are other buffers after a step that had to grow.
     const host::Buffer& traits() const { return buffer(Table::traits); }

@@ -24,6 +24,7 @@ bool ReferenceRunner::step() {
 
 bool ReferenceRunner::step(const std::function<bool(const Stage&, std::size_t)>& look) {
     if (!state_->fixed().redo) state_->turn_over();
+    clock_.begin_step();
     for (std::size_t i = 0; i < plan_.size(); ++i) {
         const auto begin = std::chrono::steady_clock::now();
         plan_[i].reference(*state_, threads_, plan_[i].pass);

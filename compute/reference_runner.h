@@ -11,7 +11,7 @@ namespace scree {
 
 class ReferenceRunner : public Runner {
 public:
-    explicit ReferenceRunner(int threads) : threads_(threads) {}
+    explicit ReferenceRunner(int threads, int lanes = Threads::most_lanes) : threads_(threads, lanes) {}
     std::string backend() const override { return "cpu"; }
     std::string device() const override;
     std::uint32_t group_size() const override { return 64; }
@@ -23,6 +23,7 @@ public:
     void fetch_contacts() override {}
     void fetch() override {}
     StageTimes stage_times() const override { return clock_.means(); }
+    StageTimes last_stage_times() const override { return clock_.last(); }
 
     // A step whose every stage is followed by a look at the state; stops, returning false, when the look says so.
     bool step(const std::function<bool(const Stage&, std::size_t index)>& look);

@@ -34,8 +34,9 @@ public:
     virtual void fetch_bodies() = 0;
     virtual void fetch_contacts() = 0;
     virtual void fetch() = 0;
-    virtual StageTimes stage_times() const = 0;  // means over the steps since the runner was first attached, or
-                                                 // the substeps changed
+    virtual StageTimes stage_times() const = 0;       // means over the steps since the runner was first attached, or
+                                                      // the substeps changed
+    virtual StageTimes last_stage_times() const = 0;  // of the last step alone
 };
 
 // On the CPU, in `threads` threads (0: one per core). No bit depends on how many.

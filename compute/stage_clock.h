@@ -13,14 +13,16 @@ class StageClock {
 public:
     StageClock() = default;
     explicit StageClock(const std::vector<Stage>& plan);
-    void add(std::size_t stage, double seconds) { seconds_[row_of_[stage]] += seconds; }  // by index in the plan
+    void begin_step();
+    void add(std::size_t stage, double seconds);  // by index in the plan
     void end_step() { ++steps_; }
     StageTimes means() const;
+    StageTimes last() const;  // of the last step alone
 
 private:
     std::vector<std::size_t> row_of_;  // stages of the same name share a row
     std::vector<std::string> names_;
-    std::vector<double> seconds_;
+    std::vector<double> seconds_, last_seconds_;
     std::uint64_t steps_ = 0;
 };
 

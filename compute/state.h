@@ -91,6 +91,11 @@ struct State {
 
     int substeps = 1;
 
+    // The plain loops' own, no table: the first partners of each body as they were counted, so that they need not be sought again
+    // to be listed. More than any body has in a heap of equal ones; whoever has more seeks again.
+    static constexpr std::size_t noted = 15;
+    std::vector<std::array<std::uint32_t, noted>> partners;
+
 private:
     void allocate();
     physics::Traits traits_of(const Body& body);

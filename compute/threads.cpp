@@ -21,12 +21,13 @@ struct Threads::Arena {
     tbb::task_arena arena;
 };
 
-Threads::Threads(int count) : count_(count > 0 ? count : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) {
+Threads::Threads(int count, int lanes)
+    : count_(count > 0 ? count : std::max(1, static_cast<int>(std::thread::hardware_concurrency()))), lanes_(lanes) {
     if (count_ > 1) arena_ = std::make_unique<Arena>(count_);
 }
 Threads::~Threads() = default;
 
-void Threads::for_ranges(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
+void Threads::share_out(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
     arena_->arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
                           [&](const tbb::blocked_range<std::size_t>& part) { range(part.begin(), part.end()); });

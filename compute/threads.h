@@ -1,4 +1,4 @@
-// Loops whose items do not depend on each other, on one thread or many: the bits are the same.
+// Loops whose items do not depend on each other, on one thread or many, one item at a time or several: the bits are the same.
 #pragma once
 
 #include <cstddef>
@@ -9,29 +9,37 @@ namespace scree {
 
 class Threads {
 public:
-    explicit Threads(int count = 0);  // 0: one per core
+    static constexpr int most_lanes = 16;
+    explicit Threads(int count = 0, int lanes = most_lanes);  // 0: one per core
     ~Threads();
     int count() const { return count_; }
+    // Items that a loop may do at once in the lanes of the processor's vectors, if it and the processor can.
+    int lanes() const { return lanes_; }
 
     // Calls body(i) for every i below n.
     template <typename Body>
     void for_each(std::size_t n, const Body& body) const {
-        if (count_ == 1 || n < 2 * grain) {
-            for (std::size_t i = 0; i < n; ++i) body(i);
-            return;
-        }
         for_ranges(n, [&](std::size_t first, std::size_t last) {
             for (std::size_t i = first; i < last; ++i) body(i);
         });
     }
+    // Calls range(first, last) for parts of [0, n) that make up the whole.
+    template <typename Range>
+    void for_ranges(std::size_t n, const Range& range) const {
+        if (count_ == 1 || n < 2 * grain)
+            range(std::size_t{0}, n);
+        else
+            share_out(n, range);
+    }
 
 private:
     static constexpr std::size_t grain = 64;  // items worth the hand-over to another thread
-    void for_ranges(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const;
+    void share_out(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const;
 
     struct Arena;
     std::unique_ptr<Arena> arena_;
     int count_ = 1;
+    int lanes_ = most_lanes;
 };
 
 }  // namespace scree

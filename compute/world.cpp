@@ -145,6 +145,21 @@ std::vector<BodyState> World::bodies() const {
     return bodies;
 }
 
+Scene World::snapshot() const {
+    Scene scene = interior_->scene;
+    interior_->runner->fetch_bodies();
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        Body& body = scene.bodies[i];
+        if (body.motion == Motion::fixed) continue;
+        const BodyState now = interior_->body_state(i);
+        body.position = now.position;
+        body.orientation = now.orientation;
+        body.velocity = now.velocity;
+        body.angular_velocity = now.angular_velocity;
+    }
+    return scene;
+}
+
 BodyState World::body(std::size_t index) const {
     interior_->require_body(index);
     interior_->runner->fetch_body(index);
@@ -192,6 +207,9 @@ std::size_t World::buffer_bytes() const {
 }
 StageTimes World::stage_times() const {
     return interior_->runner->stage_times();
+}
+StageTimes World::last_stage_times() const {
+    return interior_->runner->last_stage_times();
 }
 
 }  // namespace scree

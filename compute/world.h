@@ -122,13 +122,17 @@ public:
     BodyState body(std::size_t index) const;                 // throws std::out_of_range
     std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts
     std::vector<BodyState> bodies() const;
+    // The scene with every body where it is now and as fast. A world made of it goes on from there, but not to the same bits: its
+    // contacts begin anew, sleepers are awake, and what a position has below its last bit is gone.
+    Scene snapshot() const;
     Statistics statistics() const;
     const State& state() const;        // every table of a step (compute/state.h), with bodies and contacts as they are now
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
 
     std::uint64_t buffer_growths() const;
-    std::size_t buffer_bytes() const;  // at present, all tables together
-    StageTimes stage_times() const;    // milliseconds per step, mean so far
+    std::size_t buffer_bytes() const;     // at present, all tables together
+    StageTimes stage_times() const;       // milliseconds per step, mean so far
+    StageTimes last_stage_times() const;  // the same of the last step alone
 
 private:
     struct Interior;

@@ -2,18 +2,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 
+#include "demos/bench.h"
 #include "demos/commands.h"
 #include "demos/demos.h"
 #include "demos/failure.h"
 #include "demos/interrupt.h"
-#include "demos/machine.h"
 #include "demos/message.h"
-#include "demos/progress.h"
-#include "demos/report.h"
 #include "demos/subject.h"
-#include "demos/table.h"
 #include "demos/writable.h"
 #include "host/file.h"
 
@@ -24,98 +20,11 @@ namespace {
 struct Options {
     std::vector<std::string> names;
     std::vector<std::size_t> bodies = {1000, 4000, 16000};
-    int steps = 60, warmup = 60;
+    BenchOptions bench;
     std::string csv;
     bool sleeping = false;
     MachineOptions machine;
-    bool quiet = false;
 };
-
-struct Measurement {
-    std::string name, device;
-    Statistics statistics;
-    Spread ms;
-    std::vector<std::pair<std::string, double>> stages;  // ms per step
-    std::size_t buffer_bytes = 0;
-
-    double microseconds_per_body() const {
-        return ms.median * 1e3 / static_cast<double>(std::max<std::size_t>(1, statistics.bodies));
-    }
-};
-
-Measurement measure(const SceneOptions& scene, const Options& options, const Machine& machine) {
-    const Subject subject = load_subject(scene);
-    World world(subject.scene, scene.settings(), machine.make_runner());
-    Measurement result;
-    std::vector<double> times;
-    Progress progress(fmt::format("{} with {} bodies", subject.name, subject.scene.bodies.size()), options.warmup + options.steps,
-                      "steps", options.quiet);
-    for (int i = 0; i < options.warmup + options.steps && !is_interrupted(); ++i) {
-        const auto start = std::chrono::steady_clock::now();
-        at_work([&] { world.step(); });
-        const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-        if (i >= options.warmup) times.push_back(taken.count());
-        progress.done(i + 1);
-    }
-    result.name = subject.name;
-    result.device = world.runner().device();
-    result.statistics = world.statistics();
-    result.ms = spread_of(times);
-    result.stages = world.stage_times();
-    result.buffer_bytes = world.buffer_bytes();
-    return result;
-}
-
-std::vector<Cells> overview(const std::vector<Measurement>& all) {
-    std::vector<Cells> rows = {
-        {"demo", "bodies", "ms/step", "p95", "min", "us/body", "manifolds", "points", "asleep", "MB", "bytes/body"}};
-    for (const Measurement& m : all) {
-        const auto bodies = static_cast<double>(std::max<std::size_t>(1, m.statistics.bodies));
-        rows.push_back({m.name, std::to_string(m.statistics.bodies), fmt::format("{:.3f}", m.ms.median),
-                        fmt::format("{:.3f}", m.ms.p95), fmt::format("{:.3f}", m.ms.min),
-                        fmt::format("{:.3f}", m.microseconds_per_body()), std::to_string(m.statistics.manifolds),
-                        std::to_string(m.statistics.points), std::to_string(m.statistics.asleep),
-                        fmt::format("{:.1f}", static_cast<double>(m.buffer_bytes) / 1e6),
-                        fmt::format("{:.0f}", static_cast<double>(m.buffer_bytes) / bodies)});
-    }
-    return rows;
-}
-
-// A row a stage, a column a measurement; ms per step.
-std::vector<Cells> by_stage(const std::vector<Measurement>& all) {
-    std::vector<Cells> rows = {{"stage (ms/step)"}};
-    std::vector<std::string> stages;
-    for (const Measurement& m : all) {
-        rows[0].push_back(fmt::format("{} {}", m.name, m.statistics.bodies));
-        for (const auto& [stage, ms] : m.stages) {
-            if (std::find(stages.begin(), stages.end(), stage) == stages.end()) stages.push_back(stage);
-        }
-    }
-    for (const std::string& stage : stages) {
-        rows.push_back({stage});
-        for (const Measurement& m : all) {
-            const auto found =
-                std::find_if(m.stages.begin(), m.stages.end(), [&](const auto& entry) { return entry.first == stage; });
-            rows.back().push_back(found == m.stages.end() ? "" : fmt::format("{:.4f}", found->second));
-        }
-    }
-    return rows;
-}
-
-// One row for each stage of each measurement, so that a spreadsheet can pivot it.
-std::vector<Cells> long_form(const std::vector<Measurement>& all) {
-    std::vector<Cells> rows = {{"demo", "device", "bodies", "manifolds", "points", "buffer_bytes", "stage", "ms_per_step"}};
-    for (const Measurement& m : all) {
-        const auto add = [&](const std::string& stage, double ms) {
-            rows.push_back({m.name, m.device, std::to_string(m.statistics.bodies), std::to_string(m.statistics.manifolds),
-                            std::to_string(m.statistics.points), std::to_string(m.buffer_bytes), stage,
-                            fmt::format("{:.6f}", ms)});
-        };
-        add("step", m.ms.median);
-        for (const auto& [stage, ms] : m.stages) add(stage, ms);
-    }
-    return rows;
-}
 
 void print_spread(const std::vector<Measurement>& all) {
     for (auto first = all.begin(); first != all.end();) {
@@ -132,7 +41,7 @@ void print_spread(const std::vector<Measurement>& all) {
     }
 }
 
-int bench(const Options& options) {
+std::vector<SceneOptions> scenes_of(const Options& options) {
     std::vector<SceneOptions> scenes;
     for (const std::string& name : options.names.empty() ? std::vector<std::string>{"avalanche"} : options.names) {
         SceneOptions scene;
@@ -146,21 +55,36 @@ int bench(const Options& options) {
             scenes.push_back(scene);
         }
     }
+    return scenes;
+}
+
+void print(const Options& options, const std::vector<Measurement>& all) {
+    const Measurement& first = all.front();
+    const std::string settled = options.bench.settle > 0 ? fmt::format(" {:g} s of settling and", options.bench.settle) : "";
+    fmt::print("on {} ({}): medians and quartiles of {} steps after{} {} more; copying moves {:.1f} GB/s\n\n{}\n", first.backend,
+               first.device, options.bench.steps, settled, options.bench.warmup, first.copy_speed / 1e9, table(overview(all)));
+    for (const Measurement& m : all) fmt::print("{}, {} bodies\n{}\n", m.name, m.statistics.bodies, table(stage_rows(m)));
+    print_spread(all);
+}
+
+int bench(const Options& options) {
+    if (!options.bench.settled.empty() && options.bench.settle <= 0)
+        throw UsageError("--settled: say with --settle for how many seconds");
+    const std::vector<SceneOptions> scenes = scenes_of(options);
     require_writable_file("--csv", options.csv);
-    const Machine machine = choose_machine(options.machine);
+    const Machine machine = choose_machine(options.machine, Choice::a_device);
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
+    const double copy_speed = at_work([&] { return machine.copy_speed(); });
     std::vector<Measurement> all;
     for (const SceneOptions& scene : scenes) {
-        all.push_back(measure(scene, options, machine));
+        all.push_back(measure(scene, options.bench, machine, copy_speed));
         if (is_interrupted()) {
             say("scree: interrupted in {}\n", scene.name);
             return interrupted;
         }
     }
     machine.require_valid();
-    fmt::print("on {}: {} steps after {}\n\n{}\n{}\n", all.front().device, options.steps, options.warmup, table(overview(all)),
-               table(by_stage(all)));
-    print_spread(all);
+    print(options, all);
     if (options.csv == "-") fmt::print("\n{}", csv(long_form(all)));
     if (!options.csv.empty() && options.csv != "-") at_work([&] { host::write_atomically(options.csv, csv(long_form(all))); });
     return done;
@@ -175,13 +99,26 @@ void add_bench(CLI::App& program, int& status) {
     command->add_option_function<std::string>(
         "--bodies", [options](const std::string& list) { options->bodies = counts_of(list); },
         "how many, parted by commas (1k,4k,16k)");
-    command->add_option("--steps", options->steps, "measured")->check(CLI::Range(1, 1000000));
-    command->add_option("--warmup", options->warmup, "steps before them; stage times are means over both")
-        ->check(CLI::Range(0, 1000000));
+    command->add_option("--steps", options->bench.steps, "measured")->check(CLI::Range(1, 1000000));
+    command->add_option("--warmup", options->bench.warmup, "steps before them")->check(CLI::Range(0, 1000000));
+    command
+        ->add_option("--settle", options->bench.settle,
+                     "simulated seconds before the warmup, so that what fell lies (default: 0)")
+        ->check(CLI::Range(0.0, 1e5));
+    command->add_option("--settled", options->bench.settled,
+                        "a folder that keeps what --settle made, and from which it is taken the next time, on any backend");
     command->add_flag("--sleep", options->sleeping, "bodies at rest may sleep (default: what is measured stays awake)");
     command->add_option("--csv", options->csv, "a file for the numbers; - is the standard output");
     add_options(*command, options->machine);
-    command->add_flag("--quiet,-q", options->quiet, "no progress");
+    command->add_flag("--quiet,-q", options->bench.quiet, "no progress");
+    command->footer(
+        "A stage's time is the GPU's between two timestamps, or the wall clock on the processor. What it moves is an estimate: "
+        "every\n"
+        "record that it reads or writes, once. GB/s is that in its time, and the last column sets it beside copying on the same\n"
+        "device in the same run, read and written bytes together: a buffer to another, or memcpy in all threads. Above 100% the\n"
+        "tables lie in a cache. All bodies stay awake; a settled pile is measured with\n"
+        "  scree bench pile mix --bodies 1k,4k,16k --settle 12 --csv piles.csv\n"
+        "and demos/plot piles.csv draws the cost against the number of bodies.");
     command->callback([options, &status] { status = bench(*options); });
 }
 

@@ -62,7 +62,7 @@ int check(const Options& options) {
         return done;
     }
     require_writable_file("--report", options.report);
-    const Machine machine = choose_machine(options.machine);
+    const Machine machine = choose_machine(options.machine, Choice::fastest);
     if (!options.quiet) {
         for (const std::string& word : options.names) note_beginning(word);
     }

@@ -28,6 +28,7 @@ struct Options {
     MachineOptions machine;
     PictureOptions pictures;
     std::string report;
+    std::string save;             // a file for the scene as it is at the end; may be empty
     std::string input;            // a recording's file; may be empty
     std::optional<Input> played;  // what is in it
     bool quiet = false;
@@ -46,7 +47,9 @@ void require_writable(const Options& options) {
     if (options.pictures.takes_output() && options.report == "-") {
         throw UsageError("--raw - and --report -: the standard output is for one of them; name a file for the other");
     }
+    if (options.save == "-") throw UsageError("--save -: name a file");
     require_writable_file("--report", options.report);
+    require_writable_file("--save", options.save);
 }
 
 double step_alone(World& world, const Script& before_step) {
@@ -173,6 +176,7 @@ int work(const Options& options, const Subject& subject, const Machine& machine,
     report.peak_memory_bytes = peak_memory();
     machine.require_valid();
     conclude(options, subject, report);
+    if (!options.save.empty()) host::write_atomically(options.save, scene_to_json(world.snapshot(), subject.viewpoint));
     return all_pass(report.rows) ? done : promise_missed;
 }
 
@@ -196,7 +200,7 @@ int run(const Options& options) {
         subject.before_step = replay(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
-    const Machine machine = choose_machine(options.machine);
+    const Machine machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
     World world(subject.scene, subject.settings(options.scene), machine.make_runner());
@@ -226,6 +230,8 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     add_options(*command, options->pictures);
     command->add_option("--report", options->report, "a file for all numbers of the run as JSON; - is the standard output");
+    command->add_option("--save", options->save,
+                        "a scene file for how things lie and move at the end: to go on from there, in scree or elsewhere");
     command->add_option("--input", options->input,
                         "a recording of `scree view --record`: its scene, settings and steps, and all that was done, bit by bit");
     command->get_option("scene")->required(false);
@@ -235,7 +241,8 @@ void add_run(CLI::App& program, int& status) {
         "--seconds 10 --video avalanche.mp4\n"
         "  scree run wall --camera fit,orbit:10 --preview wall.gif\n"
         "  scree run dominoes --camera follow:7 --raw - | ffplay -f rawvideo -pixel_format rgb24 -video_size 1280x720 -\n"
-        "  scree run scene.json --backend cpu --threads 4 --report -");
+        "  scree run scene.json --backend cpu --threads 4 --report -\n"
+        "  scree run pile --bodies 10k --no-sleep --seconds 15 --save settled.json && scree run settled.json --video later.mp4");
     command->callback([command, options, &status] { status = run(*command, *options); });
 }
 

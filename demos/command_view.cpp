@@ -15,6 +15,7 @@
 #include "demos/panel.h"
 #include "demos/pictures.h"
 #include "demos/report.h"
+#include "demos/subject.h"
 #include "demos/words.h"
 #include "demos/writable.h"
 #include "host/file.h"
@@ -221,6 +222,7 @@ std::unique_ptr<host::Display> open_display(const Options& options) {
     try {
         return std::make_unique<host::Display>();
     } catch (const host::DeviceError& error) {
+        load_subject(options.scene);  // a wrong name is to be told first
         throw UsageError(fmt::format("view: {}; without a display, pictures come from: scree run {} --frames DIR", error.what(),
                                      options.scene.name));
     }
@@ -231,7 +233,7 @@ int view(Options options) {
     require_writable_file("--record", options.record);
     require_writable_file("--report", options.report);
     const std::unique_ptr<host::Display> display = open_display(options);
-    const Machine machine = choose_machine(options.machine, display->extensions());
+    const Machine machine = choose_machine(options.machine, Choice::fastest, display->extensions());
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     {
         Viewer viewer(options, *display, machine);

@@ -1,8 +1,12 @@
 // Choosing where to simulate, with Vulkan.
 #include "demos/machine.h"
 
+#include <fmt/format.h>
+
 #include "compute/device_runner.h"
 #include "demos/failure.h"
+#include "demos/pace.h"
+#include "host/copy_speed.h"
 #include "host/device.h"
 #include "shaders/physics/records.h"
 
@@ -10,6 +14,10 @@ namespace scree::demos {
 
 std::unique_ptr<Runner> Machine::make_runner() const {
     return device ? make_device_runner(device) : make_reference_runner(options.threads);
+}
+
+double Machine::copy_speed() const {
+    return device ? host::device_copy_speed(device) : host::processor_copy_speed(options.threads);
 }
 
 void Machine::require_valid() const {
@@ -20,7 +28,26 @@ void Machine::require_valid() const {
     throw WorkFailed("Vulkan validation: " + std::to_string(messages.size()) + " messages, the first: " + messages.front());
 }
 
-Machine choose_machine(const MachineOptions& options, const std::vector<const char*>& window_extensions) {
+namespace {
+
+// A software device shares the cores with the processor's own path: whichever is faster here.
+void take_the_faster(Machine& machine) {
+    const host::DeviceReport& device = machine.device->report();
+    const std::string key = fmt::format("{}, {}, {} threads", device.name, device.driver, machine.options.threads);
+    const Paces paces = paces_of(key, [&] {
+        return measure_paces([&] { return make_device_runner(machine.device); },
+                             [&] { return make_reference_runner(machine.options.threads); });
+    });
+    const bool leave = paces.processor < paces.device;
+    machine.remark =
+        fmt::format("simulating {}: a step of {} resting boxes took {:.1f} ms on {} and {:.1f} ms on the processor",
+                    leave ? "on the processor" : "on " + device.name, heap_bodies, paces.device, device.name, paces.processor);
+    if (leave) machine.device = nullptr;
+}
+
+}  // namespace
+
+Machine choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions) {
     Machine machine{options, nullptr, ""};
     const bool shows = !window_extensions.empty();
     const auto open = [&] {
@@ -39,7 +66,10 @@ Machine choose_machine(const MachineOptions& options, const std::vector<const ch
     try {
         machine.device = open();
         if (shows) machine.screen = machine.device;
-        if (options.threads > 0)
+        if (choice == Choice::fastest && options.backend == "auto" && options.device.empty() && !options.validate &&
+            machine.device->report().is_processor)
+            take_the_faster(machine);
+        else if (options.threads > 0)
             machine.remark = "--threads is for --backend cpu; simulating on " + machine.device->report().name;
     } catch (const host::DeviceError& error) {
         if (insist) throw;

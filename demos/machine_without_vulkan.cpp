@@ -1,6 +1,7 @@
 // Choosing where to simulate, in a build without Vulkan: the processor.
 #include "demos/failure.h"
 #include "demos/machine.h"
+#include "host/copy_speed.h"
 #include "host/device_error.h"
 
 namespace scree::demos {
@@ -13,9 +14,13 @@ std::unique_ptr<Runner> Machine::make_runner() const {
     return make_reference_runner(options.threads);
 }
 
+double Machine::copy_speed() const {
+    return host::processor_copy_speed(options.threads);
+}
+
 void Machine::require_valid() const {}
 
-Machine choose_machine(const MachineOptions& options, const std::vector<const char*>&) {
+Machine choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {
     if (options.backend == "vulkan") throw UsageError(std::string("--backend vulkan: ") + cure);
     if (!options.device.empty()) throw UsageError(std::string("--device: ") + cure);
     return {options, nullptr, ""};

@@ -63,7 +63,8 @@ std::vector<std::size_t> counts_of(const std::string& list) {
 void add_options(CLI::App& command, MachineOptions& options) {
     command
         .add_option("--backend", options.backend,
-                    "auto (a GPU, else a software Vulkan device, else the processor), vulkan or cpu")
+                    "auto (a GPU; without one, a software Vulkan device or the processor, whichever measures faster), "
+                    "vulkan or cpu")
         ->check(one_of({"auto", "vulkan", "cpu"}))
         ->group("Where");
     command.add_option("--device", options.device, "the Vulkan device: its index or part of its name (see scree devices)")

@@ -60,7 +60,7 @@ public:
     const VkPhysicalDeviceMemoryProperties& memory() const;
     bool staged() const;                   // see DeviceOptions
     std::uint32_t timestamp_bits() const;  // 0: the queue has no timestamps
-    // Read at the start from, and written at the end to, $XDG_CACHE_HOME/scree (or ~/.cache/scree).
+    // Read at the start from, and written at the end to, cache_folder().
     VkPipelineCache pipeline_cache() const;
     double timestamp_period_ns() const;
     std::vector<std::string> validation_messages() const;

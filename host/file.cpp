@@ -6,6 +6,7 @@
 
 #include <atomic>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <system_error>
 
@@ -43,6 +44,13 @@ void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
 }
 
 }  // namespace
+
+std::filesystem::path cache_folder() {
+    const char* base = std::getenv("XDG_CACHE_HOME");
+    if (base && *base == '/') return std::filesystem::path(base) / "scree";
+    const char* home = std::getenv("HOME");
+    return home && *home == '/' ? std::filesystem::path(home) / ".cache" / "scree" : std::filesystem::path();
+}
 
 std::string read_text(const std::filesystem::path& path) {
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));

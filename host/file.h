@@ -22,6 +22,9 @@ std::string read_text(const std::filesystem::path& path);
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
+// Where to keep what can be made anew: $XDG_CACHE_HOME/scree, else ~/.cache/scree; empty if neither is known.
+std::filesystem::path cache_folder();
+
 // Makes a folder and those above it, unless it is there. Throws FileError.
 void make_folder(const std::filesystem::path& path);
 

@@ -2,7 +2,6 @@
 #include "host/pipeline_cache.h"
 
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 
@@ -10,13 +9,6 @@
 
 namespace scree::host {
 namespace {
-
-std::filesystem::path cache_folder() {
-    const char* base = std::getenv("XDG_CACHE_HOME");
-    if (base && *base == '/') return std::filesystem::path(base) / "scree";
-    const char* home = std::getenv("HOME");
-    return home && *home == '/' ? std::filesystem::path(home) / ".cache" / "scree" : std::filesystem::path();
-}
 
 std::string hexadecimal(const std::uint8_t* bytes, std::size_t count) {
     constexpr const char* digits = "0123456789abcdef";

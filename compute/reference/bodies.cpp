@@ -4,6 +4,7 @@
 #include <span>
 
 #include "compute/reference/stages.h"
+#include "compute/reference/wide.h"
 #include "shaders/physics/block.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
@@ -41,6 +42,39 @@ bool asleep(const State& state, std::size_t body) {
 }
 bool moved_by_contacts(const State& state, std::size_t body) {
     return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
+}
+
+// Those that contacts move.
+std::vector<std::uint32_t> movable_bodies(const State& state) {
+    std::vector<std::uint32_t> bodies;
+    bodies.reserve(state.fixed().bodies);
+    for (std::uint32_t i = 0; i < state.fixed().bodies; ++i)
+        if (moved_by_contacts(state, i)) bodies.push_back(i);
+    return bodies;
+}
+
+void begin_substep_of(State& state, std::size_t i, bool first) {
+    const Sum sum = sum_of_slots(state, i);
+    state.velocities[i] = physics::accelerated(state.velocities[i], sum.change, state.loads[i], state.traits[i], state.fixed());
+    float& crowd = state.masses[i].split;
+    if (first) crowd = physics::drifted(crowd, sum.carrying, state.counted().steps);
+    crowd = physics::crowd_after(crowd, sum.carrying, sum.pressing);
+}
+
+void move(State& state, std::size_t i) {
+    const physics::Traits& traits = state.traits[i];
+    physics::Velocity velocity = state.velocities[i];
+    if (traits.motion == physics::MOTION_DYNAMIC) {
+        const Sum sum = sum_of_slots(state, i);
+        velocity.linear += sum.change.linear;
+        velocity.angular += sum.change.angular;
+        state.loads[i].blows = sum.carrying;
+    }
+    const physics::Moved after = physics::moved(state.poses[i], velocity, traits, state.fixed().h);
+    state.poses[i] = after.pose;
+    state.velocities[i] = after.velocity;
+    if (!physics::turns_evenly(traits))
+        state.masses[i] = physics::mass_in_world(traits, after.pose.orientation, state.masses[i].split);
 }
 
 }  // namespace
@@ -92,15 +126,17 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
 
 void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
     if (state.counted().overflow) return;
-    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (!moved_by_contacts(state, i)) return;
-        const Sum sum = sum_of_slots(state, i);
-        state.velocities[i] =
-            physics::accelerated(state.velocities[i], sum.change, state.loads[i], state.traits[i], state.fixed());
-        float& crowd = state.masses[i].split;
-        if (first) crowd = physics::drifted(crowd, sum.carrying, state.counted().steps);
-        crowd = physics::crowd_after(crowd, sum.carrying, sum.pressing);
-    });
+    if (const WideStages* wide = wide_stages(threads.lanes())) {
+        const std::vector<std::uint32_t> bodies = movable_bodies(state);
+        WideTables tables = wide_tables(state, bodies);
+        tables.first = first != 0;
+        tables.steps = state.counted().steps;
+        threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->begin(tables, begin, end); });
+    } else {
+        threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+            if (moved_by_contacts(state, i)) begin_substep_of(state, i, first != 0);
+        });
+    }
     const std::span grips = std::span(state.fixed().grips).first(state.fixed().held);
     for (const physics::Grip& grip : grips) {
         if (!moved_by_contacts(state, grip.body)) continue;
@@ -111,22 +147,15 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
 
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
+    const WideStages* wide = wide_stages(threads.lanes());
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const physics::Traits& traits = state.traits[i];
-        if (traits.motion == physics::MOTION_FIXED || asleep(state, i)) return;
-        physics::Velocity velocity = state.velocities[i];
-        if (traits.motion == physics::MOTION_DYNAMIC) {
-            const Sum sum = sum_of_slots(state, i);
-            velocity.linear += sum.change.linear;
-            velocity.angular += sum.change.angular;
-            state.loads[i].blows = sum.carrying;
-        }
-        const physics::Moved after = physics::moved(state.poses[i], velocity, traits, state.fixed().h);
-        state.poses[i] = after.pose;
-        state.velocities[i] = after.velocity;
-        if (!physics::turns_evenly(traits))
-            state.masses[i] = physics::mass_in_world(traits, after.pose.orientation, state.masses[i].split);
+        if (state.traits[i].motion == physics::MOTION_FIXED || asleep(state, i)) return;
+        if (!wide || !moved_by_contacts(state, i)) move(state, i);
     });
+    if (!wide) return;
+    const std::vector<std::uint32_t> bodies = movable_bodies(state);
+    const WideTables tables = wide_tables(state, bodies);
+    threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->move(tables, begin, end); });
 }
 
 void end_step(State& state, const Threads& threads, std::uint32_t) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
+#include <cstring>
 #include <numeric>
 
 #include "compute/reference/stages.h"
@@ -18,6 +19,31 @@ std::span<const physics::CellEntry> entries(const State& state, std::size_t firs
 
 std::span<const physics::CellEntry> bucket(const State& state, std::size_t b) {
     return entries(state, b == 0 ? 0 : state.cells[b - 1], state.cells[b]);
+}
+
+// physics::boxes_overlap without a branch: half of the neighbours do, and no processor foresees which.
+bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
+    using Four [[gnu::vector_size(16)]] = float;  // a bound and the integer behind it
+    using Halves [[gnu::vector_size(16)]] = std::uint64_t;
+    Four lower_a, upper_a, lower_b, upper_b;
+    std::memcpy(&lower_a, &a.lower, sizeof lower_a);
+    std::memcpy(&upper_a, &a.upper, sizeof upper_a);
+    std::memcpy(&lower_b, &b.lower, sizeof lower_b);
+    std::memcpy(&upper_b, &b.upper, sizeof upper_b);
+    const Halves both = (Halves)((lower_a <= upper_b) & (lower_b <= upper_a));
+    return (both[0] & (both[1] | 0xFFFFFFFF00000000u)) == ~std::uint64_t{0};
+}
+
+// Calls visit(entries) for the bodies in a row of cells along x, whose buckets follow each other round the end of the grid.
+template <typename Visit>
+void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cells, std::uint32_t level, const Visit& visit) {
+    const std::uint32_t buckets = state.fixed().buckets;
+    const auto end_of = [&](std::uint32_t b) { return b == 0 ? 0 : state.cells[b - 1]; };
+    if (cells >= buckets) return visit(entries(state, 0, end_of(buckets)));
+    const std::uint32_t first = physics::bucket_of(from, level, buckets);
+    const std::uint32_t last = std::min(first + cells, buckets);
+    visit(entries(state, end_of(first), end_of(last)));
+    if (first + cells > buckets) visit(entries(state, 0, end_of(first + cells - buckets)));
 }
 
 bool near_large(const State& state, std::size_t body, const physics::CellEntry& other) {
@@ -59,17 +85,19 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& found
     for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
         const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
-        const physics::ivec3 size = range.last - range.first + 1;
-        for (int k = 0; k < size.x * size.y * size.z; ++k) {
-            const physics::ivec3 cell = range.first + physics::ivec3(k % size.x, k / size.x % size.y, k / (size.x * size.y));
-            for (const physics::CellEntry& other : bucket(state, physics::bucket_of(cell, level, p.buckets))) {
-                if ((other.level & ~physics::STILL) != level) continue;
+        const auto cells = static_cast<std::uint32_t>(range.last.x - range.first.x + 1);
+        physics::ivec3 from = range.first;
+        const auto visit = [&](std::span<const physics::CellEntry> row) {
+            for (const physics::CellEntry& other : row) {
+                if (!(overlap(around, other) & ((other.level & ~physics::STILL) == level))) continue;
                 if (!physics::finds(body, around.level, other.body, other.level)) continue;
-                if (!physics::boxes_overlap(around.lower, around.upper, other.lower, other.upper)) continue;
-                if (physics::cell_of(other.lower, other.upper, level, p.inverse_cell) != cell) continue;
+                const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
+                if (cell.y != from.y || cell.z != from.z) continue;  // of another row whose buckets happen to be the same
                 if (physics::can_touch(own, state.traits[other.body])) found(other.body);
             }
-        }
+        };
+        for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
+            for (from.y = range.first.y; from.y <= range.last.y; ++from.y) for_each_in_row(state, from, cells, level, visit);
     }
 }
 
@@ -123,9 +151,13 @@ void order_cells(State& state, const Threads& threads, std::uint32_t) {
 
 void count_pairs(State& state, const Threads& threads, std::uint32_t) {
     std::atomic_ref coarse(state.counted().pairs_coarse);
+    state.partners.resize(state.fixed().bodies);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         std::uint32_t count = 0;
-        for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t) { ++count; });
+        for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t other) {
+            if (count < State::noted) state.partners[i][count] = other;
+            ++count;
+        });
         state.pair_starts[i] = count;
         coarse.fetch_add((count + 255) / 256, std::memory_order_relaxed);
     });
@@ -136,7 +168,12 @@ void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const auto owner = static_cast<std::uint32_t>(i);
         auto next = state.candidates.begin() + state.pair_starts[i];
-        for_each_partner(state, owner, [&](std::uint32_t other) { *next++ = {owner, other}; });
+        const auto list = [&](std::uint32_t other) { *next++ = {owner, other}; };
+        const std::size_t count = state.pair_starts[i + 1] - state.pair_starts[i];
+        if (count <= State::noted)
+            std::for_each_n(state.partners[i].begin(), count, list);
+        else
+            for_each_partner(state, owner, list);
     });
 }
 

@@ -4,6 +4,7 @@
 #include <atomic>
 
 #include "compute/reference/stages.h"
+#include "compute/reference/wide.h"
 #include "shaders/physics/block.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
@@ -88,6 +89,7 @@ void order_slots(State& state, const Threads& threads, std::uint32_t) {
 
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const physics::Parameters& p = state.fixed();
+    const WideStages* wide = wide_stages(threads.lanes());
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         physics::Constraint& c = state.constraints[i];
         const std::uint32_t index = c.pair;
@@ -120,15 +122,24 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c.pair = index;
 
         impulse.pressed = physics::pressing(impulse);
+        if (wide) return;
         const physics::Mass ma = physics::lent(state.masses[c.a], impulse, p), mb = physics::lent(state.masses[c.b], impulse, p);
         const physics::Couple now = velocities_of(state, c);
         const float carrying = physics::carries(c, impulse, now, p);
         hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying,
                  {impulse.pressed, impulse.pressed});
     });
+    if (!wide) return;
+    const WideTables tables = wide_tables(state, state.binned);
+    threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->hand_out(tables, first, end); });
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
+    if (const WideStages* wide = wide_stages(threads.lanes())) {
+        const WideTables tables = wide_tables(state, state.binned);
+        threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->solve(tables, first, end); });
+        return;
+    }
     threads.for_each(state.counted().solved, [&](std::size_t k) {
         const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
@@ -142,6 +153,17 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
+    const auto told = [&](std::uint32_t body) {
+        return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
+    };
+    if (const WideStages* wide = wide_stages(threads.lanes())) {
+        WideTables tables = wide_tables(state, state.binned);
+        std::vector<float> all_told(last ? state.fixed().bodies : 0);
+        threads.for_each(all_told.size(), [&](std::size_t i) { all_told[i] = told(static_cast<std::uint32_t>(i)); });
+        if (last) tables.told = reinterpret_cast<const std::uint32_t*>(all_told.data());
+        threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->relax(tables, first, end); });
+        return;
+    }
     threads.for_each(state.counted().solved, [&](std::size_t k) {
         const std::size_t i = state.binned[k];
         const physics::Constraint& c = state.constraints[i];
@@ -155,9 +177,6 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
         const float carrying = physics::carries(c, impulse, after.couple, state.fixed());
         if (last) {
-            const auto told = [&](std::uint32_t body) {
-                return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
-            };
             hand_out(state, c, share, carrying, {told(c.a), told(c.b)});
         } else {
             hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying, {impulse.pressed, impulse.pressed});

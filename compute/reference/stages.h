@@ -8,6 +8,10 @@
 
 namespace scree::reference {
 
+// How the stages of a substep see a state that work on several items at once (compute/reference/wide.h).
+struct WideTables;
+WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
+
 #define SCREE_STAGE(name) void name(State& state, const Threads& threads, std::uint32_t pass)
 
 // bodies.cpp

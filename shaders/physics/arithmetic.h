@@ -34,22 +34,22 @@ LAW float inverse_square_root(float x) {
 
 // sqrt(x); 0 below 1e-30, where the square of anything the step measures (m, m/s) has vanished.
 LAW float square_root(float x) {
-    return x > 1.0e-30f ? x * inverse_square_root(x) : 0.0f;
+    return choose(x > 1.0e-30f, x * inverse_square_root(x), 0.0f);
 }
 
 // Explicit selects, because min and max differ between processors on NaN and on -0.
 LAW float smaller(float a, float b) {
-    return a < b ? a : b;
+    return choose(a < b, a, b);
 }
 LAW float larger(float a, float b) {
-    return a > b ? a : b;
+    return choose(a > b, a, b);
 }
 LAW float clamped(float x, float low, float high) {
-    return x < low ? low : (x > high ? high : x);
+    return choose(x < low, low, choose(x > high, high, x));
 }
 // x, and +0 for all that is not positive.
 LAW float positive(float x) {
-    return x > 0.0f ? x : 0.0f;
+    return choose(x > 0.0f, x, 0.0f);
 }
 LAW vec3 smaller3(vec3 a, vec3 b) {
     return vec3(smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z));
@@ -75,15 +75,24 @@ LAW float length3(vec3 a) {
 // a / |a|, or `otherwise` (a unit vector) when |a| < 1e-12.
 LAW vec3 unit3(vec3 a, vec3 otherwise) {
     float squared = dot3(a, a);
-    return squared > 1.0e-24f ? a * inverse_square_root(squared) : otherwise;
+    return choose(squared > 1.0e-24f, a * inverse_square_root(squared), otherwise);
 }
 
 // A unit vector perpendicular to the unit vector n, without a jump where n is one of the axes' diagonals
 // (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017). The second tangent is cross3(n, tangent(n)).
 LAW vec3 tangent(vec3 n) {
-    float s = n.z < 0.0f ? -1.0f : 1.0f;
+    float s = choose(n.z < 0.0f, -1.0f, 1.0f);
     float a = -reciprocal(s + n.z);
     return vec3(1.0f + s * n.x * n.x * a, s * (n.x * n.y * a), -s * n.x);
+}
+
+// v, or as much of it as is that long.
+LAW vec3 shortened(vec3 v, float longest) {
+    float squared = dot3(v, v);
+    return choose(squared > longest * longest, v * (longest * inverse_square_root(squared)), v);
+}
+LAW vec3 xyz(vec4 v) {
+    return vec3(v.x, v.y, v.z);
 }
 
 // v turned by the unit quaternion q: v + 2w (q x v) + 2 q x (q x v).
@@ -137,7 +146,8 @@ LAW Axes axes_of(vec4 q) {
 
 // A velocity too small to move anything is zero: denormals cost a hundredfold on some processors and vanish on others.
 LAW vec3 without_dust(vec3 v) {
-    return vec3(abs(v.x) < 1.0e-18f ? 0.0f : v.x, abs(v.y) < 1.0e-18f ? 0.0f : v.y, abs(v.z) < 1.0e-18f ? 0.0f : v.z);
+    return vec3(choose(abs(v.x) < 1.0e-18f, 0.0f, v.x), choose(abs(v.y) < 1.0e-18f, 0.0f, v.y),
+                choose(abs(v.z) < 1.0e-18f, 0.0f, v.z));
 }
 
 LAWS_END

@@ -33,7 +33,6 @@
 #define SCREE_PHYSICS_BLOCK_H
 
 #include "shaders/physics/blow.h"
-#include "shaders/physics/contact.h"
 #include "shaders/physics/crowd.h"
 #include "shaders/physics/row.h"
 
@@ -44,13 +43,14 @@ LAW float round_gap(Constraint c, vec3 d) {
 }
 // The constraint as the bodies lie now: between two round ones, normal and point follow their centres of curvature.
 LAW Constraint at_present(Constraint c, vec3 d) {
-    if (c.anchor != ANCHOR_ROUND) return c;
+    bool follows = c.anchor == ANCHOR_ROUND;
+    if (none(follows)) return c;
     vec3 core = xyz(c.arms[0]);
-    c.normal = unit3((d + c.centre) - core, c.normal);
+    c.normal = choose(follows, unit3((d + c.centre) - core, c.normal), c.normal);
     vec3 arm = core + c.normal * (c.radius_a + 0.5f * round_gap(c, d));
-    c.arms[0] = vec4(arm, 0.0f);
-    c.centre = arm;
-    c.anchor = ANCHOR_A;
+    c.arms[0] = choose(follows, vec4(arm, 0.0f), c.arms[0]);
+    c.centre = choose(follows, arm, c.centre);
+    c.anchor = choose(follows, ANCHOR_A, c.anchor);
     return c;
 }
 
@@ -84,12 +84,14 @@ LAW Solved rolled(Constraint c, Solved s, float normal, Mass a, Mass b) {
 // Friction of the patch: twist about the normal, then slip within the circular cone |f| <= mu n.
 LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     float most = c.friction * normal;
-    if (c.reach > 0.0f) {
+    bool twists = c.reach > 0.0f;
+    if (!none(twists)) {
         float spin = dot3(c.normal, s.couple.b.angular - s.couple.a.angular);
         float before = s.impulse.twist;
         float give = dot3(c.normal, turned_by(a, c.normal)) * a.split + dot3(c.normal, turned_by(b, c.normal)) * b.split;
-        s.impulse.twist = clamped(before - spin * reciprocal(give), -most * c.reach, most * c.reach);
-        s.couple = twisted(s.couple, c.normal * (s.impulse.twist - before), a, a.split, b, b.split);
+        float after = clamped(before - spin * reciprocal(give), -most * c.reach, most * c.reach);
+        s.impulse.twist = choose(twists, after, before);
+        s.couple = choose(twists, twisted(s.couple, c.normal * (after - before), a, a.split, b, b.split), s.couple);
     }
     vec3 t1 = tangent(c.normal);
     vec3 t2 = cross3(c.normal, t1);
@@ -113,6 +115,14 @@ LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     return s;
 }
 
+// Of friction's work: that on `s`, or what was before it, `t`.
+LAW Solved choose(bool condition, Solved s, Solved t) {
+    t.impulse.friction = choose(condition, s.impulse.friction, t.impulse.friction);
+    t.impulse.twist = choose(condition, s.impulse.twist, t.impulse.twist);
+    t.impulse.rolling = choose(condition, s.impulse.rolling, t.impulse.rolling);
+    t.couple = choose(condition, s.couple, t.couple);
+    return t;
+}
 LAW bool rubs(Impulse impulse) {
     vec3 f = impulse.friction, r = impulse.rolling;
     return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
@@ -121,9 +131,12 @@ LAW bool rubs(Impulse impulse) {
 // In both passes: in the one without bias alone, where a warm start is answered only once, over-relaxed splitting overshoots
 // for a share above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
 LAW Solved with_friction(Constraint c, Solved s, float normal, Mass a, Mass b) {
-    if (normal == 0.0f && !rubs(s.impulse)) return s;
-    if (c.rolling_resistance > 0.0f) s = rolled(c, s, normal, a, b);
-    return rubbed(c, s, normal, a, b);
+    bool acts = normal != 0.0f || rubs(s.impulse);
+    if (none(acts)) return s;
+    bool resists = acts && c.rolling_resistance > 0.0f;
+    Solved after = s;
+    if (!none(resists)) after = choose(resists, rolled(c, s, normal, a, b), s);
+    return choose(acts, rubbed(c, after, normal, a, b), s);
 }
 
 // The biased pass: normal impulses against the soft spring, or exactly up to touching where the bodies are still apart.
@@ -134,28 +147,32 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
     // What overlaps many bodies is pushed by all of them at once, and pushes add up from layer to layer. A quarter is left to
     // bear a load with: a tray under hundreds of boxes has small parts of its mass to push with.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
-    if (c.restitution > 0.0f) impulse.approach = approaches(c, impulse, v, a, b, pull, parameters);
+    bool bounces = c.restitution > 0.0f;
+    if (!none(bounces)) impulse.approach = choose(bounces, approaches(c, impulse, v, a, b, pull, parameters), impulse.approach);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
-    for (uint sweep = 0u; sweep < sweeps; ++sweep) {
-        normal = 0.0f;
-        for (uint k = 0u; k < 4u; ++k) {
-            if (k >= c.count) break;
+    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
+        bool swept = uint(sweep) < sweeps;
+        normal = choose(swept, 0.0f, normal);
+        for (int k = 0; k < 4; ++k) {
+            bool there = swept && uint(k) < c.count;
+            if (none(there)) break;
             Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
             float speed = dot3(c.normal, velocity_at(r, v));
             float separation = impulse.separation[k];
             float before = impulse.normal[k];
             float bias = larger(parameters.mass_scale * parameters.bias_rate * separation, -push_speed);
-            float excess = parameters.mass_scale * speed + bias;
-            if (separation > 0.0f) excess = speed + separation * parameters.inverse_h;
-            if (before == 0.0f && (gone || excess >= 0.0f)) continue;  // a third of all contacts are merely near
+            float excess =
+                choose(separation > 0.0f, speed + separation * parameters.inverse_h, parameters.mass_scale * speed + bias);
+            bool acts = there && !(before == 0.0f && (gone || excess >= 0.0f));
+            if (none(acts)) continue;  // a third of all contacts are merely near
             Row row = row_of(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
-            if (separation <= 0.0f) change = change - parameters.impulse_scale * before;
-            float after = gone ? 0.0f : positive(before + change);
-            impulse.normal[k] = after;
-            normal = normal + after;
-            v = pushed(v, row, after - before, a, a.split, b, b.split);
+            change = choose(separation <= 0.0f, change - parameters.impulse_scale * before, change);
+            float after = choose(gone, 0.0f, positive(before + change));
+            impulse.normal[k] = choose(acts, after, before);
+            normal = choose(acts, normal + after, normal);
+            v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
         }
     }
     Solved result;
@@ -167,38 +184,42 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
 // The pass without bias, after the bodies have moved with `v`: separations follow, what the spring added is taken back, impacts
 // are thrown back, friction acts.
 LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 pull, Parameters parameters) {
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= c.count || c.anchor == ANCHOR_ROUND) break;
+    bool follows = c.anchor == ANCHOR_ROUND;
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < c.count && !follows;
+        if (none(there)) break;
         Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
-        impulse.separation[k] = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
+        float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
+        impulse.separation[k] = choose(there, separation, impulse.separation[k]);
     }
     bool gone = impulse.slipped > c.leave;  // as in the biased pass: the blow of this substep is not taken back
     vec3 way = (v.b.linear - v.a.linear) * parameters.h;
     impulse.d = impulse.d + way;
     impulse.slipped = impulse.slipped + length3(way - c.normal * dot3(way, c.normal));
-    if (c.anchor == ANCHOR_ROUND) impulse.separation.x = round_gap(c, impulse.d);
+    if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.d), impulse.separation.x);
     c = at_present(c, impulse.d);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
-    for (uint sweep = 0u; sweep < sweeps; ++sweep) {
-        normal = 0.0f;
-        for (uint k = 0u; k < 4u; ++k) {
-            if (k >= c.count) break;
+    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
+        bool swept = uint(sweep) < sweeps;
+        normal = choose(swept, 0.0f, normal);
+        for (int k = 0; k < 4; ++k) {
+            bool there = swept && uint(k) < c.count;
+            if (none(there)) break;
             Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
             float speed = dot3(c.normal, velocity_at(r, v));
-            float target = impulse.separation[k] > 0.0f ? impulse.separation[k] * parameters.inverse_h : 0.0f;
-            if (impulse.approach[k] < 0.0f) target = thrown_back(c, impulse.approach[k], pull, parameters);
+            float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
+            target = choose(impulse.approach[k] < 0.0f, thrown_back(c, impulse.approach[k], pull, parameters), target);
             float before = impulse.normal[k];
-            if (before == 0.0f && (gone || speed + target >= 0.0f)) continue;
             // A blow about to fall is left to the next substep, which sees how fast it is.
-            if (before == 0.0f && impulse.approach[k] == 0.0f && c.restitution > 0.0f &&
-                speed < -parameters.restitution_threshold)
-                continue;
+            bool waits = impulse.approach[k] == 0.0f && c.restitution > 0.0f && speed < -parameters.restitution_threshold;
+            bool acts = there && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
+            if (none(acts)) continue;
             Row row = row_of(r, c.normal, a, b);
-            float after = gone ? 0.0f : positive(before - mass_along(row, a, b) * (speed + target));
-            impulse.normal[k] = after;
-            normal = normal + after;
-            v = pushed(v, row, after - before, a, a.split, b, b.split);
+            float after = choose(gone, 0.0f, positive(before - mass_along(row, a, b) * (speed + target)));
+            impulse.normal[k] = choose(acts, after, before);
+            normal = choose(acts, normal + after, normal);
+            v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
         }
     }
     Solved result;
@@ -212,38 +233,46 @@ LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
     c = at_present(c, impulse.d);
     float normal = impulse.normal.x;
     vec3 moment = xyz(c.arms[0]) * impulse.normal.x;
-    for (uint k = 1u; k < 4u; ++k) {
-        if (k >= c.count) break;
-        normal = normal + impulse.normal[k];
-        moment = moment + xyz(c.arms[k]) * impulse.normal[k];
+    for (int k = 1; k < 4; ++k) {
+        bool there = uint(k) < c.count;
+        if (none(there)) break;
+        normal = choose(there, normal + impulse.normal[k], normal);
+        moment = choose(there, moment + xyz(c.arms[k]) * impulse.normal[k], moment);
     }
-    if (normal == 0.0f && !rubs(impulse)) return v;
+    bool acts = normal != 0.0f || rubs(impulse);
+    if (none(acts)) return v;
     // All points push along the normal, so their moments about a body come to one.
     vec3 across = impulse.d * normal;
     vec3 push = c.normal * normal + impulse.friction;
     vec3 twist = impulse.rolling + c.normal * impulse.twist;
     Levers r = levers_of(c, c.centre, impulse.d);
-    vec3 about_a = cross3(c.anchor == ANCHOR_B ? moment + across : moment, c.normal) + cross3(r.a, impulse.friction) + twist;
-    vec3 about_b = cross3(c.anchor == ANCHOR_B ? moment : moment - across, c.normal) + cross3(r.b, impulse.friction) + twist;
-    v.a.linear = v.a.linear - push * a.inverse_mass;
-    v.a.angular = v.a.angular - turned_by(a, about_a);
-    v.b.linear = v.b.linear + push * b.inverse_mass;
-    v.b.angular = v.b.angular + turned_by(b, about_b);
-    return v;
+    bool on_b = c.anchor == ANCHOR_B;
+    vec3 about_a = cross3(choose(on_b, moment + across, moment), c.normal) + cross3(r.a, impulse.friction) + twist;
+    vec3 about_b = cross3(choose(on_b, moment, moment - across), c.normal) + cross3(r.b, impulse.friction) + twist;
+    Couple after = v;
+    after.a.linear = v.a.linear - push * a.inverse_mass;
+    after.a.angular = v.a.angular - turned_by(a, about_a);
+    after.b.linear = v.b.linear + push * b.inverse_mass;
+    after.b.angular = v.b.angular + turned_by(b, about_b);
+    return choose(acts, after, v);
 }
 
 // Whether the contact carries or will in the next substep, gravity included.
 LAW float carries(Constraint c, Impulse impulse, Couple v, Parameters parameters) {
-    if (impulse.slipped > c.leave) return 0.0f;
+    bool carrying = false;
+    bool open = !(impulse.slipped > c.leave);
     c = at_present(c, impulse.d);
     float fall = 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= c.count) break;
-        if (impulse.normal[k] > 0.0f) return 1.0f;
+    for (int k = 0; k < 4; ++k) {
+        open = open && uint(k) < c.count;
+        carrying = carrying || (open && impulse.normal[k] > 0.0f);
+        open = open && !carrying;
+        if (none(open)) break;
         float speed = dot3(c.normal, velocity_at(levers_of(c, xyz(c.arms[k]), impulse.d), v));
-        if (impulse.separation[k] + parameters.h * speed < fall) return 1.0f;
+        carrying = carrying || (open && impulse.separation[k] + parameters.h * speed < fall);
+        open = open && !carrying;
     }
-    return 0.0f;
+    return choose(carrying, 1.0f, 0.0f);
 }
 
 // The whole bodies' shares of what the lent ones went through: (after - before) / split. The next warm start is added to it.

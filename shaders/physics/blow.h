@@ -12,7 +12,6 @@
 #ifndef SCREE_PHYSICS_BLOW_H
 #define SCREE_PHYSICS_BLOW_H
 
-#include "shaders/physics/contact.h"
 #include "shaders/physics/crowd.h"
 #include "shaders/physics/row.h"
 
@@ -20,7 +19,7 @@ LAWS_BEGIN
 
 // Sweeps over the points of a blow, in both passes: after a single one a box that fell flat on four points left spinning, and
 // rose to half its height; after four its spin was 0.007 rad/s, after eight 1e-6.
-CONSTANT uint BLOW_SWEEPS = 8u;
+CONSTANT int BLOW_SWEEPS = 8;
 
 // Of the impulse that would stop a point: one that presses with less than this is struck. (With none at all, a row of balls that
 // a blow's forerunner had moved by 0.3 mm/s did not pass the blow on.)
@@ -36,17 +35,18 @@ LAW vec3 pull_of(Load a, Load b) {
 LAW vec4 approaches(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     vec4 found = vec4(0.0f);
     float gain = parameters.h * dot3(c.normal, pull);
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= c.count) break;
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < c.count;
+        if (none(there)) break;
         Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
         float speed = speed_along(row, v);
         float way = parameters.h * speed;
         bool strikes = impulse.normal[k] <= -TOUCH_OF_BLOW * mass_along(row, a, b) * speed;
-        if (strikes && speed < -parameters.restitution_threshold && impulse.separation[k] + way < 0.0f) {
-            float part = impulse.separation[k] > 0.0f ? -impulse.separation[k] * reciprocal(way) : 0.0f;
-            // A pull of more than the speed itself, in one substep, is beyond this.
-            found[k] = smaller(speed + gain * (part - 0.5f), 0.5f * speed);
-        }
+        bool meets = there && strikes && speed < -parameters.restitution_threshold && impulse.separation[k] + way < 0.0f;
+        if (none(meets)) continue;
+        float part = choose(impulse.separation[k] > 0.0f, -impulse.separation[k] * reciprocal(way), 0.0f);
+        // A pull of more than the speed itself, in one substep, is beyond this.
+        found[k] = choose(meets, smaller(speed + gain * (part - 0.5f), 0.5f * speed), found[k]);
     }
     return found;
 }
@@ -58,13 +58,13 @@ LAW float thrown_back(Constraint c, float approach, vec3 pull, Parameters parame
 
 LAW float blow_of(Impulse impulse) {
     vec4 a = impulse.approach;
-    return a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f ? 1.0f : 0.0f;
+    return choose(a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f, 1.0f, 0.0f);
 }
 
 // The mass as it is shared in the pass without bias.
 LAW Mass shared_for(Impulse impulse, Mass mass, Load load, Parameters parameters) {
     mass = lent(mass, impulse, parameters);
-    if (blow_of(impulse) > 0.0f) mass.split = larger(1.0f, load.blows);
+    mass.split = choose(blow_of(impulse) > 0.0f, larger(1.0f, load.blows), mass.split);
     return mass;
 }
 
@@ -72,24 +72,23 @@ LAW Mass shared_for(Impulse impulse, Mass mass, Load load, Parameters parameters
 LAW Impulse without_blows(Impulse impulse, uint count) {
     bool blow = false;
     float normal = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= count) break;
-        if (impulse.approach[k] < 0.0f) {
-            impulse.normal[k] = 0.0f;
-            blow = true;
-        }
-        normal = normal + impulse.normal[k];
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < count;
+        if (none(there)) break;
+        bool struck = there && impulse.approach[k] < 0.0f;
+        impulse.normal[k] = choose(struck, 0.0f, impulse.normal[k]);
+        blow = blow || struck;
+        normal = choose(there, normal + impulse.normal[k], normal);
     }
-    if (blow && normal == 0.0f) {
-        impulse.friction = vec3(0.0f);
-        impulse.twist = 0.0f;
-        impulse.rolling = vec3(0.0f);
-    }
+    bool spent = blow && normal == 0.0f;
+    impulse.friction = choose(spent, vec3(0.0f), impulse.friction);
+    impulse.twist = choose(spent, 0.0f, impulse.twist);
+    impulse.rolling = choose(spent, vec3(0.0f), impulse.rolling);
     return impulse;
 }
 
 LAW uint sweeps_of(Constraint c, Impulse impulse) {
-    return c.count > 1u && blow_of(impulse) > 0.0f ? BLOW_SWEEPS : 1u;
+    return choose(c.count > 1u && blow_of(impulse) > 0.0f, uint(BLOW_SWEEPS), 1u);
 }
 
 LAWS_END

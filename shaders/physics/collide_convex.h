@@ -10,8 +10,9 @@ LAWS_BEGIN
 
 // Of the thinner body's half width: by so much an edge must be better than a face, so that what rests does not hop between them.
 CONSTANT float FACE_PREFERENCE = 0.01f;
-// Sine of the angle to which an edge, or a side's line, counts as lying flat.
-CONSTANT float LIES_ALONG = 0.03f;
+// Sine of the angle to which an edge, or a side's line, counts as lying flat (1.7 degrees), squared; and its cosine, squared.
+CONSTANT float LIES_ALONG_SQUARED = 0.0009f;
+CONSTANT float RUNS_ALONG_SQUARED = 0.9991f;
 
 // The face, line or point of a body that is not a polyhedron.
 LAW Feature side_facing(Solid solid, vec3 direction, Hulls hulls) {
@@ -76,7 +77,7 @@ LAW Feature edge_facing(Solid solid, vec3 direction, Hulls hulls) {
     vec3 end = support_of(solid, direction, hulls);
     if (solid.shape == SHAPE_HULL || solid.shape == SHAPE_BOX) {
         vec3 other = end;
-        float flattest = LIES_ALONG * LIES_ALONG;
+        float flattest = LIES_ALONG_SQUARED;
         uint corners = corners_of(solid, hulls);
         for (uint k = 0u; k < corners; ++k) {
             vec3 way = corner_at(solid, k, hulls) - end;
@@ -89,13 +90,13 @@ LAW Feature edge_facing(Solid solid, vec3 direction, Hulls hulls) {
                 other = end + way;
             }
         }
-        return flattest < LIES_ALONG * LIES_ALONG ? line_between(end, other) : point_at(end);
+        return flattest < LIES_ALONG_SQUARED ? line_between(end, other) : point_at(end);
     }
     Feature side = side_facing(solid, direction, hulls);
     if (side.points == 2u) {
         vec3 way = side.second - side.first;
         float fall = dot3(way, direction);
-        if (fall * fall < LIES_ALONG * LIES_ALONG * dot3(way, way)) return side;
+        if (fall * fall < LIES_ALONG_SQUARED * dot3(way, way)) return side;
     }
     return point_at(end);
 }
@@ -115,7 +116,7 @@ LAW Touch touch_of_lines(Solid a, Solid b, vec3 d, Separation s, float margin, H
     float least = 1.0e-10f * a.scale * b.scale;
     Touch touch = touch_along(s.normal);
     bool lines = on_a.points == 2u && on_b.points == 2u && aa > least && bb > least;
-    if (lines && ab * ab > (1.0f - LIES_ALONG * LIES_ALONG) * (aa * bb)) {
+    if (lines && ab * ab > RUNS_ALONG_SQUARED * (aa * bb)) {
         // Where the two run beside each other, as parts of A's.
         float per = reciprocal(aa);
         float from = dot3(r, run_a) * per, to = from + ab * per;
@@ -199,7 +200,7 @@ LAW Touch collide_plane_convex(Traits tp, Pose plane, Traits tb, Pose pose, floa
     Feature no_sides = down;
     no_sides.points = 0u;
     uint corners = b.shape == SHAPE_HULL ? hull_vertices(hulls, b.hull) : 0u;
-    Touch touch = touch_over(ground, b, no_sides, b, down, corners, lowest - lowest, ceiling, 0.1f * FACE_PREFERENCE * b.scale,
+    Touch touch = touch_over(ground, b, no_sides, b, down, corners, lowest - lowest, ceiling, 0.1f * (FACE_PREFERENCE * b.scale),
                              margin, hulls);
     touch = flipped(touch, plane.position - pose.position);
     touch.manifold.normal = normal;

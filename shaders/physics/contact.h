@@ -7,9 +7,6 @@
 
 LAWS_BEGIN
 
-LAW vec3 xyz(vec4 v) {
-    return vec3(v.x, v.y, v.z);
-}
 LAW uint feature_of(uint features, uint point) {
     return (features >> (8u * point)) & 0xFFu;
 }
@@ -19,10 +16,6 @@ LAW float match_radius(Traits a, Traits b) {
     return 0.1f * smaller(thickness(a), thickness(b));
 }
 
-// The sum over the points, N s.
-LAW float pressing(Impulse impulse) {
-    return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
-}
 LAW Impulse no_impulse(vec3 d) {
     Impulse impulse;
     impulse.normal = vec4(0.0f);

@@ -38,14 +38,13 @@ LAW float contacts_of(float crowd) {
 LAW float drifted(float crowd, float carrying, uint steps) {
     uint was = floatBitsToUint(crowd) & 0xFFFFu;
     uint now = floatBitsToUint(crowd_of(carrying, LEAST_PRESSING)) & 0xFFFFu;
-    if (was < now) was = was + 1u;
-    if (was > now && (steps & (FORGETTING_STEPS - 1u)) == 0u) was = was - 1u;
+    was = choose(was < now, was + 1u, choose(was > now && (steps & (FORGETTING_STEPS - 1u)) == 0u, was - 1u, was));
     return uintBitsToFloat((floatBitsToUint(crowd) & 0xFFFF0000u) | was);
 }
 LAW float crowd_after(float crowd, float carrying, float pressing) {
     float counted = contacts_of(crowd);
-    if (carrying <= 1.0f || counted < 1.0f) return crowd_of(carrying, pressing);
-    return crowd_of(larger(counted, COUNTED_AT_ONCE * carrying), pressing);
+    bool afresh = carrying <= 1.0f || counted < 1.0f;
+    return crowd_of(choose(afresh, carrying, larger(counted, COUNTED_AT_ONCE * carrying)), pressing);
 }
 
 // s, where the contact is lent the s-th part of the mass: max(1, contacts / 1.5) if the parts are equal.
@@ -53,11 +52,14 @@ LAW float split_for(float crowd, float pressed, Parameters parameters) {
     float contacts = contacts_of(crowd);
     float all = uintBitsToFloat(floatBitsToUint(crowd) & 0xFFFF0000u);
     float split = contacts * parameters.inverse_relaxation;
-    if (contacts > 1.0f && all > 2.0f * LEAST_PRESSING) {
-        float part = 0.5f * reciprocal(contacts) + 0.5f * smaller(1.0f, pressed * reciprocal(all));
-        split = parameters.inverse_relaxation * reciprocal(part);
-    }
+    bool weighed = contacts > 1.0f && 0.5f * all > LEAST_PRESSING;
+    float part = 0.5f * reciprocal(contacts) + 0.5f * smaller(1.0f, pressed * reciprocal(all));
+    split = choose(weighed, parameters.inverse_relaxation * reciprocal(part), split);
     return larger(1.0f, split);
+}
+// The sum over a contact's points, N s.
+LAW float pressing(Impulse impulse) {
+    return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
 }
 LAW Mass lent(Mass mass, Impulse impulse, Parameters parameters) {
     mass.split = split_for(mass.split, impulse.pressed, parameters);

@@ -63,6 +63,12 @@ LAW vec3 hull_corner(Hulls hulls, uint hull, uint face, uint k) {
     uint word = quarter == 0u ? sixteen.x : (quarter == 1u ? sixteen.y : (quarter == 2u ? sixteen.z : sixteen.w));
     return hull_vertex(hulls, hull, (word >> (8u * (place & 3u))) & 0xFFu);
 }
+// Records of a hull, those of its list of corners included.
+LAW uint hull_records(Hulls hulls, uint hull) {
+    uvec4 counts = hull_record(hulls, hull);
+    uvec4 last = hull_record(hulls, hull + counts.x + 2u * counts.y);
+    return 1u + counts.x + 2u * counts.y + ((last.x + last.y + 15u) >> 4u);
+}
 
 LAWS_END
 

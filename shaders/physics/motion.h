@@ -3,36 +3,18 @@
 #define SCREE_PHYSICS_MOTION_H
 
 #include "shaders/physics/arithmetic.h"
+#include "shaders/physics/inertia.h"
 #include "shaders/physics/records.h"
 
 LAWS_BEGIN
 
 LAW Load gravity_load(Traits traits, Parameters parameters) {
     Load load;
-    load.acceleration = traits.motion == MOTION_DYNAMIC ? parameters.gravity * traits.gravity_scale : vec3(0.0f);
+    load.acceleration = choose(traits.motion == MOTION_DYNAMIC, parameters.gravity * traits.gravity_scale, vec3(0.0f));
     load.pad0 = 0.0f;
     load.angular_acceleration = vec3(0.0f);
     load.blows = 0.0f;
     return load;
-}
-
-// R diag(i) R^T, the tensor with principal values i in the axes R.
-LAW Mass tensor_in_world(Axes axes, vec3 i) {
-    vec3 x = axes.x * i.x, y = axes.y * i.y, z = axes.z * i.z;
-    Mass tensor;
-    tensor.xx = (x.x * axes.x.x + y.x * axes.y.x) + z.x * axes.z.x;
-    tensor.xy = (x.x * axes.x.y + y.x * axes.y.y) + z.x * axes.z.y;
-    tensor.xz = (x.x * axes.x.z + y.x * axes.y.z) + z.x * axes.z.z;
-    tensor.yy = (x.y * axes.x.y + y.y * axes.y.y) + z.y * axes.z.y;
-    tensor.yz = (x.y * axes.x.z + y.y * axes.y.z) + z.y * axes.z.z;
-    tensor.zz = (x.z * axes.x.z + y.z * axes.y.z) + z.z * axes.z.z;
-    tensor.inverse_mass = 0.0f;
-    tensor.split = 1.0f;
-    return tensor;
-}
-LAW vec3 turned_by(Mass tensor, vec3 v) {
-    return vec3((tensor.xx * v.x + tensor.xy * v.y) + tensor.xz * v.z, (tensor.xy * v.x + tensor.yy * v.y) + tensor.yz * v.z,
-                (tensor.xz * v.x + tensor.yz * v.y) + tensor.zz * v.z);
 }
 
 // The same about every axis: spheres, cubes, and bodies that contacts do not turn.
@@ -42,25 +24,27 @@ LAW bool turns_evenly(Traits traits) {
 
 LAW Mass mass_in_world(Traits traits, vec4 orientation, float split) {
     Mass mass;
-    if (turns_evenly(traits)) {
-        mass.xx = traits.inverse_inertia.x;
-        mass.yy = traits.inverse_inertia.x;
-        mass.zz = traits.inverse_inertia.x;
-        mass.xy = 0.0f;
-        mass.xz = 0.0f;
-        mass.yz = 0.0f;
-    } else {
-        mass = tensor_in_world(axes_of(orientation), traits.inverse_inertia);
+    mass.xx = traits.inverse_inertia.x;
+    mass.yy = traits.inverse_inertia.x;
+    mass.zz = traits.inverse_inertia.x;
+    mass.xy = 0.0f;
+    mass.xz = 0.0f;
+    mass.yz = 0.0f;
+    bool evenly = turns_evenly(traits);
+    if (!none(!evenly)) {
+        Mass tensor = tensor_in_world(axes_of(orientation), traits.inverse_inertia);
+        mass.xx = choose(evenly, mass.xx, tensor.xx);
+        mass.yy = choose(evenly, mass.yy, tensor.yy);
+        mass.zz = choose(evenly, mass.zz, tensor.zz);
+        mass.xy = choose(evenly, mass.xy, tensor.xy);
+        mass.xz = choose(evenly, mass.xz, tensor.xz);
+        mass.yz = choose(evenly, mass.yz, tensor.yz);
     }
     mass.inverse_mass = traits.inverse_mass;
     mass.split = split;
     return mass;
 }
 
-LAW vec3 shortened(vec3 v, float longest) {
-    float squared = dot3(v, v);
-    return squared > longest * longest ? v * (longest * inverse_square_root(squared)) : v;
-}
 // A velocity that is finite and within the speeds that a step can handle, whatever pushed the body.
 LAW Velocity limited(Velocity velocity, Parameters parameters) {
     vec3 far = vec3(1.0e15f);  // its square is finite
@@ -71,10 +55,9 @@ LAW Velocity limited(Velocity velocity, Parameters parameters) {
 
 // Impulses at the start of the step, forces into the load of the whole step.
 LAW Velocity kicked(Velocity velocity, Action action, Mass mass, Parameters parameters) {
-    if ((action.flags & ACTION_SETS_VELOCITY) != 0u) {
-        velocity.linear = action.velocity;
-        velocity.angular = action.angular_velocity;
-    }
+    bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u;
+    velocity.linear = choose(sets, action.velocity, velocity.linear);
+    velocity.angular = choose(sets, action.angular_velocity, velocity.angular);
     velocity.linear = velocity.linear + action.impulse * mass.inverse_mass;
     velocity.angular = velocity.angular + turned_by(mass, action.angular_impulse);
     return limited(velocity, parameters);
@@ -89,8 +72,8 @@ LAW Load loaded(Load load, Action action, Mass mass) {
 // Damping sees the velocity before the contacts' changes, which arrive together with their next warm start.
 LAW Velocity accelerated(Velocity velocity, Velocity change, Load load, Traits traits, Parameters parameters) {
     float h = parameters.h;
-    float keep = traits.linear_damping > 0.0f ? reciprocal(1.0f + h * traits.linear_damping) : 1.0f;
-    float keep_turning = traits.angular_damping > 0.0f ? reciprocal(1.0f + h * traits.angular_damping) : 1.0f;
+    float keep = choose(traits.linear_damping > 0.0f, reciprocal(1.0f + h * traits.linear_damping), 1.0f);
+    float keep_turning = choose(traits.angular_damping > 0.0f, reciprocal(1.0f + h * traits.angular_damping), 1.0f);
     Velocity after = velocity;
     after.linear = (velocity.linear + load.acceleration * h) * keep + change.linear;
     after.angular = (velocity.angular + load.angular_acceleration * h) * keep_turning + change.angular;
@@ -139,7 +122,8 @@ LAW vec3 spin_of(vec4 orientation, vec3 momentum, vec3 inverse_inertia) {
 // L: its rounding and that of the reciprocals would otherwise add up in one direction, 1e-7 in every substep.
 LAW Moved moved(Pose pose, Velocity velocity, Traits traits, float h) {
     Moved after = carried(pose, velocity, h);
-    if (traits.motion != MOTION_DYNAMIC || turns_evenly(traits)) {
+    bool tumbles = traits.motion == MOTION_DYNAMIC && !turns_evenly(traits);
+    if (none(tumbles)) {
         after.pose.orientation = turned(pose.orientation, velocity.angular, h);
         return after;
     }
@@ -149,8 +133,9 @@ LAW Moved moved(Pose pose, Velocity velocity, Traits traits, float h) {
     vec3 at_first = spin_of(pose.orientation, momentum, i);
     vec4 middle = turned(pose.orientation, velocity.angular, 0.5f * h);
     vec3 halfway = velocity.angular + (spin_of(middle, momentum, i) - at_first);
-    after.pose.orientation = turned(pose.orientation, halfway, h);
-    after.velocity.angular = velocity.angular + (spin_of(after.pose.orientation, momentum, i) - at_first);
+    after.pose.orientation = turned(pose.orientation, choose(tumbles, halfway, velocity.angular), h);
+    vec3 at_last = velocity.angular + (spin_of(after.pose.orientation, momentum, i) - at_first);
+    after.velocity.angular = choose(tumbles, at_last, velocity.angular);
     return after;
 }
 

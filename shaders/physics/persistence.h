@@ -21,12 +21,13 @@ CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the turn (5 degrees) aft
 CONSTANT float KEPT_ROCKING = 0.9999875f;
 
 // What tips over two of its four points falls upon a corner that was not chosen, and is thrown back: columns rocked on for ever.
-// So a contact is made anew in every step in which B turns so fast against A (rad/s; with 0.1, four heaps of 50 never came to
-// rest),
-CONSTANT float KEPT_SPIN = 0.05f;
-// and when it has turned so far (sine of half of 0.4 degrees). With less, columns whose choice of four points shifts them by more
-// than that hop between two choices; with degrees, a corner falls 17 mm deep.
-CONSTANT float KEPT_TILT = 0.0035f;
+// So a contact is made anew in every step in which B turns faster than that against A (squared: 0.05 rad/s; with 0.1, four heaps
+// of 50 never came to rest),
+CONSTANT float KEPT_SPIN_SQUARED = 0.0025f;
+// and when it has turned so far (sine of half the turn, squared: 0.4 degrees). With less, columns whose choice of four points
+// shifts them by more than that hop between two choices; with degrees, a corner falls 17 mm deep. (To prefer the corners chosen
+// before brought fewer heaps to rest, not more.)
+CONSTANT float KEPT_TILT_SQUARED = 1.225e-5f;
 
 // From the mark of a point on A to its mark on B, as the bodies lie now.
 LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
@@ -59,7 +60,7 @@ LAW bool is_kept(Contact contact, Impulse impulse, Traits ta, Pose a, Velocity v
     vec4 since_a = turn_since(contact.turn_a, a.orientation), since_b = turn_since(contact.turn_b, b.orientation);
     vec3 tilt = xyz(since_a) - xyz(since_b);
     vec3 spin = vb.angular - va.angular;
-    if (dot3(tilt, tilt) > KEPT_TILT * KEPT_TILT || dot3(spin, spin) > KEPT_SPIN * KEPT_SPIN) return false;
+    if (dot3(tilt, tilt) > KEPT_TILT_SQUARED || dot3(spin, spin) > KEPT_SPIN_SQUARED) return false;
     float size = smaller(thickness(ta), thickness(tb));
     float tolerance = KEPT_SLIP * size;
     float fastest = KEPT_SPEED * size;

@@ -2,13 +2,21 @@
 #ifndef SCREE_PHYSICS_ROW_H
 #define SCREE_PHYSICS_ROW_H
 
-#include "shaders/physics/motion.h"
+#include "shaders/physics/inertia.h"
 
 LAWS_BEGIN
 
 struct Couple {
     Velocity a, b;
 };
+LAW Couple choose(bool condition, Couple v, Couple w) {
+    w.a.linear = choose(condition, v.a.linear, w.a.linear);
+    w.a.angular = choose(condition, v.a.angular, w.a.angular);
+    w.b.linear = choose(condition, v.b.linear, w.b.linear);
+    w.b.angular = choose(condition, v.b.angular, w.b.angular);
+    return w;
+}
+
 struct Levers {
     vec3 a;
     float pad0;
@@ -17,8 +25,8 @@ struct Levers {
 };
 LAW Levers levers_of(Constraint c, vec3 arm, vec3 d) {
     Levers levers;
-    levers.a = c.anchor == ANCHOR_B ? arm + d : arm;
-    levers.b = c.anchor == ANCHOR_B ? arm : arm - d;
+    levers.a = choose(c.anchor == ANCHOR_B, arm + d, arm);
+    levers.b = choose(c.anchor == ANCHOR_B, arm, arm - d);
     levers.pad0 = 0.0f;
     levers.pad1 = 0.0f;
     return levers;

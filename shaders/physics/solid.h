@@ -157,8 +157,8 @@ LAW Feature point_at(vec3 point) {
     return feature;
 }
 // A disc's corners begin where it reaches farthest in the direction, so that what rolls on a rim has its lowest point; as long as
-// it leans by less than FLAT, they stay where they are on the body.
-CONSTANT float FLAT = 0.02f;
+// it leans by less than that (sine, squared: 1.1 degrees), they stay where they are on the body.
+CONSTANT float FLAT_SQUARED = 0.0004f;
 LAW Feature face_as_feature(Solid solid, uint face, vec3 direction, Hulls hulls) {
     Feature feature = line_between(solid.axes.y, solid.axes.x);
     feature.face = face;
@@ -172,7 +172,7 @@ LAW Feature face_as_feature(Solid solid, uint face, vec3 direction, Hulls hulls)
     } else if (solid.shape != SHAPE_BOX) {
         feature.points = MOST_SIDES;
         vec3 across = direction - solid.axes.y * dot3(solid.axes.y, direction);
-        if (dot3(across, across) > FLAT * FLAT * dot3(direction, direction)) feature.second = unit3(across, solid.axes.x);
+        if (dot3(across, across) > FLAT_SQUARED * dot3(direction, direction)) feature.second = unit3(across, solid.axes.x);
     }
     return feature;
 }

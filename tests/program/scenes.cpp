@@ -243,8 +243,43 @@ TEST_CASE("program: bench writes a table and CSV with a row for every stage", "[
     REQUIRE(bench.status == 0);
     REQUIRE(says(bench.output, "us/body"));
     const std::string csv = place.read("b.csv");
-    REQUIRE(says(csv, "demo,device,bodies,manifolds,points,buffer_bytes,stage,ms_per_step"));
+    REQUIRE(says(csv,
+                 "demo,backend,device,bodies,manifolds,points,asleep,buffer_bytes,stage,ms_median,ms_25,ms_75,ms_mean,bytes,"
+                 "copy_bytes_per_s,share_of_copy"));
     REQUIRE(std::count(csv.begin(), csv.end(), '\n') > 20);
+    REQUIRE(says(csv, "solve_contacts"));
+    REQUIRE(says(bench.output, "bound_bodies"));
+    REQUIRE(says(bench.output, "% of copying"));
+}
+
+TEST_CASE("program: bench settles a pile once, keeps it, and measures it again from the file", "[program]") {
+    const Place place;
+    const std::string command =
+        "bench mix --bodies 40 --steps 2 --warmup 1 --settle 0.5 --backend cpu --quiet --csv - --settled '" +
+        (place / "kept").string() + "'";
+    const Outcome first = run_scree(command);
+    INFO(first.errors);
+    REQUIRE(first.status == 0);
+    const std::filesystem::path kept = place / "kept" / "mix-40-0.5s.json";
+    REQUIRE(std::filesystem::exists(kept));
+    std::filesystem::resize_file(kept, 10);
+    const Outcome second = run_scree(command);
+    REQUIRE(second.status != 0);
+    REQUIRE(says(second.errors, "mix-40-0.5s.json"));
+    REQUIRE(run_scree("bench rest --settled '" + place.path().string() + "'").status == 2);
+}
+
+TEST_CASE("program: run saves the scene as it is at the end, to the last bit of every position", "[program]") {
+    const Place place;
+    const std::string file = (place / "later.json").string();
+    REQUIRE(run_scree("run seesaw --backend cpu --steps 7 --quiet --save '" + file + "'").status == 0);
+    const json start = json::parse(run_scree("export seesaw").output), later = json::parse(place.read("later.json"));
+    REQUIRE(later["bodies"].size() == start["bodies"].size());
+    REQUIRE(later["camera"] == start["camera"]);
+    REQUIRE(later["bodies"] != start["bodies"]);
+    REQUIRE(run_scree("run '" + file + "' --backend cpu --steps 1 --quiet").status == 0);
+    REQUIRE(run_scree("export '" + file + "' -o '" + file + ".again'").status == 0);
+    REQUIRE(place.read("later.json.again") == place.read("later.json"));
 }
 
 TEST_CASE("program: the schema is JSON and knows every key of an exported scene", "[program]") {

@@ -223,5 +223,6 @@ TEST_CASE("without a display view says how to make pictures") {
         REQUIRE(outcome.status == 2);
         REQUIRE(says(outcome.errors, "no display"));
         REQUIRE(says(outcome.errors, "scree run wall --frames"));
+        REQUIRE(says(run_scree("view wal", display).errors, "unknown demo \"wal\", nearest: \"wall\""));
     }
 }

@@ -1,0 +1,133 @@
+// Turns, times and tables of the race.
+#include "tests/peers/race.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <functional>
+
+#include "demos/table.h"
+
+namespace scree::peers {
+
+namespace {
+
+Entrant entrant(const std::string& name, const std::function<std::unique_ptr<Engine>()>& make) {
+    try {
+        std::unique_ptr<Engine> engine = make();
+        std::string full_name = engine->name();
+        const bool ours = full_name.starts_with("scree");
+        return {std::move(full_name), std::move(engine), "", ours};
+    } catch (const std::exception& error) {
+        return {name, nullptr, error.what()};
+    }
+}
+
+// Of those bodies that the scene lets move.
+void measure_ways(const Scene& scene, const std::vector<vec3>& now, Lap& lap) {
+    std::vector<double> ways;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].motion == Motion::dynamic)
+            ways.push_back(static_cast<double>(glm::length(now[i] - scene.bodies[i].position)));
+    }
+    if (ways.empty()) return;
+    std::sort(ways.begin(), ways.end());
+    lap.moved_median = ways[ways.size() / 2];
+    lap.moved_max = ways.back();
+}
+
+// Steps one engine; what it throws leaves it out of the rest.
+void turn(Entrant& entrant, Lap& lap, int steps, bool counts) {
+    if (!entrant.engine) return;
+    try {
+        for (int i = 0; i < steps; ++i) {
+            const auto start = std::chrono::steady_clock::now();
+            entrant.engine->step();
+            const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+            if (counts) lap.ms.push_back(taken.count());
+        }
+    } catch (const std::exception& error) {
+        entrant.engine.reset();
+        lap.why_not = error.what();
+        lap.ms.clear();
+    }
+}
+
+}  // namespace
+
+std::vector<Entrant> entrants(const Scene& scene, int threads) {
+    std::vector<Entrant> all;
+    all.push_back(entrant("Bullet", [&] { return make_bullet(scene); }));
+    if (threads != 1) all.push_back(entrant("scree cpu", [&] { return make_scree_on_processor(scene, threads); }));
+    all.push_back(entrant("scree cpu", [&] { return make_scree_on_processor(scene, 1); }));
+    all.push_back(entrant("scree vulkan", [&] { return make_scree_on_device(scene); }));
+#ifdef SCREE_PEER_MUJOCO
+    all.push_back(entrant("MuJoCo", [&] { return make_mujoco(scene); }));
+#else
+    all.push_back({"MuJoCo", nullptr, "not in this build: libmujoco-dev was not there"});
+#endif
+    return all;
+}
+
+std::vector<Lap> race(const Scene& scene, std::vector<Entrant> entrants, const Course& course) {
+    std::vector<Lap> laps;
+    for (const Entrant& each : entrants) laps.push_back({each.name, each.why_not, {}});
+    const std::size_t n = entrants.size();
+    for (std::size_t k = 0; k < n; ++k)
+        turn(entrants[k], laps[k], course.warmup + (entrants[k].made_the_scene ? 0 : course.settle), false);
+    for (int round = 0; round < course.rounds; ++round) {
+        for (std::size_t k = 0; k < n; ++k) {
+            const std::size_t next = (k + static_cast<std::size_t>(round)) % n;
+            turn(entrants[next], laps[next], course.steps, true);
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        if (!entrants[k].engine) continue;
+        laps[k].points = entrants[k].engine->points();
+        measure_ways(scene, entrants[k].engine->positions(), laps[k]);
+    }
+    return laps;
+}
+
+Quartiles quartiles_of(std::vector<double> ms) {
+    std::sort(ms.begin(), ms.end());
+    const std::size_t n = ms.size();
+    return {ms[n / 4], (ms[(n - 1) / 2] + ms[n / 2]) / 2, ms[n - 1 - n / 4]};
+}
+
+std::string table_of(const std::vector<Lap>& laps) {
+    const double first = laps.empty() || laps.front().ms.empty() ? 0 : quartiles_of(laps.front().ms).median;
+    const std::string first_name = laps.empty() ? "" : laps.front().name.substr(0, laps.front().name.find(','));
+    std::vector<demos::Cells> rows = {
+        {"program", "ms/step", "25%", "75%", "ratio to " + first_name, "points", "moved mm", "at most"}};
+    std::string left_out;
+    for (const Lap& lap : laps) {
+        if (lap.ms.empty()) {
+            rows.push_back({lap.name, "", "", "", "", "", "", ""});
+            left_out += fmt::format("{}: left out: {}\n", lap.name, lap.why_not);
+            continue;
+        }
+        const Quartiles ms = quartiles_of(lap.ms);
+        rows.push_back({lap.name, fmt::format("{:.2f}", ms.median), fmt::format("{:.2f}", ms.low), fmt::format("{:.2f}", ms.high),
+                        first > 0 ? fmt::format("{:.2f}", ms.median / first) : "-", std::to_string(lap.points),
+                        fmt::format("{:.2f}", lap.moved_median * 1e3), fmt::format("{:.1f}", lap.moved_max * 1e3)});
+    }
+    return demos::table(rows) + left_out;
+}
+
+std::vector<std::vector<std::string>> csv_rows(const std::string& scene, std::size_t bodies, const std::vector<Lap>& laps) {
+    std::vector<std::vector<std::string>> rows;
+    const double first = laps.empty() || laps.front().ms.empty() ? 0 : quartiles_of(laps.front().ms).median;
+    for (const Lap& lap : laps) {
+        if (lap.ms.empty()) continue;
+        const Quartiles ms = quartiles_of(lap.ms);
+        rows.push_back({scene, std::to_string(bodies), lap.name, fmt::format("{:.4f}", ms.median), fmt::format("{:.4f}", ms.low),
+                        fmt::format("{:.4f}", ms.high), first > 0 ? fmt::format("{:.4f}", ms.median / first) : "",
+                        std::to_string(lap.points), fmt::format("{:.6f}", lap.moved_median),
+                        fmt::format("{:.6f}", lap.moved_max)});
+    }
+    return rows;
+}
+
+}  // namespace scree::peers

@@ -1,0 +1,59 @@
+// --backend auto without a GPU: whichever measures faster, and what was measured is remembered.
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/program/program.h"
+
+using scree::program::Outcome;
+using scree::program::Place;
+using scree::program::run_scree;
+using scree::program::says;
+
+namespace {
+
+// A cache folder of its own, with the pipelines that are compiled already.
+std::string with_cache_in(const Place& place) {
+    const std::string at = "'" + place.path().string() + "'";
+    return "mkdir -p " + at + "/scree; cp -n \"${XDG_CACHE_HOME:-$HOME/.cache}\"/scree/*pipeline* " + at +
+           "/scree 2>/dev/null; export XDG_CACHE_HOME=" + at + ";";
+}
+
+}  // namespace
+
+TEST_CASE("program: auto takes what measures faster, says so, and remembers it", "[program]") {
+    const Place place;
+    const std::string run = "run stack --steps 2 --report '" + (place / "r.json").string() + "'";
+    const auto report = [&] { return nlohmann::json::parse(place.read("r.json")); };
+    const std::string paces = "scree/paces.json";
+
+    const Outcome first = run_scree(run, with_cache_in(place));
+    INFO(first.errors);
+    REQUIRE(first.status == 0);
+    if (!says(first.errors, "simulating")) return;  // a GPU, or no Vulkan at all
+    REQUIRE(says(first.errors, "a step of 1000 resting boxes took"));
+    const std::string hash = report()["state_hash"];
+    nlohmann::json known = nlohmann::json::parse(place.read(paces));
+    std::string key;
+    for (const auto& [name, value] : known.items()) {
+        if (name.rfind("on ", 0) == 0) key = name;
+    }
+    REQUIRE(known[key].size() == 2);
+    REQUIRE(known[key][0] > 0);
+    REQUIRE(known[key][1] > 0);
+
+    for (const bool device_is_faster : {true, false}) {
+        known[key] = {device_is_faster ? 1.0 : 1.5, 1.25};
+        place.write(paces, known.dump());
+        const Outcome outcome = run_scree(run, with_cache_in(place));
+        INFO(outcome.errors);
+        REQUIRE(says(outcome.errors, device_is_faster ? "took 1.0 ms on" : "took 1.5 ms on"));
+        REQUIRE(report()["backend"] == (device_is_faster ? "vulkan" : "cpu"));
+        REQUIRE(report()["state_hash"] == hash);
+    }
+
+    for (const std::string& damage : {std::string("{"), std::string("{\"program\": 1}")}) {
+        place.write(paces, damage);
+        REQUIRE(run_scree(run, with_cache_in(place)).status == 0);
+        REQUIRE(nlohmann::json::parse(place.read(paces))[key].size() == 2);
+    }
+}

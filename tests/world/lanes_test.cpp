@@ -1,0 +1,92 @@
+// The stages of a substep for several contacts and bodies at once leave the bits that the plain loops leave.
+#include <catch2/catch.hpp>
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "compute/reference/wide.h"
+#include "compute/reference_runner.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+
+namespace {
+
+std::span<const std::byte> live_bytes(const State& state, Table table) {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    return state.raw(table).first(state.live(info.length) * info.record_bytes);
+}
+
+// What the stages of a step wrote, one after the other.
+using Written = std::vector<std::vector<std::byte>>;
+
+struct Walker {
+    State state;
+    ReferenceRunner runner;
+    Walker(const Scene& scene, const Settings& settings, int threads, int lanes)
+        : state(checked(scene), settings, 64, true), runner(threads, lanes) {
+        runner.attach(state);
+    }
+
+    // A step; look(stage, table, bytes) at all that the stages write.
+    template <typename Look>
+    void step(const Look& look) {
+        state.fixed().redo = 0;
+        while (!runner.step([&](const Stage& stage, std::size_t) {
+            for (const Table table : stage.writes) look(stage.name, table, live_bytes(state, table));
+            return true;
+        })) {
+            state.grow();
+            runner.attach(state);
+            state.fixed().redo = 1;
+        }
+    }
+};
+
+// Requires that `steps` steps with so many lanes write what the plain loops write; tells the contacts of the last step.
+std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
+    Settings settings;
+    settings.sleep_time = 0.2f;
+    Walker plain(scene, settings, 1, 1), wide(scene, settings, threads, lanes);
+    for (int step = 0; step < steps; ++step) {
+        Written expected;
+        plain.step([&](const std::string&, Table, std::span<const std::byte> bytes) {
+            expected.emplace_back(bytes.begin(), bytes.end());
+        });
+        std::size_t next = 0;
+        wide.step([&](const std::string& stage, Table table, std::span<const std::byte> bytes) {
+            INFO("step " << step << ", stage " << stage << ", " << table_infos()[static_cast<std::size_t>(table)].name);
+            const std::vector<std::byte>& before = expected.at(next++);
+            REQUIRE(before.size() == bytes.size());
+            if (!before.empty() && std::memcmp(before.data(), bytes.data(), bytes.size()) != 0) FAIL("the bits differ");
+        });
+        REQUIRE(next == expected.size());
+    }
+    return wide.state.counted().contacts;
+}
+
+}  // namespace
+
+TEST_CASE("several contacts at once leave the bits that each of them alone leaves, in every stage") {
+    for (const int lanes : {4, 8, 16}) {
+        CAPTURE(lanes);
+        REQUIRE(compare(tests::heap(60), 1, lanes, 150) > 60);
+        compare(tests::swarm(40, 0.8f), 1, lanes, 90);
+        REQUIRE(compare(tests::heap(150), 2, lanes, 40) > 60);
+    }
+}
+
+TEST_CASE("several contacts at once leave the right bits whatever their number is") {
+    for (const int lanes : {4, 8, 16}) {
+        for (const int bodies : {0, 1, 3, 4, 5, 7, 8, 9, 15, 16, 17, 31, 33}) {
+            CAPTURE(lanes, bodies);
+            REQUIRE(compare(tests::apart(bodies), 1, lanes, 4) == static_cast<std::uint32_t>(bodies));
+            compare(tests::packed(bodies), 1, lanes, 4);
+        }
+    }
+}
+
+TEST_CASE("one contact at a time is done where that is asked for") {
+    REQUIRE(reference::wide_stages(1) == nullptr);
+    REQUIRE(reference::wide_stages(4) == &reference::wide_stages_4);
+}
