@@ -29,7 +29,7 @@ std::vector<std::string> demo_names() {
 }
 
 std::string few_bodies(const std::string& name) {
-    return name == "pile" || name == "mix" || name == "avalanche" ? " --bodies 300" : "";
+    return name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" ? " --bodies 300" : "";
 }
 
 std::string hash_of_run(const std::string& scene) {
@@ -39,12 +39,22 @@ std::string hash_of_run(const std::string& scene) {
     return json::parse(outcome.output).at("state_hash");
 }
 
-// The farthest extent of a body along a direction, from its centre.
+// The farthest extent of a body along a unit direction, from its centre.
 double extent(const Body& body, vec3 along) {
     if (const auto* sphere = std::get_if<scree::Sphere>(&body.shape)) return sphere->radius;
     const vec3 inside = scree::physics::rotate_back(body.orientation, along);
+    const double across = std::hypot(inside.x, inside.z);
     if (const auto* capsule = std::get_if<scree::Capsule>(&body.shape))
         return capsule->radius + std::abs(inside.y) * capsule->half_height;
+    if (const auto* cylinder = std::get_if<scree::Cylinder>(&body.shape))
+        return across * cylinder->radius + std::abs(inside.y) * cylinder->half_height;
+    if (const auto* cone = std::get_if<scree::Cone>(&body.shape))
+        return std::max(0.75 * inside.y * cone->height, across * cone->radius - 0.25 * inside.y * cone->height);
+    if (const auto* hull = std::get_if<scree::Hull>(&body.shape)) {
+        double most = 0;
+        for (const vec3& point : hull->points) most = std::max(most, static_cast<double>(glm::dot(inside, point)));
+        return most;
+    }
     const vec3 h = std::get<scree::Box>(body.shape).half_extents;
     return std::abs(inside.x) * h.x + std::abs(inside.y) * h.y + std::abs(inside.z) * h.z;
 }
@@ -65,7 +75,8 @@ bool parted(const Body& a, const Body& b) {
     return std::any_of(directions.begin(), directions.end(), [&](vec3 along) {
         if (glm::length(along) < 1e-4f) return false;
         along = glm::normalize(along);
-        return std::abs(glm::dot(b.position - a.position, along)) + 1e-4 > extent(a, along) + extent(b, along);
+        if (glm::dot(b.position - a.position, along) < 0) along = -along;
+        return glm::dot(b.position - a.position, along) + 1e-4 > extent(a, along) + extent(b, -along);
     });
 }
 
@@ -77,8 +88,8 @@ bool above(const Body& body, const scree::Plane& plane) {
 
 TEST_CASE("program: list names the demos, help teaches, the version is told", "[program]") {
     const std::vector<std::string> names = demo_names();
-    for (const char* name :
-         {"rest", "stack", "tower", "wall", "pyramid", "seesaw", "slopes", "cradle", "dominoes", "pile", "mix", "avalanche"}) {
+    for (const char* name : {"rest", "stack", "tower", "wall", "pyramid", "seesaw", "slopes", "cradle", "dominoes", "pile", "mix",
+                             "avalanche", "assortment"}) {
         REQUIRE(std::count(names.begin(), names.end(), name) == 1);
     }
     const Outcome list = run_scree("list");
