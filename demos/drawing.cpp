@@ -11,8 +11,6 @@
 
 namespace scree::demos {
 
-namespace {
-
 host::ShapeInstances instances_of(const Scene& scene) {
     host::ShapeInstances instances;
     std::map<const void*, std::uint32_t> meshes;  // of cylinders, of cones, of each hull
@@ -50,6 +48,8 @@ host::BodyTables tables_of(const State& state) {
     tables.bounds = state.bounds;
     return tables;
 }
+
+namespace {
 
 // On whatever is there. OpenGL ES first: a processor draws a frame in 5% less time than with Vulkan (llvmpipe and lavapipe, 3,000
 // bodies at 1280x720).

@@ -6,6 +6,7 @@
 
 #include "compute/state.h"
 #include "compute/world.h"
+#include "demos/drawing.h"
 #include "host/buffer.h"
 #include "host/canvas.h"
 #include "host/device.h"
@@ -20,6 +21,11 @@ std::shared_ptr<Device> validated_device() {
     return device;
 }
 
+Hull wedge() {
+    return {.points = {
+                {-0.3f, -0.2f, -0.25f}, {0.3f, -0.2f, -0.2f}, {0.25f, -0.2f, 0.3f}, {-0.25f, -0.15f, 0.25f}, {0, 0.3f, 0.05f}}};
+}
+
 // Every shape, moving and fixed, in a heap that has just come down.
 Scene heap() {
     Scene scene;
@@ -32,10 +38,11 @@ Scene heap() {
     wall.shape = Box{{2.5f, 0.6f, 0.2f}};
     wall.position = {0, 0.6f, -1.8f};
     scene.bodies.push_back(wall);
-    for (int i = 0; i < 45; ++i) {
+    for (int i = 0; i < 60; ++i) {  // of each size so many that they lie in the grid, whose cells are drawn
         Body body;
-        const Shape shapes[] = {Sphere{0.28f}, Capsule{0.2f, 0.25f}, Box{{0.3f, 0.2f, 0.25f}}};
-        body.shape = shapes[i % 3];
+        const Shape shapes[] = {Sphere{0.28f},         Capsule{0.2f, 0.25f}, Box{{0.3f, 0.2f, 0.25f}},
+                                Cylinder{0.25f, 0.2f}, Cone{0.28f, 0.6f},    wedge()};
+        body.shape = shapes[i % 6];
         body.position = {0.7f * static_cast<float>(i % 4) - 1.0f, 0.5f + 0.62f * static_cast<float>(i / 16),
                          0.7f * static_cast<float>(i / 4 % 4) - 1.0f};
         body.orientation = {0.1f * static_cast<float>(i % 5), 0.3f, 0.05f * static_cast<float>(i % 7), 1};
@@ -45,37 +52,15 @@ Scene heap() {
     return scene;
 }
 
-ShapeInstances instances_of(const Scene& scene) {
-    ShapeInstances instances;
-    std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes, &instances.planes};
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) lists[scene.bodies[i].shape.index()]->push_back(i);
-    return instances;
-}
-
-BodyTables tables_of(const State& state) {
-    const std::uint32_t contacts = state.counted().contacts;
-    BodyTables tables{state.traits,
-                      state.poses,
-                      state.velocities,
-                      std::span(state.contacts).first(contacts),
-                      std::span(state.impulses).first(contacts),
-                      contacts};
-    tables.slot_ends = state.slot_ends;
-    tables.slot_sides = state.slot_sides;
-    tables.rests = state.rests;
-    tables.bounds = state.bounds;
-    return tables;
-}
-
 struct View {
     Camera camera{.eye = {3.5f, 3, 5}, .target = {0, 0.7f, 0}, .vertical_fov = 40};
     ColorScale scale;
-    std::string caption = "both canvases\n45 bodies";
+    std::string caption = "both canvases\n60 bodies";
     vec3 low{-3, 0, -3}, high{3, 3, 3};  // what casts shadows, m
 };
 
 Image picture(Canvas& canvas, const World& world, const View& view) {
-    canvas.set_tables(tables_of(world.state()));
+    canvas.set_tables(demos::tables_of(world.state()));
     return canvas.draw(view.camera, view.scale, view.caption, view.low, view.high);
 }
 
@@ -142,7 +127,7 @@ TEST_CASE("canvases: both draw the same picture of the same state", "[canvas][gl
     CAPTURE(samples, shadows, marks);
     World world(heap(), {}, 1);
     const CanvasOptions options = options_of(samples, shadows, marks);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
     for (const int steps : {0, 25}) {
         world.step(steps);
@@ -160,7 +145,7 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
     World world(heap(), {}, 1);
     world.step(10);
     const CanvasOptions options = options_of(1, true, false);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
     const auto require_alike = [&](const View& view) {
         const Likeness both = likeness(picture(*vulkan, world, view), picture(*gl, world, view));
@@ -195,7 +180,7 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
     CanvasOptions options = options_of(1, true, false);
     options.sleep_steps = 12;  // so that some seem to sleep soon
     options.cell = world.state().fixed().cell;
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const View view;
     const auto plain = make_vulkan_canvas(validated_device(), instances, options);
     for (bool CanvasOptions::*what :
@@ -216,7 +201,7 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
 
 TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
     World world(heap(), {}, 1);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const View view;
     const auto canvas = make_gl_canvas(instances, options_of(1, true, false));
     const Image image = picture(*canvas, world, view);
@@ -231,10 +216,10 @@ TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a sha
 TEST_CASE("canvases: tables in host memory and on the device give the same pixels", "[canvas]") {
     World world(heap(), {}, 1);
     world.step(20);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const auto canvas = make_vulkan_canvas(validated_device(), instances, options_of(1, true, true));
     const Image from_memory = picture(*canvas, world, {});
-    BodyTables tables = tables_of(world.state());
+    BodyTables tables = demos::tables_of(world.state());
     std::vector<std::unique_ptr<Buffer>> buffers;
     for (TableView* const table : {&tables.traits, &tables.poses, &tables.velocities, &tables.touches, &tables.pushes}) {
         buffers.push_back(std::make_unique<Buffer>(validated_device(), "a table", table->bytes.size()));
