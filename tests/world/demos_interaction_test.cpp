@@ -81,6 +81,33 @@ TEST_CASE("a ray meets each kind of shape where its surface is") {
     CHECK_FALSE(distance_to(Plane{vec3(0, -1, 0), 1}, vec3(0), vec4(0, 0, 0, 1), down));  // from behind
 }
 
+TEST_CASE("a ray meets cylinders, cones and hulls where their surface is") {
+    const Ray down{vec3(0.1f, 5, 0), vec3(0, -1, 0)};
+    const vec4 upright(0, 0, 0, 1), lying(0, 0, std::sqrt(0.5f), std::sqrt(0.5f)), upside_down(0, 0, 1, 0);
+    const Cylinder cylinder{0.5f, 1};
+    CHECK(distance_to(cylinder, vec3(0), upright, down).value() == Approx(4));
+    CHECK(distance_to(cylinder, vec3(0, 0, 0.3f), lying, down).value() == Approx(4.6f));
+    CHECK_FALSE(distance_to(cylinder, vec3(0, 0, 0.6f), upright, down));     // beside its wall
+    CHECK_FALSE(distance_to(cylinder, vec3(1.2f, 0, 0), lying, down));       // beyond its end
+    CHECK_FALSE(distance_to(cylinder, vec3(0.1f, 5.5f, 0), upright, down));  // begins inside
+    const Cone cone{0.5f, 1};                                                // from 0.25 below its centre of mass to 0.75 above
+    CHECK(distance_to(cone, vec3(0), upright, down).value() == Approx(4.45f));
+    CHECK(distance_to(cone, vec3(0), upside_down, down).value() == Approx(4.75f));
+    CHECK(distance_to(cone, vec3(0), lying, down).value() == Approx(4.575f));
+    CHECK_FALSE(distance_to(cone, vec3(0, 0, 0.55f), upright, down));
+    CHECK_FALSE(distance_to(cone, vec3(0, 9, 0), upright, down));  // behind
+    Scene scene;
+    Hull cube;  // not about the body's own origin
+    for (int k = 0; k < 8; ++k) cube.points.emplace_back(k & 1 ? 9 : 11, k & 2 ? -1 : 1, k & 4 ? -1 : 1);
+    scene.bodies.emplace_back().shape = cube;
+    const World world(scene, {}, 1);
+    const auto above = [&](float x) { return pick(world.scene(), world.bodies(), {vec3(x, 5, 0), vec3(0, -1, 0)}); };
+    REQUIRE(above(10.9f));
+    CHECK(above(10.9f)->distance == Approx(4));
+    CHECK_FALSE(above(11.1f));
+    CHECK_FALSE(above(0));
+}
+
 TEST_CASE("a drag takes hold of the body under the pointer and draws it along") {
     Played played;
     const vec3 start = played.session.world().body(top).position;
