@@ -7,7 +7,7 @@ namespace scree::demos {
 
 const std::vector<Demo>& all_demos() {
     static const std::vector<Demo> demos = {
-        {"rest", "one body of each shape comes to rest on the ground", 4, false, rest},
+        {"rest", "a sphere, a capsule and a box come to rest on the ground", 4, false, rest},
         {"stack", "ten boxes, placed a little carelessly, stand", 10, false, stack},
         {"tower", "a single column of forty boxes stands", 40, false, tower},
         {"wall", "a wall of sixteen courses in running bond stands", 520, false, wall},
