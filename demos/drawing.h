@@ -12,6 +12,11 @@
 
 namespace scree::demos {
 
+// Which bodies have which shape.
+host::ShapeInstances instances_of(const Scene& scene);
+// What a canvas draws from where a world is simulated on the processor.
+host::BodyTables tables_of(const State& state);
+
 class Drawing {
 public:
     // `canvas` is a word of --canvas. Throws UsageError where there is no such canvas, saying what to install.

@@ -6,6 +6,7 @@
 
 #include "compute/state.h"
 #include "compute/world.h"
+#include "demos/drawing.h"
 #include "host/buffer.h"
 #include "host/canvas.h"
 #include "host/device.h"
@@ -45,28 +46,6 @@ Scene heap() {
     return scene;
 }
 
-ShapeInstances instances_of(const Scene& scene) {
-    ShapeInstances instances;
-    std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes, &instances.planes};
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) lists[scene.bodies[i].shape.index()]->push_back(i);
-    return instances;
-}
-
-BodyTables tables_of(const State& state) {
-    const std::uint32_t contacts = state.counted().contacts;
-    BodyTables tables{state.traits,
-                      state.poses,
-                      state.velocities,
-                      std::span(state.contacts).first(contacts),
-                      std::span(state.impulses).first(contacts),
-                      contacts};
-    tables.slot_ends = state.slot_ends;
-    tables.slot_sides = state.slot_sides;
-    tables.rests = state.rests;
-    tables.bounds = state.bounds;
-    return tables;
-}
-
 struct View {
     Camera camera{.eye = {3.5f, 3, 5}, .target = {0, 0.7f, 0}, .vertical_fov = 40};
     ColorScale scale;
@@ -75,7 +54,7 @@ struct View {
 };
 
 Image picture(Canvas& canvas, const World& world, const View& view) {
-    canvas.set_tables(tables_of(world.state()));
+    canvas.set_tables(demos::tables_of(world.state()));
     return canvas.draw(view.camera, view.scale, view.caption, view.low, view.high);
 }
 
@@ -142,7 +121,7 @@ TEST_CASE("canvases: both draw the same picture of the same state", "[canvas][gl
     CAPTURE(samples, shadows, marks);
     World world(heap(), {}, 1);
     const CanvasOptions options = options_of(samples, shadows, marks);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
     for (const int steps : {0, 25}) {
         world.step(steps);
@@ -160,7 +139,7 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
     World world(heap(), {}, 1);
     world.step(10);
     const CanvasOptions options = options_of(1, true, false);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
     const auto require_alike = [&](const View& view) {
         const Likeness both = likeness(picture(*vulkan, world, view), picture(*gl, world, view));
@@ -195,7 +174,7 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
     CanvasOptions options = options_of(1, true, false);
     options.sleep_steps = 12;  // so that some seem to sleep soon
     options.cell = world.state().fixed().cell;
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const View view;
     const auto plain = make_vulkan_canvas(validated_device(), instances, options);
     for (bool CanvasOptions::*what :
@@ -216,7 +195,7 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
 
 TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
     World world(heap(), {}, 1);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const View view;
     const auto canvas = make_gl_canvas(instances, options_of(1, true, false));
     const Image image = picture(*canvas, world, view);
@@ -231,10 +210,10 @@ TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a sha
 TEST_CASE("canvases: tables in host memory and on the device give the same pixels", "[canvas]") {
     World world(heap(), {}, 1);
     world.step(20);
-    const ShapeInstances instances = instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world.scene());
     const auto canvas = make_vulkan_canvas(validated_device(), instances, options_of(1, true, true));
     const Image from_memory = picture(*canvas, world, {});
-    BodyTables tables = tables_of(world.state());
+    BodyTables tables = demos::tables_of(world.state());
     std::vector<std::unique_ptr<Buffer>> buffers;
     for (TableView* const table : {&tables.traits, &tables.poses, &tables.velocities, &tables.touches, &tables.pushes}) {
         buffers.push_back(std::make_unique<Buffer>(validated_device(), "a table", table->bytes.size()));
