@@ -8,6 +8,12 @@
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
+// Most bodies have nothing new to say, and an atomic that all ask for is slow.
+#define note(mask, bits)                                     \
+    {                                                        \
+        if ((mask & (bits)) != (bits)) atomicOr(mask, bits); \
+    }
+
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies) return;
@@ -15,16 +21,14 @@ void main() {
     Pose pose = poses[i];
     Bounds around = bounds_of(body, pose, velocities[i], loads[i], PARAMETERS);
     flights[i] = flight_of(pose);
-    if (will_be_fast(body, velocities[i], PARAMETERS)) atomicOr(COUNTS.fast, 1u);
+    if (will_be_fast(body, velocities[i], PARAMETERS)) note(COUNTS.fast, 1u);
     masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
     atomicAdd(cells[around.bucket], 1u);
-    if (body.large == 0u) atomicOr(COUNTS.levels, 1u << around.level);
-    if (has_slept(rests[i], PARAMETERS.sleep_steps)) atomicOr(COUNTS.sleepers, 1u);
+    if (body.large == 0u) note(COUNTS.levels, 1u << around.level);
+    if (has_slept(rests[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
     if (stirs(body.motion, velocities[i], rests[i], PARAMETERS.sleep_steps)) {
-        if (body.large == 0u)
-            atomicOr(COUNTS.levels_stirring, 1u << around.level);
-        else
-            atomicOr(COUNTS.large_stirring, 1u);
+        if (body.large == 0u) note(COUNTS.levels_stirring, 1u << around.level);
+        if (body.large != 0u) note(COUNTS.large_stirring, 1u);
     } else {
         around.level |= STILL;
     }
