@@ -47,6 +47,7 @@ bool moved_by_contacts(const State& state, std::size_t body) {
 // Those that contacts move.
 std::vector<std::uint32_t> movable_bodies(const State& state) {
     std::vector<std::uint32_t> bodies;
+    if (!physics::any_stirs(state.counted())) return bodies;
     bodies.reserve(state.fixed().bodies);
     for (std::uint32_t i = 0; i < state.fixed().bodies; ++i)
         if (moved_by_contacts(state, i)) bodies.push_back(i);
@@ -104,23 +105,27 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
 void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
     physics::Counts& counts = state.counted();
     const auto note = [](physics::uint& mask, physics::uint bits) {
-        std::atomic_ref(mask).fetch_or(bits, std::memory_order_relaxed);
+        const std::atomic_ref all(mask);
+        if ((all.load(std::memory_order_relaxed) & bits) != bits) all.fetch_or(bits, std::memory_order_relaxed);
     };
     const physics::uint sleep_steps = state.fixed().sleep_steps;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const physics::Traits& traits = state.traits[i];
-        physics::Bounds& bounds = state.bounds[i];
-        bounds = physics::bounds_of(traits, state.poses[i], state.velocities[i], state.loads[i], state.fixed());
-        if (physics::will_be_fast(traits, state.velocities[i], state.fixed())) note(counts.fast, 1u);
-        state.masses[i] = physics::mass_in_world(traits, state.poses[i].orientation, state.masses[i].split);
+        // Copies, or the compiler must suspect that what is written below changes them, and computes twice.
+        const physics::Traits traits = state.traits[i];
+        const physics::Pose pose = state.poses[i];
+        const physics::Velocity velocity = state.velocities[i];
+        physics::Bounds bounds = physics::bounds_of(traits, pose, velocity, state.loads[i], state.fixed());
+        if (physics::will_be_fast(traits, velocity, state.fixed())) note(counts.fast, 1u);
+        state.masses[i] = physics::mass_in_world(traits, pose.orientation, state.masses[i].split);
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
-        const bool stirs = physics::stirs(traits.motion, state.velocities[i], state.rests[i], sleep_steps);
+        const bool stirs = physics::stirs(traits.motion, velocity, state.rests[i], sleep_steps);
         const bool large = physics::is_large(traits);
         if (!large) note(counts.levels, 1u << bounds.level);
         if (!large && stirs) note(counts.levels_stirring, 1u << bounds.level);
         if (large && stirs) note(counts.large_stirring, 1u);
         if (physics::has_slept(state.rests[i], sleep_steps)) note(counts.sleepers, 1u);
         if (!stirs) bounds.level |= physics::STILL;
+        state.bounds[i] = bounds;
     });
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "compute/reference/stages.h"
+#include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
 
@@ -77,6 +78,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& found
     const physics::Traits& own = state.traits[body];
     const physics::Bounds& around = state.bounds[body];
     for_each_carried_over(state, body, found);
+    if (still(state, body) && !physics::any_stirs(state.counted())) return;
     for (const physics::CellEntry& other : bucket(state, p.buckets)) {
         if (!physics::finds_large(body, around.level, physics::is_large(own), other.body, other.level)) continue;
         if (physics::can_touch(own, state.traits[other.body]) && near_large(state, body, other)) found(other.body);
@@ -152,14 +154,18 @@ void order_cells(State& state, const Threads& threads, std::uint32_t) {
 void count_pairs(State& state, const Threads& threads, std::uint32_t) {
     std::atomic_ref coarse(state.counted().pairs_coarse);
     state.partners.resize(state.fixed().bodies);
-    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        std::uint32_t count = 0;
-        for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t other) {
-            if (count < State::noted) state.partners[i][count] = other;
-            ++count;
-        });
-        state.pair_starts[i] = count;
-        coarse.fetch_add((count + 255) / 256, std::memory_order_relaxed);
+    threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
+        std::uint32_t parts = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            std::uint32_t count = 0;
+            for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t other) {
+                if (count < State::noted) state.partners[i][count] = other;
+                ++count;
+            });
+            state.pair_starts[i] = count;
+            parts += (count + 255) / 256;
+        }
+        coarse.fetch_add(parts, std::memory_order_relaxed);
     });
 }
 

@@ -44,11 +44,14 @@ void hand_out(State& state, const physics::Constraint& c, const physics::Couple&
 void list_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         if (state.touching[i] == 0) return;
-        state.constraints[state.contact_starts[i]].pair = static_cast<std::uint32_t>(i);
+        physics::Constraint& c = state.constraints[state.contact_starts[i]];
+        c.pair = static_cast<std::uint32_t>(i);
+        c.slot_a = c.slot_b = physics::NONE;
     });
 }
 
 void count_slots(State& state, const Threads& threads, std::uint32_t) {
+    if (!physics::any_stirs(state.counted())) return;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const physics::Pair& pair = state.pairs[state.constraints[i].pair];
         for (const std::uint32_t body : {pair.a, pair.b})
@@ -57,12 +60,10 @@ void count_slots(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void fill_slots(State& state, const Threads& threads, std::uint32_t) {
+    if (!physics::any_stirs(state.counted())) return;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const auto contact = static_cast<std::uint32_t>(i);
-        physics::Constraint& c = state.constraints[i];
-        c.slot_a = physics::NONE;
-        c.slot_b = physics::NONE;
-        const physics::Pair& pair = state.pairs[c.pair];
+        const physics::Pair& pair = state.pairs[state.constraints[i].pair];
         if (movable(state, pair.a)) state.slot_sides[taken(state.slot_ends[pair.a])] = 2 * contact;
         if (movable(state, pair.b)) state.slot_sides[taken(state.slot_ends[pair.b])] = 2 * contact + 1;
         if (movable(state, pair.a) || movable(state, pair.b)) state.binned[taken(state.counted().solved)] = contact;
@@ -98,6 +99,14 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Manifold& manifold = state.manifolds[index];
         physics::Contact& contact = state.contacts[i];
         physics::Impulse& impulse = state.impulses[i];
+        const bool idle = c.slot_a == physics::NONE && c.slot_b == physics::NONE;
+        if (idle && pair.kind == physics::KIND_STILL) {
+            contact = physics::aged(state.contacts_before[pair.previous]);
+            impulse = physics::continued(contact, state.impulses_before[pair.previous]);
+            impulse.separation = physics::separations_of(manifold);
+            c = physics::idle_constraint(contact);
+            return;
+        }
         if (pair.kind >= physics::KIND_KEPT) {
             contact = physics::aged(state.contacts_before[pair.previous]);
             impulse = physics::continued(contact, state.impulses_before[pair.previous]);
@@ -114,7 +123,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         if (pair.previous != physics::NONE)
             contact.load = physics::load_of(sleeps_a || sleeps_b, state.contacts_before[pair.previous],
                                             state.impulses_before[pair.previous]);
-        if (c.slot_a == physics::NONE && c.slot_b == physics::NONE) {
+        if (idle) {
             c = physics::idle_constraint(contact);
             return;
         }

@@ -45,7 +45,7 @@ bool owner_touches(const State& state, std::uint32_t owner, std::uint32_t other)
 
 void wake_touched(State& state, const Threads& threads, std::uint32_t) {
     physics::Counts& counts = state.counted();
-    if (!counts.sleepers) return;
+    if (!counts.sleepers || !physics::any_stirs(counts)) return;
     threads.for_each(counts.contacts, [&](std::size_t i) {
         const std::uint32_t index = state.constraints[i].pair;
         const physics::Pair& pair = state.pairs[index];
@@ -65,7 +65,7 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void wake_deserted(State& state, const Threads& threads, std::uint32_t) {
-    if (state.counted().overflow || !state.counted().sleepers) return;
+    if (state.counted().overflow || !state.counted().sleepers || !physics::any_stirs(state.counted())) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         for (std::size_t k = state.first_contacts_before[i]; k < state.first_contacts_before[i + 1]; ++k) {
             const physics::Contact& contact = state.contacts_before[k];

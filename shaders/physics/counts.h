@@ -71,6 +71,11 @@ LAW Counts emptied(Counts counts, Parameters parameters) {
     return with_contacts(counts, 0u, parameters);
 }
 
+// Whether any body may move in this step: if not, nobody wakes and no contact is solved.
+LAW bool any_stirs(Counts counts) {
+    return counts.levels_stirring != 0u || counts.large_stirring != 0u;
+}
+
 LAWS_END
 
 #endif

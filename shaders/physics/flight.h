@@ -48,8 +48,13 @@ LAW float lever_of(Traits traits) {
 LAW float unwatched_way(Traits traits) {
     return 0.5f * thickness(traits);
 }
+LAW bool in_motion(Velocity v) {
+    return v.linear.x != 0.0f || v.linear.y != 0.0f || v.linear.z != 0.0f || v.angular.x != 0.0f || v.angular.y != 0.0f ||
+           v.angular.z != 0.0f;
+}
 // Whether a body at this velocity will be fast.
 LAW bool will_be_fast(Traits traits, Velocity velocity, Parameters parameters) {
+    if (!in_motion(velocity)) return false;
     float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(traits);
     return traits.motion != MOTION_FIXED && way * parameters.dt > unwatched_way(traits);
 }
@@ -81,7 +86,7 @@ LAW vec4 turn_between(vec4 from, vec4 to) {
     return cosine < 0.0f ? -to - from : to - from;
 }
 // A bound on how fast a body turns if its quaternion goes straight from one orientation by `turn` to the other, rad per step: the
-// quaternion's angle p (half of the turn) passes fastest in the middle, at 2 tan(p / 2) = 2 |turn| / |from + to|.
+// quaternion's angle p (half of the turn) passes fastest in the middle, at 2 tan(half of p) = 2 |turn| over |from + to|.
 LAW float turning_of(vec4 from, vec4 turn) {
     vec4 both = from * 2.0f + turn;
     float chord = (turn.x * turn.x + turn.y * turn.y) + (turn.z * turn.z + turn.w * turn.w);

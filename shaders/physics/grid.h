@@ -70,10 +70,11 @@ LAW bool is_large(Traits traits) {
 // fast may not leave them, so the fall is in them too.
 LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Parameters parameters) {
     vec3 half_size = half_extents_of(traits, pose.orientation);
-    float reach = farthest_of(traits);
+    bool moves = in_motion(velocity);
     if (traits.shape == SHAPE_PLANE) {
         half_size = vec3(1.0e30f);
-    } else if (traits.shape != SHAPE_SPHERE) {
+    } else if (moves && traits.shape != SHAPE_SPHERE) {
+        float reach = farthest_of(traits);
         // Turning widens the bounds by at most the arc, and never beyond the sphere around the body.
         float arc = length3(velocity.angular) * parameters.dt * reach;
         half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));

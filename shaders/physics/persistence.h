@@ -26,7 +26,7 @@ CONSTANT float KEPT_ROCKING = 0.9999875f;
 CONSTANT float KEPT_SPIN_SQUARED = 0.0025f;
 // and when it has turned so far (sine of half the turn, squared: 0.4 degrees). With less, columns whose choice of four points
 // shifts them by more than that hop between two choices; with degrees, a corner falls 17 mm deep. (To prefer the corners chosen
-// before brought fewer heaps to rest, not more.)
+// before brought no more heaps to rest.)
 CONSTANT float KEPT_TILT_SQUARED = 1.225e-5f;
 
 // From the mark of a point on A to its mark on B, as the bodies lie now.

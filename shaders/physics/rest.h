@@ -67,10 +67,6 @@ LAW bool is_shaken(uint rest, uint sleep_steps) {
 LAW bool is_movable(uint motion, uint rest, uint sleep_steps) {
     return motion == MOTION_DYNAMIC && !is_asleep(rest, sleep_steps);
 }
-LAW bool in_motion(Velocity v) {
-    return v.linear.x != 0.0f || v.linear.y != 0.0f || v.linear.z != 0.0f || v.angular.x != 0.0f || v.angular.y != 0.0f ||
-           v.angular.z != 0.0f;
-}
 // Whether a body may move, and therefore looks for others.
 LAW bool stirs(uint motion, Velocity velocity, uint rest, uint sleep_steps) {
     if (motion == MOTION_KINEMATIC) return in_motion(velocity);

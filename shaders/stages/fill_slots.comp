@@ -2,15 +2,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/counts.h"
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.contacts) return;
+    if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
     Pair pair = pairs[constraints[i].pair];
-    constraints[i].slot_a = NONE;
-    constraints[i].slot_b = NONE;
     bool moves_a = is_movable(traits[pair.a].motion, rests[pair.a], PARAMETERS.sleep_steps);
     bool moves_b = is_movable(traits[pair.b].motion, rests[pair.b], PARAMETERS.sleep_steps);
     if (moves_a) slot_sides[atomicAdd(slot_ends[pair.a], 1u)] = 2u * i;

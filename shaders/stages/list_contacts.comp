@@ -1,4 +1,4 @@
-// Gives every touching pair its contact.
+// Gives every touching pair its contact, which moves nobody yet.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -7,5 +7,8 @@
 void main() {
     uint i = thread();
     if (i >= COUNTS.pairs || touching[i] == 0u) return;
-    constraints[contact_starts[i]].pair = i;
+    uint contact = contact_starts[i];
+    constraints[contact].pair = i;
+    constraints[contact].slot_a = NONE;
+    constraints[contact].slot_b = NONE;
 }

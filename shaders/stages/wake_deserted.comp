@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
@@ -24,7 +25,7 @@ bool owner_touches(uint owner, uint other) {
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.sleepers == 0u) return;
+    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.sleepers == 0u || !any_stirs(COUNTS)) return;
     bool own_still = (bounds[i].level & STILL) != 0u;
     uint last = first_contacts_before[i + 1u];
     for (uint k = first_contacts_before[i]; k < last; ++k) {

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
@@ -12,7 +13,7 @@ void raise(uint body, uint bits) {
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.contacts || COUNTS.sleepers == 0u) return;
+    if (i >= COUNTS.contacts || COUNTS.sleepers == 0u || !any_stirs(COUNTS)) return;
     uint index = constraints[i].pair;
     Pair pair = pairs[index];
     if (pair.kind == KIND_STILL) return;
