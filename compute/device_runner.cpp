@@ -63,23 +63,36 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 void DeviceRunner::attach(State& state) {
     device_->wait_idle();
     state_ = &state;
-    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex()) make_plan();
     make_buffers();
+    const host::Reach reach = reach_needed();
+    if (!layout_ || layout_->reach() != reach || planned_substeps_ != state.substeps || planned_convex_ != state.has_convex())
+        make_plan(reach);
     upload();
     record();
 }
 
-void DeviceRunner::make_plan() {
+host::Reach DeviceRunner::reach_needed() const {
+    const bool bindable = std::all_of(buffers_.begin(), buffers_.end(), [&](const host::Buffer& buffer) {
+        return buffer.bytes() <= device_->report().largest_binding;
+    });
+    return bindable && table_count <= device_->limits().maxPerStageDescriptorStorageBuffers ? host::Reach::bound
+                                                                                            : host::Reach::far;
+}
+
+void DeviceRunner::make_plan(host::Reach reach) {
     planned_substeps_ = state_->substeps;
     planned_convex_ = state_->has_convex();
     plan_ = plan(planned_substeps_, planned_convex_);
     clock_ = StageClock(plan_);
-    if (!layout_) {
-        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));
-        counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
+    if (!layout_ || layout_->reach() != reach) {
+        pipelines_.clear();
+        layout_ =
+            std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t), reach);
     }
+    if (!counts_back_) counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
     for (const Stage& stage : plan_)
-        pipelines_.try_emplace(stage.name, layout_, stage.name.c_str(), shaders::find(stage.name),
+        pipelines_.try_emplace(stage.name, layout_, stage.name.c_str(),
+                               shaders::find(reach == host::Reach::far ? stage.name + ".far" : stage.name),
                                std::vector{threads_of_a_group});
 }
 

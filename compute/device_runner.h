@@ -53,13 +53,16 @@ public:
     void run_stage(std::size_t index);
     void read(Table table, std::span<std::byte> bytes) const;
     void write(Table table, std::span<const std::byte> bytes);
+    // Whether the tables are bound or, too long or too many for this device, found by address.
+    host::Reach reach() const { return layout_->reach(); }
     // Fills with 0xCD every table that the step now begun must not read before it has written it.
     void poison();
 
 private:
     const host::Buffer& buffer(Table table) const;
     host::Buffer& buffer(Table table);
-    void make_plan();
+    host::Reach reach_needed() const;
+    void make_plan(host::Reach reach);
     void make_buffers();
     void upload();
     void record();

@@ -20,7 +20,7 @@ VkBufferUsageFlags usage_of(BufferUse use) {
         case BufferUse::readback:
             return VK_BUFFER_USAGE_TRANSFER_DST_BIT;
         case BufferUse::upload:
-            return VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+            return VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT | VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT;
         case BufferUse::storage:
             break;
     }
@@ -78,21 +78,25 @@ void copy_now(const std::shared_ptr<Device>& device, const Buffer& from, const B
 
 }  // namespace
 
+void require_bindable(const Device& device, const char* name, std::size_t bytes) {
+    const std::uint64_t limit = device.report().largest_binding;
+    if (bytes <= limit) return;
+    throw DeviceError(of_size(name, bytes) + " exceeds what " + device.report().name + " can bind at once, " +
+                      std::to_string(limit) + " bytes (maxStorageBufferRange): make the scene smaller or take another device");
+}
+
 Buffer::Buffer(std::shared_ptr<Device> device, const char* name, std::size_t bytes, BufferUse use) : Buffer() {
     device_ = std::move(device);
     bytes_ = bytes;
     const VulkanFunctions& vk = device_->vk();
-    const std::size_t limit = device_->limits().maxStorageBufferRange;
-    if (use != BufferUse::readback && bytes > limit) {
-        throw DeviceError(of_size(name, bytes) + " exceeds what " + device_->report().name + " can bind at once, " +
-                          std::to_string(limit) +
-                          " bytes (maxStorageBufferRange): make the scene smaller or take another device");
-    }
+    name_ = name;
+    const bool addressed = use != BufferUse::readback && device_->report().has_addresses;
+    if (use != BufferUse::readback && !addressed) require_bindable(*device_, name, bytes);
     // Not empty, which Vulkan forbids, and whole words, which filling needs.
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = (std::max<std::size_t>(bytes, 1) + 15) / 16 * 16;
-    info.usage = usage_of(use);
+    info.usage = usage_of(use) | (addressed ? VK_BUFFER_USAGE_SHADER_DEVICE_ADDRESS_BIT : 0);
     check(vk.vkCreateBuffer(device_->handle(), &info, nullptr, &buffer_), ("creating " + of_size(name, bytes)).c_str());
     device_->set_name(VK_OBJECT_TYPE_BUFFER, buffer_, name);
     VkMemoryRequirements needs;
@@ -102,6 +106,10 @@ Buffer::Buffer(std::shared_ptr<Device> device, const char* name, std::size_t byt
     allocation.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO;
     allocation.allocationSize = needs.size;
     allocation.memoryTypeIndex = choice.type;
+    VkMemoryAllocateFlagsInfo flags{};
+    flags.sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_FLAGS_INFO;
+    flags.flags = VK_MEMORY_ALLOCATE_DEVICE_ADDRESS_BIT;
+    if (addressed) allocation.pNext = &flags;
     check(vk.vkAllocateMemory(device_->handle(), &allocation, nullptr, &memory_), ("memory for " + of_size(name, bytes)).c_str());
     device_->set_name(VK_OBJECT_TYPE_DEVICE_MEMORY, memory_, name);
     check(vk.vkBindBufferMemory(device_->handle(), buffer_, memory_, 0), ("memory for " + of_size(name, bytes)).c_str());
@@ -132,8 +140,17 @@ Buffer& Buffer::operator=(Buffer&& other) noexcept {
     std::swap(buffer_, other.buffer_);
     std::swap(memory_, other.memory_);
     std::swap(bytes_, other.bytes_);
+    std::swap(name_, other.name_);
     std::swap(mapped_, other.mapped_);
     return *this;
+}
+
+VkDeviceAddress Buffer::address() const {
+    if (!buffer_ || !device_->report().has_addresses) return 0;
+    VkBufferDeviceAddressInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_DEVICE_ADDRESS_INFO;
+    info.buffer = buffer_;
+    return device_->vk().vkGetBufferDeviceAddress(device_->handle(), &info);
 }
 
 void Buffer::write(const void* data, std::size_t bytes, std::size_t offset) {

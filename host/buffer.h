@@ -3,10 +3,14 @@
 
 #include <cstddef>
 #include <memory>
+#include <string>
 
 #include "host/device.h"
 
 namespace scree::host {
+
+// Throws DeviceError, naming the buffer and the limit, if the device cannot bind so much at once.
+void require_bindable(const Device& device, const char* name, std::size_t bytes);
 
 enum class BufferUse {
     storage,   // device-local; storage, vertex, index and indirect use, transfer both ways
@@ -17,7 +21,8 @@ enum class BufferUse {
 class Buffer {
 public:
     Buffer() = default;
-    // Zero-filled. Throws DeviceError naming `name`, the size and the limit when it exceeds maxStorageBufferRange or memory ends.
+    // Zero-filled. Throws DeviceError naming `name`, the size and the limit when memory ends, or when it exceeds what can be
+    // bound and the device has no addresses.
     Buffer(std::shared_ptr<Device> device, const char* name, std::size_t bytes, BufferUse use = BufferUse::storage);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -25,6 +30,8 @@ public:
 
     VkBuffer handle() const { return buffer_; }
     std::size_t bytes() const { return bytes_; }
+    const std::string& name() const { return name_; }
+    VkDeviceAddress address() const;  // 0 of an empty one, and where the device has none
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
     void* mapped() const { return mapped_; }  // null unless host-visible
 
@@ -37,6 +44,7 @@ private:
     VkBuffer buffer_ = VK_NULL_HANDLE;
     VkDeviceMemory memory_ = VK_NULL_HANDLE;
     std::size_t bytes_ = 0;
+    std::string name_;
     void* mapped_ = nullptr;
 };
 

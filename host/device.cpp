@@ -144,8 +144,13 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     queue.queueFamilyIndex = in.family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
+    if (options.largest_binding) in.report.largest_binding = std::min(in.report.largest_binding, options.largest_binding);
+    VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+    addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+    addresses.bufferDeviceAddress = in.report.has_addresses;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &addresses;
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;

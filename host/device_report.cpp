@@ -63,6 +63,15 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     report.api_version = version_text(properties.apiVersion);
     report.is_processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     report.largest_binding = limits.maxStorageBufferRange;
+    if (is_new_enough) {
+        VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+        addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+        VkPhysicalDeviceFeatures2 features{};
+        features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+        features.pNext = &addresses;
+        vk.vkGetPhysicalDeviceFeatures2(physical, &features);
+        report.has_addresses = addresses.bufferDeviceAddress;
+    }
     report.can_preserve_denormals = floats.shaderDenormPreserveFloat32;
     report.can_preserve_specials = floats.shaderSignedZeroInfNanPreserveFloat32;
     report.can_round_to_nearest = floats.shaderRoundingModeRTEFloat32;

@@ -9,26 +9,29 @@
 
 namespace scree::host {
 
-TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t bindings, std::uint32_t push_bytes)
-    : device_(std::move(device)), bindings_(bindings), push_bytes_(push_bytes) {
+TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach)
+    : device_(std::move(device)), buffers_(buffers), reach_(reach), push_bytes_(push_bytes) {
     const VulkanFunctions& vk = device_->vk();
     const VkPhysicalDeviceLimits& limits = device_->limits();
-    if (bindings > limits.maxPerStageDescriptorStorageBuffers || push_bytes > limits.maxPushConstantsSize) {
-        throw DeviceError("a table of " + std::to_string(bindings) + " buffers and " + std::to_string(push_bytes) +
+    const bool far = reach == Reach::far;
+    if (far && !device_->report().has_addresses)
+        throw DeviceError(device_->report().name + " has no addresses of buffers (bufferDeviceAddress)");
+    if ((!far && buffers > limits.maxPerStageDescriptorStorageBuffers) || push_bytes > limits.maxPushConstantsSize) {
+        throw DeviceError("a table of " + std::to_string(buffers) + " buffers and " + std::to_string(push_bytes) +
                           " bytes of push constants is more than " + device_->report().name + " takes (" +
                           std::to_string(limits.maxPerStageDescriptorStorageBuffers) + ", " +
                           std::to_string(limits.maxPushConstantsSize) + ")");
     }
-    std::vector<VkDescriptorSetLayoutBinding> entries(bindings);
-    for (std::uint32_t i = 0; i < bindings; ++i) {
+    std::vector<VkDescriptorSetLayoutBinding> entries(far ? 1 : buffers);
+    for (std::uint32_t i = 0; i < entries.size(); ++i) {
         entries[i].binding = i;
-        entries[i].descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        entries[i].descriptorType = far ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         entries[i].descriptorCount = 1;
         entries[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
     }
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
-    set_info.bindingCount = bindings;
+    set_info.bindingCount = static_cast<std::uint32_t>(entries.size());
     set_info.pBindings = entries.data();
     check(vk.vkCreateDescriptorSetLayout(device_->handle(), &set_info, nullptr, &set_layout_), "creating the layout of a table");
     const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
@@ -51,13 +54,17 @@ TableLayout::~TableLayout() {
 }
 
 Table::Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer*>& buffers) : layout_(std::move(layout)) {
-    if (buffers.size() != layout_->bindings()) {
-        throw std::invalid_argument("a table of " + std::to_string(layout_->bindings()) + " buffers was given " +
+    if (buffers.size() != layout_->buffers()) {
+        throw std::invalid_argument("a table of " + std::to_string(layout_->buffers()) + " buffers was given " +
                                     std::to_string(buffers.size()));
     }
     const Device& device = *layout_->device();
     const VulkanFunctions& vk = device.vk();
-    const VkDescriptorPoolSize size{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, std::max(1u, layout_->bindings())};
+    const bool far = layout_->reach() == Reach::far;
+    for (const Buffer* buffer : buffers)
+        if (buffer && !far) require_bindable(device, buffer->name().c_str(), buffer->bytes());
+    const VkDescriptorPoolSize size{far ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
+                                    far ? 1 : std::max(1u, layout_->buffers())};
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
@@ -76,17 +83,25 @@ Table::Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer
     device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "table");
     device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "table");
 
-    std::vector<VkDescriptorBufferInfo> entries(buffers.size());
+    std::vector<const Buffer*> bound = buffers;
+    if (far) {
+        std::vector<VkDeviceAddress> addresses;
+        for (const Buffer* buffer : buffers) addresses.push_back(buffer ? buffer->address() : 0);
+        addresses_ = Buffer(layout_->device(), "addresses", addresses.size() * sizeof(VkDeviceAddress), BufferUse::upload);
+        addresses_.write(addresses.data(), addresses_.bytes());
+        bound = {&addresses_};
+    }
+    std::vector<VkDescriptorBufferInfo> entries(bound.size());
     std::vector<VkWriteDescriptorSet> writes;
-    for (std::uint32_t i = 0; i < buffers.size(); ++i) {
-        if (!buffers[i] || !*buffers[i]) continue;  // a binding that no shader reads
-        entries[i] = {buffers[i]->handle(), 0, buffers[i]->bytes() > 0 ? buffers[i]->bytes() : VK_WHOLE_SIZE};
+    for (std::uint32_t i = 0; i < bound.size(); ++i) {
+        if (!bound[i] || !*bound[i]) continue;  // a binding that no shader reads
+        entries[i] = {bound[i]->handle(), 0, bound[i]->bytes() > 0 ? bound[i]->bytes() : VK_WHOLE_SIZE};
         VkWriteDescriptorSet write{};
         write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
         write.dstSet = set_;
         write.dstBinding = i;
         write.descriptorCount = 1;
-        write.descriptorType = VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+        write.descriptorType = size.type;
         write.pBufferInfo = &entries[i];
         writes.push_back(write);
     }
@@ -105,6 +120,7 @@ Table& Table::operator=(Table&& other) noexcept {
     std::swap(layout_, other.layout_);
     std::swap(pool_, other.pool_);
     std::swap(set_, other.set_);
+    std::swap(addresses_, other.addresses_);
     return *this;
 }
 

@@ -1,4 +1,5 @@
-// Compute pipelines over one table of storage buffers: set 0, binding i is buffer i, the same table for every pipeline of a run.
+// Compute pipelines over one table of storage buffers, the same table for every pipeline of a run: bound (set 0, binding i is
+// buffer i), or found by address (set 0, binding 0 is a uniform block of the buffers' addresses, 8 bytes each).
 #pragma once
 
 #include <cstdint>
@@ -11,10 +12,16 @@
 
 namespace scree::host {
 
-// The layout that all pipelines of a run share: `bindings` storage buffers and `push_bytes` of push constants.
+enum class Reach {
+    bound,
+    far,  // by address: buffers may be more, and longer, than the device binds
+};
+
+// The layout that all pipelines of a run share: `buffers` storage buffers and `push_bytes` of push constants. Throws DeviceError
+// when the device takes fewer, or has no addresses and `reach` asks for them.
 class TableLayout {
 public:
-    TableLayout(std::shared_ptr<Device> device, std::uint32_t bindings, std::uint32_t push_bytes);
+    TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach = Reach::bound);
     ~TableLayout();
     TableLayout(const TableLayout&) = delete;
     TableLayout& operator=(const TableLayout&) = delete;
@@ -22,18 +29,21 @@ public:
     const std::shared_ptr<Device>& device() const { return device_; }
     VkDescriptorSetLayout set_layout() const { return set_layout_; }
     VkPipelineLayout pipeline_layout() const { return pipeline_layout_; }
-    std::uint32_t bindings() const { return bindings_; }
+    std::uint32_t buffers() const { return buffers_; }
+    Reach reach() const { return reach_; }
     std::uint32_t push_bytes() const { return push_bytes_; }
 
 private:
     std::shared_ptr<Device> device_;
     VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
     VkPipelineLayout pipeline_layout_ = VK_NULL_HANDLE;
-    std::uint32_t bindings_ = 0;
+    std::uint32_t buffers_ = 0;
+    Reach reach_ = Reach::bound;
     std::uint32_t push_bytes_ = 0;
 };
 
-// One filling of the table. Buffers are borrowed; each must stay alive while recordings that use the table run.
+// One filling of the table. Buffers are borrowed; each must stay alive while recordings that use the table run. Throws
+// DeviceError when one is longer than the device binds, if it is to be bound.
 class Table {
 public:
     Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer*>& buffers);
@@ -46,6 +56,7 @@ private:
     std::shared_ptr<TableLayout> layout_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
+    Buffer addresses_;
 };
 
 class Pipeline {

@@ -156,11 +156,17 @@ TEST_CASE("a range outside a buffer is refused") {
     recording.end();
 }
 
-TEST_CASE("a buffer larger than a binding is refused by name") {
-    const Watched device;
-    const std::uint64_t limit = device->report().largest_binding;
-    REQUIRE_THROWS_WITH(Buffer(device.get(), "pairs", limit + 1),
-                        Catch::Contains("the buffer pairs of") && Catch::Contains(std::to_string(limit)));
+TEST_CASE("a buffer larger than a binding is refused by name where it is to be bound, and found by its address") {
+    DeviceOptions options;
+    options.largest_binding = 1000;
+    const auto device = Device::open(options);
+    const Buffer buffer(device, "pairs", 1001);
+    const auto bound = std::make_shared<TableLayout>(device, 1, 0);
+    REQUIRE_THROWS_WITH(Table(bound, {&buffer}), Catch::Contains("the buffer pairs of 1001") && Catch::Contains("once, 1000"));
+    REQUIRE(device->report().has_addresses);
+    REQUIRE(buffer.address() != 0);
+    const auto far = std::make_shared<TableLayout>(device, 1, 0, Reach::far);
+    REQUIRE_NOTHROW(Table(far, {&buffer}));
 }
 
 TEST_CASE("a moved buffer keeps its bytes and leaves an empty one") {

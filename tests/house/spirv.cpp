@@ -19,10 +19,15 @@ namespace {
 using namespace scree;
 using house::Layout;
 
+bool is_far(std::string_view name) {
+    return name.size() > 4 && name.substr(name.size() - 4) == ".far";
+}
+
+// Those whose tables are bound, and those that find them by address.
 std::vector<std::string_view> stage_names() {
     std::vector<std::string_view> names;
     for (const std::string_view name : shaders::names()) {
-        if (name.find('.') == std::string_view::npos) names.push_back(name);
+        if (name.find('.') == std::string_view::npos || is_far(name)) names.push_back(name);
     }
     return names;
 }
@@ -257,6 +262,7 @@ TEST_CASE("house: records lie in memory alike in C++ and in the shaders", "[hous
 TEST_CASE("house: every block of a stage is a table of the step, at its binding", "[house]") {
     const auto expected = tables();
     for (const std::string_view name : stage_names()) {
+        if (is_far(name)) continue;
         for (const house::StructLayout& type : house::layout_of(shaders::find(name)).structs) {
             if (!type.is_block || type.binding == house::no_binding) continue;
             INFO("shader " << name << ", block " << type.name);

@@ -17,9 +17,10 @@ namespace {
 
 struct Watched {
     std::shared_ptr<host::Device> device;
-    Watched() {
+    explicit Watched(std::uint64_t largest_binding = 0) {
         host::DeviceOptions options;
         options.validation = true;
+        options.largest_binding = largest_binding;
         device = host::Device::open(options);
     }
     ~Watched() {
@@ -49,6 +50,22 @@ std::uint32_t contacts_walked(const Scene& scene, const Watched& watched, int st
 }
 
 }  // namespace
+
+TEST_CASE("tables longer than a binding are found by address, from the start or once they have grown, with the same bits") {
+    Settings small;
+    small.pairs_at_first = small.contacts_at_first = 8;
+    for (const std::uint64_t largest_binding : {1024u, 65536u}) {
+        CAPTURE(largest_binding);
+        const Watched watched(largest_binding);
+        Lockstep lockstep(tests::packed(300), small, watched.device, 1);
+        REQUIRE(lockstep.device().reach() == (largest_binding == 1024 ? host::Reach::far : host::Reach::bound));
+        for (int step = 0; step < 10; ++step) {
+            lockstep.step();
+            require_equal(lockstep.result());
+        }
+        REQUIRE(lockstep.device().reach() == host::Reach::far);
+    }
+}
 
 TEST_CASE("every stage gives the same bits on both processors, whatever the number of bodies") {
     const Watched watched;
