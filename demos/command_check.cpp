@@ -20,10 +20,11 @@ struct Options {
     std::vector<std::string> names;
     MachineOptions machine;
     std::string report;
+    float offset = 0;
     bool list = false, quiet = false;
 };
 
-std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Machine& machine, bool quiet) {
+std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Machine& machine, float offset, bool quiet) {
     std::vector<Outcome> outcomes;
     for (const Demo* demo : chosen) {
         std::optional<Progress> progress;
@@ -35,7 +36,9 @@ std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const M
             progress->done(steps);
             return !is_interrupted();
         };
-        Outcome outcome = at_work([&] { return run_trial(*demo, suite_size(*demo), machine.make_runner(), tell); });
+        DemoOptions size = suite_size(*demo);
+        size.offset = offset;
+        Outcome outcome = at_work([&] { return run_trial(*demo, size, machine.make_runner(), tell); });
         progress.reset();
         if (is_interrupted()) {
             say("scree: interrupted in {}\n", demo->name);
@@ -67,7 +70,7 @@ int check(const Options& options) {
         for (const std::string& word : options.names) note_beginning(word);
     }
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
-    const std::vector<Outcome> outcomes = outcomes_of(chosen, machine, options.quiet);
+    const std::vector<Outcome> outcomes = outcomes_of(chosen, machine, options.offset, options.quiet);
     machine.require_valid();
     const Kept count = count_kept(outcomes);
     if (options.report != "-" && !outcomes.empty())
@@ -93,10 +96,15 @@ void add_check(CLI::App& program, int& status) {
     command->add_option("names", options->names, "demos and trials: names, their beginnings or patterns (default: all)");
     command->add_flag("--list", options->list, "say what is promised and how it is measured, and run nothing");
     command->add_option("--report", options->report, "a file for the same as JSON; - is the standard output");
+    command
+        ->add_option("--offset", options->offset,
+                     "moves every scene so far from the origin along x and z, m, to see where the accuracy of positions ends")
+        ->check(CLI::Range(-1e6f, 1e6f));
     add_options(*command, options->machine);
     command->add_flag("--quiet,-q", options->quiet, "no progress");
     command->footer(
         "Examples:\n  scree check --backend cpu\n  scree check 'stack*' pyramid --report stands.json\n"
+        "  scree check 'stack*' bounce --offset 10000\n"
         "State hashes are those of any other backend.");
     command->callback([options, &status] { status = check(*options); });
 }

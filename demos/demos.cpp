@@ -56,7 +56,12 @@ const Demo* find_demo(std::string_view name) {
 
 DemoScene build(const Demo& demo, DemoOptions options) {
     if (options.bodies == 0 || !demo.takes_bodies) options.bodies = demo.bodies;
-    return demo.build(options);
+    DemoScene made = demo.build(options);
+    const vec3 offset(options.offset, 0, options.offset);
+    for (Body& body : made.scene.bodies) body.position += offset;
+    for (vec3* place : {&made.viewpoint.eye, &made.viewpoint.target, &made.low, &made.high}) *place += offset;
+    for (ViewKey& key : made.viewpoint.path) key.eye += offset, key.target += offset;
+    return made;
 }
 
 DemoScene awake(DemoScene scene) {

@@ -17,6 +17,7 @@ namespace scree::demos {
 struct DemoOptions {
     std::size_t bodies = 0;  // wanted; scenes of a fixed size ignore it
     std::uint64_t seed = 1;
+    float offset = 0;  // m along x and z, of everything: far from the origin positions are coarse
 };
 
 struct DemoScene {
