@@ -276,6 +276,7 @@ void DeviceRunner::fetch_bodies() {
 
 void DeviceRunner::fetch_contacts() {
     for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
+    if (planned_convex_) fetch_live(Table::pairs);  // whose hulls traffic_of counts
 }
 
 void DeviceRunner::fetch() {

@@ -173,7 +173,8 @@ struct Step {
 
     void count_hulls(const State& state) {
         std::vector<std::set<physics::uint>> places(physics::KINDS);
-        for (std::size_t i = 0; i < pairs; ++i)
+        const std::size_t looked = state.has_convex() ? pairs : 0;
+        for (std::size_t i = 0; i < looked; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})
                 if (state.traits[body].shape == physics::SHAPE_HULL)
                     places[state.pairs[i].kind].insert(physics::hull_of(state.traits[body]));

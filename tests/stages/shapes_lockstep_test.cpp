@@ -2,8 +2,12 @@
 #include <catch2/catch.hpp>
 #include <random>
 
+#include "compute/device_runner.h"
 #include "compute/lockstep.h"
+#include "compute/traffic.h"
+#include "compute/world.h"
 #include "host/device.h"
+#include "tests/world/heaps.h"
 
 using namespace scree;
 
@@ -36,4 +40,23 @@ TEST_CASE("every stage gives the same bits on both processors for cylinders, con
                  << result.detail);
     REQUIRE(result.equal);
     for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
+
+TEST_CASE("a step is said to move as many bytes on the device as on the processor") {
+    host::DeviceOptions options;
+    const auto device = host::Device::open(options);
+    for (const bool solids : {false, true}) {
+        Scene scene = tests::packed(40);
+        if (solids) scene.bodies.back().shape = Hull{.points = {{-1, -1, -1}, {1, -1, -1}, {-1, 1, -1}, {-1, -1, 1}}};
+        World there(scene, {}, make_device_runner(device)), here(scene, {}, 1);
+        there.step(3);
+        here.step(3);
+        const std::vector<Traffic> a = traffic_of(there.state()), b = traffic_of(here.state());
+        REQUIRE(a.size() == b.size());
+        for (std::size_t i = 0; i < a.size(); ++i) {
+            CAPTURE(a[i].stage);
+            CHECK(a[i].read == b[i].read);
+            CHECK(a[i].written == b[i].written);
+        }
+    }
 }
