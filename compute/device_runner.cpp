@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdio>
 #include <cstring>
 
 #include "shaders/embedded.h"
@@ -37,6 +38,15 @@ Table other_parity(Table table) {
 
 std::size_t argument_offset(physics::uint row) {
     return offsetof(physics::Counts, arguments) + row * sizeof(physics::uvec4);
+}
+
+std::string what_would_fit(const State& state, const host::DeviceReport& device) {
+    const auto bodies = static_cast<double>(state.fixed().bodies);
+    const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
+    char text[160];
+    std::snprintf(text, sizeof text, "All tables of the %.0f bodies take %.3g GB, %s has %.3g: about %.2g bodies like these would fit",
+                  bodies, needed / 1e9, device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
+    return text;
 }
 
 }  // namespace
@@ -110,7 +120,11 @@ void DeviceRunner::make_buffers() {
         const std::size_t bytes = state_->allocated(info.length) * info.record_bytes;
         if (buffers_[i].bytes() == bytes) continue;
         buffers_[i] = {};  // its memory first, then the new one's
-        buffers_[i] = host::Buffer(device_, info.name, bytes);
+        try {
+            buffers_[i] = host::Buffer(device_, info.name, bytes);
+        } catch (const host::DeviceError& error) {
+            throw host::DeviceError(std::string(error.what()) + ". " + what_would_fit(*state_, device_->report()));
+        }
     }
 }
 
