@@ -44,8 +44,9 @@ std::string what_would_fit(const State& state, const host::DeviceReport& device)
     const auto bodies = static_cast<double>(state.fixed().bodies);
     const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
     char text[160];
-    std::snprintf(text, sizeof text, "All tables of the %.0f bodies take %.3g GB, %s has %.3g: about %.2g bodies like these would fit",
-                  bodies, needed / 1e9, device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
+    std::snprintf(text, sizeof text,
+                  "All tables of the %.0f bodies take %.3g GB, %s has %.3g: about %.2g bodies like these would fit", bodies,
+                  needed / 1e9, device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
     return text;
 }
 

@@ -6,7 +6,7 @@
 namespace scree::host {
 namespace {
 
-// A step is one table of buffers, bound once. Lavapipe has 32 a stage, most cards a million.
+// A step is one table of buffers, bound once, or found by address. Lavapipe binds 32 a stage, most cards a million.
 constexpr std::uint32_t least_storage_buffers = 31;
 // The widest workgroup of the shaders.
 constexpr std::uint32_t least_workgroup = 256;
@@ -84,9 +84,11 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     // 1.2 is the first with float controls, SPIR-V 1.5 and a driver's name in the core.
     if (!is_new_enough) report.lacks.push_back("Vulkan 1.2 (it has " + report.api_version + "): a newer driver may bring it");
     if (find_queue_family(vk, physical, nullptr) < 0) report.lacks.push_back("a queue with graphics and compute");
-    require(report.lacks, limits.maxPerStageDescriptorStorageBuffers, least_storage_buffers, "storage buffers per shader stage");
-    require(report.lacks, limits.maxDescriptorSetStorageBuffers, least_storage_buffers, "storage buffers per descriptor set");
-    require(report.lacks, limits.maxPerStageResources, least_storage_buffers, "resources per shader stage");
+    if (!report.has_addresses) {
+        require(report.lacks, limits.maxPerStageDescriptorStorageBuffers, least_storage_buffers, "storage buffers per shader stage");
+        require(report.lacks, limits.maxDescriptorSetStorageBuffers, least_storage_buffers, "storage buffers per descriptor set");
+        require(report.lacks, limits.maxPerStageResources, least_storage_buffers, "resources per shader stage");
+    }
     require(report.lacks, limits.maxComputeWorkGroupInvocations, least_workgroup, "threads per workgroup");
     require(report.lacks, limits.maxComputeWorkGroupSize[0], least_workgroup, "threads per workgroup in x");
     return report;

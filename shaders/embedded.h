@@ -8,8 +8,9 @@
 
 namespace scree::shaders {
 
-// The SPIR-V of a shader: "count_pairs" for stages/count_pairs.comp or the variant of that name, "count_pairs.far" for the same with
-// tables found by their addresses, "body.vert" for render/body.vert. Empty if there is none of that name, and without SCREE_VULKAN.
+// The SPIR-V of a shader: "count_pairs" for stages/count_pairs.comp or the variant of that name, "count_pairs.far" for the same
+// with tables found by their addresses, "body.vert" for render/body.vert. Empty if there is none of that name, and without
+// SCREE_VULKAN.
 std::span<const std::uint32_t> find(std::string_view name);
 
 // The same of render/ as GLSL of OpenGL ES 3.1. Empty if there is none of that name.
