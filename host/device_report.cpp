@@ -85,7 +85,8 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     if (!is_new_enough) report.lacks.push_back("Vulkan 1.2 (it has " + report.api_version + "): a newer driver may bring it");
     if (find_queue_family(vk, physical, nullptr) < 0) report.lacks.push_back("a queue with graphics and compute");
     if (!report.has_addresses) {
-        require(report.lacks, limits.maxPerStageDescriptorStorageBuffers, least_storage_buffers, "storage buffers per shader stage");
+        require(report.lacks, limits.maxPerStageDescriptorStorageBuffers, least_storage_buffers,
+                "storage buffers per shader stage");
         require(report.lacks, limits.maxDescriptorSetStorageBuffers, least_storage_buffers, "storage buffers per descriptor set");
         require(report.lacks, limits.maxPerStageResources, least_storage_buffers, "resources per shader stage");
     }
