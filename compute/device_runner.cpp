@@ -63,7 +63,7 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 void DeviceRunner::attach(State& state) {
     device_->wait_idle();
     state_ = &state;
-    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex()) make_plan();
+    if (planned_substeps_ != state.substeps || planned_content_ != state.content()) make_plan();
     make_buffers();
     upload();
     record();
@@ -71,8 +71,8 @@ void DeviceRunner::attach(State& state) {
 
 void DeviceRunner::make_plan() {
     planned_substeps_ = state_->substeps;
-    planned_convex_ = state_->has_convex();
-    plan_ = plan(planned_substeps_, planned_convex_);
+    planned_content_ = state_->content();
+    plan_ = plan(planned_substeps_, planned_content_);
     clock_ = StageClock(plan_);
     if (!layout_) {
         layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));

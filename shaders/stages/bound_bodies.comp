@@ -19,14 +19,20 @@ void main() {
     if (i >= PARAMETERS.bodies) return;
     Traits body = traits[i];
     Pose pose = poses[i];
-    Bounds around = bounds_of(body, pose, velocities[i], loads[i], PARAMETERS);
+    uint owner = body_of(i);
+    Bounds around = bounds_of(body, pose, velocities[i], loads[owner], PARAMETERS);
     if (will_be_fast(body, velocities[i], PARAMETERS)) note(COUNTS.fast, 1u);
-    masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
+    if (owner == i) {
+        masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
+    } else {
+        masses[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+    }
     atomicAdd(cells[around.bucket], 1u);
-    if (!is_large(body)) note(COUNTS.levels, 1u << around.level);
+    bool listed = !is_large(body) && (around.level & NOWHERE) == 0u;
+    if (listed) note(COUNTS.levels, 1u << around.level);
     if (has_slept(rests[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
-    if (stirs(body.motion, velocities[i], rests[i], PARAMETERS.sleep_steps)) {
-        if (!is_large(body)) note(COUNTS.levels_stirring, 1u << around.level);
+    if (stirs(motion_of(body), velocities[owner], rests[owner], PARAMETERS.sleep_steps)) {
+        if (listed) note(COUNTS.levels_stirring, 1u << around.level);
         if (is_large(body)) note(COUNTS.large_stirring, 1u);
     } else {
         around.level |= STILL;

@@ -12,6 +12,6 @@ void main() {
     uint index = binned[i];
     Pair pair = pairs[index];
     Contact contact = contacts_before[pair.previous];
-    manifolds[index] = kept_manifold(contact, poses[pair.a], poses[pair.b]);
+    manifolds[index] = kept_manifold(contact, poses[body_of(pair.a)], poses[body_of(pair.b)]);
     touching[index] = contact.count;
 }

@@ -8,6 +8,6 @@
 void main() {
     uint i = thread();
     if (i >= COUNTS.pairs || (touching[i] & DOUBTFUL) == 0u) return;
-    bool struck = (bounds[pairs[i].a].flight.struck | bounds[pairs[i].b].flight.struck) != 0u;
+    bool struck = (bounds[body_of(pairs[i].a)].flight.struck | bounds[body_of(pairs[i].b)].flight.struck) != 0u;
     touching[i] = struck ? touching[i] & ~DOUBTFUL : 0u;
 }

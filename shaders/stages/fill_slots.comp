@@ -10,10 +10,11 @@ void main() {
     uint i = thread();
     if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
     Pair pair = pairs[constraints[i].pair];
-    bool moves_a = is_movable(traits[pair.a].motion, rests[pair.a], PARAMETERS.sleep_steps);
-    bool moves_b = is_movable(traits[pair.b].motion, rests[pair.b], PARAMETERS.sleep_steps);
-    if (moves_a) slot_sides[atomicAdd(slot_ends[pair.a], 1u)] = 2u * i;
-    if (moves_b) slot_sides[atomicAdd(slot_ends[pair.b], 1u)] = 2u * i + 1u;
+    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    bool moves_a = is_movable(traits[of_a].motion, rests[of_a], PARAMETERS.sleep_steps);
+    bool moves_b = is_movable(traits[of_b].motion, rests[of_b], PARAMETERS.sleep_steps);
+    if (moves_a) slot_sides[atomicAdd(slot_ends[of_a], 1u)] = 2u * i;
+    if (moves_b) slot_sides[atomicAdd(slot_ends[of_b], 1u)] = 2u * i + 1u;
     if (!moves_a && !moves_b) return;
     uint place = atomicAdd(COUNTS.solved, 1u);
     binned[place] = i;

@@ -12,7 +12,8 @@ void main() {
     uint i = thread();
     if (i >= COUNTS.pairs) return;
     uint now = push.pass & 1u, next = now ^ 1u;
-    uint a = pairs[i].a, b = pairs[i].b;
+    uint row_a = pairs[i].a, row_b = pairs[i].b;
+    uint a = body_of(row_a), b = body_of(row_b);
     uint bits_a = bounds[a].flight.stops[now], bits_b = bounds[b].flight.stops[now];
     float stop_a = uintBitsToFloat(bits_a), stop_b = uintBitsToFloat(bits_b);
     if (stop_a > 1.0f && stop_b > 1.0f) return;
@@ -24,6 +25,14 @@ void main() {
     Traits ta = traits[a], tb = traits[b];
     Course ca = course_of(ta, bounds[a].flight.position, bounds[a].flight.orientation, poses[a], stop_a);
     Course cb = course_of(tb, bounds[b].flight.position, bounds[b].flight.orientation, poses[b], stop_b);
+    if (row_a != a) {
+        ta = traits[row_a];
+        ca = course_of_part(ta, ca);
+    }
+    if (row_b != b) {
+        tb = traits[row_b];
+        cb = course_of_part(tb, cb);
+    }
     float fraction =
         impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(touching[i], stop_a, stop_b), PARAMETERS), false, Hulls(0u)).fraction;
     if (stop_a <= 1.0f) atomicMin(bounds[a].flight.stops[next], floatBitsToUint(fraction));

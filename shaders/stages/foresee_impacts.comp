@@ -12,15 +12,17 @@ void main() {
     uint i = thread();
     if (i >= COUNTS.pairs || touching[i] == 0u) return;
     uint a = pairs[i].a, b = pairs[i].b;
+    uint of_a = body_of(a), of_b = body_of(b);
     Traits ta = traits[a], tb = traits[b];
     Velocity va = velocities[a], vb = velocities[b];
-    if (!will_be_fast(ta, va, PARAMETERS) && !will_be_fast(tb, vb, PARAMETERS)) return;
+    if (!will_be_fast(traits[of_a], velocities[of_a], PARAMETERS) && !will_be_fast(traits[of_b], velocities[of_b], PARAMETERS))
+        return;
     vec3 normal = manifolds[i].normal;
     if (!is_near(manifolds[i], touching[i], PARAMETERS) &&
-        !will_meet(normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS, Hulls(0u))) {
+        !will_meet(normal, ta, poses[a], va, loads[of_a], tb, poses[b], vb, loads[of_b], PARAMETERS, Hulls(0u))) {
         touching[i] = touching[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
-        atomicOr(bounds[a].flight.struck, 1u);
-        atomicOr(bounds[b].flight.struck, 1u);
+        atomicOr(bounds[of_a].flight.struck, 1u);
+        atomicOr(bounds[of_b].flight.struck, 1u);
     }
 }

@@ -39,10 +39,11 @@ void main() {
         pair.kind = KIND_STILL;
     } else {
         Traits ta = traits[pair.a], tb = traits[pair.b];
+        uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
         if (pair.previous != NONE)
-            kept = is_kept(contacts_before[pair.previous], impulses_before[pair.previous], ta, poses[pair.a], velocities[pair.a],
-                           tb, poses[pair.b], velocities[pair.b]);
+            kept = is_kept(contacts_before[pair.previous], impulses_before[pair.previous], ta, poses[of_a], velocities[of_a], tb,
+                           poses[of_b], velocities[of_b]);
         pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
     }
     pairs[place] = pair;

@@ -16,6 +16,8 @@ void carry_over(uint i, uint pair_index, uint previous) {
     contacts[i] = contact;
     impulses[i] = impulse;
     constraints[i] = idle_constraint(contact);
+    constraints[i].a = body_of(contact.a);
+    constraints[i].b = body_of(contact.b);
 }
 
 void main() {
@@ -30,7 +32,8 @@ void main() {
         return;
     }
     Traits ta = traits[pair.a], tb = traits[pair.b];
-    Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
+    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[of_a], poses[of_b]);
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
         contact = aged(contacts_before[pair.previous]);
@@ -40,7 +43,7 @@ void main() {
     }
     impulse.separation = separations_of(manifolds[pair_index]);
     if (pair.previous != NONE) {
-        bool one_sleeps = (slot_a == NONE && ta.motion == MOTION_DYNAMIC) || (slot_b == NONE && tb.motion == MOTION_DYNAMIC);
+        bool one_sleeps = (slot_a == NONE && motion_of(ta) == MOTION_DYNAMIC) || (slot_b == NONE && motion_of(tb) == MOTION_DYNAMIC);
         contact.load = load_of(one_sleeps, contacts_before[pair.previous], impulses_before[pair.previous]);
     }
     if (!idle) impulse.pressed = pressing(impulse);
@@ -48,17 +51,21 @@ void main() {
     impulses[i] = impulse;
     if (idle) {
         constraints[i] = idle_constraint(contact);
+        constraints[i].a = of_a;
+        constraints[i].b = of_b;
         return;
     }
     Constraint constraint = constraint_of(contact, ta, tb, slot_a, slot_b, PARAMETERS);
+    constraint.a = of_a;
+    constraint.b = of_b;
     constraint.pair = pair_index;
     constraints[i] = constraint;
 
-    Mass ma = lent(masses[pair.a], impulse, PARAMETERS);
-    Mass mb = lent(masses[pair.b], impulse, PARAMETERS);
+    Mass ma = lent(masses[of_a], impulse, PARAMETERS);
+    Mass mb = lent(masses[of_b], impulse, PARAMETERS);
     Couple now;
-    now.a = velocities[pair.a];
-    now.b = velocities[pair.b];
+    now.a = velocities[of_a];
+    now.b = velocities[of_b];
     float carrying = carries(constraint, impulse, now, PARAMETERS);
     Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
     if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(share.a, carrying, impulse.pressed);

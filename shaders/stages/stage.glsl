@@ -22,6 +22,11 @@ push;
 #define PARAMETERS parameters[0]
 #define COUNTS counts[0]
 
+// The body that a row belongs to.
+uint body_of(uint row) {
+    return row < PARAMETERS.first_part ? row : traits[row].owner;
+}
+
 uint thread() {
     return gl_GlobalInvocationID.x;
 }

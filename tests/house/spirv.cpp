@@ -44,7 +44,7 @@ const std::map<std::string, Record>& records() {
             all["Traits"] = {
                 sizeof(R),
                 {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution), M(rolling_resistance),
-                 M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large)}};
+                 M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large), M(owner), M(fracture), M(joints), M(pad0)}};
         }
         {
             using R = Pose;
@@ -156,7 +156,7 @@ const std::map<std::string, Record>& records() {
                                   M(friction_factor),
                                   M(least_restitution),
                                   M(held),
-                                  M(pad0),
+                                  M(first_part),
                                   M(grips)}};
         }
         {
