@@ -278,7 +278,7 @@ struct Counts {  // what the device counts in a step
     uint solved;           // contacts that move somebody: those of the solver
     uint kind_first[16];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uint fast;             // 1: some body will be fast in this step
-    uint pad0;
+    uint pad0, pad1, pad2;
     uvec4 arguments[23];  // per WORK_*: workgroups x, y, z, and threads
 };
 
