@@ -37,7 +37,7 @@ const std::vector<Demo>& all_demos() {
 
         {"solids", "cylinders, cones and hulls stand, stack and roll", 17, false, solids, true},
 
-        {"compounds", "tables of five boxes stand on each other; a bar tips where its centre of mass says", 9, false, compounds, true},
+        {"compounds", "tables of five boxes carry columns; a bar tips where its centre of mass says", 14, false, compounds, true},
         {"rollmesh", "a ball rolls over 10,000 triangles in a plane as over a plane", 1, false, rollmesh, true},
         {"hulls1m", "hulls of 1 m settle in a pit", 10000, true, hulls1m, true},
 
