@@ -76,7 +76,7 @@ void DeviceRunner::attach(State& state) {
     state_ = &state;
     make_buffers();
     const host::Reach reach = reach_needed();
-    if (!layout_ || layout_->reach() != reach || planned_substeps_ != state.substeps || planned_convex_ != state.has_convex())
+    if (!layout_ || layout_->reach() != reach || planned_substeps_ != state.substeps || planned_content_ != state.content())
         make_plan(reach);
     upload();
     record();
@@ -92,8 +92,8 @@ host::Reach DeviceRunner::reach_needed() const {
 
 void DeviceRunner::make_plan(host::Reach reach) {
     planned_substeps_ = state_->substeps;
-    planned_convex_ = state_->has_convex();
-    plan_ = plan(planned_substeps_, planned_convex_);
+    planned_content_ = state_->content();
+    plan_ = plan(planned_substeps_, planned_content_);
     clock_ = StageClock(plan_);
     if (!layout_ || layout_->reach() != reach) {
         pipelines_.clear();
@@ -291,7 +291,7 @@ void DeviceRunner::fetch_bodies() {
 
 void DeviceRunner::fetch_contacts() {
     for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
-    if (planned_convex_) fetch_live(Table::pairs);  // whose hulls traffic_of counts
+    if (planned_content_.convex) fetch_live(Table::pairs);  // whose hulls traffic_of counts
 }
 
 void DeviceRunner::fetch() {

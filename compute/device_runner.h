@@ -74,7 +74,7 @@ private:
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     int planned_substeps_ = 0;
-    bool planned_convex_ = false;
+    Content planned_content_;
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
     std::map<std::string, host::Pipeline> pipelines_;  // by the name of the stage

@@ -20,17 +20,20 @@ void scan(std::vector<Stage>& stages, const std::string& what, Over blocks, Tabl
 
 const char* const kind_names[] = {"sphere_sphere",   "sphere_capsule", "sphere_box",    "sphere_plane",
                                   "capsule_capsule", "capsule_box",    "capsule_plane", "box_box",
-                                  "box_plane",       "plane_convex",   "convex"};
+                                  "box_plane",       "plane_convex",   "convex",
+                                  "sphere_triangle", "convex_triangle"};
 
 }  // namespace
 
 // clang-format off
-std::vector<Stage> plan(int substeps, bool convex) {
+std::vector<Stage> plan(int substeps, const Content& content) {
+    const bool convex = content.convex || content.triangles;
     using enum Table;
     std::vector<Stage> s;
     // what pushes the bodies, where they will be
     s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, rests, counts}});
     s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads, rests}});
+    if (content.moving_parts) s.push_back({"place_parts", Over::bodies, place_parts, {poses, velocities}});
     s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts}});
     // broadphase: who is near whom
     scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
@@ -45,7 +48,8 @@ std::vector<Stage> plan(int substeps, bool convex) {
     scan(s, "kinds", Over::kind_blocks, contact_starts, scan_nothing, scan_kinds_offsets);
     s.back().as_long_as = Length::kinds;
     s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
-    for (std::uint32_t kind = 0; kind < (convex ? std::size(kind_names) : physics::KIND_PLANE_CONVEX); ++kind)
+    const std::uint32_t kinds = content.triangles ? physics::KIND_KEPT : convex ? physics::KIND_SPHERE_TRIANGLE : physics::KIND_PLANE_CONVEX;
+    for (std::uint32_t kind = 0; kind < kinds; ++kind)
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
     s.push_back({"collide_kept", Over::kind, collide_kept, {}, physics::KIND_KEPT, /* feeds_next */ false});
     s.push_back({"collide_still", Over::kind, collide_still, {manifolds, touching}, physics::KIND_STILL});
@@ -78,6 +82,7 @@ std::vector<Stage> plan(int substeps, bool convex) {
     for (std::uint32_t round = 0; round < physics::FLIGHT_ROUNDS; ++round)
         s.push_back({convex ? "find_impacts_convex" : "find_impacts", Over::flights, find_impacts, {bounds}, round});
     s.push_back({"stop_bodies", Over::bodies, stop_bodies, {poses, velocities}});
+    if (content.moving_parts) s.push_back({"place_parts", Over::bodies, place_parts, {poses, velocities}});
     return s;
 }
 // clang-format on

@@ -42,8 +42,7 @@ struct Stage {
 };
 
 // The stages of one step. Both texts of a stage bear its name: shaders/stages/<name>.comp and a function in compute/reference/.
-// `convex`: some body is a cylinder, cone or hull; else their collisions, which take seconds to compile on a processor, are left
-// out.
-std::vector<Stage> plan(int substeps, bool convex);
+// What a scene has nothing of is left out, because it takes seconds to compile on a processor or time in every step.
+std::vector<Stage> plan(int substeps, const Content& content);
 
 }  // namespace scree

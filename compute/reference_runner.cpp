@@ -11,10 +11,10 @@ std::string ReferenceRunner::device() const {
 
 void ReferenceRunner::attach(State& state) {
     state_ = &state;
-    if (planned_substeps_ == state.substeps && planned_convex_ == state.has_convex()) return;
+    if (planned_substeps_ == state.substeps && planned_content_ == state.content()) return;
     planned_substeps_ = state.substeps;
-    planned_convex_ = state.has_convex();
-    plan_ = plan(planned_substeps_, planned_convex_);
+    planned_content_ = state.content();
+    plan_ = plan(planned_substeps_, planned_content_);
     clock_ = StageClock(plan_);
 }
 

@@ -33,7 +33,7 @@ private:
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     int planned_substeps_ = 0;
-    bool planned_convex_ = false;
+    Content planned_content_;
     StageClock clock_;
 };
 

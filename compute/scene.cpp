@@ -10,7 +10,9 @@
 #include <numbers>
 #include <utility>
 
+#include "compute/compound.h"
 #include "compute/hull.h"
+#include "compute/mesh.h"
 #include "shaders/physics/hulls.h"
 
 namespace scree {
@@ -51,13 +53,17 @@ std::string out_of_range(float value, float low, float high, const char* unit) {
 // say.
 class Examination {
 public:
-    Examination(std::size_t index, const Body& body) : index_(index), body_(body) {}
+    Examination(std::size_t index, const Body& body, std::string inside = "")
+        : index_(index), body_(body), inside_(std::move(inside)) {}
+
+    // A part of it: keys are then those of the part.
+    Examination part(const std::string& inside) const { return {index_, body_, inside_ + inside}; }
 
     [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-        throw SceneError("/bodies/" + std::to_string(index_) + key,
+        throw SceneError(place() + key,
                          reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
     }
-    std::string place() const { return "/bodies/" + std::to_string(index_); }
+    std::string place() const { return "/bodies/" + std::to_string(index_) + inside_; }
     void between(const char* key, float value, float low, float high, const char* unit) const {
         if (!(value >= low && value <= high)) refuse(key, out_of_range(value, low, high, unit));
     }
@@ -83,9 +89,10 @@ public:
 private:
     std::size_t index_;
     const Body& body_;
+    std::string inside_;
 };
 
-void examine_shape(const Examination& body, Shape& shape, Motion motion) {
+void examine_simple(const Examination& body, SimpleShape& shape, Motion motion) {
     if (auto* sphere = std::get_if<Sphere>(&shape)) {
         body.between("/shape/sphere/radius", sphere->radius, smallest_size, largest_size, " m");
     } else if (auto* capsule = std::get_if<Capsule>(&shape)) {
@@ -152,7 +159,17 @@ const Hulls::Made& Hulls::of(const std::vector<vec3>& points) {
     return one;
 }
 
-void examine_hull(const Examination& body, Body& b, Hull& hull, Hulls& hulls, std::vector<std::string>* notes) {
+// To where its origin and its axes are, in its own frame.
+void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes) {
+    const glm::dquat turn(orientation.w, orientation.x, orientation.y, orientation.z);
+    position = vec3(dvec3(position) + turn * centre);
+    const glm::dquat after = glm::normalize(turn * axes);
+    orientation = vec4(glm::dvec4(after.x, after.y, after.z, after.w));
+}
+
+// `position` and `orientation`: of the body, or of the part.
+void examine_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, Hulls& hulls,
+                  std::vector<std::string>* notes) {
     try {
         const Hulls::Made& made = hulls.of(hull.points);
         if (made.simplified && notes) {
@@ -160,23 +177,83 @@ void examine_hull(const Examination& body, Body& b, Hull& hull, Hulls& hulls, st
         }
         hull = made.hull;
         if (made.centre == dvec3(0) && made.axes == glm::dquat(1, 0, 0, 0)) return;
-        const glm::dquat turn(b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z);
-        b.position = vec3(dvec3(b.position) + turn * made.centre);
-        const glm::dquat after = glm::normalize(turn * made.axes);
-        b.orientation = vec4(glm::dvec4(after.x, after.y, after.z, after.w));
+        move_frame(position, orientation, made.centre, made.axes);
     } catch (const HullError& error) {
         body.refuse("/shape/hull/points", error.what());
     }
 }
 
+void examine_compound(const Examination& body, Body& b, Compound& compound, Hulls& hulls, std::vector<std::string>* notes) {
+    constexpr std::size_t most_parts = 10000;
+    if (compound.parts.empty()) body.refuse("/shape/compound/parts", "a compound needs at least one part");
+    if (compound.parts.size() > most_parts)
+        body.refuse("/shape/compound/parts", "at most " + std::to_string(most_parts) + " parts, are " + std::to_string(compound.parts.size()));
+    for (std::size_t i = 0; i < compound.parts.size(); ++i) {
+        Part& p = compound.parts[i];
+        const Examination part = body.part("/shape/compound/parts/" + std::to_string(i));
+        if (std::holds_alternative<Plane>(p.shape)) part.refuse("/shape/plane", "a plane is infinite and no part of a body");
+        examine_simple(part, p.shape, b.motion);
+        part.between("/position", p.position, -largest_size, largest_size, " m");
+        part.make_unit("/orientation", p.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
+        if (p.density != 0) part.between("/density", p.density, smallest_density, largest_density, " kg/m^3");
+        if (auto* hull = std::get_if<Hull>(&p.shape)) examine_hull(part, p.position, p.orientation, *hull, hulls, notes);
+    }
+    const Recentred before = bring_to_centre(compound, b.density);
+    if (before.centre != dvec3(0) || before.axes != glm::dquat(1, 0, 0, 0))
+        move_frame(b.position, b.orientation, before.centre, before.axes);
+}
+
+void examine_mesh(const Examination& body, Body& b, std::vector<std::string>* notes) {
+    auto* mesh = std::get_if<Mesh>(&b.shape);
+    auto* field = std::get_if<HeightField>(&b.shape);
+    if (b.motion == Motion::dynamic)
+        body.refuse("/motion", std::string("a ") + (mesh ? "mesh" : "height field") +
+                                   " must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
+    const std::string key = mesh ? "/shape/mesh" : "/shape/height_field";
+    try {
+        if (mesh) {
+            if (mesh->triangles.empty() && !mesh->file.empty())
+                body.refuse(key + "/file", "\"" + mesh->file + "\" has not been read");
+            for (std::size_t k = 0; k < mesh->vertices.size(); ++k)
+                body.between((key + "/vertices/" + std::to_string(k)).c_str(), mesh->vertices[k], -largest_size, largest_size, " m");
+            mesh->form = std::make_shared<const MeshForm>(mesh_form(mesh->vertices, mesh->triangles));
+        } else {
+            if (field->columns < 2 || field->rows < 2 || field->columns > 30000 || field->rows > 30000)
+                body.refuse(key, "columns and rows must be between 2 and 30000, are " + std::to_string(field->columns) + " and " +
+                                     std::to_string(field->rows));
+            if (field->heights.size() != std::size_t{field->columns} * field->rows)
+                body.refuse(key + "/heights", "must be columns * rows = " + std::to_string(std::size_t{field->columns} * field->rows) +
+                                                  " heights, are " + std::to_string(field->heights.size()));
+            body.between((key + "/spacing").c_str(), field->spacing, smallest_size, largest_size, " m");
+            for (std::size_t k = 0; k < field->heights.size(); ++k)
+                body.between((key + "/heights/" + std::to_string(k)).c_str(), field->heights[k], -largest_size, largest_size, " m");
+            field->form = std::make_shared<const MeshForm>(mesh_form(*field));
+        }
+    } catch (const MeshError& error) {
+        body.refuse(key + error.place, error.what());
+    }
+    const std::string odd = mesh ? oddities(*mesh->form) : "";
+    if (notes && !odd.empty()) notes->push_back(body.place() + key + ": " + odd);
+}
+
+// After position and orientation: what has its own centre moves them.
+void examine_whole(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
+    if (auto* hull = std::get_if<Hull>(&b.shape)) examine_hull(body, b.position, b.orientation, *hull, hulls, notes);
+    if (auto* compound = std::get_if<Compound>(&b.shape)) examine_compound(body, b, *compound, hulls, notes);
+    if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape)) examine_mesh(body, b, notes);
+}
+
 void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
-    examine_shape(body, b.shape, b.motion);
+    if (std::optional<SimpleShape> simple = simple_shape(b.shape)) {
+        examine_simple(body, *simple, b.motion);
+        b.shape = whole_shape(*simple);
+    }
     body.between("/position", b.position, -largest_position, largest_position, " m");
     body.make_unit("/orientation", b.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
-    if (auto* hull = std::get_if<Hull>(&b.shape)) examine_hull(body, b, *hull, hulls, notes);
+    body.between("/density", b.density, smallest_density, largest_density, " kg/m^3");
+    examine_whole(body, b, hulls, notes);
     body.between("/velocity", b.velocity, -largest_velocity, largest_velocity, " m/s");
     body.between("/angular_velocity", b.angular_velocity, -largest_velocity, largest_velocity, " rad/s");
-    body.between("/density", b.density, smallest_density, largest_density, " kg/m^3");
     body.between("/friction", b.friction, 0, largest_friction, "");
     body.between("/restitution", b.restitution, 0, 1, "");
     body.between("/rolling_resistance", b.rolling_resistance, 0, largest_size, " m");
@@ -239,6 +316,13 @@ MassProperties of_hull(const Hull& hull, double density) {
     return {static_cast<float>(form.volume * density), vec3(dvec3(principal[0][0], principal[1][1], principal[2][2]) * density)};
 }
 
+MassProperties of_compound(const Compound& compound, float density) {
+    const WholeMass whole = mass_of(compound, density);
+    const glm::dmat3 axes = principal_axes(whole.inertia);
+    const glm::dmat3 principal = glm::transpose(axes) * whole.inertia * axes;
+    return {static_cast<float>(whole.mass), vec3(dvec3(principal[0][0], principal[1][1], principal[2][2]))};
+}
+
 }  // namespace
 
 SceneError::SceneError(std::string place, const std::string& reason)
@@ -265,7 +349,21 @@ MassProperties mass_properties(const Shape& shape, float density) {
         return of_cylinder(cylinder->radius, cylinder->half_height, density);
     if (const auto* cone = std::get_if<Cone>(&shape)) return of_cone(cone->radius, cone->height, density);
     if (const auto* hull = std::get_if<Hull>(&shape)) return of_hull(*hull, density);
+    if (const auto* compound = std::get_if<Compound>(&shape)) return of_compound(*compound, density);
     return {};
+}
+
+std::optional<SimpleShape> simple_shape(const Shape& shape) {
+    return std::visit(
+        [](const auto& one) -> std::optional<SimpleShape> {
+            if constexpr (std::is_constructible_v<SimpleShape, decltype(one)>) return SimpleShape(one);
+            return std::nullopt;
+        },
+        shape);
+}
+
+Shape whole_shape(const SimpleShape& shape) {
+    return std::visit([](const auto& one) { return Shape(one); }, shape);
 }
 
 }  // namespace scree

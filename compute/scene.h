@@ -1,8 +1,10 @@
 // A scene: what bodies there are, where, of what shape and material. Plain data, in SI units, y up; World simulates it.
 #pragma once
 
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <variant>
@@ -40,7 +42,38 @@ struct Hull {                                // the convex hull of points
     std::vector<vec3> points;                // m, at least 4, not in a plane; inner and repeated ones do not matter
     std::shared_ptr<const HullForm> form{};  // made when the scene is checked
 };
-using Shape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull>;
+using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull>;
+
+struct Part {  // of a compound
+    SimpleShape shape = Box{};
+    vec3 position{0};              // of the shape's centre of mass in the body's frame, m; of a hull as of a body
+    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
+    float density = 0;             // kg/m^3; 0: the body's own
+};
+struct Compound {             // several shapes on one body, which moves as one
+    std::vector<Part> parts;  // at least one; no planes. Where two overlap, the mass of both counts
+};
+struct MeshForm;  // compute/mesh.h
+// Triangles, solid behind their faces; for fixed and kinematic bodies. What comes from behind passes through.
+struct Mesh {
+    std::vector<vec3> vertices;           // m, in the body's frame
+    std::vector<glm::uvec3> triangles;    // their corners, counter-clockwise seen from outside
+    std::string file{};                   // where they come from, for a scene file; may be empty
+    float scale = 1;                      // of what the file says; the vertices here have it already
+    std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
+};
+// Ground over a grid, solid below; for fixed and kinematic bodies. Its middle is the body's origin.
+struct HeightField {
+    std::uint32_t columns = 2, rows = 2;     // of the grid, along x and along z; at least 2 each
+    float spacing = 1;                       // m, between neighbours
+    std::vector<float> heights;              // m, along y: columns * rows of them, row by row
+    std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
+};
+using Shape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull, Compound, Mesh, HeightField>;
+
+// The shape if it is a single convex one, or a plane.
+std::optional<SimpleShape> simple_shape(const Shape& shape);
+Shape whole_shape(const SimpleShape& shape);
 
 enum class Motion {
     dynamic,    // moved by forces and contacts
@@ -52,7 +85,8 @@ struct Body {
     std::string name;  // for messages; may be empty
     Motion motion = Motion::dynamic;
     Shape shape = Box{};
-    // Of the centre of mass, m; of a hull where its points' origin lies, until the scene is checked.
+    // Of the centre of mass, m; of a hull or compound where its points' or parts' origin lies, until the scene is checked; of a
+    // mesh or height field always so.
     vec3 position{0};
     vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
     vec3 velocity{0};              // m/s, at most Settings::max_speed
@@ -81,11 +115,11 @@ struct SceneError : std::runtime_error {
 // (sizes 1e-3 to 1e5 m, positions to 1e6 m, density 1e-3 to 1e6 kg/m^3, velocities to 1e4), or contradictory (a plane that
 // moves).
 // A hull is brought to its centre of mass and its principal axes of inertia: its points are moved, and the body's position and
-// orientation with them, so that every point stays where it is in the world. `notes`, if given, is told of hulls that had more
-// than 64 corners and were simplified.
+// orientation with them, so that every point stays where it is in the world; a compound and its parts likewise. `notes`, if
+// given, is told of hulls that had more than 64 corners and were simplified, and of what is odd about meshes.
 Scene checked(Scene scene, std::vector<std::string>* notes = nullptr);
 
-// kg and kg m^2 (principal, body frame) of a shape of a given density. A plane has neither: 0.
+// kg and kg m^2 (principal, body frame) of a shape of a given density. Planes, meshes and height fields have neither: 0.
 struct MassProperties {
     float mass = 0;
     vec3 inertia{0};

@@ -55,6 +55,12 @@ public:
         text_ += '"';
     }
     template <class Value>
+    void list(const std::vector<Value>& values) {
+        *this << "[";
+        for (std::size_t i = 0; i < values.size(); ++i) *this << (i == 0 ? "" : ", ") << values[i];
+        *this << "]";
+    }
+    template <class Value>
     void unless_default(std::string_view key, const Value& value, const Value& by_default) {
         if (same_bits(value, by_default)) return;
         *this << ", \"" << key << "\": " << value;
@@ -73,6 +79,17 @@ private:
     std::string text_;
 };
 
+void write(Text& text, const Shape& shape);
+
+void write(Text& text, const Part& part) {
+    static const Part by_default;
+    write(text, whole_shape(part.shape));
+    text.unless_default("position", part.position, by_default.position);
+    text.unless_default("orientation", part.orientation, by_default.orientation);
+    text.unless_default("density", part.density, by_default.density);
+    text << "}";
+}
+
 void write(Text& text, const Shape& shape) {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
         text << "{\"sphere\": {\"radius\": " << sphere->radius;
@@ -87,9 +104,28 @@ void write(Text& text, const Shape& shape) {
     } else if (const auto* cone = std::get_if<Cone>(&shape)) {
         text << "{\"cone\": {\"radius\": " << cone->radius << ", \"height\": " << cone->height;
     } else if (const auto* hull = std::get_if<Hull>(&shape)) {
-        text << "{\"hull\": {\"points\": [";
-        for (std::size_t i = 0; i < hull->points.size(); ++i) text << (i == 0 ? "" : ", ") << hull->points[i];
+        text << "{\"hull\": {\"points\": ";
+        text.list(hull->points);
+    } else if (const auto* compound = std::get_if<Compound>(&shape)) {
+        text << "{\"compound\": {\"parts\": [";
+        for (std::size_t i = 0; i < compound->parts.size(); ++i) {
+            text << (i == 0 ? "{\"shape\": " : ", {\"shape\": ");
+            write(text, compound->parts[i]);
+        }
         text << "]";
+    } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
+        text << "{\"mesh\": {\"vertices\": ";
+        text.list(mesh->vertices);
+        text << ", \"triangles\": [";
+        for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
+            const glm::uvec3& t = mesh->triangles[i];
+            text << (i == 0 ? "[" : ", [") << std::to_string(t.x) << ", " << std::to_string(t.y) << ", " << std::to_string(t.z) << "]";
+        }
+        text << "]";
+    } else if (const auto* field = std::get_if<HeightField>(&shape)) {
+        text << "{\"height_field\": {\"columns\": " << std::to_string(field->columns)
+             << ", \"rows\": " << std::to_string(field->rows) << ", \"spacing\": " << field->spacing << ", \"heights\": ";
+        text.list(field->heights);
     }
     text << "}}";
 }

@@ -5,12 +5,16 @@
 #include <bit>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "compute/hull.h"
+#include "compute/mesh.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
+#include "shaders/physics/parts.h"
 #include "shaders/physics/rest.h"
+#include "shaders/physics/triangle.h"
 
 namespace scree {
 
@@ -34,9 +38,33 @@ vec3 half_extents_of(const Hull& hull) {
     return half;
 }
 
+// Shape and size.
+physics::Traits simple_form(const SimpleShape& shape) {
+    physics::Traits made{};
+    made.shape = static_cast<physics::uint>(shape.index());
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) made.size = vec3(sphere->radius, 0, 0);
+    if (const auto* capsule = std::get_if<Capsule>(&shape)) made.size = vec3(capsule->radius, capsule->half_height, 0);
+    if (const auto* box = std::get_if<Box>(&shape)) made.size = box->half_extents;
+    if (const auto* plane = std::get_if<Plane>(&shape)) made.size = plane->normal;
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) made.size = vec3(cylinder->radius, cylinder->half_height, 0);
+    if (const auto* cone = std::get_if<Cone>(&shape)) made.size = vec3(cone->radius, cone->height, 0);
+    if (const auto* hull = std::get_if<Hull>(&shape)) made.size = half_extents_of(*hull);
+    return made;
+}
+
 physics::uvec4 record_of(vec3 v, float w) {
     return {std::bit_cast<physics::uint>(v.x), std::bit_cast<physics::uint>(v.y), std::bit_cast<physics::uint>(v.z),
             std::bit_cast<physics::uint>(w)};
+}
+// In the form of shaders/physics/triangle.h.
+std::vector<physics::uvec4> triangle_records(const MeshForm::Triangle& triangle) {
+    std::vector<physics::uvec4> records{{3, 1, 0, 0}};
+    for (const vec3& corner : triangle.corners) records.push_back(record_of(corner, 0));
+    records.push_back(record_of(triangle.normal, triangle.distance));
+    records.emplace_back(0, 3, 0, 0);
+    records.emplace_back(0x020100, 0, 0, 0);
+    for (const vec3& limit : triangle.limits) records.push_back(record_of(limit, 0));
+    return records;
 }
 // In the form of shaders/physics/hulls.h.
 std::vector<physics::uvec4> hull_records(const Hull& hull) {
@@ -61,7 +89,8 @@ std::vector<physics::uvec4> hull_records(const Hull& hull) {
 float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
     std::vector<float> widths;
     for (const physics::Traits& body : traits)
-        if (!physics::is_large(body) && body.motion == physics::MOTION_DYNAMIC) widths.push_back(width_of(body));
+        if (!physics::is_large(body) && physics::motion_of(body) == physics::MOTION_DYNAMIC && body.shape != physics::SHAPE_NONE)
+            widths.push_back(width_of(body));
     if (widths.empty()) return 1;
     const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
     std::nth_element(widths.begin(), tenth, widths.end());
@@ -72,15 +101,28 @@ float cell_width(const std::vector<physics::Traits>& traits, float speculative) 
 void mark_large(std::vector<physics::Traits>& traits, float cell) {
     std::array<std::size_t, physics::LEVELS> population{};
     const auto level = [&](const physics::Traits& body) { return physics::level_of(width_of(body), 1 / cell); };
+    const auto listed = [](const physics::Traits& body) { return !physics::is_large(body) && body.shape != physics::SHAPE_NONE; };
     for (const physics::Traits& body : traits)
-        if (!physics::is_large(body)) ++population[level(body)];
+        if (listed(body)) ++population[level(body)];
     std::size_t room = most_large;
     for (std::size_t l = population.size(); l-- > 0;) {
         if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
         room -= population[l];
         for (physics::Traits& body : traits)
-            if (!physics::is_large(body) && level(body) == l) body.large |= 1;
+            if (listed(body) && level(body) == l) body.large |= 1;
     }
+}
+
+// Of a body that only its parts touch, as SHAPE_NONE has it.
+vec3 size_of_whole(const Shape& shape) {
+    if (const MeshForm* form = mesh_form_of(shape)) return {1e30f, form->reach, 0};
+    vec3 size(1e30f, 0, 0);
+    for (const Part& part : std::get<Compound>(shape).parts) {
+        const physics::Traits form = simple_form(part.shape);
+        size.x = std::min(size.x, physics::thickness(form));
+        size.y = std::max(size.y, glm::length(part.position) + physics::farthest_of(form));
+    }
+    return size;
 }
 
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings) {
@@ -160,20 +202,23 @@ physics::uint State::place_of(const Hull& hull) {
     return known->second;
 }
 
-physics::Traits State::traits_of(const Body& body) {
+physics::Traits State::form_of(const SimpleShape& shape) {
+    physics::Traits made = simple_form(shape);
+    if (const auto* hull = std::get_if<Hull>(&shape)) made.large = place_of(*hull) << 1;
+    return made;
+}
+
+physics::Traits State::traits_of(const Body& body, std::uint32_t index) {
     physics::Traits made{};
-    made.motion = static_cast<physics::uint>(body.motion);
-    made.shape = static_cast<physics::uint>(body.shape.index());
-    if (const auto* sphere = std::get_if<Sphere>(&body.shape)) made.size = vec3(sphere->radius, 0, 0);
-    if (const auto* capsule = std::get_if<Capsule>(&body.shape)) made.size = vec3(capsule->radius, capsule->half_height, 0);
-    if (const auto* box = std::get_if<Box>(&body.shape)) made.size = box->half_extents;
-    if (const auto* plane = std::get_if<Plane>(&body.shape)) made.size = plane->normal;
-    if (const auto* cylinder = std::get_if<Cylinder>(&body.shape)) made.size = vec3(cylinder->radius, cylinder->half_height, 0);
-    if (const auto* cone = std::get_if<Cone>(&body.shape)) made.size = vec3(cone->radius, cone->height, 0);
-    if (const auto* hull = std::get_if<Hull>(&body.shape)) {
-        made.size = half_extents_of(*hull);
-        made.large = place_of(*hull) << 1;
+    if (const std::optional<SimpleShape> simple = simple_shape(body.shape)) {
+        made = form_of(*simple);
+    } else {
+        made.shape = physics::SHAPE_NONE;
+        made.size = size_of_whole(body.shape);
     }
+    made.motion = static_cast<physics::uint>(body.motion);
+    made.owner = index;
+    made.fracture = made.joints = physics::NONE;
     if (body.motion == Motion::dynamic) {
         const MassProperties properties = mass_properties(body.shape, body.density);
         made.inverse_mass = 1 / properties.mass;
@@ -189,21 +234,66 @@ physics::Traits State::traits_of(const Body& body) {
     return made;
 }
 
+void State::append_parts(const Body& body, std::uint32_t owner) {
+    const physics::Traits whole = traits[owner];
+    const auto append = [&](physics::Traits part, vec3 place, vec4 turn) {
+        part.motion = whole.motion | physics::MOTION_OF_PART;
+        part.owner = owner;
+        part.fracture = part.joints = physics::NONE;
+        part.friction = whole.friction;
+        part.restitution = whole.restitution;
+        part.rolling_resistance = whole.rolling_resistance;
+        part.inverse_inertia = place;
+        part.inverse_mass = turn.x;
+        part.gravity_scale = turn.y;
+        part.linear_damping = turn.z;
+        part.angular_damping = turn.w;
+        traits.push_back(part);
+    };
+    if (const auto* compound = std::get_if<Compound>(&body.shape))
+        for (const Part& part : compound->parts) append(form_of(part.shape), part.position, part.orientation);
+    if (const MeshForm* form = mesh_form_of(body.shape)) {
+        hulls.reserve(hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
+        for (const MeshForm::Triangle& triangle : form->triangles) {
+            physics::Traits part{};
+            part.shape = physics::SHAPE_TRIANGLE;
+            part.large = static_cast<physics::uint>(hulls.size()) << 1;
+            part.size = triangle.half_extents;
+            const std::vector<physics::uvec4> records = triangle_records(triangle);
+            hulls.insert(hulls.end(), records.begin(), records.end());
+            append(part, triangle.middle, vec4(0, 0, 0, 1));
+        }
+    }
+}
+
+void State::place(std::uint32_t part) {
+    const physics::Traits& own = traits[part];
+    poses[part] = physics::pose_of_part(physics::place_in_body(own), physics::turn_in_body(own), poses[own.owner]);
+    velocities[part] = physics::velocity_of_part(own, poses[own.owner], velocities[own.owner]);
+    rests[part] = 0;
+}
+
 State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all)
     : substeps(settings.substeps), all_(all) {
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
     traits.reserve(n + 1);
-    for (const Body& body : scene.bodies) traits.push_back(traits_of(body));
+    for (std::uint32_t i = 0; i < n; ++i) traits.push_back(traits_of(scene.bodies[i], i));
+    for (std::uint32_t i = 0; i < n; ++i) append_parts(scene.bodies[i], i);
+    const auto rows = static_cast<std::uint32_t>(traits.size());
+    const auto moving = static_cast<std::uint32_t>(std::count_if(traits.begin() + n, traits.end(), [](const physics::Traits& part) {
+        return physics::motion_of(part) != physics::MOTION_FIXED;
+    }));
 
     parameters.assign(1, tuned({}, scene.gravity, settings));
     physics::Parameters& p = fixed();
     p.cell = cell_width(traits, p.speculative);
     p.inverse_cell = 1 / p.cell;
     mark_large(traits, p.cell);
-    p.bodies = n;
-    p.buckets = buckets_for(n);
-    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 4 * n;
-    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + 2 * n;
+    p.bodies = rows;
+    p.first_part = n;
+    p.buckets = buckets_for(rows);
+    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 4 * (n + moving);
+    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + 2 * (n + moving);
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
     allocate();
@@ -211,6 +301,7 @@ State::State(const Scene& scene, const Settings& settings, std::uint32_t group_s
         poses[i] = start_of(scene.bodies[i]);
         velocities[i] = start_velocity_of(scene.bodies[i]);
     }
+    for (std::uint32_t i = n; i < rows; ++i) place(i);
     counted() = physics::emptied(counted(), p);
 }
 
@@ -229,17 +320,38 @@ void State::tune(vec3 gravity, const Settings& settings) {
 
 void State::add(const Body& body) {
     physics::Parameters& p = fixed();
-    const physics::Traits added = traits_of(body);
-    const std::uint32_t n = p.bodies++;
+    const std::uint32_t n = p.first_part;
+    const auto make_room = [n](auto& table, const auto& record) {
+        if (table.size() >= n) table.insert(table.begin() + n, record);
+    };
+    traits.resize(p.bodies);  // tables of no bodies have a record all the same
+    poses.resize(p.bodies);
+    velocities.resize(p.bodies);
+    rests.resize(p.bodies);
+    make_room(traits, traits_of(body, n));
+    make_room(poses, start_of(body));
+    make_room(velocities, start_velocity_of(body));
+    make_room(rests, 0u);
+    if (!masses.empty()) make_room(masses, physics::Mass{});
+    // It has no contacts yet: where they begin, they end. Those of parts are told by the parts' new rows.
+    for (auto* starts : {&first_contacts, &first_contacts_before})
+        if (starts->size() > n) make_room(*starts, physics::uint{(*starts)[n]});
+    for (auto* list : {&contacts, &contacts_before})
+        for (physics::Contact& contact : *list)
+            for (physics::uint* row : {&contact.a, &contact.b})
+                if (*row >= n) ++*row;
+    p.first_part = n + 1;
+    ++p.bodies;
+    const std::uint32_t old_rows = p.bodies;
+    append_parts(body, n);
+    p.bodies = static_cast<std::uint32_t>(traits.size());
     p.buckets = std::max(p.buckets, buckets_for(p.bodies));
     allocate();
-    traits[n] = added;
-    poses[n] = start_of(body);
-    velocities[n] = start_velocity_of(body);
-    rests[n] = 0;
-    // It has no contacts yet: where they begin, they end.
-    for (auto* starts : {&first_contacts, &first_contacts_before})
-        if (starts->size() > n + 1) (*starts)[n + 1] = (*starts)[n];
+    for (std::uint32_t i = old_rows; i < p.bodies; ++i) {
+        place(i);
+        for (auto* starts : {&first_contacts, &first_contacts_before})
+            if (starts->size() > i + 1) (*starts)[i + 1] = (*starts)[i];
+    }
 }
 
 std::size_t State::allocated(Length length) const {
@@ -335,8 +447,14 @@ void State::grow() {
     allocate();
 }
 
-bool State::has_convex() const {
-    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.shape >= physics::SHAPE_CYLINDER; });
+Content State::content() const {
+    Content found;
+    for (const physics::Traits& row : traits) {
+        found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
+        found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
+        found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
+    }
+    return found;
 }
 
 std::size_t State::bytes() const {

@@ -36,6 +36,15 @@ inline constexpr std::size_t table_count = 0 SCREE_TABLES(SCREE_COUNT);
 #undef SCREE_COUNT
 const std::array<TableInfo, table_count>& table_infos();  // by binding
 
+// What of the stages a scene needs.
+struct Content {
+    bool convex = false;        // some body is a cylinder, cone or hull
+    bool triangles = false;     // there are meshes or height fields
+    bool moving_parts = false;  // there are compounds, or meshes, that move
+    static Content everything() { return {true, true, true}; }
+    bool operator==(const Content&) const = default;
+};
+
 // Parameters::sleep_steps.
 physics::uint sleep_steps_of(const Settings& settings);
 
@@ -59,14 +68,16 @@ struct State {
     // Impulses that last are those of a substep; those of the last step are brought to the new length of one. They, and
     // everything else that lasts, must be here (Runner::fetch), and the runner be attached again, if the substeps change.
     void tune(vec3 gravity, const Settings& settings);
-    // One more body, the last. Everything that lasts must be here, and the runner be attached again.
+    // One more body, the last; the rows of parts move up behind it. Everything that lasts must be here, and the runner be attached
+    // again.
     void add(const Body& body);
 
     // Items of a table as allocated, and those that mean something at present.
     std::size_t allocated(Length length) const;
     std::size_t live(Length length) const;
-    // Whether some body is a cylinder, cone or hull.
-    bool has_convex() const;
+    Content content() const;
+    // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
+    std::uint32_t body_of(std::uint32_t row) const { return row < fixed().first_part ? row : traits[row].owner; }
     std::size_t bytes() const;  // of all tables, wherever they are
 
     std::span<std::byte> raw(Table table);
@@ -98,7 +109,10 @@ struct State {
 
 private:
     void allocate();
-    physics::Traits traits_of(const Body& body);
+    physics::Traits traits_of(const Body& body, std::uint32_t index);
+    physics::Traits form_of(const SimpleShape& shape);
+    void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others
+    void place(std::uint32_t part);                            // where its body is
     physics::uint place_of(const Hull& hull);
     bool all_ = true;
     std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table

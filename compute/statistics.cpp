@@ -97,8 +97,9 @@ Statistics statistics_of(const Scene& scene, const State& state) {
 
 std::uint64_t hash_of(const State& state) {
     constexpr std::size_t floats = 13;
-    std::vector<float> values(floats * state.fixed().bodies);
-    for (std::size_t i = 0; i < state.fixed().bodies; ++i) {
+    const std::size_t bodies = state.fixed().first_part;  // parts are where their bodies are
+    std::vector<float> values(floats * bodies);
+    for (std::size_t i = 0; i < bodies; ++i) {
         float* row = values.data() + floats * i;
         std::memcpy(row, &state.poses[i].position, 12);
         std::memcpy(row + 3, &state.poses[i].orientation, 16);

@@ -73,6 +73,7 @@ std::map<std::string, Accesses> all_accesses() {
                            {{velocities, A::actions}, {rests, A::actions}, {loads, A::actions}}}},
         {"bound_bodies", {{{traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}, {loads, A::bodies}, {masses, A::bodies, 1}, {rests, A::bodies}, {cells, A::bodies}},
                           {{bounds, A::bodies}, {masses, A::bodies}, {cells, A::bodies}}}},
+        {"place_parts", {{{traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}}, {{poses, A::bodies}, {velocities, A::bodies}}}},
         {"scan_cells_sums", scan_sums(cells, A::buckets)},
         {"scan_cells_spine", scan_spine()},
         {"scan_cells_offsets", scan_offsets(cells, cells, A::buckets)},
@@ -132,7 +133,7 @@ std::map<std::string, Accesses> all_accesses() {
         {"find_impacts_convex", search},
         {"stop_bodies", {{{bounds, A::flight_bodies, 1}}, {}}},
     };
-    for (const Stage& stage : plan(1, true))
+    for (const Stage& stage : plan(1, Content::everything()))
         if (stage.over == Over::kind) all.try_emplace(stage.name, stage.pass < physics::KIND_PLANE_CONVEX ? collision : solid);
     return all;
 }
@@ -173,7 +174,7 @@ struct Step {
 
     void count_hulls(const State& state) {
         std::vector<std::set<physics::uint>> places(physics::KINDS);
-        const std::size_t looked = state.has_convex() ? pairs : 0;
+        const std::size_t looked = state.content().convex ? pairs : 0;
         for (std::size_t i = 0; i < looked; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})
                 if (state.traits[body].shape == physics::SHAPE_HULL)
@@ -243,7 +244,7 @@ struct Step {
 std::vector<Traffic> traffic_of(const State& state) {
     const Step step(state);
     std::vector<Traffic> all;
-    for (const Stage& stage : plan(state.substeps, state.has_convex())) {
+    for (const Stage& stage : plan(state.substeps, state.content())) {
         auto found = std::find_if(all.begin(), all.end(), [&](const Traffic& traffic) { return traffic.stage == stage.name; });
         if (found == all.end()) found = all.insert(all.end(), {stage.name});
         const auto known = accesses().find(stage.name);
@@ -256,7 +257,7 @@ std::vector<Traffic> traffic_of(const State& state) {
 
 std::vector<std::string> stages_without_traffic(int substeps) {
     std::vector<std::string> missing;
-    for (const Stage& stage : plan(substeps, true))
+    for (const Stage& stage : plan(substeps, Content::everything()))
         if (!accesses().contains(stage.name)) missing.push_back(stage.name);
     return missing;
 }

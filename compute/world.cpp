@@ -174,10 +174,11 @@ std::vector<Touching> World::touching(std::size_t body) const {
     std::vector<Touching> found;
     for (std::size_t i = 0; i < state.counted().contacts; ++i) {
         const physics::Contact& contact = state.contacts[i];
-        if (contact.a != body && contact.b != body) continue;
+        const std::size_t a = state.body_of(contact.a), b = state.body_of(contact.b);
+        if (a != body && b != body) continue;
         const physics::vec4 pushes = state.impulses[i].normal;
         const float force = (pushes.x + pushes.y + pushes.z + pushes.w) * state.fixed().inverse_h;
-        found.push_back({contact.a == body ? contact.b : contact.a, static_cast<int>(contact.count), force});
+        found.push_back({a == body ? b : a, static_cast<int>(contact.count), force});
     }
     return found;
 }

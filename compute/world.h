@@ -25,7 +25,8 @@ struct BodyState {
     bool asleep = false;
 };
 
-// What touches a body, as the last step left it.
+// What touches a body, as the last step left it: a record for each contact, of which two bodies have several where one of them is
+// a compound, a mesh or a height field.
 struct Touching {
     std::size_t body;  // the other one
     int points;        // 1 to 4

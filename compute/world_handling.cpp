@@ -22,6 +22,12 @@ bool within(vec3 v, float limit) {
 }
 
 vec3 half_extents(const Shape& shape) {
+    if (const auto* compound = std::get_if<Compound>(&shape)) {
+        vec3 half(0);
+        for (const Part& part : compound->parts)
+            half = glm::max(half, glm::abs(part.position) + vec3(glm::length(half_extents(whole_shape(part.shape)))));
+        return half;
+    }
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return vec3(sphere->radius);
     if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents;
     if (const auto* capsule = std::get_if<Capsule>(&shape))

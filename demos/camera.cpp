@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "compute/mesh.h"
 #include "demos/failure.h"
 #include "demos/words.h"
 
@@ -86,6 +87,13 @@ float reach_of(const Shape& shape) {
         for (const vec3& point : hull->points) reach = std::max(reach, glm::length(point));
         return reach;
     }
+    if (const auto* compound = std::get_if<Compound>(&shape)) {
+        float reach = 0;
+        for (const Part& part : compound->parts)
+            reach = std::max(reach, glm::length(part.position) + reach_of(whole_shape(part.shape)));
+        return reach;
+    }
+    if (const MeshForm* form = mesh_form_of(shape)) return form->reach;
     return 1;
 }
 

@@ -20,6 +20,8 @@ const std::vector<Demo>& all_demos() {
         {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
         {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
         {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
+        {"terrain", "bodies of every shape tumble down hills, a height field, and gather in the valley", 600, true, terrain},
+        {"mesh", "bodies of every shape come down a staircase into a bowl, a mesh from a file", 120, true, mesh},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
@@ -34,6 +36,10 @@ const std::vector<Demo>& all_demos() {
         {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},
 
         {"solids", "cylinders, cones and hulls stand, stack and roll", 17, false, solids, true},
+
+        {"compounds", "tables of five boxes carry columns; a bar tips where its centre of mass says", 14, false, compounds, true},
+        {"rollmesh", "a ball rolls over 10,000 triangles in a plane as over a plane", 1, false, rollmesh, true},
+        {"hulls1m", "hulls of 1 m settle in a pit", 10000, true, hulls1m, true},
 
         {"onset", "boxes begin to slide at the angle atan(mu)", 18, false, onset, true},
         {"hold", "boxes below that angle do not creep", 9, false, hold, true},

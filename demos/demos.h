@@ -57,6 +57,8 @@ DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
 DemoScene assortment(const DemoOptions&);
+DemoScene terrain(const DemoOptions&);
+DemoScene mesh(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);
@@ -70,6 +72,9 @@ DemoScene pile1m(const DemoOptions&);
 DemoScene mix1m(const DemoOptions&);
 DemoScene overlap(const DemoOptions&);
 DemoScene solids(const DemoOptions&);
+DemoScene compounds(const DemoOptions&);
+DemoScene rollmesh(const DemoOptions&);
+DemoScene hulls1m(const DemoOptions&);
 DemoScene onset(const DemoOptions&);
 DemoScene hold(const DemoOptions&);
 DemoScene steep(const DemoOptions&);

@@ -1,9 +1,12 @@
 // Where a world is drawn: the choice between the two canvases, and the tables that the chosen one draws from.
 #include "demos/drawing.h"
 
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <span>
 
+#include "compute/mesh.h"
 #include "compute/state.h"
 #include "demos/failure.h"
 #include "demos/solid_meshes.h"
@@ -11,27 +14,62 @@
 
 namespace scree::demos {
 
-host::ShapeInstances instances_of(const Scene& scene) {
-    host::ShapeInstances instances;
-    std::map<const void*, std::uint32_t> meshes;  // of cylinders, of cones, of each hull
-    const char cylinders = 0, cones = 0;
-    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
-        // In the order of Shape's alternatives.
-        std::vector<std::uint32_t>* const lists[] = {&instances.spheres, &instances.capsules, &instances.boxes,
-                                                     &instances.planes};
-        const Shape& shape = scene.bodies[i].shape;
+namespace {
+
+// Rows of the tables by what they look like.
+class Instances {
+public:
+    void add(std::uint32_t row, const SimpleShape& shape) {
+        // In the order of SimpleShape's alternatives.
+        std::vector<std::uint32_t>* const lists[] = {&made.spheres, &made.capsules, &made.boxes, &made.planes};
         if (shape.index() < std::size(lists)) {
-            lists[shape.index()]->push_back(i);
-            continue;
+            lists[shape.index()]->push_back(row);
+            return;
         }
-        instances.solids.push_back(i);
         const auto* hull = std::get_if<Hull>(&shape);
-        const void* key = hull ? static_cast<const void*>(hull->form.get()) : (std::get_if<Cone>(&shape) ? &cones : &cylinders);
-        const auto [mesh, fresh] = meshes.try_emplace(key, static_cast<std::uint32_t>(instances.meshes.size()));
-        if (fresh) instances.meshes.push_back(hull ? hull_mesh(*hull) : (key == &cones ? cone_mesh() : cylinder_mesh()));
-        instances.solid_meshes.push_back(mesh->second);
+        const void* key = hull ? static_cast<const void*>(hull->form.get()) : (std::get_if<Cone>(&shape) ? &cones_ : &cylinders_);
+        const auto [mesh, fresh] = meshes_.try_emplace(key, static_cast<std::uint32_t>(made.meshes.size()));
+        if (fresh) made.meshes.push_back(hull ? hull_mesh(*hull) : (key == &cones_ ? cone_mesh() : cylinder_mesh()));
+        add(row, mesh->second);
     }
-    return instances;
+    // Triangles, a patch of them at a time: the first one's row carries the patch, and none is much larger than other solids.
+    void add(std::uint32_t first_row, const MeshForm& form) {
+        for (std::size_t k = 0; k < form.triangles.size(); k += triangles_of_patch) {
+            const std::size_t last = std::min(k + triangles_of_patch, form.triangles.size());
+            made.meshes.push_back(patch_mesh(form, k, last));
+            add(first_row + static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(made.meshes.size() - 1));
+        }
+    }
+
+    host::ShapeInstances made;
+
+private:
+    void add(std::uint32_t row, std::uint32_t mesh) {
+        made.solids.push_back(row);
+        made.solid_meshes.push_back(mesh);
+    }
+
+    static constexpr std::size_t triangles_of_patch = 128;  // as many as a cylinder has
+    std::map<const void*, std::uint32_t> meshes_;           // of cylinders, of cones, of each hull
+    const char cylinders_ = 0, cones_ = 0;
+};
+
+}  // namespace
+
+host::ShapeInstances instances_of(const Scene& scene) {
+    Instances instances;
+    auto part = static_cast<std::uint32_t>(scene.bodies.size());  // the row of the next; as State has them
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        const Shape& shape = scene.bodies[i].shape;
+        if (const std::optional<SimpleShape> simple = simple_shape(shape)) instances.add(i, *simple);
+        if (const auto* compound = std::get_if<Compound>(&shape))
+            for (const Part& one : compound->parts) instances.add(part++, one.shape);
+        if (const MeshForm* form = mesh_form_of(shape)) {
+            instances.add(part, *form);
+            part += static_cast<std::uint32_t>(form->triangles.size());
+        }
+    }
+    return std::move(instances.made);
 }
 
 host::BodyTables tables_of(const State& state) {

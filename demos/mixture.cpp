@@ -63,8 +63,39 @@ Hull stone(float reach, Random& random) {
 
 }  // namespace
 
+namespace {
+
+// A hammer, a dumbbell, a jack or an angle of boxes.
+Compound random_compound(float reach, Random& random) {
+    const vec4 along_x(0, 0, -0.70710678f, 0.70710678f), along_z(0.70710678f, 0, 0, 0.70710678f);
+    const float r = reach * random.between(0.16f, 0.24f), arm = reach - r;
+    Compound compound;
+    const auto add = [&](SimpleShape shape, vec3 place, vec4 turn = vec4(0, 0, 0, 1)) {
+        compound.parts.push_back({std::move(shape), place, turn});
+    };
+    const float kind = random.unit() * 4;
+    if (kind < 1) {
+        add(Capsule{0.5f * r, 0.6f * arm}, vec3(0));
+        add(Box{vec3(1.6f * r, r, r)}, vec3(0, 0.6f * arm, 0));
+    } else if (kind < 2) {
+        add(Capsule{0.6f * r, 0.55f * arm}, vec3(0));
+        for (const float side : {-1.0f, 1.0f}) add(Sphere{1.6f * r}, vec3(0, side * 0.55f * arm, 0));
+    } else if (kind < 3) {
+        add(Capsule{r, 0.9f * arm}, vec3(0));
+        add(Capsule{r, 0.9f * arm}, vec3(0), along_x);
+        add(Capsule{r, 0.9f * arm}, vec3(0), along_z);
+    } else {
+        add(Box{vec3(0.6f * arm, r, r)}, vec3(0.2f * arm, 0, 0));
+        add(Box{vec3(r, 0.4f * arm, r)}, vec3(0.2f * arm - 0.6f * arm + r, 0.4f * arm + r, 0));
+        add(Cylinder{r, 0.3f * arm}, vec3(0.2f * arm + 0.6f * arm - r, 0, 0.3f * arm + r), along_z);
+    }
+    return compound;
+}
+
+}  // namespace
+
 Body random_assorted(float reach, Random& random) {
-    const float kind = random.unit() * 6;
+    const float kind = random.unit() * 7;
     if (kind < 3) return random_mixed(reach, random);
     Body body;
     body.orientation = random.orientation();
@@ -77,9 +108,19 @@ Body random_assorted(float reach, Random& random) {
         const float height = size * random.between(0.8f, 1.3f);
         body.shape = Cone{std::sqrt(size * size - 0.0625f * height * height) * 0.8f, height};
         body.rolling_resistance = 0.05f * reach;
-    } else {
+    } else if (kind < 6) {
         body.shape = stone(0.9f * size, random);
+    } else {
+        body.shape = random_compound(0.8f * size, random);
+        body.rolling_resistance = 0.05f * reach;
     }
+    return body;
+}
+
+Body random_stone(float reach, Random& random) {
+    Body body;
+    body.orientation = random.orientation();
+    body.shape = stone(shrunk * reach, random);
     return body;
 }
 

@@ -9,6 +9,7 @@ namespace scree::demos {
 // A body that fits into a sphere of radius `reach` (m) about its centre, turned at random.
 Body random_box(float reach, Random& random);       // sides between 1 : 1 and 1 : 2
 Body random_mixed(float reach, Random& random);     // half of them boxes, a quarter spheres, a quarter capsules
-Body random_assorted(float reach, Random& random);  // of any shape but planes, each as often
+Body random_assorted(float reach, Random& random);  // of any shape but planes, compounds among them, each as often
+Body random_stone(float reach, Random& random);     // a hull
 
 }  // namespace scree::demos

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "compute/hull.h"
+#include "compute/mesh.h"
 #include "shaders/physics/arithmetic.h"
 
 namespace scree::demos {
@@ -109,6 +110,26 @@ std::vector<std::pair<dvec3, double>> planes_of(const Hull& hull) {
     return planes;
 }
 
+std::optional<double> to_triangles(dvec3 from, dvec3 along, const MeshForm& form) {
+    std::optional<double> best;
+    for (const MeshForm::Triangle& triangle : form.triangles) {
+        const dvec3 normal(triangle.normal), a = dvec3(triangle.middle) + dvec3(triangle.corners[0]);
+        const double towards = glm::dot(normal, along);
+        if (towards > -1e-12) continue;  // from behind it is not there
+        const double at = glm::dot(normal, a - from) / towards;
+        if (at <= 0 || (best && at >= *best)) continue;
+        const dvec3 point = from + along * at;
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const dvec3 start = dvec3(triangle.middle) + dvec3(triangle.corners[k]);
+            const dvec3 end = dvec3(triangle.middle) + dvec3(triangle.corners[(k + 1) % 3]);
+            inside = inside && glm::dot(glm::cross(end - start, point - start), normal) >= 0;
+        }
+        if (inside) best = at;
+    }
+    return best;
+}
+
 }  // namespace
 
 std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray) {
@@ -131,6 +152,14 @@ std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orienta
         const float above = glm::dot(ray.from, plane->normal) - plane->offset, down = -glm::dot(ray.along, plane->normal);
         if (above > 0 && down > 1e-6f) at = static_cast<double>(above / down);
     }
+    if (const auto* compound = std::get_if<Compound>(&shape)) {
+        for (const Part& part : compound->parts) {
+            const std::optional<float> to_part = distance_to(whole_shape(part.shape), position + physics::rotate(orientation, part.position),
+                                                             physics::compose(orientation, part.orientation), ray);
+            if (to_part && (!at || *to_part < *at)) at = *to_part;
+        }
+    }
+    if (const MeshForm* form = mesh_form_of(shape)) at = to_triangles(from, along, *form);
     if (!at) return std::nullopt;
     return static_cast<float>(*at);
 }

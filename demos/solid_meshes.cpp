@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "compute/hull.h"
+#include "compute/mesh.h"
 
 namespace scree::demos {
 
@@ -67,6 +68,16 @@ host::SolidMesh hull_mesh(const Hull& hull) {
             for (const std::size_t corner : {std::size_t{0}, k, k + 1})
                 add(mesh, vec3(hull.form->vertices[face.corners[corner]]), vec3(face.normal));
         }
+    }
+    return mesh;
+}
+
+host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t last) {
+    host::SolidMesh mesh;
+    for (std::size_t k = first; k < last; ++k) {
+        const MeshForm::Triangle& triangle = form.triangles[k];
+        for (const vec3& corner : triangle.corners)
+            add(mesh, triangle.middle + corner - form.triangles[first].middle, triangle.normal);
     }
     return mesh;
 }

@@ -15,6 +15,7 @@
 #include "demos/message.h"
 #include "demos/words.h"
 #include "host/file.h"
+#include "host/mesh_file.h"
 
 namespace scree::demos {
 
@@ -71,11 +72,28 @@ void set_bounds(Subject& subject) {
     subject.high = high;
 }
 
+// The files that meshes name, which lie beside the scene's.
+void read_meshes(Scene& scene, const std::filesystem::path& folder) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        auto* mesh = std::get_if<Mesh>(&scene.bodies[i].shape);
+        if (!mesh || mesh->file.empty()) continue;
+        try {
+            host::MeshFile read = host::read_mesh(folder / mesh->file);
+            mesh->vertices = std::move(read.vertices);
+            mesh->triangles = std::move(read.triangles);
+            for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
+        } catch (const host::FileError& error) {
+            throw SceneError("/bodies/" + std::to_string(i) + "/shape/mesh/file", error.what());
+        }
+    }
+}
+
 Subject from_file(const std::string& path) {
     Subject subject;
     subject.name = path;
     try {
         SceneDocument document = scene_from_json(host::read_text(path), most_bodies());
+        read_meshes(document.scene, std::filesystem::path(path).parent_path());
         std::vector<std::string> notes;
         subject.scene = checked(std::move(document.scene), &notes);
         for (const std::string& note : notes) say("scree: note: {}: {}\n", path, note);

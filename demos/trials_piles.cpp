@@ -6,6 +6,7 @@
 
 #include "demos/building.h"
 #include "demos/demos.h"
+#include "demos/mixture.h"
 #include "demos/random.h"
 
 namespace scree::demos {
@@ -177,6 +178,17 @@ DemoScene mix1m(const DemoOptions& options) {
     return awake({pile_in(pit, options, metre_mixed), view_of(low, high, 35, 38), low, high, static_cast<float>(when),
                   Promise(speed_when_settled(when), mean_penetration_when_settled(when), penetration_when_settled(when))
                       .sampling({every_step, when})});
+}
+
+DemoScene hulls1m(const DemoOptions& options) {
+    const Pit pit(options.bodies);
+    const auto metre_stone = [](Random& random) { return random_stone(0.62f, random); };  // about 1 m from side to side
+    const vec3 low(-pit.half, 0, -pit.half), high(pit.half, pit.wall, pit.half);
+    const double when = settled;
+    const Claim mean = at_most("mean penetration when settled", 0.001, "m", fmt::format("over the points that penetrate, after {} s", when),
+                               [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_mean; });
+    return awake({pile_in(pit, options, metre_stone), view_of(low, high, 35, 38), low, high, static_cast<float>(when),
+                  Promise(mean, penetration_when_settled(when)).sampling({every_step, when})});
 }
 
 // Clumps of 3 by 3 by 3 bodies, half inside each other along every axis: pushed apart too fast, they would fly.

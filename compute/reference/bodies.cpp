@@ -10,6 +10,7 @@
 #include "shaders/physics/grid.h"
 #include "shaders/physics/grip.h"
 #include "shaders/physics/motion.h"
+#include "shaders/physics/parts.h"
 #include "shaders/physics/rest.h"
 
 namespace scree::reference {
@@ -102,6 +103,18 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
     }
 }
 
+void place_parts(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    const std::size_t first = state.fixed().first_part;
+    threads.for_each(state.fixed().bodies - first, [&](std::size_t k) {
+        const physics::Traits& part = state.traits[first + k];
+        if (physics::motion_of(part) == physics::MOTION_FIXED) return;
+        const physics::Pose& owner = state.poses[part.owner];
+        state.velocities[first + k] = physics::velocity_of_part(part, owner, state.velocities[part.owner]);
+        state.poses[first + k] = physics::pose_of_part(physics::place_in_body(part), physics::turn_in_body(part), owner);
+    });
+}
+
 void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
     physics::Counts& counts = state.counted();
     const auto note = [](physics::uint& mask, physics::uint bits) {
@@ -114,14 +127,17 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         const physics::Traits traits = state.traits[i];
         const physics::Pose pose = state.poses[i];
         const physics::Velocity velocity = state.velocities[i];
-        physics::Bounds bounds = physics::bounds_of(traits, pose, velocity, state.loads[i], state.fixed());
+        const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
+        physics::Bounds bounds = physics::bounds_of(traits, pose, velocity, state.loads[owner], state.fixed());
         if (physics::will_be_fast(traits, velocity, state.fixed())) note(counts.fast, 1u);
-        state.masses[i] = physics::mass_in_world(traits, pose.orientation, state.masses[i].split);
+        state.masses[i] =
+            owner == i ? physics::mass_in_world(traits, pose.orientation, state.masses[i].split) : physics::Mass{};
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
-        const bool stirs = physics::stirs(traits.motion, velocity, state.rests[i], sleep_steps);
+        const bool stirs = physics::stirs(physics::motion_of(traits), state.velocities[owner], state.rests[owner], sleep_steps);
         const bool large = physics::is_large(traits);
-        if (!large) note(counts.levels, 1u << bounds.level);
-        if (!large && stirs) note(counts.levels_stirring, 1u << bounds.level);
+        const bool listed = !large && bounds.level != physics::NOWHERE;
+        if (listed) note(counts.levels, 1u << bounds.level);
+        if (listed && stirs) note(counts.levels_stirring, 1u << bounds.level);
         if (large && stirs) note(counts.large_stirring, 1u);
         if (physics::has_slept(state.rests[i], sleep_steps)) note(counts.sleepers, 1u);
         if (!stirs) bounds.level |= physics::STILL;
@@ -154,7 +170,7 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const WideStages* wide = wide_stages(threads.lanes());
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (state.traits[i].motion == physics::MOTION_FIXED || asleep(state, i)) return;
+        if (state.traits[i].motion == physics::MOTION_FIXED || physics::is_part(state.traits[i]) || asleep(state, i)) return;
         if (!wide || !moved_by_contacts(state, i)) move(state, i);
     });
     if (!wide) return;

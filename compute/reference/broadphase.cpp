@@ -77,6 +77,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& found
     const physics::Parameters& p = state.fixed();
     const physics::Traits& own = state.traits[body];
     const physics::Bounds& around = state.bounds[body];
+    if ((around.level & physics::NOWHERE) != 0) return;
     for_each_carried_over(state, body, found);
     if (still(state, body) && !physics::any_stirs(state.counted())) return;
     for (const physics::CellEntry& other : bucket(state, p.buckets)) {
@@ -122,10 +123,11 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
         return pair;
     }
     const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+    const std::uint32_t of_a = state.body_of(pair.a), of_b = state.body_of(pair.b);
     const bool kept =
         pair.previous != physics::NONE &&
-        physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[pair.a],
-                         state.velocities[pair.a], tb, state.poses[pair.b], state.velocities[pair.b]);
+        physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[of_a],
+                         state.velocities[of_a], tb, state.poses[of_b], state.velocities[of_b]);
     pair.kind = kept ? physics::KIND_KEPT : physics::kind_of(ta.shape, tb.shape);
     return pair;
 }

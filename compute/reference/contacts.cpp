@@ -54,7 +54,7 @@ void count_slots(State& state, const Threads& threads, std::uint32_t) {
     if (!physics::any_stirs(state.counted())) return;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const physics::Pair& pair = state.pairs[state.constraints[i].pair];
-        for (const std::uint32_t body : {pair.a, pair.b})
+        for (const std::uint32_t body : {state.body_of(pair.a), state.body_of(pair.b)})
             if (movable(state, body)) taken(state.slot_ends[body]);
     });
 }
@@ -64,9 +64,10 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const auto contact = static_cast<std::uint32_t>(i);
         const physics::Pair& pair = state.pairs[state.constraints[i].pair];
-        if (movable(state, pair.a)) state.slot_sides[taken(state.slot_ends[pair.a])] = 2 * contact;
-        if (movable(state, pair.b)) state.slot_sides[taken(state.slot_ends[pair.b])] = 2 * contact + 1;
-        if (movable(state, pair.a) || movable(state, pair.b)) state.binned[taken(state.counted().solved)] = contact;
+        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+        if (movable(state, a)) state.slot_sides[taken(state.slot_ends[a])] = 2 * contact;
+        if (movable(state, b)) state.slot_sides[taken(state.slot_ends[b])] = 2 * contact + 1;
+        if (movable(state, a) || movable(state, b)) state.binned[taken(state.counted().solved)] = contact;
     });
     physics::Counts& counts = state.counted();
     counts.arguments[physics::WORK_SOLVED].x = physics::work_for(counts.solved, state.fixed()).x;
@@ -95,6 +96,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         physics::Constraint& c = state.constraints[i];
         const std::uint32_t index = c.pair;
         const physics::Pair& pair = state.pairs[index];
+        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
         const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
         const physics::Manifold& manifold = state.manifolds[index];
         physics::Contact& contact = state.contacts[i];
@@ -105,29 +107,35 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
             impulse = physics::continued(contact, state.impulses_before[pair.previous]);
             impulse.separation = physics::separations_of(manifold);
             c = physics::idle_constraint(contact);
+            c.a = a;
+            c.b = b;
             return;
         }
         if (pair.kind >= physics::KIND_KEPT) {
             contact = physics::aged(state.contacts_before[pair.previous]);
             impulse = physics::continued(contact, state.impulses_before[pair.previous]);
         } else {
-            contact = physics::contact_of(pair, manifold, state.touching[index], state.poses[pair.a], state.poses[pair.b]);
+            contact = physics::contact_of(pair, manifold, state.touching[index], state.poses[a], state.poses[b]);
             impulse = pair.previous == physics::NONE
                           ? physics::no_impulse(contact.d)
                           : physics::inherited(contact, state.contacts_before[pair.previous],
                                                state.impulses_before[pair.previous], physics::match_radius(ta, tb));
         }
         impulse.separation = physics::separations_of(manifold);
-        const bool sleeps_a = ta.motion == physics::MOTION_DYNAMIC && c.slot_a == physics::NONE;
-        const bool sleeps_b = tb.motion == physics::MOTION_DYNAMIC && c.slot_b == physics::NONE;
+        const bool sleeps_a = physics::motion_of(ta) == physics::MOTION_DYNAMIC && c.slot_a == physics::NONE;
+        const bool sleeps_b = physics::motion_of(tb) == physics::MOTION_DYNAMIC && c.slot_b == physics::NONE;
         if (pair.previous != physics::NONE)
             contact.load = physics::load_of(sleeps_a || sleeps_b, state.contacts_before[pair.previous],
                                             state.impulses_before[pair.previous]);
         if (idle) {
             c = physics::idle_constraint(contact);
+            c.a = a;
+            c.b = b;
             return;
         }
         c = physics::constraint_of(contact, ta, tb, c.slot_a, c.slot_b, p);
+        c.a = a;
+        c.b = b;
         c.pair = index;
 
         impulse.pressed = physics::pressing(impulse);

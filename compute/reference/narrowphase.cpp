@@ -9,6 +9,7 @@
 #include "shaders/physics/collide_capsule_capsule.h"
 #include "shaders/physics/collide_capsule_plane.h"
 #include "shaders/physics/collide_convex.h"
+#include "shaders/physics/collide_triangle.h"
 #include "shaders/physics/collide_sphere_box.h"
 #include "shaders/physics/collide_sphere_capsule.h"
 #include "shaders/physics/collide_sphere_plane.h"
@@ -28,7 +29,8 @@ constexpr std::array<Law, 9> laws{physics::collide_sphere_sphere, physics::colli
                                   physics::collide_capsule_plane, physics::collide_box_box,         physics::collide_box_plane};
 
 using ConvexLaw = physics::Touch (*)(physics::Traits, physics::Pose, physics::Traits, physics::Pose, float, physics::Hulls);
-constexpr std::array<ConvexLaw, 2> laws_of_convex{physics::collide_plane_convex, physics::collide_convex};
+constexpr std::array<ConvexLaw, 4> laws_of_convex{physics::collide_plane_convex, physics::collide_convex,
+                                                  physics::collide_sphere_triangle, physics::collide_convex_triangle};
 
 std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
     const std::size_t first = span * physics::SPAN;
@@ -76,6 +78,8 @@ void collide(State& state, const Threads& threads, std::uint32_t kind) {
                                    ? laws[kind](ta, pa, tb, pb, margin)
                                    : laws_of_convex[kind - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
         if (swapped) touch = physics::flipped(touch, state.poses[other].position - state.poses[simpler].position);
+        const std::size_t row = state.pairs[index].a, body = state.body_of(state.pairs[index].a);
+        if (row != body) touch = physics::from_body(touch, state.poses[row].position - state.poses[body].position);
         state.manifolds[index] = touch.manifold;
         state.touching[index] = touch.count;
     });
@@ -87,7 +91,7 @@ void collide_kept(State& state, const Threads& threads, std::uint32_t) {
         const std::size_t index = state.binned[first + i];
         const physics::Pair& pair = state.pairs[index];
         const physics::Contact& contact = state.contacts_before[pair.previous];
-        state.manifolds[index] = physics::kept_manifold(contact, state.poses[pair.a], state.poses[pair.b]);
+        state.manifolds[index] = physics::kept_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
         state.touching[index] = contact.count;
     });
 }

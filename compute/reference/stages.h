@@ -17,6 +17,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
 // bodies.cpp
 SCREE_STAGE(begin_step);
 SCREE_STAGE(apply_actions);
+SCREE_STAGE(place_parts);
 SCREE_STAGE(bound_bodies);
 SCREE_STAGE(begin_substep);
 SCREE_STAGE(move_bodies);

@@ -50,15 +50,14 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t index = state.constraints[i].pair;
         const physics::Pair& pair = state.pairs[index];
         if (!stirred(state, pair.a) && !stirred(state, pair.b)) return;
+        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
         const float approach = physics::approach_of(state.manifolds[index], state.touching[index],
-                                                    state.poses[pair.b].position - state.poses[pair.a].position,
-                                                    state.velocities[pair.a], state.velocities[pair.b], state.fixed());
-        if (slept(state, pair.a) && !slept(state, pair.b) && wakes(state, pair, pair.a, pair.b, approach))
-            raise(state, pair.a, physics::WOKEN);
-        if (slept(state, pair.b) && !slept(state, pair.a) && wakes(state, pair, pair.b, pair.a, approach))
-            raise(state, pair.b, physics::WOKEN);
+                                                    state.poses[b].position - state.poses[a].position, state.velocities[a],
+                                                    state.velocities[b], state.fixed());
+        if (slept(state, a) && !slept(state, b) && wakes(state, pair, a, b, approach)) raise(state, a, physics::WOKEN);
+        if (slept(state, b) && !slept(state, a) && wakes(state, pair, b, a, approach)) raise(state, b, physics::WOKEN);
         const std::uint32_t depth = physics::depth_of(approach, state.fixed());
-        for (const std::uint32_t body : {pair.a, pair.b}) raise(state, body, physics::shaking_bit(depth));
+        for (const std::uint32_t body : {a, b}) raise(state, body, physics::shaking_bit(depth));
         if (depth > 1)
             std::atomic_ref(counts.arguments[physics::WORK_SHAKEN].x).store(counts.arguments[physics::WORK_CONTACTS].x);
     });
@@ -70,7 +69,7 @@ void wake_deserted(State& state, const Threads& threads, std::uint32_t) {
         for (std::size_t k = state.first_contacts_before[i]; k < state.first_contacts_before[i + 1]; ++k) {
             const physics::Contact& contact = state.contacts_before[k];
             if (stirred(state, contact.a) == stirred(state, contact.b)) continue;
-            const std::uint32_t sleeper = stirred(state, contact.a) ? contact.b : contact.a;
+            const std::uint32_t sleeper = state.body_of(stirred(state, contact.a) ? contact.b : contact.a);
             if (!slept(state, sleeper)) continue;
             if (owner_touches(state, contact.a, contact.b) || owner_touches(state, contact.b, contact.a)) continue;
             if (physics::load_changed(0, contact.load, state.traits[sleeper], state.fixed()))
@@ -86,8 +85,9 @@ void shake_sleepers(State& state, const Threads& threads, std::uint32_t depth) {
         const auto shake = [&](std::uint32_t by, std::uint32_t other) {
             if (physics::shakes(rest_of(state, by), depth)) raise(state, other, physics::shaking_bit(depth - 1));
         };
-        shake(pair.a, pair.b);
-        shake(pair.b, pair.a);
+        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+        shake(a, b);
+        shake(b, a);
     });
 }
 

@@ -4,6 +4,7 @@
 
 #include "shaders/physics/flight.h"
 #include "shaders/physics/motion.h"
+#include "shaders/physics/parts.h"
 
 LAWS_BEGIN
 
@@ -113,7 +114,7 @@ LAW uint anchor_of(Contact contact, Traits a, Traits b) {
 
 // Half the least width of a body along its surface, seen against the normal, m: what slides further has left it.
 LAW float width_along(Traits traits, vec4 orientation, vec3 normal) {
-    if (traits.shape != SHAPE_BOX) return thickness(traits);
+    if (traits.shape != SHAPE_BOX || is_part(traits)) return thickness(traits);
     vec3 slant = absolute3(rotate_back(orientation, normal));
     if (slant.x >= slant.y && slant.x >= slant.z) return smaller(traits.size.y, traits.size.z);
     return slant.y >= slant.z ? smaller(traits.size.x, traits.size.z) : smaller(traits.size.x, traits.size.y);

@@ -23,7 +23,7 @@ CONSTANT uint FLIGHT_ROUNDS = 3u;
 
 // Smallest half width, m: what lengths on a body are measured against.
 LAW float thickness(Traits traits) {
-    if (traits.shape == SHAPE_PLANE) return 1.0e30f;
+    if (traits.shape == SHAPE_PLANE || traits.shape == SHAPE_TRIANGLE) return 1.0e30f;
     if (traits.shape == SHAPE_CYLINDER) return smaller(traits.size.x, traits.size.y);
     if (traits.shape == SHAPE_CONE) return smaller(0.5f * traits.size.x, 0.25f * traits.size.y);
     if (traits.shape == SHAPE_HULL) return 0.5f * smaller(traits.size.x, smaller(traits.size.y, traits.size.z));
@@ -32,7 +32,8 @@ LAW float thickness(Traits traits) {
 // How far from its centre a body reaches, m; of a hull a bound.
 LAW float farthest_of(Traits traits) {
     vec3 size = traits.size;
-    if (traits.shape == SHAPE_BOX || traits.shape == SHAPE_HULL) return length3(size);
+    if (traits.shape == SHAPE_BOX || traits.shape == SHAPE_HULL || traits.shape == SHAPE_TRIANGLE) return length3(size);
+    if (traits.shape == SHAPE_NONE) return size.y;
     if (traits.shape == SHAPE_CAPSULE) return size.x + size.y;
     if (traits.shape == SHAPE_CYLINDER) return square_root(size.x * size.x + size.y * size.y);
     if (traits.shape == SHAPE_CONE) return larger(0.75f * size.y, square_root(size.x * size.x + 0.0625f * (size.y * size.y)));
@@ -73,7 +74,9 @@ LAW vec3 half_extents_of(Traits traits, vec4 orientation) {
             half_size = rim + axis * traits.size.y;
         else
             half_size = larger3(rim + axis * (0.25f * traits.size.y), axis * (0.75f * traits.size.y));
-    } else if (traits.shape == SHAPE_BOX || traits.shape == SHAPE_HULL) {
+    } else if (traits.shape == SHAPE_NONE) {
+        half_size = vec3(traits.size.y);
+    } else if (traits.shape == SHAPE_BOX || traits.shape == SHAPE_HULL || traits.shape == SHAPE_TRIANGLE) {
         Axes axes = axes_of(orientation);
         half_size = absolute3(axes.x) * traits.size.x + absolute3(axes.y) * traits.size.y + absolute3(axes.z) * traits.size.z;
     }

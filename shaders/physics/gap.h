@@ -15,6 +15,7 @@
 // A scene without cylinders, cones and hulls leaves out what takes a second to compile on a processor.
 #ifndef WITHOUT_CONVEX
 #include "shaders/physics/collide_convex.h"
+#include "shaders/physics/triangle.h"
 #endif
 
 LAWS_BEGIN
@@ -65,7 +66,7 @@ LAW Gap gap_of_touch(Touch touch) {
 }
 
 #ifndef WITHOUT_CONVEX
-// Of a cylinder, cone or hull (the second) and any other shape.
+// Of a cylinder, cone, hull or triangle (the second) and any other shape. What lies behind a triangle is far away from it.
 LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
     Gap gap;
     Solid of_b = solid_of(b, pose_b.orientation);
@@ -75,7 +76,17 @@ LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls)
         gap.distance = dot3(a.size, d + support_of(of_b, -a.size, hulls));
         return gap;
     }
-    Separation s = separation_of(solid_of(a, pose_a.orientation), of_b, d, 1.0e30f, hulls);
+    Solid of_a = solid_of(a, pose_a.orientation);
+    if (b.shape == SHAPE_TRIANGLE) {
+        vec4 plane = plane_of(of_b, 0u, hulls);
+        vec3 face = vec3(plane.x, plane.y, plane.z);
+        if (!in_front(-dot3(face, d) - plane.w, of_a.scale)) {
+            gap.normal = -face;
+            gap.distance = 1.0e30f;
+            return gap;
+        }
+    }
+    Separation s = separation_of(of_a, of_b, d, 1.0e30f, hulls);
     gap.normal = s.normal;
     gap.distance = s.distance;
     return gap;

@@ -9,6 +9,7 @@
 
 #include "shaders/physics/arithmetic.h"
 #include "shaders/physics/flight.h"
+#include "shaders/physics/parts.h"
 #include "shaders/physics/records.h"
 
 LAWS_BEGIN
@@ -66,6 +67,9 @@ LAW bool is_large(Traits traits) {
     return (traits.large & 1u) != 0u;
 }
 
+// The level of what is nowhere in the grid: a body that touches with its parts only.
+CONSTANT uint NOWHERE = 0x40u;
+
 // Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
 // fast may not leave them, so the fall is in them too.
 LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Parameters parameters) {
@@ -80,6 +84,7 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Par
         half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
     }
     half_size = half_size + vec3(parameters.speculative);
+    if (moves && is_part(traits)) half_size = half_size + vec3(bend_of_way(traits, velocity, parameters));
     vec3 way = velocity.linear * parameters.dt;
     Bounds bounds;
     bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));
@@ -98,6 +103,7 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Par
         bounds.bucket = bucket_of(cell_of(bounds.lower, bounds.upper, bounds.level, parameters.inverse_cell), bounds.level,
                                   parameters.buckets);
     }
+    if (traits.shape == SHAPE_NONE) bounds.level = NOWHERE;
     return bounds;
 }
 
@@ -137,23 +143,28 @@ LAW bool finds_large(uint body, uint level, bool large, uint other, uint other_l
 }
 // Levels on which a body has partners to find.
 LAW uint levels_to_search(uint level, Counts counts) {
+    if ((level & NOWHERE) != 0u) return 0u;
     if ((level & STILL) != 0u) return counts.levels_stirring & ~((2u << (level - STILL)) - 1u);
     return counts.levels & ~((1u << level) - 1u);
 }
 
 LAW bool can_touch(Traits a, Traits b) {
-    return (a.motion == MOTION_DYNAMIC || b.motion == MOTION_DYNAMIC) && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE);
+    bool moves = motion_of(a) == MOTION_DYNAMIC || motion_of(b) == MOTION_DYNAMIC;
+    return moves && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE) && a.owner != b.owner;
 }
 
 // The first four shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); with the others all have
-// one law, but for planes. KIND_KEPT is a contact that is kept, KIND_STILL one between two bodies that do not stir.
+// one law, but for planes and triangles. KIND_KEPT is a contact that is kept, KIND_STILL one between two bodies that do not stir.
 CONSTANT uint KIND_PLANE_CONVEX = 9u;
 CONSTANT uint KIND_CONVEX = 10u;
-CONSTANT uint KIND_KEPT = 11u;
-CONSTANT uint KIND_STILL = 12u;
+CONSTANT uint KIND_SPHERE_TRIANGLE = 11u;
+CONSTANT uint KIND_CONVEX_TRIANGLE = 12u;
+CONSTANT uint KIND_KEPT = 13u;
+CONSTANT uint KIND_STILL = 14u;
 LAW uint kind_of(uint shape_a, uint shape_b) {
     uint low = shape_a < shape_b ? shape_a : shape_b;
     uint high = shape_a < shape_b ? shape_b : shape_a;
+    if (high == SHAPE_TRIANGLE) return low == SHAPE_SPHERE ? KIND_SPHERE_TRIANGLE : KIND_CONVEX_TRIANGLE;
     if (high >= SHAPE_CYLINDER) return low == SHAPE_PLANE ? KIND_PLANE_CONVEX : KIND_CONVEX;
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }

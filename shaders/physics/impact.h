@@ -29,6 +29,9 @@ struct Course {
     vec4 turn;   // of the quaternion
     vec3 axis;   // of the turn, unit
     float most;  // bound on the same whatever the gap's direction, m per step
+    vec4 part_turn;  // of a part in the body whose course this is
+    vec3 part_place;
+    uint of_part;  // 1: of a part
 };
 LAW Course course_of(Traits traits, vec3 start, vec4 orientation, Pose end, float until) {
     Course course;
@@ -42,10 +45,25 @@ LAW Course course_of(Traits traits, vec3 start, vec4 orientation, Pose end, floa
     course.sweep = turning_of(orientation, course.turn) * lever_of(traits);
     course.most = course.sweep;
     if (traits.shape == SHAPE_CAPSULE) course.most = course.sweep * length3(cross3(course.axis, upright(orientation)));
+    course.part_turn = vec4(0.0f);
+    course.part_place = vec3(0.0f);
+    course.of_part = 0u;
+    return course;
+}
+// A part's, where that is its body's.
+LAW Course course_of_part(Traits part, Course body) {
+    Course course = body;
+    course.sweep = turning_of(body.orientation, body.turn) * (length3(place_in_body(part)) + lever_of(part));
+    course.most = course.sweep;
+    course.part_turn = turn_in_body(part);
+    course.part_place = place_in_body(part);
+    course.of_part = 1u;
     return course;
 }
 LAW Pose pose_on(Course course, float fraction) {
-    return pose_along(course.start, course.way, course.orientation, course.turn, smaller(fraction, course.until));
+    Pose pose = pose_along(course.start, course.way, course.orientation, course.turn, smaller(fraction, course.until));
+    if (course.of_part != 0u) pose = pose_of_part(course.part_place, course.part_turn, pose);
+    return pose;
 }
 LAW float arc_along(Course course, vec3 normal) {
     return smaller(course.most, course.sweep * length3(cross3(course.axis, normal)));
@@ -71,8 +89,8 @@ LAW uint hold_of(uint contact_points, float stop_a, float stop_b) {
 LAW Limits limits_of(Traits a, Traits b, uint hold, Parameters parameters) {
     float of_a = thickness(a), of_b = thickness(b);
     float half_way = 0.5f * (of_a + of_b);
-    if (a.shape == SHAPE_PLANE) half_way = 0.5f * of_b;
-    if (b.shape == SHAPE_PLANE) half_way = 0.5f * of_a;
+    if (a.shape == SHAPE_PLANE || a.shape == SHAPE_TRIANGLE) half_way = 0.5f * of_b;
+    if (b.shape == SHAPE_PLANE || b.shape == SHAPE_TRIANGLE) half_way = 0.5f * of_a;
     Limits limits;
     limits.touch = 0.1f * parameters.speculative;
     limits.slop = smaller(0.05f * smaller(of_a, of_b), limits.touch);

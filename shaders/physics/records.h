@@ -13,10 +13,15 @@ CONSTANT uint SHAPE_PLANE = 3u;     // size: unit normal; the pose's position is
 CONSTANT uint SHAPE_CYLINDER = 4u;  // size: radius, half height, - (along y) m
 CONSTANT uint SHAPE_CONE = 5u;      // size: radius, height, - (along y, apex up) m
 CONSTANT uint SHAPE_HULL = 6u;      // size: half extents of the box about its centre of mass that holds it, m
+CONSTANT uint SHAPE_TRIANGLE = 7u;  // of a mesh, solid behind it; size: as of a hull. In the table of hulls: triangle.h
+CONSTANT uint SHAPE_NONE = 8u;      // only its parts touch. size: its thinnest part's thickness, how far it reaches, - m
 
 CONSTANT uint MOTION_DYNAMIC = 0u;
 CONSTANT uint MOTION_FIXED = 1u;
 CONSTANT uint MOTION_KINEMATIC = 2u;
+// With one of these: a part of a body that moves so, a row of its own that the solver never moves. Where it lies in its body says
+// its Traits: position inverse_inertia, m; orientation inverse_mass, gravity_scale, linear_damping, angular_damping.
+CONSTANT uint MOTION_OF_PART = 4u;
 
 CONSTANT uint NONE = 0xFFFFFFFFu;
 
@@ -34,6 +39,10 @@ struct Traits {
     float angular_damping;  // 1/s
     uint motion;
     uint large;  // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
+    uint owner;     // the body that this one is a part of; itself for a body
+    uint fracture;  // where its fracture's description begins; NONE: it does not break
+    uint joints;    // where the list of its joints begins; NONE: it has none
+    uint pad0;
 };
 
 // ---- bodies, state
@@ -142,14 +151,14 @@ struct Candidate {
     uint other;
 };
 struct Pair {
-    uint a, b;      // bodies, a < b
+    uint a, b;      // bodies or parts, a < b
     uint kind;      // KIND_*
     uint previous;  // its contact in the last step, or NONE
 };
 
 // ---- contacts: what lasts from step to step
 struct Contact {
-    uint a, b;       // bodies, a < b
+    uint a, b;       // bodies or parts, a < b. All that follows speaks of the bodies that parts belong to
     uint count;      // points, 1 to 4
     uint features;   // as in Manifold
     vec3 normal;     // unit, world, from A to B, when the contact was made
@@ -179,7 +188,7 @@ CONSTANT uint ANCHOR_B = 1u;
 CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the one point lies between two round bodies wherever they go
 
 struct Constraint {
-    uint a, b;            // bodies
+    uint a, b;            // bodies, never parts
     uint slot_a, slot_b;  // where their velocity changes go; NONE for a body that contacts do not move
     vec3 normal;          // unit, world, from A to B
     float friction;       // Coulomb coefficient of the pair
@@ -218,7 +227,7 @@ struct Parameters {  // the same for every thread of a step
     float max_spin;               // rad/s
     float cell;                   // width of the grid's finest cells, m
     float inverse_cell;
-    uint bodies;
+    uint bodies;   // rows of the bodies' tables, parts included
     uint buckets;  // of the grid, a power of two; one more holds the large bodies
     uint pair_capacity;
     uint contact_capacity;
@@ -232,11 +241,11 @@ struct Parameters {  // the same for every thread of a step
     float friction_factor;    // on the friction of every pair
     float least_restitution;  // of every pair
     uint held;                // grips in use
-    uint pad0;
+    uint first_part;          // from this row on, rows are parts of bodies
     Grip grips[4];  // MOST_GRIPS
 };
 
-CONSTANT uint KINDS = 13u;  // of pairs: eleven of shapes, those whose contact is kept, and those at rest
+CONSTANT uint KINDS = 15u;  // of pairs: thirteen of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind
 CONSTANT uint SPAN_SHIFT = 4u;
 CONSTANT uint SCAN_ITEMS = 8u;  // items that one thread of a scan adds up
@@ -249,10 +258,10 @@ CONSTANT uint WORK_KIND_BLOCKS = 2u;
 CONSTANT uint WORK_PAIR_BLOCKS = 3u;
 CONSTANT uint WORK_CONTACTS = 4u;
 CONSTANT uint WORK_KIND = 5u;  // and the KINDS - 1 rows after it
-CONSTANT uint WORK_SOLVED = 18u;
-CONSTANT uint WORK_SHAKEN = 19u;
-CONSTANT uint WORK_FLIGHTS = 20u;  // all pairs if some body is fast, else none
-CONSTANT uint WORKS = 21u;
+CONSTANT uint WORK_SOLVED = 20u;
+CONSTANT uint WORK_SHAKEN = 21u;
+CONSTANT uint WORK_FLIGHTS = 22u;  // all pairs if some body is fast, else none
+CONSTANT uint WORKS = 23u;
 CONSTANT uint OVERFLOW_PAIRS = 1u;
 CONSTANT uint OVERFLOW_CONTACTS = 2u;
 
@@ -267,10 +276,10 @@ struct Counts {  // what the device counts in a step
     uint large_stirring;   // 1: some large body stirs
     uint sleepers;         // 1: some body is asleep as the step begins
     uint solved;           // contacts that move somebody: those of the solver
-    uint kind_first[14];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint kind_first[16];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uint fast;             // 1: some body will be fast in this step
-    uint pad0;
-    uvec4 arguments[21];  // per WORK_*: workgroups x, y, z, and threads
+    uint pad0, pad1, pad2;
+    uvec4 arguments[23];  // per WORK_*: workgroups x, y, z, and threads
 };
 
 LAWS_END

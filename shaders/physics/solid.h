@@ -15,17 +15,18 @@ struct Solid {
     uint shape;    // SHAPE_*, but no plane
     uint hull;     // its place in the table
     float radius;  // m
-    float scale;   // its thickness, m
+    float scale;   // its thickness, m; of a triangle its size
     float pad;
 };
 LAW Solid solid_of(Traits traits, vec4 orientation) {
     Solid solid;
     solid.axes = axes_of(orientation);
     solid.size = traits.size;
-    solid.shape = traits.shape;
+    solid.shape = traits.shape == SHAPE_TRIANGLE ? SHAPE_HULL : traits.shape;
     solid.hull = hull_of(traits);
     solid.radius = traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE ? traits.size.x : 0.0f;
     solid.scale = thickness(traits);
+    if (traits.shape == SHAPE_TRIANGLE) solid.scale = larger(traits.size.x, larger(traits.size.y, traits.size.z));
     solid.pad = 0.0f;
     return solid;
 }

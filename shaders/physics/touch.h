@@ -70,6 +70,15 @@ LAW Touch flipped(Touch touch, vec3 d) {
     return touch;
 }
 
+// The touch of a part, counted from its body's centre; offset: from there to the part's own (m).
+LAW Touch from_body(Touch touch, vec3 offset) {
+    if (touch.count > 0u) touch.manifold.points[0] = seen_from(touch.manifold.points[0], -offset);
+    if (touch.count > 1u) touch.manifold.points[1] = seen_from(touch.manifold.points[1], -offset);
+    if (touch.count > 2u) touch.manifold.points[2] = seen_from(touch.manifold.points[2], -offset);
+    if (touch.count > 3u) touch.manifold.points[3] = seen_from(touch.manifold.points[3], -offset);
+    return touch;
+}
+
 LAWS_END
 
 #endif

@@ -96,14 +96,14 @@ void main() {
         vec3 velocity = velocities[at.body].linear;
         float reach = t.shape == SHAPE_BOX || t.shape >= SHAPE_CYLINDER ? length(t.size)
                                                                         : t.size.x + (t.shape == SHAPE_CAPSULE ? t.size.y : 0.0);
-        if (t.motion != MOTION_FIXED && length(velocity) > SLOWEST)
+        if ((t.motion & 3u) != MOTION_FIXED && length(velocity) > SLOWEST)
             draw_arrow(poses[at.body].position - frame.eye.xyz, velocity, reach, at.corner);
         return;
     }
     Bounds around = bounds[at.body];
     uint level = around.level & ~STILL;
     // Before the first step nobody has bounds.
-    if (!(around.upper.x > around.lower.x) || t.motion == MOTION_FIXED) return;
+    if (!(around.upper.x > around.lower.x) || (t.motion & 3u) == MOTION_FIXED) return;
     if (kind == LINES_BOXES) {
         out_color = vec4(BOX, 0.85);
         draw_edge(around.lower - frame.eye.xyz, around.upper - frame.eye.xyz, at.corner);

@@ -22,12 +22,16 @@ const vec3 IDLE = vec3(0.42, 0.55, 0.62);
 const float LONGEST = 0.95;  // half a line, of the thinner body's half width: lines of a stack do not meet
 
 float thickness(Traits t) {
-    if (t.shape == SHAPE_PLANE) return 1e30;
+    if (t.shape == SHAPE_PLANE || t.shape == SHAPE_TRIANGLE) return 1e30;
     if (t.shape == SHAPE_CYLINDER || t.shape == SHAPE_CONE) return min(t.size.x, 0.5 * t.size.y);
     return t.shape == SHAPE_BOX || t.shape == SHAPE_HULL ? min(t.size.x, min(t.size.y, t.size.z)) : t.size.x;
 }
 bool is_round(Traits t) {
     return t.shape == SHAPE_SPHERE || t.shape == SHAPE_CAPSULE;
+}
+// The body that a row is a part of.
+uint body_of(uint row) {
+    return (traits[row].motion & MOTION_OF_PART) != 0u ? traits[row].owner : row;
 }
 // By how much a body has turned since.
 vec3 turned_on(vec4 before, vec4 now, vec3 arm) {
@@ -37,12 +41,13 @@ vec3 turned_on(vec4 before, vec4 now, vec3 arm) {
 // Where the point is now, relative to the eye. It rides on both bodies, but does not roll with a round one.
 vec3 point_now(Contact touch, uint k, Traits a, Traits b) {
     vec3 arm = touch.points[k].xyz;
-    vec3 on_a = poses[touch.a].position - frame.eye.xyz;
-    vec3 on_b = poses[touch.b].position - frame.eye.xyz;
+    uint of_a = body_of(touch.a), of_b = body_of(touch.b);
+    vec3 on_a = poses[of_a].position - frame.eye.xyz;
+    vec3 on_b = poses[of_b].position - frame.eye.xyz;
     if (is_round(a) != is_round(b)) return is_round(a) ? on_a + arm : on_b + arm - touch.d;
     if (is_round(a)) return 0.5 * (on_a + arm + on_b + arm - touch.d);
-    return 0.5 * (on_a + turned_on(touch.turn_a, poses[touch.a].orientation, arm) + on_b +
-                  turned_on(touch.turn_b, poses[touch.b].orientation, arm - touch.d));
+    return 0.5 * (on_a + turned_on(touch.turn_a, poses[of_a].orientation, arm) + on_b +
+                  turned_on(touch.turn_b, poses[of_b].orientation, arm - touch.d));
 }
 
 vec2 pixels_of(vec4 clip) {
@@ -64,7 +69,7 @@ void main() {
     vec2 middle = pixels_of(clip);
 
     float size = min(thickness(a), thickness(b));
-    float push = pushes[gl_InstanceIndex / 4].normal[k] * max(a.inverse_mass, b.inverse_mass);
+    float push = pushes[gl_InstanceIndex / 4].normal[k] * max(traits[body_of(touch.a)].inverse_mass, traits[body_of(touch.b)].inverse_mass);
     // Lengths grow as the square root: a heap's lowest points bear hundreds of times what its highest do.
     float half_length = size * min(0.25 * sqrt(push / frame.marks.y), LONGEST);
     vec4 end_clip = frame.view_projection * vec4(point + touch.normal * half_length, 1.0);

@@ -23,7 +23,7 @@ void main() {
     Pose pose = poses[at.body];
     out_point = pose.position - frame.eye.xyz + turned(pose.orientation, corner.point);
     out_normal = corner.normal;
-    out_own = t.shape == SHAPE_HULL ? vec3(0.0) : corner.point / t.size.x;
+    out_own = t.shape == SHAPE_HULL || t.shape == SHAPE_TRIANGLE ? vec3(0.0) : corner.point / t.size.x;
     out_turn = pose.orientation;
     out_color = tints[at.body];
     gl_Position = frame.view_projection * vec4(out_point, 1.0);

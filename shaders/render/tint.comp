@@ -95,7 +95,7 @@ uint material_of(uint body) {
 }
 
 vec4 full_color(uint body) {
-    uint motion = traits[body].motion;
+    uint motion = traits[body].motion & 3u;
     if (motion == MOTION_FIXED) return vec4(STONE, 0.0);
     if (motion == MOTION_KINEMATIC) return vec4(KINEMATIC, 0.0);
     uint by = uint(frame.scale.w);
@@ -124,5 +124,7 @@ void main() {
     uint place = gl_GlobalInvocationID.x;
     if (place >= runs[RUN_PLANES].first) return;
     uint body = instances[place];
-    tints[body] = body_color(body);
+    // A part looks as the body does that it belongs to.
+    bool part = (traits[body].motion & MOTION_OF_PART) != 0u;
+    tints[body] = body_color(part ? traits[body].owner : body);
 }

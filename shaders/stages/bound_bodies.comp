@@ -19,14 +19,20 @@ void main() {
     if (i >= PARAMETERS.bodies) return;
     Traits body = traits.at[i];
     Pose pose = poses.at[i];
-    Bounds around = bounds_of(body, pose, velocities.at[i], loads.at[i], PARAMETERS);
+    uint owner = body_of(i);
+    Bounds around = bounds_of(body, pose, velocities.at[i], loads.at[owner], PARAMETERS);
     if (will_be_fast(body, velocities.at[i], PARAMETERS)) note(COUNTS.fast, 1u);
-    masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
+    if (owner == i) {
+        masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
+    } else {
+        masses.at[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+    }
     atomicAdd(cells.at[around.bucket], 1u);
-    if (!is_large(body)) note(COUNTS.levels, 1u << around.level);
+    bool listed = !is_large(body) && (around.level & NOWHERE) == 0u;
+    if (listed) note(COUNTS.levels, 1u << around.level);
     if (has_slept(rests.at[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
-    if (stirs(body.motion, velocities.at[i], rests.at[i], PARAMETERS.sleep_steps)) {
-        if (!is_large(body)) note(COUNTS.levels_stirring, 1u << around.level);
+    if (stirs(motion_of(body), velocities.at[owner], rests.at[owner], PARAMETERS.sleep_steps)) {
+        if (listed) note(COUNTS.levels_stirring, 1u << around.level);
         if (is_large(body)) note(COUNTS.large_stirring, 1u);
     } else {
         around.level |= STILL;

@@ -9,6 +9,8 @@
 // variants: collide_box_plane -DKIND=8 -DCOLLIDE=collide_box_plane
 // variants: collide_plane_convex -DKIND=9 -DCOLLIDE=collide_plane_convex -DWITH_HULLS
 // variants: collide_convex -DKIND=10 -DCOLLIDE=collide_convex -DWITH_HULLS
+// variants: collide_sphere_triangle -DKIND=11 -DCOLLIDE=collide_sphere_triangle -DWITH_HULLS
+// variants: collide_convex_triangle -DKIND=12 -DCOLLIDE=collide_convex_triangle -DWITH_HULLS
 // Finds where the pairs of one kind touch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -31,8 +33,10 @@
 #include "shaders/physics/collide_box_box.h"
 #elif KIND == 8
 #include "shaders/physics/collide_box_plane.h"
-#else
+#elif KIND == 9 || KIND == 10
 #include "shaders/physics/collide_convex.h"
+#else
+#include "shaders/physics/collide_triangle.h"
 #endif
 #include "shaders/physics/grid.h"
 #include "shaders/physics/touch.h"
@@ -60,6 +64,7 @@ void main() {
     Pose second = swap ? pa : pb;
     Touch touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
+    if (a >= PARAMETERS.first_part) touch = from_body(touch, poses.at[a].position - poses.at[traits.at[a].owner].position);
     manifolds.at[pair] = touch.manifold;
     touching.at[pair] = touch.count;
 }

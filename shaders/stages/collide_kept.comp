@@ -12,6 +12,6 @@ void main() {
     uint index = binned.at[i];
     Pair pair = pairs.at[index];
     Contact contact = contacts_before.at[pair.previous];
-    manifolds.at[index] = kept_manifold(contact, poses.at[pair.a], poses.at[pair.b]);
+    manifolds.at[index] = kept_manifold(contact, poses.at[body_of(pair.a)], poses.at[body_of(pair.b)]);
     touching.at[index] = contact.count;
 }

@@ -8,6 +8,6 @@
 void main() {
     uint i = thread();
     if (i >= COUNTS.pairs || (touching.at[i] & DOUBTFUL) == 0u) return;
-    bool struck = (bounds.at[pairs.at[i].a].flight.struck | bounds.at[pairs.at[i].b].flight.struck) != 0u;
+    bool struck = (bounds.at[body_of(pairs.at[i].a)].flight.struck | bounds.at[body_of(pairs.at[i].b)].flight.struck) != 0u;
     touching.at[i] = struck ? touching.at[i] & ~DOUBTFUL : 0u;
 }

@@ -10,10 +10,11 @@ void main() {
     uint i = thread();
     if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
     Pair pair = pairs.at[constraints.at[i].pair];
-    bool moves_a = is_movable(traits.at[pair.a].motion, rests.at[pair.a], PARAMETERS.sleep_steps);
-    bool moves_b = is_movable(traits.at[pair.b].motion, rests.at[pair.b], PARAMETERS.sleep_steps);
-    if (moves_a) slot_sides.at[atomicAdd(slot_ends.at[pair.a], 1u)] = 2u * i;
-    if (moves_b) slot_sides.at[atomicAdd(slot_ends.at[pair.b], 1u)] = 2u * i + 1u;
+    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    bool moves_a = is_movable(traits.at[of_a].motion, rests.at[of_a], PARAMETERS.sleep_steps);
+    bool moves_b = is_movable(traits.at[of_b].motion, rests.at[of_b], PARAMETERS.sleep_steps);
+    if (moves_a) slot_sides.at[atomicAdd(slot_ends.at[of_a], 1u)] = 2u * i;
+    if (moves_b) slot_sides.at[atomicAdd(slot_ends.at[of_b], 1u)] = 2u * i + 1u;
     if (!moves_a && !moves_b) return;
     uint place = atomicAdd(COUNTS.solved, 1u);
     binned.at[place] = i;

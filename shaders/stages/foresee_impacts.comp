@@ -12,15 +12,18 @@ void main() {
     uint i = thread();
     if (i >= COUNTS.pairs || touching.at[i] == 0u) return;
     uint a = pairs.at[i].a, b = pairs.at[i].b;
+    uint of_a = body_of(a), of_b = body_of(b);
     Traits ta = traits.at[a], tb = traits.at[b];
     Velocity va = velocities.at[a], vb = velocities.at[b];
-    if (!will_be_fast(ta, va, PARAMETERS) && !will_be_fast(tb, vb, PARAMETERS)) return;
+    if (!will_be_fast(traits.at[of_a], velocities.at[of_a], PARAMETERS) &&
+        !will_be_fast(traits.at[of_b], velocities.at[of_b], PARAMETERS))
+        return;
     vec3 normal = manifolds.at[i].normal;
     if (!is_near(manifolds.at[i], touching.at[i], PARAMETERS) &&
-        !will_meet(normal, ta, poses.at[a], va, loads.at[a], tb, poses.at[b], vb, loads.at[b], PARAMETERS, Hulls(0u))) {
+        !will_meet(normal, ta, poses.at[a], va, loads.at[of_a], tb, poses.at[b], vb, loads.at[of_b], PARAMETERS, Hulls(0u))) {
         touching.at[i] = touching.at[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
-        atomicOr(bounds.at[a].flight.struck, 1u);
-        atomicOr(bounds.at[b].flight.struck, 1u);
+        atomicOr(bounds.at[of_a].flight.struck, 1u);
+        atomicOr(bounds.at[of_b].flight.struck, 1u);
     }
 }

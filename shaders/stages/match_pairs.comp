@@ -39,10 +39,11 @@ void main() {
         pair.kind = KIND_STILL;
     } else {
         Traits ta = traits.at[pair.a], tb = traits.at[pair.b];
+        uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
         if (pair.previous != NONE)
-            kept = is_kept(contacts_before.at[pair.previous], impulses_before.at[pair.previous], ta, poses.at[pair.a],
-                           velocities.at[pair.a], tb, poses.at[pair.b], velocities.at[pair.b]);
+            kept = is_kept(contacts_before.at[pair.previous], impulses_before.at[pair.previous], ta, poses.at[of_a],
+                           velocities.at[of_a], tb, poses.at[of_b], velocities.at[of_b]);
         pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
     }
     pairs.at[place] = pair;

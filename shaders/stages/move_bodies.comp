@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/motion.h"
+#include "shaders/physics/parts.h"
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
@@ -13,7 +14,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
     Traits body = traits.at[i];
-    if (body.motion == MOTION_FIXED) return;
+    if (body.motion == MOTION_FIXED || is_part(body)) return;
     Velocity velocity = velocities.at[i];
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);

@@ -23,7 +23,7 @@ void look_through_large(uint body, Traits own, Bounds around) {
 }
 
 // The cells along x are one run of buckets, which may wrap round the end of the grid's entries.
-void look_through_row(uint body, bool moves, Bounds around, ivec3 from, int last_x, uint level) {
+void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last_x, uint level) {
     uint low = bucket_of(from, level, PARAMETERS.buckets);
     uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
     uint end = cells.at[PARAMETERS.buckets - 1u];
@@ -36,7 +36,8 @@ void look_through_row(uint body, bool moves, Bounds around, ivec3 from, int last
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
-        if (moves || traits.at[entry.body].motion == MOTION_DYNAMIC) found(entry.body);
+        if (is_part(own) && entry.body >= PARAMETERS.first_part && traits.at[entry.body].owner == own.owner) continue;
+        if (motion_of(own) == MOTION_DYNAMIC || motion_of(traits.at[entry.body]) == MOTION_DYNAMIC) found(entry.body);
     }
 }
 
@@ -51,6 +52,7 @@ void carry_over(uint body) {
 
 void look_around(uint body) {
     Bounds around = bounds.at[body];
+    if ((around.level & NOWHERE) != 0u) return;
     bool still = (around.level & STILL) != 0u;
     if (still) carry_over(body);
     uint levels = levels_to_search(around.level, COUNTS);
@@ -63,7 +65,7 @@ void look_around(uint body) {
         CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);
         for (int z = range.first.z; z <= range.last.z; ++z)
             for (int y = range.first.y; y <= range.last.y; ++y)
-                look_through_row(body, own.motion == MOTION_DYNAMIC, around, ivec3(range.first.x, y, z), range.last.x, level);
+                look_through_row(body, own, around, ivec3(range.first.x, y, z), range.last.x, level);
     }
 }
 

@@ -16,6 +16,8 @@ void carry_over(uint i, uint pair_index, uint previous) {
     contacts.at[i] = contact;
     impulses.at[i] = impulse;
     constraints.at[i] = idle_constraint(contact);
+    constraints.at[i].a = body_of(contact.a);
+    constraints.at[i].b = body_of(contact.b);
 }
 
 void main() {
@@ -30,7 +32,8 @@ void main() {
         return;
     }
     Traits ta = traits.at[pair.a], tb = traits.at[pair.b];
-    Contact contact = contact_of(pair, manifolds.at[pair_index], touching.at[pair_index], poses.at[pair.a], poses.at[pair.b]);
+    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    Contact contact = contact_of(pair, manifolds.at[pair_index], touching.at[pair_index], poses.at[of_a], poses.at[of_b]);
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
         contact = aged(contacts_before.at[pair.previous]);
@@ -40,7 +43,8 @@ void main() {
     }
     impulse.separation = separations_of(manifolds.at[pair_index]);
     if (pair.previous != NONE) {
-        bool one_sleeps = (slot_a == NONE && ta.motion == MOTION_DYNAMIC) || (slot_b == NONE && tb.motion == MOTION_DYNAMIC);
+        bool one_sleeps =
+            (slot_a == NONE && motion_of(ta) == MOTION_DYNAMIC) || (slot_b == NONE && motion_of(tb) == MOTION_DYNAMIC);
         contact.load = load_of(one_sleeps, contacts_before.at[pair.previous], impulses_before.at[pair.previous]);
     }
     if (!idle) impulse.pressed = pressing(impulse);
@@ -48,17 +52,21 @@ void main() {
     impulses.at[i] = impulse;
     if (idle) {
         constraints.at[i] = idle_constraint(contact);
+        constraints.at[i].a = of_a;
+        constraints.at[i].b = of_b;
         return;
     }
     Constraint constraint = constraint_of(contact, ta, tb, slot_a, slot_b, PARAMETERS);
+    constraint.a = of_a;
+    constraint.b = of_b;
     constraint.pair = pair_index;
     constraints.at[i] = constraint;
 
-    Mass ma = lent(masses.at[pair.a], impulse, PARAMETERS);
-    Mass mb = lent(masses.at[pair.b], impulse, PARAMETERS);
+    Mass ma = lent(masses.at[of_a], impulse, PARAMETERS);
+    Mass mb = lent(masses.at[of_b], impulse, PARAMETERS);
     Couple now;
-    now.a = velocities.at[pair.a];
-    now.b = velocities.at[pair.b];
+    now.a = velocities.at[of_a];
+    now.b = velocities.at[of_b];
     float carrying = carries(constraint, impulse, now, PARAMETERS);
     Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
     if (constraint.slot_a != NONE) slots.at[constraint.slot_a] = slot_of(share.a, carrying, impulse.pressed);

@@ -14,6 +14,7 @@ void main() {
     uint i = thread();
     if (i >= COUNTS.contacts) return;
     Pair pair = pairs.at[constraints.at[i].pair];
-    shake(pair.a, pair.b);
-    shake(pair.b, pair.a);
+    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    shake(of_a, of_b);
+    shake(of_b, of_a);
 }

@@ -38,6 +38,11 @@ push;
 #define PARAMETERS parameters.at[0]
 #define COUNTS counts.at[0]
 
+// The body that a row belongs to.
+uint body_of(uint row) {
+    return row < PARAMETERS.first_part ? row : traits.at[row].owner;
+}
+
 uint thread() {
     return gl_GlobalInvocationID.x;
 }

@@ -32,7 +32,7 @@ void main() {
         uint a = contacts_before.at[k].a;
         uint other = a == i ? contacts_before.at[k].b : a;
         if (((bounds.at[other].level & STILL) != 0u) == own_still) continue;
-        uint sleeper = own_still ? i : other;
+        uint sleeper = body_of(own_still ? i : other);
         if (!has_slept(rests.at[sleeper], PARAMETERS.sleep_steps)) continue;
         if (owner_touches(i, other) || owner_touches(other, i)) continue;
         if (load_changed(0.0f, contacts_before.at[k].load, traits.at[sleeper], PARAMETERS)) atomicOr(rests.at[sleeper], WOKEN);

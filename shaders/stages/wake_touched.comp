@@ -17,15 +17,16 @@ void main() {
     uint index = constraints.at[i].pair;
     Pair pair = pairs.at[index];
     if (pair.kind == KIND_STILL) return;
-    float approach = approach_of(manifolds.at[index], touching.at[index], poses.at[pair.b].position - poses.at[pair.a].position,
-                                 velocities.at[pair.a], velocities.at[pair.b], PARAMETERS);
+    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    float approach = approach_of(manifolds.at[index], touching.at[index], poses.at[of_b].position - poses.at[of_a].position,
+                                 velocities.at[of_a], velocities.at[of_b], PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
-    bool a_sleeps = has_slept(rests.at[pair.a], PARAMETERS.sleep_steps),
-         b_sleeps = has_slept(rests.at[pair.b], PARAMETERS.sleep_steps);
+    bool a_sleeps = has_slept(rests.at[of_a], PARAMETERS.sleep_steps),
+         b_sleeps = has_slept(rests.at[of_b], PARAMETERS.sleep_steps);
     bool woken = false;
     if (a_sleeps != b_sleeps) {
-        uint sleeper = a_sleeps ? pair.a : pair.b;
-        uint other = a_sleeps ? pair.b : pair.a;
+        uint sleeper = a_sleeps ? of_a : of_b;
+        uint other = a_sleeps ? of_b : of_a;
         float now = 0.0f, then = 0.0f;
         if (pair.previous != NONE) {
             now = pressing(impulses_before.at[pair.previous]);
@@ -33,7 +34,7 @@ void main() {
         }
         woken = wakes(is_restless(traits.at[other].motion, rests.at[other]), approach, now, then, traits.at[sleeper], PARAMETERS);
     }
-    raise(pair.a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
-    raise(pair.b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));
+    raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
+    raise(of_b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));
     if (depth > 1u) atomicMax(COUNTS.arguments[WORK_SHAKEN].x, COUNTS.arguments[WORK_CONTACTS].x);
 }

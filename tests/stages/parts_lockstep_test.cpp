@@ -1,0 +1,62 @@
+// Every stage with compounds, meshes and height fields, on the device and on the CPU.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
+
+#include "compute/lockstep.h"
+#include "host/device.h"
+
+using namespace scree;
+
+namespace {
+
+Compound hammer() {
+    Compound compound;
+    compound.parts.push_back({.shape = Capsule{0.08f, 0.4f}});
+    compound.parts.push_back({.shape = Box{{0.25f, 0.12f, 0.12f}}, .position = {0, 0.45f, 0}, .density = 3000});
+    compound.parts.push_back({.shape = Sphere{0.12f}, .position = {0, -0.4f, 0}});
+    return compound;
+}
+
+HeightField hills(std::uint32_t side) {
+    HeightField field{.columns = side, .rows = side, .spacing = 0.5f};
+    for (std::uint32_t row = 0; row < side; ++row)
+        for (std::uint32_t column = 0; column < side; ++column)
+            field.heights.push_back(0.4f * std::sin(0.7f * static_cast<float>(column)) * std::cos(0.5f * static_cast<float>(row)));
+    return field;
+}
+
+Scene rain_on_hills() {
+    std::mt19937 chance(7);
+    const auto any = [&](float low, float high) { return std::uniform_real_distribution<float>(low, high)(chance); };
+    Scene scene;
+    scene.bodies.push_back({.motion = Motion::fixed, .shape = hills(14)});
+    const std::vector<vec3> corners{{-0.5f, 0, -0.5f}, {0.5f, 0, -0.5f}, {0, 0, 0.6f}, {0, 0.7f, 0}};
+    scene.bodies.push_back({.motion = Motion::kinematic,
+                            .shape = Mesh{.vertices = corners, .triangles = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}},
+                            .position = {0, 0.5f, 0},
+                            .angular_velocity = {0, 2, 0}});
+    Hull hull;
+    for (int k = 0; k < 14; ++k) hull.points.emplace_back(any(-0.3f, 0.3f), any(-0.3f, 0.3f), any(-0.3f, 0.3f));
+    for (int k = 0; k < 56; ++k) {
+        const Shape shapes[] = {hammer(), Sphere{0.2f}, Box{vec3(0.2f)}, Capsule{0.12f, 0.2f}, hull, Cylinder{0.2f, 0.15f}, Cone{0.2f, 0.4f}};
+        Body& body = scene.bodies.emplace_back();
+        body.shape = shapes[k % 7];
+        body.position = {any(-2, 2), 1.2f + 0.12f * static_cast<float>(k), any(-2, 2)};
+        body.orientation = {any(-1, 1), any(-1, 1), any(-1, 1), any(0.1f, 1)};
+        body.velocity = {0, k % 9 == 0 ? -40.0f : -2.0f, 0};
+        body.angular_velocity = {any(-5, 5), any(-5, 5), any(-5, 5)};
+    }
+    return scene;
+}
+
+}  // namespace
+
+TEST_CASE("every stage gives the same bits on both processors for compounds, meshes and height fields") {
+    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+    const LockstepResult result = compare_in_lockstep(rain_on_hills(), {}, device, 1, 60);
+    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                 << result.detail);
+    REQUIRE(result.equal);
+    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
