@@ -60,8 +60,7 @@ public:
     Examination part(const std::string& inside) const { return {index_, body_, inside_ + inside}; }
 
     [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-        throw SceneError(place() + key,
-                         reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
+        throw SceneError(place() + key, reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
     }
     std::string place() const { return "/bodies/" + std::to_string(index_) + inside_; }
     void between(const char* key, float value, float low, float high, const char* unit) const {
@@ -187,7 +186,8 @@ void examine_compound(const Examination& body, Body& b, Compound& compound, Hull
     constexpr std::size_t most_parts = 10000;
     if (compound.parts.empty()) body.refuse("/shape/compound/parts", "a compound needs at least one part");
     if (compound.parts.size() > most_parts)
-        body.refuse("/shape/compound/parts", "at most " + std::to_string(most_parts) + " parts, are " + std::to_string(compound.parts.size()));
+        body.refuse("/shape/compound/parts",
+                    "at most " + std::to_string(most_parts) + " parts, are " + std::to_string(compound.parts.size()));
     for (std::size_t i = 0; i < compound.parts.size(); ++i) {
         Part& p = compound.parts[i];
         const Examination part = body.part("/shape/compound/parts/" + std::to_string(i));
@@ -207,26 +207,30 @@ void examine_mesh(const Examination& body, Body& b, std::vector<std::string>* no
     auto* mesh = std::get_if<Mesh>(&b.shape);
     auto* field = std::get_if<HeightField>(&b.shape);
     if (b.motion == Motion::dynamic)
-        body.refuse("/motion", std::string("a ") + (mesh ? "mesh" : "height field") +
-                                   " must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
+        body.refuse("/motion",
+                    std::string("a ") + (mesh ? "mesh" : "height field") +
+                        " must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
     const std::string key = mesh ? "/shape/mesh" : "/shape/height_field";
     try {
         if (mesh) {
             if (mesh->triangles.empty() && !mesh->file.empty())
                 body.refuse(key + "/file", "\"" + mesh->file + "\" has not been read");
             for (std::size_t k = 0; k < mesh->vertices.size(); ++k)
-                body.between((key + "/vertices/" + std::to_string(k)).c_str(), mesh->vertices[k], -largest_size, largest_size, " m");
+                body.between((key + "/vertices/" + std::to_string(k)).c_str(), mesh->vertices[k], -largest_size, largest_size,
+                             " m");
             mesh->form = std::make_shared<const MeshForm>(mesh_form(mesh->vertices, mesh->triangles));
         } else {
             if (field->columns < 2 || field->rows < 2 || field->columns > 30000 || field->rows > 30000)
                 body.refuse(key, "columns and rows must be between 2 and 30000, are " + std::to_string(field->columns) + " and " +
                                      std::to_string(field->rows));
             if (field->heights.size() != std::size_t{field->columns} * field->rows)
-                body.refuse(key + "/heights", "must be columns * rows = " + std::to_string(std::size_t{field->columns} * field->rows) +
-                                                  " heights, are " + std::to_string(field->heights.size()));
+                body.refuse(key + "/heights",
+                            "must be columns * rows = " + std::to_string(std::size_t{field->columns} * field->rows) +
+                                " heights, are " + std::to_string(field->heights.size()));
             body.between((key + "/spacing").c_str(), field->spacing, smallest_size, largest_size, " m");
             for (std::size_t k = 0; k < field->heights.size(); ++k)
-                body.between((key + "/heights/" + std::to_string(k)).c_str(), field->heights[k], -largest_size, largest_size, " m");
+                body.between((key + "/heights/" + std::to_string(k)).c_str(), field->heights[k], -largest_size, largest_size,
+                             " m");
             field->form = std::make_shared<const MeshForm>(mesh_form(*field));
         }
     } catch (const MeshError& error) {

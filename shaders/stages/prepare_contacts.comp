@@ -43,7 +43,8 @@ void main() {
     }
     impulse.separation = separations_of(manifolds[pair_index]);
     if (pair.previous != NONE) {
-        bool one_sleeps = (slot_a == NONE && motion_of(ta) == MOTION_DYNAMIC) || (slot_b == NONE && motion_of(tb) == MOTION_DYNAMIC);
+        bool one_sleeps =
+            (slot_a == NONE && motion_of(ta) == MOTION_DYNAMIC) || (slot_b == NONE && motion_of(tb) == MOTION_DYNAMIC);
         contact.load = load_of(one_sleeps, contacts_before[pair.previous], impulses_before[pair.previous]);
     }
     if (!idle) impulse.pressed = pressing(impulse);

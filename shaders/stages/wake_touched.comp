@@ -18,8 +18,8 @@ void main() {
     Pair pair = pairs[index];
     if (pair.kind == KIND_STILL) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    float approach = approach_of(manifolds[index], touching[index], poses[of_b].position - poses[of_a].position,
-                                 velocities[of_a], velocities[of_b], PARAMETERS);
+    float approach = approach_of(manifolds[index], touching[index], poses[of_b].position - poses[of_a].position, velocities[of_a],
+                                 velocities[of_b], PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
     bool a_sleeps = has_slept(rests[of_a], PARAMETERS.sleep_steps), b_sleeps = has_slept(rests[of_b], PARAMETERS.sleep_steps);
     bool woken = false;
