@@ -9,9 +9,9 @@
 namespace scree {
 
 struct WholeMass {
-    double mass = 0;         // kg
-    glm::dvec3 centre{0};    // of mass, in the frame of the parts, m
-    glm::dmat3 inertia{0};   // about it, along that frame's axes, kg m^2
+    double mass = 0;        // kg
+    glm::dvec3 centre{0};   // of mass, in the frame of the parts, m
+    glm::dmat3 inertia{0};  // about it, along that frame's axes, kg m^2
 };
 // Of parts that may overlap: the mass of each counts. `density` is that of the parts that have none of their own.
 WholeMass mass_of(const Compound& compound, float density);

@@ -46,14 +46,16 @@ std::vector<std::uint32_t> welded(std::span<const vec3> vertices, double toleran
         for (double x = low.x; x <= high.x && first[i] == i; ++x)
             for (double y = low.y; y <= high.y && first[i] == i; ++y)
                 for (double z = low.z; z <= high.z && first[i] == i; ++z) {
-                    const auto at = cells.find({static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), static_cast<std::int64_t>(z)});
+                    const auto at =
+                        cells.find({static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), static_cast<std::int64_t>(z)});
                     if (at == cells.end()) continue;
                     for (const std::uint32_t other : at->second)
                         if (glm::length(dvec3(vertices[other]) - v) <= tolerance) first[i] = std::min(first[i], other);
                 }
         if (first[i] != i) continue;
         const dvec3 own = glm::floor(v * inverse);
-        cells[{static_cast<std::int64_t>(own.x), static_cast<std::int64_t>(own.y), static_cast<std::int64_t>(own.z)}].push_back(i);
+        cells[{static_cast<std::int64_t>(own.x), static_cast<std::int64_t>(own.y), static_cast<std::int64_t>(own.z)}].push_back(
+            i);
     }
     return first;
 }
@@ -187,7 +189,8 @@ std::string oddities(const MeshForm& form) {
     };
     say(form.dropped, "triangle", "triangles", " without area, or repeated, left out");
     say(form.open, "open edge", "open edges", ": what rolls over one leaves the mesh");
-    say(form.branching, "edge", "edges", " where more than two triangles meet, or two that face opposite ways: seams there may be felt");
+    say(form.branching, "edge", "edges",
+        " where more than two triangles meet, or two that face opposite ways: seams there may be felt");
     return text;
 }
 

@@ -18,10 +18,9 @@ void scan(std::vector<Stage>& stages, const std::string& what, Over blocks, Tabl
     stages.push_back({"scan_" + what + "_offsets", blocks, offsets, {result}});
 }
 
-const char* const kind_names[] = {"sphere_sphere",   "sphere_capsule", "sphere_box",    "sphere_plane",
-                                  "capsule_capsule", "capsule_box",    "capsule_plane", "box_box",
-                                  "box_plane",       "plane_convex",   "convex",
-                                  "sphere_triangle", "convex_triangle"};
+const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_box",     "sphere_plane", "capsule_capsule",
+                                  "capsule_box",   "capsule_plane",   "box_box",        "box_plane",    "plane_convex",
+                                  "convex",        "sphere_triangle", "convex_triangle"};
 
 }  // namespace
 

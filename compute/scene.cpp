@@ -7,7 +7,6 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <map>
-#include <numbers>
 #include <utility>
 
 #include "compute/compound.h"
@@ -60,8 +59,7 @@ public:
     Examination part(const std::string& inside) const { return {index_, body_, inside_ + inside}; }
 
     [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-        throw SceneError(place() + key,
-                         reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
+        throw SceneError(place() + key, reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
     }
     std::string place() const { return "/bodies/" + std::to_string(index_) + inside_; }
     void between(const char* key, float value, float low, float high, const char* unit) const {
@@ -187,7 +185,8 @@ void examine_compound(const Examination& body, Body& b, Compound& compound, Hull
     constexpr std::size_t most_parts = 10000;
     if (compound.parts.empty()) body.refuse("/shape/compound/parts", "a compound needs at least one part");
     if (compound.parts.size() > most_parts)
-        body.refuse("/shape/compound/parts", "at most " + std::to_string(most_parts) + " parts, are " + std::to_string(compound.parts.size()));
+        body.refuse("/shape/compound/parts",
+                    "at most " + std::to_string(most_parts) + " parts, are " + std::to_string(compound.parts.size()));
     for (std::size_t i = 0; i < compound.parts.size(); ++i) {
         Part& p = compound.parts[i];
         const Examination part = body.part("/shape/compound/parts/" + std::to_string(i));
@@ -207,26 +206,30 @@ void examine_mesh(const Examination& body, Body& b, std::vector<std::string>* no
     auto* mesh = std::get_if<Mesh>(&b.shape);
     auto* field = std::get_if<HeightField>(&b.shape);
     if (b.motion == Motion::dynamic)
-        body.refuse("/motion", std::string("a ") + (mesh ? "mesh" : "height field") +
-                                   " must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
+        body.refuse("/motion",
+                    std::string("a ") + (mesh ? "mesh" : "height field") +
+                        " must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
     const std::string key = mesh ? "/shape/mesh" : "/shape/height_field";
     try {
         if (mesh) {
             if (mesh->triangles.empty() && !mesh->file.empty())
                 body.refuse(key + "/file", "\"" + mesh->file + "\" has not been read");
             for (std::size_t k = 0; k < mesh->vertices.size(); ++k)
-                body.between((key + "/vertices/" + std::to_string(k)).c_str(), mesh->vertices[k], -largest_size, largest_size, " m");
+                body.between((key + "/vertices/" + std::to_string(k)).c_str(), mesh->vertices[k], -largest_size, largest_size,
+                             " m");
             mesh->form = std::make_shared<const MeshForm>(mesh_form(mesh->vertices, mesh->triangles));
         } else {
             if (field->columns < 2 || field->rows < 2 || field->columns > 30000 || field->rows > 30000)
                 body.refuse(key, "columns and rows must be between 2 and 30000, are " + std::to_string(field->columns) + " and " +
                                      std::to_string(field->rows));
             if (field->heights.size() != std::size_t{field->columns} * field->rows)
-                body.refuse(key + "/heights", "must be columns * rows = " + std::to_string(std::size_t{field->columns} * field->rows) +
-                                                  " heights, are " + std::to_string(field->heights.size()));
+                body.refuse(key + "/heights",
+                            "must be columns * rows = " + std::to_string(std::size_t{field->columns} * field->rows) +
+                                " heights, are " + std::to_string(field->heights.size()));
             body.between((key + "/spacing").c_str(), field->spacing, smallest_size, largest_size, " m");
             for (std::size_t k = 0; k < field->heights.size(); ++k)
-                body.between((key + "/heights/" + std::to_string(k)).c_str(), field->heights[k], -largest_size, largest_size, " m");
+                body.between((key + "/heights/" + std::to_string(k)).c_str(), field->heights[k], -largest_size, largest_size,
+                             " m");
             field->form = std::make_shared<const MeshForm>(mesh_form(*field));
         }
     } catch (const MeshError& error) {
@@ -273,56 +276,6 @@ void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::st
     }
 }
 
-MassProperties of_box(dvec3 half, double density) {
-    const double mass = density * 8 * half.x * half.y * half.z;
-    const dvec3 squares = half * half;
-    return {static_cast<float>(mass),
-            vec3(dvec3(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y) * (mass / 3))};
-}
-
-MassProperties of_sphere(double radius, double density) {
-    const double mass = density * 4 / 3 * std::numbers::pi * radius * radius * radius;
-    return {static_cast<float>(mass), vec3(static_cast<float>(0.4 * mass * radius * radius))};
-}
-
-// A cylinder and two half spheres; a half sphere's centre of mass lies 3/8 r above its base, so about the capsule's centre it has
-// (2/5) m r^2 + m (h^2 + (3/4) h r) across and (2/5) m r^2 along, with h the half height.
-MassProperties of_capsule(double radius, double half_height, double density) {
-    const double r2 = radius * radius;
-    const double cylinder = density * std::numbers::pi * r2 * 2 * half_height;
-    const double caps = density * 4 / 3 * std::numbers::pi * r2 * radius;
-    const double along = cylinder * r2 / 2 + caps * r2 * 0.4;
-    const double across = cylinder * (r2 / 4 + half_height * half_height / 3) +
-                          caps * (0.4 * r2 + half_height * half_height + 0.75 * half_height * radius);
-    return {static_cast<float>(cylinder + caps), vec3(dvec3(across, along, across))};
-}
-
-MassProperties of_cylinder(double radius, double half_height, double density) {
-    const double mass = density * std::numbers::pi * radius * radius * 2 * half_height;
-    const double across = mass * (radius * radius / 4 + half_height * half_height / 3);
-    return {static_cast<float>(mass), vec3(dvec3(across, mass * radius * radius / 2, across))};
-}
-
-MassProperties of_cone(double radius, double height, double density) {
-    const double mass = density * std::numbers::pi * radius * radius * height / 3;
-    const double across = mass * (0.15 * radius * radius + 0.0375 * height * height);
-    return {static_cast<float>(mass), vec3(dvec3(across, mass * 0.3 * radius * radius, across))};
-}
-
-MassProperties of_hull(const Hull& hull, double density) {
-    const HullForm form = hull.form ? *hull.form : hull_form(hull.points);
-    const glm::dmat3 axes = principal_axes(form.inertia);
-    const glm::dmat3 principal = glm::transpose(axes) * form.inertia * axes;
-    return {static_cast<float>(form.volume * density), vec3(dvec3(principal[0][0], principal[1][1], principal[2][2]) * density)};
-}
-
-MassProperties of_compound(const Compound& compound, float density) {
-    const WholeMass whole = mass_of(compound, density);
-    const glm::dmat3 axes = principal_axes(whole.inertia);
-    const glm::dmat3 principal = glm::transpose(axes) * whole.inertia * axes;
-    return {static_cast<float>(whole.mass), vec3(dvec3(principal[0][0], principal[1][1], principal[2][2]))};
-}
-
 }  // namespace
 
 SceneError::SceneError(std::string place, const std::string& reason)
@@ -339,31 +292,6 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
     }
     return scene;
-}
-
-MassProperties mass_properties(const Shape& shape, float density) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return of_sphere(sphere->radius, density);
-    if (const auto* box = std::get_if<Box>(&shape)) return of_box(dvec3(box->half_extents), density);
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) return of_capsule(capsule->radius, capsule->half_height, density);
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape))
-        return of_cylinder(cylinder->radius, cylinder->half_height, density);
-    if (const auto* cone = std::get_if<Cone>(&shape)) return of_cone(cone->radius, cone->height, density);
-    if (const auto* hull = std::get_if<Hull>(&shape)) return of_hull(*hull, density);
-    if (const auto* compound = std::get_if<Compound>(&shape)) return of_compound(*compound, density);
-    return {};
-}
-
-std::optional<SimpleShape> simple_shape(const Shape& shape) {
-    return std::visit(
-        [](const auto& one) -> std::optional<SimpleShape> {
-            if constexpr (std::is_constructible_v<SimpleShape, decltype(one)>) return SimpleShape(one);
-            return std::nullopt;
-        },
-        shape);
-}
-
-Shape whole_shape(const SimpleShape& shape) {
-    return std::visit([](const auto& one) { return Shape(one); }, shape);
 }
 
 }  // namespace scree

@@ -56,10 +56,10 @@ struct Compound {             // several shapes on one body, which moves as one
 struct MeshForm;  // compute/mesh.h
 // Triangles, solid behind their faces; for fixed and kinematic bodies. What comes from behind passes through.
 struct Mesh {
-    std::vector<vec3> vertices;           // m, in the body's frame
-    std::vector<glm::uvec3> triangles;    // their corners, counter-clockwise seen from outside
-    std::string file{};                   // where they come from, for a scene file; may be empty
-    float scale = 1;                      // of what the file says; the vertices here have it already
+    std::vector<vec3> vertices;              // m, in the body's frame
+    std::vector<glm::uvec3> triangles;       // their corners, counter-clockwise seen from outside
+    std::string file{};                      // where they come from, for a scene file; may be empty
+    float scale = 1;                         // of what the file says; the vertices here have it already
     std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
 };
 // Ground over a grid, solid below; for fixed and kinematic bodies. Its middle is the body's origin.

@@ -119,7 +119,8 @@ void write(Text& text, const Shape& shape) {
         text << ", \"triangles\": [";
         for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
             const glm::uvec3& t = mesh->triangles[i];
-            text << (i == 0 ? "[" : ", [") << std::to_string(t.x) << ", " << std::to_string(t.y) << ", " << std::to_string(t.z) << "]";
+            text << (i == 0 ? "[" : ", [") << std::to_string(t.x) << ", " << std::to_string(t.y) << ", " << std::to_string(t.z)
+                 << "]";
         }
         text << "]";
     } else if (const auto* field = std::get_if<HeightField>(&shape)) {

@@ -68,8 +68,8 @@ struct State {
     // Impulses that last are those of a substep; those of the last step are brought to the new length of one. They, and
     // everything else that lasts, must be here (Runner::fetch), and the runner be attached again, if the substeps change.
     void tune(vec3 gravity, const Settings& settings);
-    // One more body, the last; the rows of parts move up behind it. Everything that lasts must be here, and the runner be attached
-    // again.
+    // One more body, the last; the rows of parts move up behind it. Everything that lasts must be here, and the runner be
+    // attached again.
     void add(const Body& body);
 
     // Items of a table as allocated, and those that mean something at present.
@@ -77,7 +77,9 @@ struct State {
     std::size_t live(Length length) const;
     Content content() const;
     // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
-    std::uint32_t body_of(std::uint32_t row) const { return row < fixed().first_part ? row : traits[row].owner; }
+    std::uint32_t body_of(std::uint32_t row) const {
+        return row < fixed().first_part ? row : traits[row].owner;
+    }
     std::size_t bytes() const;  // of all tables, wherever they are
 
     std::span<std::byte> raw(Table table);
@@ -108,6 +110,9 @@ struct State {
     std::vector<std::array<std::uint32_t, noted>> partners;
 
 private:
+    static physics::Pose start_of(const Body& body);
+    static physics::Velocity start_velocity_of(const Body& body);
+    static std::uint32_t buckets_for(std::uint32_t bodies);
     void allocate();
     physics::Traits traits_of(const Body& body, std::uint32_t index);
     physics::Traits form_of(const SimpleShape& shape);

@@ -71,25 +71,28 @@ double bowl_at(const Trace&, vec3 at) {
 }
 
 Claim come_into_the_bowl(double part) {
-    return at_least("bodies in the bowl, of all", part, "", "whose centre is less than 4 m from its axis at the end", [](const Trace& trace) {
-        double inside = 0, all = 0;
-        for (std::size_t i = 0; i < trace.end.size(); ++i) {
-            if (trace.scene.bodies[i].motion != Motion::dynamic) continue;
-            all += 1;
-            inside += std::hypot(trace.end[i].position.x, trace.end[i].position.z) < 4;
-        }
-        return all > 0 ? inside / all : 0;
-    });
+    return at_least("bodies in the bowl, of all", part, "", "whose centre is less than 4 m from its axis at the end",
+                    [](const Trace& trace) {
+                        double inside = 0, all = 0;
+                        for (std::size_t i = 0; i < trace.end.size(); ++i) {
+                            if (trace.scene.bodies[i].motion != Motion::dynamic) continue;
+                            all += 1;
+                            inside += std::hypot(trace.end[i].position.x, trace.end[i].position.z) < 4;
+                        }
+                        return all > 0 ? inside / all : 0;
+                    });
 }
 
 }  // namespace
 
 DemoScene terrain(const DemoOptions& options) {
-    HeightField field{.columns = side_points, .rows = side_points, .spacing = 2 * valley_radius / static_cast<float>(side_points - 1)};
+    HeightField field{
+        .columns = side_points, .rows = side_points, .spacing = 2 * valley_radius / static_cast<float>(side_points - 1)};
     for (std::uint32_t row = 0; row < side_points; ++row)
         for (std::uint32_t column = 0; column < side_points; ++column)
-            field.heights.push_back(hill(field.spacing * (static_cast<float>(column) - 0.5f * static_cast<float>(side_points - 1)),
-                                         field.spacing * (static_cast<float>(row) - 0.5f * static_cast<float>(side_points - 1))));
+            field.heights.push_back(
+                hill(field.spacing * (static_cast<float>(column) - 0.5f * static_cast<float>(side_points - 1)),
+                     field.spacing * (static_cast<float>(row) - 0.5f * static_cast<float>(side_points - 1))));
     Scene scene;
     scene.bodies.push_back({.name = "hills", .motion = Motion::fixed, .shape = std::move(field), .friction = 0.4f});
     Random random(options.seed);
@@ -104,8 +107,8 @@ DemoScene terrain(const DemoOptions& options) {
             {-far, -3, -far},
             {far, 25, far},
             16,
-            Promise(all_within({-far, -5, -far}, {far, 200, far}), none_falls_through("the hills", height_at), penetration_below(0.1),
-                    energy_never_rises(0.01))
+            Promise(all_within({-far, -5, -far}, {far, 200, far}), none_falls_through("the hills", height_at),
+                    penetration_below(0.1), energy_never_rises(0.01))
                 .watching_energy()};
 }
 
@@ -126,8 +129,8 @@ DemoScene mesh(const DemoOptions& options) {
             low,
             {4, 12, 4},
             14,
-            Promise(all_within({-14, 0, -4.2f}, {4.2f, 60, 4.2f}), none_falls_through("the bowl", bowl_at), come_into_the_bowl(0.6),
-                    penetration_below(0.05))};
+            Promise(all_within({-14, 0, -4.2f}, {4.2f, 60, 4.2f}), none_falls_through("the bowl", bowl_at),
+                    come_into_the_bowl(0.6), penetration_below(0.05))};
 }
 
 }  // namespace scree::demos

@@ -37,8 +37,8 @@ void choose_color(std::string& color) {
 }
 
 std::string name_of(const Scene& scene, std::size_t body) {
-    static const char* const shapes[] = {"sphere", "capsule", "box", "plane", "cylinder", "cone", "hull",
-                                         "compound", "mesh", "height field"};
+    static const char* const shapes[] = {"sphere", "capsule", "box",      "plane", "cylinder",
+                                         "cone",   "hull",    "compound", "mesh",  "height field"};
     const Body& b = scene.bodies[body];
     return fmt::format("{} {}{}", shapes[b.shape.index()], body, b.name.empty() ? "" : " \"" + b.name + "\"");
 }

@@ -154,8 +154,9 @@ std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orienta
     }
     if (const auto* compound = std::get_if<Compound>(&shape)) {
         for (const Part& part : compound->parts) {
-            const std::optional<float> to_part = distance_to(whole_shape(part.shape), position + physics::rotate(orientation, part.position),
-                                                             physics::compose(orientation, part.orientation), ray);
+            const std::optional<float> to_part =
+                distance_to(whole_shape(part.shape), position + physics::rotate(orientation, part.position),
+                            physics::compose(orientation, part.orientation), ray);
             if (to_part && (!at || *to_part < *at)) at = *to_part;
         }
     }

@@ -26,7 +26,8 @@ Compound table() {
     Compound compound;
     compound.parts.push_back({.shape = Box{{0.6f, 0.05f, 0.4f}}, .position = {0, 0.75f, 0}});
     for (const float x : {-0.5f, 0.5f})
-        for (const float z : {-0.3f, 0.3f}) compound.parts.push_back({.shape = Box{{0.05f, 0.35f, 0.05f}}, .position = {x, 0.35f, z}});
+        for (const float z : {-0.3f, 0.3f})
+            compound.parts.push_back({.shape = Box{{0.05f, 0.35f, 0.05f}}, .position = {x, 0.35f, z}});
     return compound;
 }
 
@@ -37,16 +38,14 @@ constexpr float bar_centre = (10 * head_half * (bar_half - head_half) - (bar_hal
 Compound bar() {
     Compound compound;
     compound.parts.push_back({.shape = Box{{bar_half - head_half, 0.1f, 0.1f}}, .position = {-head_half, 0, 0}});
-    compound.parts.push_back(
-        {.shape = Box{{head_half, 0.1f, 0.1f}}, .position = {bar_half - head_half, 0, 0}, .density = 10000});
+    compound.parts.push_back({.shape = Box{{head_half, 0.1f, 0.1f}}, .position = {bar_half - head_half, 0, 0}, .density = 10000});
     return compound;
 }
 
 Claim tips(std::size_t body) {
-    return at_least("fall of a bar whose centre of mass is 2 cm beyond the edge", 0.5, "m", "of its centre, at the end",
-                    [body](const Trace& trace) {
-                        return static_cast<double>(trace.start[body].position.y - trace.end[body].position.y);
-                    });
+    return at_least(
+        "fall of a bar whose centre of mass is 2 cm beyond the edge", 0.5, "m", "of its centre, at the end",
+        [body](const Trace& trace) { return static_cast<double>(trace.start[body].position.y - trace.end[body].position.y); });
 }
 
 // Ten thousand triangles in the plane y = 0, of every shape: the corners within stray by a third of a cell.
@@ -77,7 +76,8 @@ DemoScene compounds(const DemoOptions&) {
     Indices tables;
     for (const float x : {-3.0f, -1.5f, 0.0f}) {
         tables.push_back(add(scene, table(), {x - 0.6f, 0, 0}));
-        for (int k = 0; k < 3; ++k) tables.push_back(add(scene, Box{vec3(0.2f)}, {x - 0.6f + 0.08f * x, 1 + 0.4f * static_cast<float>(k), 0}));
+        for (int k = 0; k < 3; ++k)
+            tables.push_back(add(scene, Box{vec3(0.2f)}, {x - 0.6f + 0.08f * x, 1 + 0.4f * static_cast<float>(k), 0}));
     }
     // On blocks of 1 m whose edge is at x = 2: the middle of a bar lies as far within as its centre of mass is beside it.
     std::vector<std::size_t> bars;
@@ -104,23 +104,23 @@ DemoScene rollmesh(const DemoOptions& options) {
     ball.velocity = velocity;
     ball.angular_velocity = glm::cross(vec3(0, 1, 0), velocity) / radius;
     scene.bodies.push_back(ball);
-    const Claim straight =
-        at_most("greatest deviation from a straight line", 0.001, "m", "of the ball's centre at every step, up and sideways",
-                [start, velocity](const Trace& trace) {
-                    const glm::dvec3 along = glm::normalize(glm::dvec3(velocity));
-                    double most = 0;
-                    for (const Trace::Moment& moment : trace.moments) {
-                        const glm::dvec3 way = glm::dvec3(moment.bodies[0].position) - glm::dvec3(start);
-                        most = std::max(most, glm::length(way - along * glm::dot(way, along)));
-                    }
-                    return most;
-                });
+    const Claim straight = at_most("greatest deviation from a straight line", 0.001, "m",
+                                   "of the ball's centre at every step, up and sideways", [start, velocity](const Trace& trace) {
+                                       const glm::dvec3 along = glm::normalize(glm::dvec3(velocity));
+                                       double most = 0;
+                                       for (const Trace::Moment& moment : trace.moments) {
+                                           const glm::dvec3 way = glm::dvec3(moment.bodies[0].position) - glm::dvec3(start);
+                                           most = std::max(most, glm::length(way - along * glm::dot(way, along)));
+                                       }
+                                       return most;
+                                   });
     const Claim far = at_least("distance rolled", 10, "m", "from start to end", [](const Trace& trace) {
         return static_cast<double>(glm::length(trace.end[1].position - trace.start[1].position));
     });
-    const Claim even = at_most("change of speed", 0.001, "m/s", "of the ball's centre, from start to end", [](const Trace& trace) {
-        return std::abs(static_cast<double>(glm::length(trace.end[1].velocity) - glm::length(trace.start[1].velocity)));
-    });
+    const Claim even =
+        at_most("change of speed", 0.001, "m/s", "of the ball's centre, from start to end", [](const Trace& trace) {
+            return std::abs(static_cast<double>(glm::length(trace.end[1].velocity) - glm::length(trace.start[1].velocity)));
+        });
     const vec3 low(-6, 0, -1.5f), high(6, 1, 1.5f);
     return awake({std::move(scene), view_of(low, high, 20, 25), low, high, seconds,
                   Promise(straight, far, even).watching({1}, every_step)});

@@ -185,8 +185,9 @@ DemoScene hulls1m(const DemoOptions& options) {
     const auto metre_stone = [](Random& random) { return random_stone(0.62f, random); };  // about 1 m from side to side
     const vec3 low(-pit.half, 0, -pit.half), high(pit.half, pit.wall, pit.half);
     const double when = settled;
-    const Claim mean = at_most("mean penetration when settled", 0.001, "m", fmt::format("over the points that penetrate, after {} s", when),
-                               [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_mean; });
+    const Claim mean =
+        at_most("mean penetration when settled", 0.001, "m", fmt::format("over the points that penetrate, after {} s", when),
+                [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_mean; });
     return awake({pile_in(pit, options, metre_stone), view_of(low, high, 35, 38), low, high, static_cast<float>(when),
                   Promise(mean, penetration_when_settled(when)).sampling({every_step, when})});
 }

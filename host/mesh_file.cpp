@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -39,14 +40,37 @@ std::string one_line(std::string text) {
 }
 
 // ---- OBJ
+// tinyobjloader reads what is no number as 0: so vertices are looked at before.
+void check_vertices(std::string_view bytes, const Source& source) {
+    std::size_t line = 1;
+    for (std::size_t begin = 0; begin < bytes.size(); ++line) {
+        const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+        std::string_view text = bytes.substr(begin, end - begin);
+        begin = end + 1;
+        if (text.size() < 2 || text[0] != 'v' || (text[1] != ' ' && text[1] != '\t')) continue;
+        text.remove_prefix(1);
+        for (int k = 0; k < 3; ++k) {
+            const std::size_t first = text.find_first_not_of(" \t\r+");
+            text.remove_prefix(std::min(first, text.size()));
+            double value = 0;
+            const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error != std::errc() || !std::isfinite(static_cast<float>(value)))
+                source.refuse("line " + std::to_string(line) + ": a vertex needs three finite numbers");
+            text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+        }
+    }
+}
+
 MeshFile from_obj(std::string_view bytes, const Source& source) {
+    check_vertices(bytes, source);
     tinyobj::ObjReaderConfig config;
     config.triangulate = true;
     tinyobj::ObjReader reader;
     if (!reader.ParseFromString(std::string(bytes), "", config)) source.refuse("not an OBJ file: " + one_line(reader.Error()));
     MeshFile mesh;
     const auto& numbers = reader.GetAttrib().vertices;
-    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+        mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     for (const tinyobj::shape_t& shape : reader.GetShapes()) {
         const auto& indices = shape.mesh.indices;
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
@@ -195,9 +219,9 @@ private:
 MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, const std::filesystem::path& folder) {
     tinygltf::TinyGLTF loader;
     // Pictures are nothing to collide with: none is read.
-    loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int,
-                             void*) { return true; },
-                          nullptr);
+    loader.SetImageLoader(
+        [](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; },
+        nullptr);
     tinygltf::Model model;
     std::string error, warning;
     const auto size = static_cast<unsigned>(bytes.size());

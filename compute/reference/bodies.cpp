@@ -130,8 +130,7 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
         physics::Bounds bounds = physics::bounds_of(traits, pose, velocity, state.loads[owner], state.fixed());
         if (physics::will_be_fast(traits, velocity, state.fixed())) note(counts.fast, 1u);
-        state.masses[i] =
-            owner == i ? physics::mass_in_world(traits, pose.orientation, state.masses[i].split) : physics::Mass{};
+        state.masses[i] = owner == i ? physics::mass_in_world(traits, pose.orientation, state.masses[i].split) : physics::Mass{};
         std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs = physics::stirs(physics::motion_of(traits), state.velocities[owner], state.rests[owner], sleep_steps);
         const bool large = physics::is_large(traits);

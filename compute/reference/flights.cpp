@@ -39,10 +39,10 @@ void foresee_impacts(State& state, const Threads& threads, std::uint32_t) {
         };
         if (state.touching[i] == 0 || !(fast(bodies[0]) || fast(bodies[1]))) return;
         const physics::Manifold& manifold = state.manifolds[i];
-        const bool holds =
-            physics::is_near(manifold, state.touching[i], p) ||
-            physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a], state.loads[bodies[0]],
-                               state.traits[b], state.poses[b], state.velocities[b], state.loads[bodies[1]], p, state.hull_table());
+        const bool holds = physics::is_near(manifold, state.touching[i], p) ||
+                           physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a],
+                                              state.loads[bodies[0]], state.traits[b], state.poses[b], state.velocities[b],
+                                              state.loads[bodies[1]], p, state.hull_table());
         if (!holds) {
             state.touching[i] |= physics::DOUBTFUL;
         } else if (physics::is_blow(manifold.normal, state.velocities[a], state.velocities[b], p)) {

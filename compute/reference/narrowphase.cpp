@@ -9,11 +9,11 @@
 #include "shaders/physics/collide_capsule_capsule.h"
 #include "shaders/physics/collide_capsule_plane.h"
 #include "shaders/physics/collide_convex.h"
-#include "shaders/physics/collide_triangle.h"
 #include "shaders/physics/collide_sphere_box.h"
 #include "shaders/physics/collide_sphere_capsule.h"
 #include "shaders/physics/collide_sphere_plane.h"
 #include "shaders/physics/collide_sphere_sphere.h"
+#include "shaders/physics/collide_triangle.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
@@ -91,7 +91,8 @@ void collide_kept(State& state, const Threads& threads, std::uint32_t) {
         const std::size_t index = state.binned[first + i];
         const physics::Pair& pair = state.pairs[index];
         const physics::Contact& contact = state.contacts_before[pair.previous];
-        state.manifolds[index] = physics::kept_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
+        state.manifolds[index] =
+            physics::kept_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
         state.touching[index] = contact.count;
     });
 }

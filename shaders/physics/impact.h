@@ -26,9 +26,9 @@ struct Course {
     vec3 way;     // m
     float sweep;  // bound on the speed of its surface by turning, about an axis across the gap, m per step
     vec4 orientation;
-    vec4 turn;   // of the quaternion
-    vec3 axis;   // of the turn, unit
-    float most;  // bound on the same whatever the gap's direction, m per step
+    vec4 turn;       // of the quaternion
+    vec3 axis;       // of the turn, unit
+    float most;      // bound on the same whatever the gap's direction, m per step
     vec4 part_turn;  // of a part in the body whose course this is
     vec3 part_place;
     uint of_part;  // 1: of a part

@@ -38,7 +38,7 @@ struct Traits {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;  // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
+    uint large;     // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
     uint owner;     // the body that this one is a part of; itself for a body
     uint fracture;  // where its fracture's description begins; NONE: it does not break
     uint joints;    // where the list of its joints begins; NONE: it has none
@@ -242,7 +242,7 @@ struct Parameters {  // the same for every thread of a step
     float least_restitution;  // of every pair
     uint held;                // grips in use
     uint first_part;          // from this row on, rows are parts of bodies
-    Grip grips[4];  // MOST_GRIPS
+    Grip grips[4];            // MOST_GRIPS
 };
 
 CONSTANT uint KINDS = 15u;  // of pairs: thirteen of shapes, those whose contact is kept, and those at rest

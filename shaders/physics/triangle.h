@@ -1,8 +1,8 @@
 // A triangle of a mesh: in the table of hulls, and which contacts its edges may have.
 //
 // It lies there as a hull of three corners with one face (hulls.h), counter-clockwise seen from outside; behind these come three
-// records, one an edge, the first from corner 0 to 1: the normal that is the farthest a contact at that edge may lean out over it.
-// At an edge where the mesh goes on flat or rises that is the face's own: whatever seems to run into such an edge lies on the
+// records, one an edge, the first from corner 0 to 1: the normal that is the farthest a contact at that edge may lean out over
+// it. At an edge where the mesh goes on flat or rises that is the face's own: whatever seems to run into such an edge lies on the
 // neighbour, and would trip over nothing. At a ridge it is the neighbour's normal, at an open edge it points straight outward.
 #ifndef SCREE_PHYSICS_TRIANGLE_H
 #define SCREE_PHYSICS_TRIANGLE_H

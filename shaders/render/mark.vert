@@ -69,7 +69,8 @@ void main() {
     vec2 middle = pixels_of(clip);
 
     float size = min(thickness(a), thickness(b));
-    float push = pushes[gl_InstanceIndex / 4].normal[k] * max(traits[body_of(touch.a)].inverse_mass, traits[body_of(touch.b)].inverse_mass);
+    float push = pushes[gl_InstanceIndex / 4].normal[k] *
+                 max(traits[body_of(touch.a)].inverse_mass, traits[body_of(touch.b)].inverse_mass);
     // Lengths grow as the square root: a heap's lowest points bear hundreds of times what its highest do.
     float half_length = size * min(0.25 * sqrt(push / frame.marks.y), LONGEST);
     vec4 end_clip = frame.view_projection * vec4(point + touch.normal * half_length, 1.0);

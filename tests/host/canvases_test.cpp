@@ -1,6 +1,7 @@
 // The two canvases check each other: the same state drawn by both looks the same.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <cstdlib>
 #include <span>
 
@@ -26,6 +27,22 @@ Hull wedge() {
                 {-0.3f, -0.2f, -0.25f}, {0.3f, -0.2f, -0.2f}, {0.25f, -0.2f, 0.3f}, {-0.25f, -0.15f, 0.25f}, {0, 0.3f, 0.05f}}};
 }
 
+Compound hammer() {
+    Compound compound;
+    compound.parts.push_back({.shape = Capsule{0.08f, 0.2f}});
+    compound.parts.push_back({.shape = Box{{0.2f, 0.1f, 0.12f}}, .position = {0, 0.2f, 0}});
+    compound.parts.push_back({.shape = Cone{0.12f, 0.2f}, .position = {0, -0.3f, 0}});
+    return compound;
+}
+
+HeightField hills() {
+    HeightField field{.columns = 15, .rows = 12, .spacing = 0.3f};
+    for (int k = 0; k < 15 * 12; ++k)
+        field.heights.push_back(0.2f + 0.15f * std::sin(0.9f * static_cast<float>(k % 15)) *
+                                           std::cos(0.7f * static_cast<float>(k / 15)));
+    return field;
+}
+
 // Every shape, moving and fixed, in a heap that has just come down.
 Scene heap() {
     Scene scene;
@@ -38,11 +55,17 @@ Scene heap() {
     wall.shape = Box{{2.5f, 0.6f, 0.2f}};
     wall.position = {0, 0.6f, -1.8f};
     scene.bodies.push_back(wall);
+    Body ridge;
+    ridge.motion = Motion::fixed;
+    ridge.shape = hills();
+    ridge.position = {1.5f, 0, 1.5f};
+    scene.bodies.push_back(ridge);
     for (int i = 0; i < 60; ++i) {  // of each size so many that they lie in the grid, whose cells are drawn
         Body body;
-        const Shape shapes[] = {Sphere{0.28f},         Capsule{0.2f, 0.25f}, Box{{0.3f, 0.2f, 0.25f}},
-                                Cylinder{0.25f, 0.2f}, Cone{0.28f, 0.6f},    wedge()};
-        body.shape = shapes[i % 6];
+        const Shape shapes[] = {
+            Sphere{0.28f}, Capsule{0.2f, 0.25f}, Box{{0.3f, 0.2f, 0.25f}}, Cylinder{0.25f, 0.2f}, Cone{0.28f, 0.6f}, wedge(),
+            hammer()};
+        body.shape = shapes[i % 7];
         body.position = {0.7f * static_cast<float>(i % 4) - 1.0f, 0.5f + 0.62f * static_cast<float>(i / 16),
                          0.7f * static_cast<float>(i / 4 % 4) - 1.0f};
         body.orientation = {0.1f * static_cast<float>(i % 5), 0.3f, 0.05f * static_cast<float>(i % 7), 1};

@@ -66,7 +66,8 @@ TEST_CASE("a mesh file that cannot be read is refused with its name and the reas
     REQUIRE(says(refusal("", "a.stl"), "a.stl: meshes are read from .obj, .gltf and .glb files"));
     REQUIRE(says(refusal("v 0 0 0\n", "a.obj"), "a.obj: has no triangles"));
     REQUIRE(says(refusal("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 9\n", "a.obj"), "a.obj: "));
-    REQUIRE(says(refusal("v nan 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", "a.obj"), "a.obj: "));
+    REQUIRE(
+        says(refusal("v nan 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 3\n", "a.obj"), "a.obj: line 1: a vertex needs three finite numbers"));
     REQUIRE(says(refusal("{}", "a.gltf"), "a.gltf: not a glTF file"));
     REQUIRE(says(refusal("glTF", "a.glb"), "a.glb: not a glTF file"));
     REQUIRE(says(refusal(glb(triangle_json, {0, 2, 7}), "a.glb"), "a.glb: /meshes/0/primitives/0: index 2 is vertex 7 of 3"));

@@ -46,10 +46,10 @@ const std::map<std::string, Record>& records() {
         std::map<std::string, Record> all;
         {
             using R = Traits;
-            all["Traits"] = {
-                sizeof(R),
-                {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution), M(rolling_resistance),
-                 M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large), M(owner), M(fracture), M(joints), M(pad0)}};
+            all["Traits"] = {sizeof(R),
+                             {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution),
+                              M(rolling_resistance), M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large),
+                              M(owner), M(fracture), M(joints), M(pad0)}};
         }
         {
             using R = Pose;

@@ -22,7 +22,8 @@ HeightField hills(std::uint32_t side) {
     HeightField field{.columns = side, .rows = side, .spacing = 0.5f};
     for (std::uint32_t row = 0; row < side; ++row)
         for (std::uint32_t column = 0; column < side; ++column)
-            field.heights.push_back(0.4f * std::sin(0.7f * static_cast<float>(column)) * std::cos(0.5f * static_cast<float>(row)));
+            field.heights.push_back(0.4f * std::sin(0.7f * static_cast<float>(column)) *
+                                    std::cos(0.5f * static_cast<float>(row)));
     return field;
 }
 
@@ -39,7 +40,8 @@ Scene rain_on_hills() {
     Hull hull;
     for (int k = 0; k < 14; ++k) hull.points.emplace_back(any(-0.3f, 0.3f), any(-0.3f, 0.3f), any(-0.3f, 0.3f));
     for (int k = 0; k < 56; ++k) {
-        const Shape shapes[] = {hammer(), Sphere{0.2f}, Box{vec3(0.2f)}, Capsule{0.12f, 0.2f}, hull, Cylinder{0.2f, 0.15f}, Cone{0.2f, 0.4f}};
+        const Shape shapes[] = {hammer(), Sphere{0.2f},          Box{vec3(0.2f)}, Capsule{0.12f, 0.2f},
+                                hull,     Cylinder{0.2f, 0.15f}, Cone{0.2f, 0.4f}};
         Body& body = scene.bodies.emplace_back();
         body.shape = shapes[k % 7];
         body.position = {any(-2, 2), 1.2f + 0.12f * static_cast<float>(k), any(-2, 2)};

@@ -13,12 +13,12 @@ namespace {
 
 const std::vector<std::string> quick = {"rest", "stack", "seesaw", "slopes", "cradle", "dominoes"};
 const std::vector<std::string> standing = {"tower", "stack20", "stack80", "smallstack", "heavytop", "cards", "jenga"};
-const std::vector<std::string> moving = {"onset",    "hold",  "steep", "rolling", "bounce",
-                                         "tumbling", "swarm", "shots", "strikes", "solids"};
-const std::vector<std::string> heaps = {"pile", "mix", "avalanche", "assortment", "mix1m", "overlap"};
+const std::vector<std::string> moving = {"onset", "hold",  "steep",   "rolling", "bounce",    "tumbling",
+                                         "swarm", "shots", "strikes", "solids",  "compounds", "rollmesh"};
+const std::vector<std::string> heaps = {"pile", "mix", "avalanche", "assortment", "mix1m", "overlap", "terrain", "mesh"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};
 const std::vector<std::string> sleepers = {"pile1m"};
-const std::vector<std::string> large = {"pyramid100", "tray"};  // take minutes: `scree check` holds them
+const std::vector<std::string> large = {"pyramid100", "tray", "hulls1m"};  // take minutes: `scree check` holds them
 
 std::vector<demos::Row> verdict_of(const std::string& name, float offset) {
     const demos::Demo* demo = demos::find_demo(name);

@@ -6,8 +6,8 @@
 #include "compute/compound.h"
 #include "compute/mesh.h"
 #include "compute/scene_json.h"
-#include "compute/world.h"
 #include "compute/state.h"
+#include "compute/world.h"
 
 using namespace scree;
 
@@ -70,7 +70,8 @@ TEST_CASE("two boxes side by side have the mass and inertia of the one box that 
     for (int k = 0; k < 3; ++k) REQUIRE(pieces.inertia[k] == Approx(box.inertia[k]).epsilon(1e-5));
     // A dumbbell by the textbook: two balls at a distance r, m r^2 more each about the axes across.
     Compound dumbbell;
-    for (const float side : {-1.0f, 1.0f}) dumbbell.parts.push_back({.shape = Sphere{0.1f}, .position = {0, side, 0}, .density = 500});
+    for (const float side : {-1.0f, 1.0f})
+        dumbbell.parts.push_back({.shape = Sphere{0.1f}, .position = {0, side, 0}, .density = 500});
     const MassProperties ball = mass_properties(Sphere{0.1f}, 500), both = mass_properties(dumbbell, 1);
     REQUIRE(both.inertia.x == Approx(2 * (ball.inertia.x + ball.mass)));
     REQUIRE(both.inertia.y == Approx(2 * ball.inertia.y));
@@ -78,7 +79,8 @@ TEST_CASE("two boxes side by side have the mass and inertia of the one box that 
 
 TEST_CASE("a compound is moved to its centre of mass and its own axes, every part stays where it was, and twice changes no bit") {
     Compound hammer;
-    hammer.parts.push_back({.shape = Capsule{0.05f, 0.4f}, .position = {0.3f, 0.1f, 0}, .orientation = {0.2f, 0.1f, -0.3f, 0.9f}});
+    hammer.parts.push_back(
+        {.shape = Capsule{0.05f, 0.4f}, .position = {0.3f, 0.1f, 0}, .orientation = {0.2f, 0.1f, -0.3f, 0.9f}});
     hammer.parts.push_back({.shape = Box{{0.2f, 0.1f, 0.1f}}, .position = {0.1f, 0.6f, -0.2f}, .density = 5000});
     Scene scene;
     scene.bodies = {body_of(hammer, {1, 2, 3})};
@@ -103,7 +105,7 @@ TEST_CASE("a box of two pieces flies, turns and lands as the whole one does") {
     scene.bodies = {body_of(Plane{}, {}, Motion::fixed), body_of(whole, {0, 3, 0}), body_of(two_pieces(), {5, 3, 0})};
     for (const std::size_t i : {1u, 2u}) {
         scene.bodies[i].angular_velocity = {3, 0.5f, -2};
-        scene.bodies[i].velocity = {0.2f, 1, 0.1f};
+        scene.bodies[i].velocity = {0.2f, 3, 0.1f};
     }
     World world(scene, {}, 1);
     world.step(50);
@@ -168,7 +170,7 @@ TEST_CASE("a ball, a box and a cylinder cross the seams of a flat mesh as if it 
 
 TEST_CASE("what is fast does not pass a mesh, whole or in parts") {
     Scene scene;
-    scene.bodies = {body_of(floor_mesh(5, 6), {}, Motion::fixed)};
+    scene.bodies = {body_of(floor_mesh(30, 36), {}, Motion::fixed)};
     const Shape shapes[] = {Sphere{0.1f}, Box{vec3(0.1f)}, two_pieces(), Capsule{0.1f, 0.2f}, Cone{0.2f, 0.3f}};
     for (int k = 0; k < 5; ++k) {
         Body& body = scene.bodies.emplace_back(body_of(shapes[k], {1.6f * static_cast<float>(k) - 3.2f, 2, 0.3f}));
@@ -187,7 +189,8 @@ TEST_CASE("what is fast does not pass a mesh, whole or in parts") {
 
 TEST_CASE("a body that is added while parts lie about leaves them as they are, and is numbered behind the bodies") {
     Scene scene;
-    scene.bodies = {body_of(floor_mesh(4, 6), {}, Motion::fixed), body_of(two_pieces(), {0, 0.26f, 0}), body_of(two_pieces(), {0, 0.8f, 0})};
+    scene.bodies = {body_of(floor_mesh(4, 6), {}, Motion::fixed), body_of(two_pieces(), {0, 0.26f, 0}),
+                    body_of(two_pieces(), {0, 0.8f, 0})};
     World world(scene, {}, 1);
     world.step(300);
     REQUIRE(world.body(2).asleep);
@@ -241,13 +244,15 @@ TEST_CASE("compounds, meshes and height fields that cannot be simulated are refu
     REQUIRE(says(refusal(mesh), "/bodies/0/shape/mesh/triangles: there are none"));
     mesh.file = "bowl.obj";
     REQUIRE(says(refusal(mesh), "\"bowl.obj\" has not been read"));
-    REQUIRE(says(refusal(HeightField{.columns = 3, .rows = 2, .heights = {1, 2, 3}}), "must be columns * rows = 6 heights, are 3"));
+    REQUIRE(
+        says(refusal(HeightField{.columns = 3, .rows = 2, .heights = {1, 2, 3}}), "must be columns * rows = 6 heights, are 3"));
 }
 
 TEST_CASE("compounds, meshes and height fields are read from a scene file and written back the same") {
     Scene scene;
-    scene.bodies = {body_of(two_pieces(), {1, 2, 3}), body_of(floor_mesh(1, 2), {}, Motion::fixed),
-                    body_of(HeightField{.columns = 2, .rows = 3, .spacing = 0.5f, .heights = {1, 2, 3, 4, 5, 6}}, {}, Motion::fixed)};
+    scene.bodies = {
+        body_of(two_pieces(), {1, 2, 3}), body_of(floor_mesh(1, 2), {}, Motion::fixed),
+        body_of(HeightField{.columns = 2, .rows = 3, .spacing = 0.5f, .heights = {1, 2, 3, 4, 5, 6}}, {}, Motion::fixed)};
     const std::string text = scene_to_json(scene);
     const Scene read = scene_from_json(text).scene;
     REQUIRE(std::get<Compound>(read.bodies[0].shape).parts.size() == 2);
