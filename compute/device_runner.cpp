@@ -63,7 +63,7 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 void DeviceRunner::attach(State& state) {
     device_->wait_idle();
     state_ = &state;
-    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex()) make_plan();
+    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex() || planned_joints_ != state.has_joints()) make_plan();
     make_buffers();
     upload();
     record();
@@ -72,7 +72,8 @@ void DeviceRunner::attach(State& state) {
 void DeviceRunner::make_plan() {
     planned_substeps_ = state_->substeps;
     planned_convex_ = state_->has_convex();
-    plan_ = plan(planned_substeps_, planned_convex_);
+    planned_joints_ = state_->has_joints();
+    plan_ = plan(planned_substeps_, planned_convex_, planned_joints_);
     clock_ = StageClock(plan_);
     if (!layout_) {
         layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));
@@ -105,7 +106,7 @@ void DeviceRunner::upload() {
     using enum Table;
     parity_ = 0;
     const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls}) send(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints}) send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
     for (const Table table :
@@ -163,6 +164,9 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
             break;
         case Over::flights:
             indirect(physics::WORK_FLIGHTS);
+            break;
+        case Over::joint_blocks:
+            recording.dispatch(std::max(1u, physics::work_for(p.joint_blocks, p).x));
             break;
     }
 }
@@ -241,7 +245,7 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 void DeviceRunner::poison() {
     using enum Table;
     const auto lasting = {parameters, counts, traits,  poses,           velocities,      rests,
-                          hulls,      masses, actions, contacts_before, impulses_before, first_contacts_before};
+                          hulls,      joints, masses, actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;

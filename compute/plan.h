@@ -28,7 +28,8 @@ enum class Over {
     shaken,
     solved,
     kind,
-    flights
+    flights,
+    joint_blocks
 };
 
 struct Stage {
@@ -43,7 +44,7 @@ struct Stage {
 
 // The stages of one step. Both texts of a stage bear its name: shaders/stages/<name>.comp and a function in compute/reference/.
 // `convex`: some body is a cylinder, cone or hull; else their collisions, which take seconds to compile on a processor, are left
-// out.
-std::vector<Stage> plan(int substeps, bool convex);
+// out. `joined`: there are joints.
+std::vector<Stage> plan(int substeps, bool convex, bool joined = false);
 
 }  // namespace scree

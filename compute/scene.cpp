@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "compute/hull.h"
+#include "compute/scene_joints.h"
 #include "shaders/physics/hulls.h"
 
 namespace scree {
@@ -152,28 +153,32 @@ const Hulls::Made& Hulls::of(const std::vector<vec3>& points) {
     return one;
 }
 
-void examine_hull(const Examination& body, Body& b, Hull& hull, Hulls& hulls, std::vector<std::string>* notes) {
+using Shift = std::optional<std::pair<dvec3, glm::dquat>>;  // of the body's frame: to where its origin, along what its axes
+
+Shift examine_hull(const Examination& body, Body& b, Hull& hull, Hulls& hulls, std::vector<std::string>* notes) {
     try {
         const Hulls::Made& made = hulls.of(hull.points);
         if (made.simplified && notes) {
             notes->push_back(body.place() + "/shape/hull: simplified to " + std::to_string(physics::MOST_CORNERS) + " corners");
         }
         hull = made.hull;
-        if (made.centre == dvec3(0) && made.axes == glm::dquat(1, 0, 0, 0)) return;
+        if (made.centre == dvec3(0) && made.axes == glm::dquat(1, 0, 0, 0)) return {};
         const glm::dquat turn(b.orientation.w, b.orientation.x, b.orientation.y, b.orientation.z);
         b.position = vec3(dvec3(b.position) + turn * made.centre);
         const glm::dquat after = glm::normalize(turn * made.axes);
         b.orientation = vec4(glm::dvec4(after.x, after.y, after.z, after.w));
+        return std::pair(made.centre, made.axes);
     } catch (const HullError& error) {
         body.refuse("/shape/hull/points", error.what());
     }
 }
 
-void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
+Shift examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
     examine_shape(body, b.shape, b.motion);
     body.between("/position", b.position, -largest_position, largest_position, " m");
     body.make_unit("/orientation", b.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
-    if (auto* hull = std::get_if<Hull>(&b.shape)) examine_hull(body, b, *hull, hulls, notes);
+    Shift shift;
+    if (auto* hull = std::get_if<Hull>(&b.shape)) shift = examine_hull(body, b, *hull, hulls, notes);
     body.between("/velocity", b.velocity, -largest_velocity, largest_velocity, " m/s");
     body.between("/angular_velocity", b.angular_velocity, -largest_velocity, largest_velocity, " rad/s");
     body.between("/density", b.density, smallest_density, largest_density, " kg/m^3");
@@ -194,6 +199,7 @@ void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::st
     if (b.motion == Motion::dynamic && !representable) {
         body.refuse("/density", "size and density give a mass or inertia out of the range of a float");
     }
+    return shift;
 }
 
 MassProperties of_box(dvec3 half, double density) {
@@ -252,8 +258,10 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         throw SceneError("/gravity/" + std::to_string(i), out_of_range(g, -largest_gravity, largest_gravity, " m/s^2"));
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
+        const Shift shift = examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
+        if (shift) shift_joints(scene, i, shift->first, shift->second);
     }
+    check_joints(scene);
     return scene;
 }
 

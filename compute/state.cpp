@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "compute/hull.h"
+#include "compute/joints.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/rest.h"
@@ -137,9 +138,8 @@ physics::uint sleep_steps_of(const Settings& settings) {
 }
 
 const std::array<TableInfo, table_count>& table_infos() {
-    using namespace physics;
     static const std::array<TableInfo, table_count> infos{{
-#define SCREE_INFO(binding, name, block, record, length) {#name, sizeof(record), Length::length},
+#define SCREE_INFO(binding, name, block, record, length) {#name, sizeof(physics::record), Length::length},
         SCREE_TABLES(SCREE_INFO)
 #undef SCREE_INFO
     }};
@@ -160,7 +160,7 @@ physics::uint State::place_of(const Hull& hull) {
     return known->second;
 }
 
-physics::Traits State::traits_of(const Body& body) {
+physics::Traits State::traits_of(const Body& body, physics::uint index) {
     physics::Traits made{};
     made.motion = static_cast<physics::uint>(body.motion);
     made.shape = static_cast<physics::uint>(body.shape.index());
@@ -186,6 +186,8 @@ physics::Traits State::traits_of(const Body& body) {
     made.linear_damping = body.linear_damping;
     made.angular_damping = body.angular_damping;
     if (made.shape == physics::SHAPE_PLANE) made.large = 1;
+    made.owner = index;
+    made.fracture = made.joints = physics::NONE;
     return made;
 }
 
@@ -193,13 +195,17 @@ State::State(const Scene& scene, const Settings& settings, std::uint32_t group_s
     : substeps(settings.substeps), all_(all) {
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
     traits.reserve(n + 1);
-    for (const Body& body : scene.bodies) traits.push_back(traits_of(body));
+    for (const Body& body : scene.bodies) traits.push_back(traits_of(body, static_cast<physics::uint>(traits.size())));
 
     parameters.assign(1, tuned({}, scene.gravity, settings));
     physics::Parameters& p = fixed();
     p.cell = cell_width(traits, p.speculative);
     p.inverse_cell = 1 / p.cell;
     mark_large(traits, p.cell);
+    JointTables joined = joint_tables(scene, traits);
+    joints = std::move(joined.records);
+    joint_records = std::move(joined.record_of);
+    p.joint_blocks = joined.blocks;
     p.bodies = n;
     p.buckets = buckets_for(n);
     p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 4 * n;
@@ -225,11 +231,16 @@ void State::tune(vec3 gravity, const Settings& settings) {
         impulses[i] = scaled(impulses[i], factor);
         contacts[i].load *= factor;
     }
+    for (physics::Joint& joint : joints)
+        for (physics::JointRow& row : joint.rows) {
+            row.drive *= factor;
+            row.stop *= factor;
+        }
 }
 
 void State::add(const Body& body) {
     physics::Parameters& p = fixed();
-    const physics::Traits added = traits_of(body);
+    const physics::Traits added = traits_of(body, p.bodies);
     const std::uint32_t n = p.bodies++;
     p.buckets = std::max(p.buckets, buckets_for(p.bodies));
     allocate();
@@ -268,7 +279,9 @@ std::size_t State::allocated(Length length) const {
         case Length::contacts:
             return p.contact_capacity;
         case Length::slots:
-            return 2 * std::size_t{p.contact_capacity};
+            return 2 * std::size_t{p.contact_capacity} + joints.size();
+        case Length::joints:
+            return std::max<std::size_t>(1, joints.size());
         case Length::hulls:
             return std::max<std::size_t>(1, hulls.size());
     }
@@ -310,7 +323,7 @@ void State::make(Table table) {
 
 void State::allocate() {
     using enum Table;
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls}) make(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints}) make(table);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }
@@ -337,6 +350,10 @@ void State::grow() {
 
 bool State::has_convex() const {
     return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.shape >= physics::SHAPE_CYLINDER; });
+}
+
+bool State::has_joints() const {
+    return parameters[0].joint_blocks != 0;
 }
 
 std::size_t State::bytes() const {

@@ -18,7 +18,7 @@
 namespace scree {
 
 // What tables are as long as.
-enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots, hulls };
+enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots, hulls, joints };
 
 enum class Table : std::uint32_t {
 #define SCREE_NAME(binding, name, block, record, length) name = binding,
@@ -67,6 +67,7 @@ struct State {
     std::size_t live(Length length) const;
     // Whether some body is a cylinder, cone or hull.
     bool has_convex() const;
+    bool has_joints() const;
     std::size_t bytes() const;  // of all tables, wherever they are
 
     std::span<std::byte> raw(Table table);
@@ -90,6 +91,7 @@ struct State {
     }
 
     int substeps = 1;
+    std::vector<std::uint32_t> joint_records;  // of each joint of the scene
 
     // The plain loops' own, no table: the first partners of each body as they were counted, so that they need not be sought again
     // to be listed. More than any body has in a heap of equal ones; whoever has more seeks again.
@@ -98,7 +100,7 @@ struct State {
 
 private:
     void allocate();
-    physics::Traits traits_of(const Body& body);
+    physics::Traits traits_of(const Body& body, physics::uint index);
     physics::uint place_of(const Hull& hull);
     bool all_ = true;
     std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table

@@ -5,6 +5,22 @@
 
 #include "shaders/physics/grid.h"
 
+// Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
+bool kept_apart(uint body, uint other) {
+    uint listed = traits[body].joints != NONE ? body : other;
+    uint partner = listed == body ? other : body;
+    for (uint j = traits[listed].joints; j != NONE;) {
+        bool is_a = joints[j].a == listed;
+        if ((is_a ? joints[j].b : joints[j].a) == partner && joints[j].broken == 0u && (joints[j].flags & JOINT_COLLIDES) == 0u)
+            return true;
+        j = is_a ? joints[j].next_a : joints[j].next_b;
+    }
+    return false;
+}
+void meets(uint body, uint other) {
+    if (PARAMETERS.joint_blocks == 0u || !kept_apart(body, other)) found(other);
+}
+
 void look_through_large(uint body, Traits own, Bounds around) {
     for (uint k = cells[PARAMETERS.buckets - 1u]; k < cells[PARAMETERS.buckets]; ++k) {
         uint other = cell_entries[k].body;
@@ -18,7 +34,7 @@ void look_through_large(uint body, Traits own, Bounds around) {
             near = reaches_plane(around.lower, around.upper, theirs.size, poses[other].position);
         else if (own.shape == SHAPE_PLANE)
             near = reaches_plane(entry.lower, entry.upper, own.size, poses[body].position);
-        if (near) found(other);
+        if (near) meets(body, other);
     }
 }
 
@@ -36,7 +52,7 @@ void look_through_row(uint body, bool moves, Bounds around, ivec3 from, int last
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
-        if (moves || traits[entry.body].motion == MOTION_DYNAMIC) found(entry.body);
+        if (moves || traits[entry.body].motion == MOTION_DYNAMIC) meets(body, entry.body);
     }
 }
 

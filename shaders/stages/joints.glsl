@@ -1,0 +1,321 @@
+// A pass over one block of joints, by one thread: its equations, their elimination, and what its bodies go through.
+#ifndef SCREE_STAGES_JOINTS_GLSL
+#define SCREE_STAGES_JOINTS_GLSL
+
+#include "shaders/physics/joint.h"
+#include "shaders/physics/rest.h"
+
+uint block_first, block_joints, block_members;
+
+// False if there is no such block, or nothing in it moves.
+bool enter_block(uint index) {
+    if (index >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u) return false;
+    block_first = joints[index].first_of_block;
+    block_joints = block_first + joints[block_first].block_joints;
+    block_members = block_first + joints[block_first].block_members;
+    for (uint m = block_first; m < block_members; ++m)
+        if (joints[m].slot != NONE) return true;
+    return false;
+}
+
+bool holds(uint j) {
+    return joints[j].broken == 0u;
+}
+
+Pose pose_of(uint body) {
+    if (body != NONE) return poses[body];
+    return Pose(vec3(0.0f), 0.0f, vec4(0.0f, 0.0f, 0.0f, 1.0f));
+}
+Velocity velocity_of(uint body, uint member) {
+    if (member != NONE) return joints[member].velocity;
+    if (body != NONE) return velocities[body];
+    return Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+}
+Couple couple_of(uint j) {
+    Couple v;
+    v.a = velocity_of(joints[j].a, joints[j].member_a);
+    v.b = velocity_of(joints[j].b, joints[j].member_b);
+    return v;
+}
+
+// In the pass without bias, a body that is struck is shared among those who strike it.
+void lend(bool biased) {
+    for (uint m = block_first; m < block_members; ++m) {
+        uint body = joints[m].member;
+        Mass mass = masses[body];
+        mass.split = split_for(mass.split, joints[m].pressed, PARAMETERS);
+        if (!biased && loads[body].blows > 1.0f) mass.split = loads[body].blows;
+        if (joints[m].slot == NONE) {
+            mass = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, mass.split);
+        }
+        joints[m].mass = mass;
+    }
+}
+
+void begin_velocities() {
+    for (uint m = block_first; m < block_members; ++m) joints[m].velocity = velocities[joints[m].member];
+}
+
+void place_rows(uint j) {
+    uint a = joints[j].a, b = joints[j].b;
+    JointPlace at = joint_place(joints[j].anchor_a, joints[j].frame_a, pose_of(a), joints[j].anchor_b, joints[j].frame_b, pose_of(b));
+    Couple v = couple_of(j);
+    uint flags = joints[j].flags;
+    uint side_a = joints[j].member_a, side_b = joints[j].member_b;
+    for (uint k = 0u; k < 6u; ++k) {
+        if (joints[j].axes[k].mode == 0u) continue;
+        JointRow row = joints[j].rows[k];
+        bool linear = is_linear(k);
+        if (linear)
+            row = linear_row(row, at, k, flags, v, PARAMETERS.h);
+        else
+            row = angular_row(row, at, k - 3u, flags, v, PARAMETERS.h);
+        float give = 0.0f;
+        if (side_a != NONE) give = give_between(row.direction, row.arm_a, row.direction, row.arm_a, linear, joints[side_a].mass);
+        if (side_b != NONE) {
+            float give_b = give_between(row.direction, row.arm_b, row.direction, row.arm_b, linear, joints[side_b].mass);
+            give = side_a != NONE ? give + give_b : give_b;
+        }
+        row.give = give;
+        row.drive_change = 0.0f;
+        row.stop_change = 0.0f;
+        joints[j].rows[k] = row;
+    }
+}
+
+void push_row(uint j, uint k, float impulse) {
+    JointRow row = joints[j].rows[k];
+    uint side_a = joints[j].member_a, side_b = joints[j].member_b;
+    bool linear = is_linear(k);
+    if (side_a != NONE)
+        joints[side_a].velocity = row_pushed(joints[side_a].velocity, row.direction, row.arm_a, -impulse, linear, joints[side_a].mass);
+    if (side_b != NONE)
+        joints[side_b].velocity = row_pushed(joints[side_b].velocity, row.direction, row.arm_b, impulse, linear, joints[side_b].mass);
+}
+
+// Which axes are unknowns; the others' impulses are given, and act at once.
+void choose_unknowns(uint j, bool biased) {
+    uint unknowns = 0u;
+    uint pins = joints[j].pins;
+    Couple v;
+    v.a = joints[j].a != NONE ? velocities[joints[j].a] : velocity_of(NONE, NONE);
+    v.b = joints[j].b != NONE ? velocities[joints[j].b] : velocity_of(NONE, NONE);
+    for (uint k = 0u; k < 6u; ++k) {
+        JointAxis axis = joints[j].axes[k];
+        JointRow row = joints[j].rows[k];
+        if (axis.mode == 0u || row.give <= 0.0f) continue;
+        uint pin = pins_of(pins, k);
+        row.drive_change = 0.0f;
+        row.stop_change = 0.0f;
+        bool stopped = (pin & (STOP_LOW | STOP_HIGH)) != 0u;
+        bool driven = drive_is_solved(axis, row, pin, biased, PARAMETERS);
+        if (stopped || driven) unknowns |= 1u << k;
+        if (!stopped) row.stop_change = -row.stop;
+        if (!driven) row.drive_change = held_drive(axis, row, pin, row_speed(row, is_linear(k), v), biased, PARAMETERS) - row.drive;
+        joints[j].rows[k] = row;
+        float given = row.drive_change + row.stop_change;
+        if (given != 0.0f) push_row(j, k, given);
+    }
+    joints[j].solved = unknowns;
+}
+
+bool unknown(uint j, uint k) {
+    return (joints[j].solved >> k & 1u) != 0u;
+}
+
+Demand demand_of(uint j, uint k, bool biased) {
+    uint pin = pins_of(joints[j].pins, k);
+    if ((pin & (STOP_LOW | STOP_HIGH)) != 0u)
+        return stop_demand(joints[j].axes[k], joints[j].rows[k], k, (pin & STOP_LOW) != 0u, biased, PARAMETERS);
+    return drive_demand(joints[j].axes[k], joints[j].rows[k], k, biased, PARAMETERS);
+}
+
+// What row k of joint j does to row n of joint i, through the bodies that they share.
+float between(uint i, uint n, uint j, uint k) {
+    JointRow left = joints[i].rows[n], right = joints[j].rows[k];
+    bool linear = is_linear(n) && is_linear(k);
+    float sum = 0.0f;
+    bool any = false;
+    for (uint s = 0u; s < 4u; ++s) {
+        bool left_is_b = s >= 2u, right_is_b = (s & 1u) != 0u;
+        uint member = left_is_b ? joints[i].member_b : joints[i].member_a;
+        if (member == NONE || member != (right_is_b ? joints[j].member_b : joints[j].member_a)) continue;
+        float give = give_between(left.direction, left_is_b ? left.arm_b : left.arm_a, right.direction,
+                                  right_is_b ? right.arm_b : right.arm_a, linear, joints[member].mass);
+        if (left_is_b != right_is_b) give = -give;
+        sum = any ? sum + give : give;
+        any = true;
+    }
+    return sum;
+}
+
+void set_up_equations(uint j, bool biased) {
+    Couple v = couple_of(j);
+    for (uint k = 0u; k < 6u; ++k) {
+        if (!unknown(j, k)) continue;
+        Demand demand = demand_of(j, k, biased);
+        joints[j].solution[k] = -(row_speed(joints[j].rows[k], is_linear(k), v) + demand.bias);
+        for (uint n = k; n < 6u; ++n)
+            if (unknown(j, n)) joints[j].diagonal[6u * n + k] = between(j, n, j, k);
+        joints[j].diagonal[7u * k] = joints[j].diagonal[7u * k] + demand.compliance;
+        for (uint l = 0u; l < joints[j].links; ++l) {
+            uint i = joints[j].links_to[l];
+            for (uint n = 0u; n < 6u; ++n)
+                if (unknown(i, n)) joints[j].coupling[36u * l + 6u * n + k] = between(i, n, j, k);
+        }
+    }
+}
+
+// Where joint j keeps its coupling with joint i.
+uint coupling_with(uint i, uint j) {
+    uint l = 0u;
+    while (l + 1u < joints[j].links && joints[j].links_to[l] != i) ++l;
+    return 36u * l;
+}
+
+// Takes unknown k of joint j out of all equations behind it.
+void eliminate(uint j, uint k) {
+    float inverse = reciprocal(joints[j].diagonal[7u * k]);
+    float known = joints[j].solution[k];
+    joints[j].diagonal[7u * k] = inverse;
+    for (uint n = k + 1u; n < 6u; ++n) {
+        if (!unknown(j, n)) continue;
+        float part = joints[j].diagonal[6u * n + k] * inverse;
+        joints[j].solution[n] = joints[j].solution[n] - part * known;
+        for (uint c = k + 1u; c <= n; ++c)
+            if (unknown(j, c)) joints[j].diagonal[6u * n + c] = joints[j].diagonal[6u * n + c] - part * joints[j].diagonal[6u * c + k];
+    }
+    uint links = joints[j].links;
+    for (uint l = 0u; l < links; ++l) {
+        uint i = joints[j].links_to[l];
+        for (uint n = 0u; n < 6u; ++n) {
+            if (!unknown(i, n)) continue;
+            uint row = 36u * l + 6u * n;
+            float part = joints[j].coupling[row + k] * inverse;
+            joints[i].solution[n] = joints[i].solution[n] - part * known;
+            for (uint c = k + 1u; c < 6u; ++c)
+                if (unknown(j, c)) joints[j].coupling[row + c] = joints[j].coupling[row + c] - part * joints[j].diagonal[6u * c + k];
+            for (uint c = 0u; c <= n; ++c)
+                if (unknown(i, c))
+                    joints[i].diagonal[6u * n + c] = joints[i].diagonal[6u * n + c] - part * joints[j].coupling[36u * l + 6u * c + k];
+            for (uint e = 0u; e < l; ++e) {
+                uint to = joints[j].links_to[e];
+                uint target = coupling_with(i, to) + 6u * n;
+                for (uint c = 0u; c < 6u; ++c)
+                    if (unknown(to, c))
+                        joints[to].coupling[target + c] = joints[to].coupling[target + c] - part * joints[j].coupling[36u * e + 6u * c + k];
+            }
+        }
+    }
+}
+
+void substitute(uint j, uint k) {
+    float sum = joints[j].solution[k];
+    for (uint n = k + 1u; n < 6u; ++n)
+        if (unknown(j, n)) sum = sum - joints[j].diagonal[6u * n + k] * joints[j].solution[n];
+    for (uint l = 0u; l < joints[j].links; ++l) {
+        uint i = joints[j].links_to[l];
+        for (uint n = 0u; n < 6u; ++n)
+            if (unknown(i, n)) sum = sum - joints[j].coupling[36u * l + 6u * n + k] * joints[i].solution[n];
+    }
+    joints[j].solution[k] = sum * joints[j].diagonal[7u * k];
+}
+
+void solve_equations(bool biased) {
+    for (uint j = block_first; j < block_joints; ++j)
+        if (holds(j)) set_up_equations(j, biased);
+    for (uint j = block_first; j < block_joints; ++j)
+        for (uint k = 0u; k < 6u; ++k)
+            if (holds(j) && unknown(j, k)) eliminate(j, k);
+    for (uint j = block_joints; j-- > block_first;)
+        for (uint k = 6u; k-- > 0u;)
+            if (holds(j) && unknown(j, k)) substitute(j, k);
+    for (uint j = block_first; j < block_joints; ++j)
+        for (uint k = 0u; k < 6u; ++k)
+            if (holds(j) && unknown(j, k)) push_row(j, k, joints[j].solution[k]);
+}
+
+// Whether another bound acts than was thought.
+bool look_at_bounds(uint j, bool biased) {
+    bool others = false;
+    Couple v = couple_of(j);
+    for (uint k = 0u; k < 6u; ++k) {
+        JointAxis axis = joints[j].axes[k];
+        JointRow row = joints[j].rows[k];
+        if (axis.mode == 0u || row.give <= 0.0f) continue;
+        uint pin = pins_of(joints[j].pins, k);
+        bool solved = unknown(j, k);
+        float solution = solved ? joints[j].solution[k] : 0.0f;
+        joints[j].rows[k] = row_after(row, axis, pin, solved, solution, PARAMETERS);
+        uint now = pins_after(axis, row, k, pin, solved, solution, row_speed(row, is_linear(k), v), biased, PARAMETERS);
+        if (now == pin) continue;
+        joints[j].pins = with_pins(joints[j].pins, k, now);
+        others = true;
+    }
+    return others;
+}
+
+void solve_block(bool biased) {
+    lend(biased);
+    begin_velocities();
+    for (uint j = block_first; j < block_joints; ++j) {
+        joints[j].solved = 0u;
+        if (holds(j)) place_rows(j);
+    }
+    bool others = true;
+    for (uint round = 0u; round < JOINT_ROUNDS && others; ++round) {
+        begin_velocities();
+        for (uint j = block_first; j < block_joints; ++j)
+            if (holds(j)) choose_unknowns(j, biased);
+        solve_equations(biased);
+        others = false;
+        for (uint j = block_first; j < block_joints; ++j)
+            if (holds(j) && look_at_bounds(j, biased)) others = true;
+    }
+}
+
+// Empties what the bodies are about to be told.
+void begin_shares() {
+    for (uint m = block_first; m < block_members; ++m) {
+        joints[m].velocity = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+        joints[m].mass.split = 1.0f;
+    }
+}
+
+// The changes of this pass (if `changed`) and the next warm start (if `warms`), as whole bodies feel them.
+void share_out(uint j, bool changed, bool warms) {
+    for (uint k = 0u; k < 6u; ++k) {
+        JointRow row = joints[j].rows[k];
+        if (joints[j].axes[k].mode == 0u || row.give <= 0.0f) continue;
+        float impulse = row.drive + row.stop;
+        float change = row.drive_change + row.stop_change;
+        if (changed) impulse = warms ? (impulse + change) + change : change;
+        if (impulse != 0.0f) push_row(j, k, impulse);
+    }
+}
+
+// What a joint pushes with, on B.
+vec3 force_impulse(uint j) {
+    vec3 sum = vec3(0.0f);
+    for (uint k = 0u; k < 3u; ++k)
+        if (joints[j].axes[k].mode != 0u) sum = sum + joints[j].rows[k].direction * (joints[j].rows[k].drive + joints[j].rows[k].stop);
+    return sum;
+}
+vec3 torque_impulse(uint j) {
+    vec3 sum = vec3(0.0f);
+    for (uint k = 3u; k < 6u; ++k)
+        if (joints[j].axes[k].mode != 0u) sum = sum + joints[j].rows[k].direction * (joints[j].rows[k].drive + joints[j].rows[k].stop);
+    return sum;
+}
+
+void note_pressing() {
+    for (uint m = block_first; m < block_members; ++m) joints[m].pressed = 0.0f;
+    for (uint j = block_first; j < block_joints; ++j) {
+        if (!holds(j)) continue;
+        float pressing = length3(force_impulse(j));
+        if (joints[j].member_a != NONE) joints[joints[j].member_a].pressed = joints[joints[j].member_a].pressed + pressing;
+        if (joints[j].member_b != NONE) joints[joints[j].member_b].pressed = joints[joints[j].member_b].pressed + pressing;
+    }
+}
+
+#endif

@@ -1,0 +1,27 @@
+// Warm starts of the step's first substep.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/block.h"
+#include "shaders/stages/stage.glsl"
+
+// after the tables that it works on
+#include "shaders/stages/joints.glsl"
+
+void main() {
+    if (!enter_block(thread())) return;
+    note_pressing();
+    lend(true);
+    begin_velocities();
+    for (uint j = block_first; j < block_joints; ++j) {
+        if (!holds(j)) continue;
+        joints[j].force = vec3(0.0f);
+        joints[j].torque = vec3(0.0f);
+        place_rows(j);
+    }
+    begin_shares();
+    for (uint j = block_first; j < block_joints; ++j)
+        if (holds(j)) share_out(j, false, true);
+    for (uint m = block_first; m < block_members; ++m)
+        if (joints[m].slot != NONE) slots[joints[m].slot] = slot_of(joints[m].velocity, 1.0f, joints[m].pressed);
+}
