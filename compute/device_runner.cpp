@@ -269,6 +269,15 @@ void DeviceRunner::fetch_contacts() {
     for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
 }
 
+void DeviceRunner::fetch_joints() {
+    if (state_->has_joints()) read(Table::joints, state_->raw(Table::joints));
+}
+
+void DeviceRunner::send_joint(std::size_t record) {
+    const physics::Joint& joint = state_->joints[record];
+    buffer(Table::joints).write(joint.axes, sizeof joint.axes, record * sizeof joint + offsetof(physics::Joint, axes));
+}
+
 void DeviceRunner::fetch() {
     fetch_bodies();
     for (std::size_t i = 0; i < table_count; ++i) {

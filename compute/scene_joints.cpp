@@ -89,24 +89,24 @@ void examine(const Examination& joint, const std::string& key, const Axis& axis,
 
 void examine(const Examination& joint, JointKind& kind) {
     if (auto* ball = std::get_if<Ball>(&kind)) {
-        joint.between("/ball/friction", ball->friction, 0, unlimited, " N m");
+        joint.between("/kind/ball/friction", ball->friction, 0, unlimited, " N m");
     } else if (auto* hinge = std::get_if<Hinge>(&kind)) {
-        examine(joint, "/hinge", hinge->turn, true);
+        examine(joint, "/kind/hinge", hinge->turn, true);
     } else if (auto* slider = std::get_if<Slider>(&kind)) {
-        examine(joint, "/slider", slider->slide, false);
+        examine(joint, "/kind/slider", slider->slide, false);
     } else if (auto* distance = std::get_if<Distance>(&kind)) {
-        examine(joint, "/distance", Limits{distance->least, distance->greatest}, false);
-        joint.between("/distance/least", distance->least, 0, unlimited, " m");
-        if (distance->spring) examine(joint, "/distance/spring", *distance->spring);
+        examine(joint, "/kind/distance", Limits{distance->least, distance->greatest}, false);
+        joint.between("/kind/distance/least", distance->least, 0, unlimited, " m");
+        if (distance->spring) examine(joint, "/kind/distance/spring", *distance->spring);
     } else if (auto* cone = std::get_if<ConeTwist>(&kind)) {
-        joint.between("/cone_twist/swing", cone->swing, 0, most_turn, " rad");
-        examine(joint, "/cone_twist/twist", cone->twist, true);
-        joint.between("/cone_twist/friction", cone->friction, 0, unlimited, " N m");
+        joint.between("/kind/cone_twist/swing", cone->swing, 0, most_turn, " rad");
+        examine(joint, "/kind/cone_twist/twist", cone->twist, true);
+        joint.between("/kind/cone_twist/friction", cone->friction, 0, unlimited, " N m");
     } else if (auto* six = std::get_if<SixDegrees>(&kind)) {
         const std::pair<const char*, const Axis*> axes[] = {{"x", &six->x},         {"y", &six->y},
                                                             {"z", &six->z},         {"twist", &six->twist},
                                                             {"swing_y", &six->swing_y}, {"swing_z", &six->swing_z}};
-        for (std::size_t k = 0; k < 6; ++k) examine(joint, std::string("/six_degrees/") + axes[k].first, *axes[k].second, k >= 3);
+        for (std::size_t k = 0; k < 6; ++k) examine(joint, std::string("/kind/six_degrees/") + axes[k].first, *axes[k].second, k >= 3);
     }
 }
 
