@@ -20,6 +20,11 @@ const std::vector<Demo>& all_demos() {
         {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
         {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
         {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
+        {"chain", "two chains of twenty links swing, one with a load of a hundred links", 41, false, chain},
+        {"bridge", "a hanging bridge of planks bears a dozen crates", 36, false, bridge},
+        {"ragdolls", "three hundred figures of eleven limbs fall on steps and come to rest", 3300, true, ragdolls},
+        {"pendulums", "pendulums of every kind keep their period and their energy for a minute", 7, false, pendulums},
+        {"machine", "a motor turns two gears, a crank and a piston", 18, false, machine},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},

@@ -56,6 +56,11 @@ DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
 DemoScene assortment(const DemoOptions&);
+DemoScene chain(const DemoOptions&);
+DemoScene bridge(const DemoOptions&);
+DemoScene ragdolls(const DemoOptions&);
+DemoScene pendulums(const DemoOptions&);
+DemoScene machine(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);
