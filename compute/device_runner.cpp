@@ -63,7 +63,8 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 void DeviceRunner::attach(State& state) {
     device_->wait_idle();
     state_ = &state;
-    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex() || planned_joints_ != state.has_joints()) make_plan();
+    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex() || planned_joints_ != state.has_joints())
+        make_plan();
     make_buffers();
     upload();
     record();
@@ -244,8 +245,8 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts, traits,  poses,           velocities,      rests,
-                          hulls,      joints, masses, actions, contacts_before, impulses_before, first_contacts_before};
+    const auto lasting = {parameters, counts,  traits,          poses,           velocities,           rests, hulls, joints,
+                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;

@@ -138,7 +138,8 @@ void append(const Scene& scene, const Graph& graph, const std::vector<Eliminated
         const Joint& joint = scene.joints[block[k].joint];
         tables.record_of[block[k].joint] = first + k;
         for (const std::size_t body : {joint.a, joint.b}) {
-            if (!graph.moves(body) || !members.try_emplace(body, first + static_cast<std::uint32_t>(bodies.size())).second) continue;
+            if (!graph.moves(body) || !members.try_emplace(body, first + static_cast<std::uint32_t>(bodies.size())).second)
+                continue;
             bodies.push_back(body);
         }
     }
@@ -189,7 +190,7 @@ JointAxes axes_of_kind(const JointKind& kind) {
         made.flags = physics::JOINT_CONE;
         made.axes[3].limits = cone->twist;
         made.axes[4].limits = Limits{-unlimited, cone->swing};
-        for (std::size_t k = 3; k < 5; ++k) made.axes[k].friction = cone->friction;
+        made.axes[3].friction = cone->friction;
     } else if (const auto* six = std::get_if<SixDegrees>(&kind)) {
         const Axis all[] = {six->x, six->y, six->z, six->twist, six->swing_y, six->swing_z};
         std::copy(std::begin(all), std::end(all), made.axes);
@@ -234,6 +235,11 @@ JointTables joint_tables(const Scene& scene, std::vector<physics::Traits>& trait
     tables.record_of.resize(scene.joints.size());
     const Graph graph(scene, traits);
     for (const std::vector<Eliminated>& block : blocks_of(scene, graph)) append(scene, graph, block, tables);
+    std::vector<physics::uint> blocks(scene.bodies.size());
+    for (const physics::Joint& record : tables.records)
+        if (record.member != physics::NONE) ++blocks[record.member];
+    for (physics::Joint& record : tables.records)
+        if (record.member != physics::NONE) record.blocks = blocks[record.member];
     // Each body's list, in the order of the scene.
     for (std::size_t j = scene.joints.size(); j-- > 0;) {
         physics::Joint& record = tables.records[tables.record_of[j]];

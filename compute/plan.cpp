@@ -18,10 +18,10 @@ void scan(std::vector<Stage>& stages, const std::string& what, Over blocks, Tabl
     stages.push_back({"scan_" + what + "_offsets", blocks, offsets, {result}});
 }
 
-// Beside the contacts' half of a pass: both read what is before it, and their slots are whole only after both.
-void add_joints(std::vector<Stage>& stages, Stage half) {
+// The joints' half of a pass, after the contacts' or beside it; slots are whole only after both.
+void add_joints(std::vector<Stage>& stages, Stage half, bool after) {
     stages.back().writes.pop_back();
-    stages.back().feeds_next = false;
+    stages.back().feeds_next = after;
     stages.push_back(std::move(half));
 }
 
@@ -86,10 +86,10 @@ std::vector<Stage> plan(int substeps, bool convex, bool joined) {
         const std::uint32_t last = substep == substeps;
         s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}, substep == 1});
         s.push_back({"solve_contacts", Over::solved, solve_contacts, {impulses, slots}});
-        if (joined) add_joints(s, {"solve_joints", Over::joint_blocks, solve_joints, {Table::joints, slots}});
+        if (joined) add_joints(s, {"solve_joints", Over::joint_blocks, solve_joints, {Table::joints, slots}}, /* after */ true);
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
         s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});
-        if (joined) add_joints(s, {"relax_joints", Over::joint_blocks, relax_joints, {Table::joints, slots}, last});
+        if (joined) add_joints(s, {"relax_joints", Over::joint_blocks, relax_joints, {Table::joints, slots}, last}, /* after */ false);
     }
     s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, bounds, counts}});
     // what is fast stops before it passes through something

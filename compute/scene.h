@@ -68,18 +68,18 @@ struct Body {
 };
 
 // ---- joints
-// A joint holds a frame of axes in body A and one in body B; at rest, with nothing moved along or about any axis, they lie on each
-// other. x is the axis of a hinge, of a slider, and the middle of a cone.
+// A joint holds a frame of axes in body A and one in body B; at rest, with nothing moved along or about any axis, they lie on
+// each other. x is the axis of a hinge, of a slider, and the middle of a cone.
 constexpr float unlimited = 1e30f;
 
 struct Limits {       // of how far B is from A along an axis (m) or about it (rad, within pi of 0)
     float lower = 0;  // -unlimited to unlimited, not above `upper`
     float upper = 0;
 };
-struct Spring {           // pulls towards a place; with stiffness 0 a damper
-    float stiffness = 0;  // N/m or N m/rad, 0 to 1e12
-    float damping = 0;    // N s/m or N m s/rad, 0 to 1e12
-    float rest = 0;       // m or rad
+struct Spring {                   // pulls towards a place; with stiffness 0 a damper
+    float stiffness = 0;          // N/m or N m/rad, 0 to 1e12
+    float damping = 0;            // N s/m or N m s/rad, 0 to 1e12
+    float rest = 0;               // m or rad
     float max_force = unlimited;  // N or N m
 };
 struct Motor {            // drives B against A
@@ -104,16 +104,16 @@ struct Hinge {  // B turns about x
 struct Slider {  // B slides along x and does not turn
     Axis slide;
 };
-struct Fixed {};     // B does not move against A
-struct Distance {    // between the anchors: a rope from 0 to its length, a rod with both alike, or with a spring
+struct Fixed {};                   // B does not move against A
+struct Distance {                  // between the anchors: a rope from 0 to its length, a rod with both alike, or with a spring
     float least = 0;               // m
     float greatest = unlimited;    // m
     std::optional<Spring> spring;  // `rest` is its length
 };
-struct ConeTwist {      // the anchors stay together; B's x axis stays within a cone about A's
-    float swing = 0;    // half the cone's angle, rad, 0 to pi
-    Limits twist;       // about x
-    float friction = 0;  // N m about each axis
+struct ConeTwist {       // the anchors stay together; B's x axis stays within a cone about A's
+    float swing = 0;     // half the cone's angle, rad, 0 to pi
+    Limits twist;        // about x
+    float friction = 0;  // N m, against the twist
 };
 struct SixDegrees {  // every axis as it says; they are free unless they say more
     Axis x, y, z;    // along A's axes

@@ -40,8 +40,7 @@ public:
             refuse(key, "must be between " + text_of(low) + " and " + text_of(high) + unit + ", is " + text_of(value));
     }
     void anchor(const char* key, vec3 value) const {
-        for (int i = 0; i < 3; ++i)
-            between(key + ("/" + std::to_string(i)), value[i], -largest_anchor, largest_anchor, " m");
+        for (int i = 0; i < 3; ++i) between(key + ("/" + std::to_string(i)), value[i], -largest_anchor, largest_anchor, " m");
     }
     void unit(const char* key, vec4& q) const {
         double squared = 0;
@@ -103,20 +102,23 @@ void examine(const Examination& joint, JointKind& kind) {
         examine(joint, "/kind/cone_twist/twist", cone->twist, true);
         joint.between("/kind/cone_twist/friction", cone->friction, 0, unlimited, " N m");
     } else if (auto* six = std::get_if<SixDegrees>(&kind)) {
-        const std::pair<const char*, const Axis*> axes[] = {{"x", &six->x},         {"y", &six->y},
-                                                            {"z", &six->z},         {"twist", &six->twist},
-                                                            {"swing_y", &six->swing_y}, {"swing_z", &six->swing_z}};
-        for (std::size_t k = 0; k < 6; ++k) examine(joint, std::string("/kind/six_degrees/") + axes[k].first, *axes[k].second, k >= 3);
+        const std::pair<const char*, const Axis*> axes[] = {{"x", &six->x},
+                                                            {"y", &six->y},
+                                                            {"z", &six->z},
+                                                            {"twist", &six->twist},
+                                                            {"swing_y", &six->swing_y},
+                                                            {"swing_z", &six->swing_z}};
+        for (std::size_t k = 0; k < 6; ++k)
+            examine(joint, std::string("/kind/six_degrees/") + axes[k].first, *axes[k].second, k >= 3);
     }
 }
 
 void examine(const Examination& joint, Joint& j, const Scene& scene) {
-    const auto moves = [&](std::size_t body) {
-        return body != the_world && scene.bodies[body].motion == Motion::dynamic;
-    };
+    const auto moves = [&](std::size_t body) { return body != the_world && scene.bodies[body].motion == Motion::dynamic; };
     for (const auto& [key, body] : {std::pair{"/a", j.a}, std::pair{"/b", j.b}})
         if (body != the_world && body >= scene.bodies.size())
-            joint.refuse(key, "there is no body " + std::to_string(body) + "; the scene has " + std::to_string(scene.bodies.size()));
+            joint.refuse(key,
+                         "there is no body " + std::to_string(body) + "; the scene has " + std::to_string(scene.bodies.size()));
     if (j.a == j.b && j.a != the_world)
         joint.refuse("/b", "body " + std::to_string(j.a) + " is joined to itself; name another, or leave it out for the world");
     if (!moves(j.a) && !moves(j.b))
@@ -149,8 +151,7 @@ Frame frame_of(const Scene& scene, std::size_t body) {
 }  // namespace
 
 void check_joints(Scene& scene) {
-    for (std::size_t i = 0; i < scene.joints.size(); ++i)
-        examine(Examination(i, scene.joints[i]), scene.joints[i], scene);
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) examine(Examination(i, scene.joints[i]), scene.joints[i], scene);
 }
 
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes) {

@@ -41,7 +41,8 @@ static const Names& kind_names() {
 
 static void read(const json& value, const Place& place, JointKind& out) {
     if (!value.is_object() || value.size() != 1)
-        refuse(place, "must be an object with one key (" + listed(kind_names()) + "), such as {\"hinge\": {}}; is " + kind(value));
+        refuse(place,
+               "must be an object with one key (" + listed(kind_names()) + "), such as {\"hinge\": {}}; is " + kind(value));
     const std::string& name = value.begin().key();
     const json& inner = value.begin().value();
     if (std::find(kind_names().begin(), kind_names().end(), name) == kind_names().end())
@@ -104,8 +105,9 @@ std::size_t body_of(const json& joint, const Place& place, const char* key, cons
 }
 
 Joint joint_of(const json& value, const Place& place, const Scene& scene, const Bodies& named) {
-    only(value, place, {"name", "kind", "a", "b", "anchor", "axis", "anchor_a", "anchor_b", "frame_a", "frame_b", "collide",
-                        "break_force", "break_torque", "broken"});
+    only(value, place,
+         {"name", "kind", "a", "b", "anchor", "axis", "anchor_a", "anchor_b", "frame_a", "frame_b", "collide", "break_force",
+          "break_torque", "broken"});
     Joint joint;
     required(value, place, "kind", joint.kind);
     joint.a = body_of(value, place, "a", named);

@@ -18,7 +18,20 @@
 namespace scree {
 
 // What tables are as long as.
-enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots, hulls, joints };
+enum class Length {
+    one,
+    bodies,
+    bodies_and_end,
+    buckets,
+    pairs,
+    pairs_and_end,
+    kinds,
+    candidates,
+    contacts,
+    slots,
+    hulls,
+    joints
+};
 
 enum class Table : std::uint32_t {
 #define SCREE_NAME(binding, name, block, record, length) name = binding,

@@ -28,9 +28,9 @@ enum class Amount {
     contacts,
     solved,
     slots,
-    binned,          // pairs of the stage's kind
-    binned_bodies,   // their bodies, at most all
-    binned_hulls,    // records of their hulls, each once
+    binned,         // pairs of the stage's kind
+    binned_bodies,  // their bodies, at most all
+    binned_hulls,   // records of their hulls, each once
     joints,
     flights,         // pairs if some body is fast, else none
     flight_bodies,   // their bodies
@@ -154,7 +154,8 @@ const std::map<std::string, Accesses>& accesses() {
 
 // How many of each there were in the last step.
 struct Step {
-    std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, kinds = 0, pairs = 0, contacts = 0, solved = 0, slots = 0, joints = 0;
+    std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, kinds = 0, pairs = 0, contacts = 0, solved = 0, slots = 0,
+                joints = 0;
     std::size_t actions = 0, flights = 0, stirred = 0;
     std::vector<std::size_t> of_kind, hulls_of_kind;
 

@@ -72,9 +72,9 @@ struct Statistics {
     std::size_t not_finite = 0;              // bodies
     std::size_t joints = 0;                  // of every kind
     std::size_t joints_broken = 0;
-    double joint_force_max = 0;              // N, mean over a step, of any joint in any step so far
-    double joint_torque_max = 0;             // N m
-    std::size_t below_ground = 0;            // dynamic bodies whose centre lies behind a plane of the scene
+    double joint_force_max = 0;    // N, mean over a step, of any joint in any step so far
+    double joint_torque_max = 0;   // N m
+    std::size_t below_ground = 0;  // dynamic bodies whose centre lies behind a plane of the scene
 };
 
 class World {
@@ -114,8 +114,9 @@ public:
     void wake_all();                  // in the next step
     void set_sleeping(bool allowed);  // false: from the next step on nobody sleeps
 
-    // From the next step on: drives an axis of a joint, in place of what drove it (a hinge's is twist, a slider's x). They wake its
-    // bodies. Throw std::out_of_range for the index, std::invalid_argument for an axis that cannot move, SceneError for the values.
+    // From the next step on: drives an axis of a joint, in place of what drove it (a hinge's is twist, a slider's x). They wake
+    // its bodies. Throw std::out_of_range for the index, std::invalid_argument for an axis that cannot move, SceneError for the
+    // values.
     void set_motor(std::size_t joint, JointAxis axis, const Motor& motor);
     void set_spring(std::size_t joint, JointAxis axis, const Spring& spring);
 

@@ -43,8 +43,8 @@ JointState World::Interior::joint_state(std::size_t i) const {
     const auto pose = [&](physics::uint body) {
         return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
     };
-    const physics::JointPlace at = physics::joint_place(record.anchor_a, record.frame_a, pose(record.a), record.anchor_b,
-                                                        record.frame_b, pose(record.b));
+    const physics::JointPlace at =
+        physics::joint_place(record.anchor_a, record.frame_a, pose(record.a), record.anchor_b, record.frame_b, pose(record.b));
     found.gap = glm::length(at.gap);
     found.places = {glm::dot(at.x, at.gap), glm::dot(at.y, at.gap), glm::dot(at.z, at.gap), at.twist, at.swing_y, at.swing_z};
     if (record.flags & physics::JOINT_RADIAL) found.places[0] = found.gap;
@@ -58,9 +58,10 @@ void World::Interior::set_axis(std::size_t index, JointAxis axis, const std::fun
     Joint changed = joint;
     Axis* const found = axis_of(changed.kind, axis);
     if (!found || found->locked) {
-        throw std::invalid_argument(name_of(joint, index) +
-                                    " has nothing to drive on that axis; a hinge turns about twist, a slider moves along x, and six "
-                                    "degrees on what is not locked");
+        throw std::invalid_argument(
+            name_of(joint, index) +
+            " has nothing to drive on that axis; a hinge turns about twist, a slider moves along x, and six "
+            "degrees on what is not locked");
     }
     change(*found);
     Scene alone{scene.gravity, scene.bodies, {changed}};

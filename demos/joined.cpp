@@ -33,8 +33,7 @@ double widest_gap(const Scene& scene, const std::vector<BodyState>& bodies) {
     double widest = 0;
     for (const Joint& joint : scene.joints) {
         if (!keeps_together(joint)) continue;
-        const double gap =
-            glm::distance(place_of(bodies, joint.a, joint.anchor_a), place_of(bodies, joint.b, joint.anchor_b));
+        const double gap = glm::distance(place_of(bodies, joint.a, joint.anchor_a), place_of(bodies, joint.b, joint.anchor_b));
         if (!(gap <= widest)) widest = gap;
     }
     return widest;

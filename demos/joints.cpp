@@ -64,7 +64,10 @@ std::vector<Part> figure() {
     for (const float side : {-1.0f, 1.0f}) {
         const std::size_t arm = parts.size();
         parts.push_back({{side * 0.34f, 1.42f, 0}, {0.14f, 0.05f, 0.05f}, 1, {side * 0.19f, 1.42f, 0}, cone(1.3f, 0.8f)});
-        parts.push_back({{side * 0.63f, 1.42f, 0}, {0.13f, 0.045f, 0.045f}, arm, {side * 0.49f, 1.42f, 0},
+        parts.push_back({{side * 0.63f, 1.42f, 0},
+                         {0.13f, 0.045f, 0.045f},
+                         arm,
+                         {side * 0.49f, 1.42f, 0},
                          side < 0 ? bends(-2.3f, 0) : bends(0, 2.3f)});
         const std::size_t thigh = parts.size();
         parts.push_back({{side * 0.1f, 0.66f, 0}, {0.075f, 0.2f, 0.075f}, 0, {side * 0.1f, 0.87f, 0}, cone(1.0f, 0.4f)});
@@ -147,12 +150,12 @@ DemoScene bridge(const DemoOptions& options) {
         scene.bodies.push_back(box_at({x, 5 + 0.3f * static_cast<float>(i % 3), random.between(-0.6f, 0.6f)}, vec3(0.25f),
                                       turned({0, 1, 0}, random.between(0, 90) * degrees)));
     }
-    const Claim carried = at_most("crates that fell off", 0, "", "below the middle of the banks' height at the end",
-                                  [crates](const Trace& trace) {
-                                      double fallen = 0;
-                                      for (std::size_t i = crates; i < trace.end.size(); ++i) fallen += trace.end[i].position.y < 2;
-                                      return fallen;
-                                  });
+    const Claim carried =
+        at_most("crates that fell off", 0, "", "below the middle of the banks' height at the end", [crates](const Trace& trace) {
+            double fallen = 0;
+            for (std::size_t i = crates; i < trace.end.size(); ++i) fallen += trace.end[i].position.y < 2;
+            return fallen;
+        });
     const Indices all = every_body(scene);
     const vec3 low(-8, 1, -2), high(8, 6, 2);
     return {std::move(scene),
@@ -173,7 +176,8 @@ DemoScene ragdolls(const DemoOptions& options) {
     // Steps to fall on and over.
     for (int i = 0; i < 4; ++i) {
         const float part = static_cast<float>(i + 1) / 5;
-        scene.bodies.push_back(fixed_box({0, 0.4f + 0.8f * static_cast<float>(i), 0}, {half * (1 - part), 0.4f, half * (1 - part)}));
+        scene.bodies.push_back(
+            fixed_box({0, 0.4f + 0.8f * static_cast<float>(i), 0}, {half * (1 - part), 0.4f, half * (1 - part)}));
     }
     Random random(options.seed);
     float top = 0;
@@ -229,9 +233,9 @@ DemoScene pendulums(const DemoOptions&) {
     add(ball, 1.2f, 10 * degrees, 3, Hinge{}, false);
     const vec3 low(-3, 1, -3.5f), high(3, 5, 3.5f);
     const Indices watched = every_body(scene);
-    return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 60,
-                  Promise(periods_as_theory(all, 1), swings_keep_energy(all, 0.02), gaps_below("", 0.001))
-                      .watching(watched, every_step)});
+    return awake(
+        {std::move(scene), view_of(low, high, 25, 12), low, high, 60,
+         Promise(periods_as_theory(all, 1), swings_keep_energy(all, 0.02), gaps_below("", 0.001)).watching(watched, every_step)});
 }
 
 }  // namespace scree::demos

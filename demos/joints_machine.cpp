@@ -72,20 +72,20 @@ DemoScene machine(const DemoOptions&) {
     scene.joints.push_back(joint_at(scene, Slider{}, the_world, piston, scene.bodies[piston].position, {1, 0, 0}));
 
     const float seconds = 30;
-    const Claim motor_turns = close_to("speed of the motor", speed, 0.01 * speed, "rad/s", "mean over the run", [=](const Trace& trace) {
-        return turn_of(trace, motor) / (trace.moments.back().time - trace.moments.front().time);
-    });
-    const Claim ratio = close_to("turns of the wheel for one of the motor", -0.75, 0.0075, "", "6 teeth drive 8", [=](const Trace& trace) {
-        return turn_of(trace, wheel) / turn_of(trace, motor);
-    });
-    const Claim way = close_to("stroke of the piston", 2 * stroke, 0.02 * stroke, "m", "twice the crank's radius", [=](const Trace& trace) {
-        double low = 1e30, high = -1e30;
-        for (const Trace::Moment& moment : trace.moments) {
-            low = std::min(low, static_cast<double>(moment.bodies.at(piston).position.x));
-            high = std::max(high, static_cast<double>(moment.bodies.at(piston).position.x));
-        }
-        return high - low;
-    });
+    const Claim motor_turns = close_to(
+        "speed of the motor", speed, 0.01 * speed, "rad/s", "mean over the run",
+        [=](const Trace& trace) { return turn_of(trace, motor) / (trace.moments.back().time - trace.moments.front().time); });
+    const Claim ratio = close_to("turns of the wheel for one of the motor", -0.75, 0.0075, "", "6 teeth drive 8",
+                                 [=](const Trace& trace) { return turn_of(trace, wheel) / turn_of(trace, motor); });
+    const Claim way =
+        close_to("stroke of the piston", 2 * stroke, 0.02 * stroke, "m", "twice the crank's radius", [=](const Trace& trace) {
+            double low = 1e30, high = -1e30;
+            for (const Trace::Moment& moment : trace.moments) {
+                low = std::min(low, static_cast<double>(moment.bodies.at(piston).position.x));
+                high = std::max(high, static_cast<double>(moment.bodies.at(piston).position.x));
+            }
+            return high - low;
+        });
     const Indices all = every_body(scene);
     const vec3 low(-1.5f, 0.4f, -0.6f), high(6, 3.6f, 1);
     return awake({std::move(scene), view_of(low, high, 15, 12), low, high, seconds,

@@ -55,18 +55,20 @@ public:
         for (Joint& record : members_) {
             physics::Mass mass{};
             if (record.slot != NONE) mass = state_.masses[record.member];
-            mass.split = physics::split_for(state_.masses[record.member].split, record.pressed, p_);
             const float blows = state_.loads[record.member].blows;
-            if (!biased && blows > 1) mass.split = blows;
+            if (biased)
+                mass.split = std::max(1.0f, static_cast<float>(record.blocks) * p_.inverse_relaxation);
+            else
+                mass.split = blows > 1 ? blows : physics::split_for(state_.masses[record.member].split, record.pressed, p_);
             record.mass = mass;
         }
     }
 
-    void place() {
-        restart();
+    void place(bool biased) {
+        restart(biased);
         for_each_whole([&](Joint& joint) {
-            const physics::JointPlace at = physics::joint_place(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b,
-                                                                joint.frame_b, pose(joint.b));
+            const physics::JointPlace at =
+                physics::joint_place(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
             const physics::Couple v = speeds(joint);
             for (physics::uint k = 0; k < 6; ++k) {
                 if (joint.axes[k].mode == 0) continue;
@@ -82,9 +84,9 @@ public:
     void solve(bool biased) {
         lend(biased);
         for (Joint& joint : joints_) joint.solved = 0;
-        place();
+        place(biased);
         for (physics::uint round = 0; round < physics::JOINT_ROUNDS; ++round) {
-            restart();
+            restart(biased);
             for_each_whole([&](Joint& joint) { apply_given(joint, biased); });
             for_each_whole([&](Joint& joint) { set_up(joint, biased); });
             for_each_whole([&](Joint& joint) {
@@ -99,7 +101,7 @@ public:
                     if (unknown(joint, k)) push(joint, k, joint.solution[k]);
             });
             bool others = false;
-            for_each_whole([&](Joint& joint) { others |= other_bounds(joint, biased); });
+            for_each_whole([&](Joint& joint) { others |= other_bounds(joint, biased, round >= physics::SETTLING_ROUND); });
             if (!others) break;
         }
     }
@@ -156,11 +158,19 @@ private:
         if (member != NONE) return all_[member].velocity;
         return body == NONE ? physics::Velocity{} : state_.velocities[body];
     }
-    physics::Couple speeds(const Joint& joint) const {
-        return {speed(joint.a, joint.member_a), speed(joint.b, joint.member_b)};
-    }
-    void restart() {
-        for (Joint& record : members_) record.velocity = state_.velocities[record.member];
+    physics::Couple speeds(const Joint& joint) const { return {speed(joint.a, joint.member_a), speed(joint.b, joint.member_b)}; }
+    // In the biased pass with what the contacts have done, whose slots come before those of the blocks.
+    void restart(bool biased) {
+        for (Joint& record : members_) {
+            const physics::uint body = record.member;
+            record.velocity = state_.velocities[body];
+            if (!biased || record.slot == NONE) continue;
+            const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1], end = state_.slot_ends[body] - record.blocks;
+            for (std::size_t k = first; k < end; ++k) {
+                record.velocity.linear += state_.slots[k].linear;
+                record.velocity.angular += state_.slots[k].angular;
+            }
+        }
     }
 
     void push(const Joint& joint, physics::uint k, float impulse) {
@@ -168,8 +178,8 @@ private:
         for (const End end : {End{joint.member_a, false}, End{joint.member_b, true}}) {
             if (end.member == NONE) continue;
             Joint& record = all_[end.member];
-            record.velocity = physics::row_pushed(record.velocity, row.direction, arm(row, end.is_b), end.is_b ? impulse : -impulse,
-                                                  physics::is_linear(k), record.mass);
+            record.velocity = physics::row_pushed(record.velocity, row.direction, arm(row, end.is_b),
+                                                  end.is_b ? impulse : -impulse, physics::is_linear(k), record.mass);
         }
     }
 
@@ -179,8 +189,9 @@ private:
         for (const End x : {End{left.member_a, false}, End{left.member_b, true}}) {
             for (const End y : {End{right.member_a, false}, End{right.member_b, true}}) {
                 if (x.member == NONE || x.member != y.member || (same_ends && x.is_b != y.is_b)) continue;
-                const float give = physics::give_between(left.rows[n].direction, arm(left.rows[n], x.is_b), right.rows[k].direction,
-                                                         arm(right.rows[k], y.is_b), linear, all_[x.member].mass);
+                const float give =
+                    physics::give_between(left.rows[n].direction, arm(left.rows[n], x.is_b), right.rows[k].direction,
+                                          arm(right.rows[k], y.is_b), linear, all_[x.member].mass);
                 const float felt = x.is_b == y.is_b ? give : -give;
                 sum = sum ? *sum + felt : felt;
             }
@@ -276,7 +287,7 @@ private:
         joint.solution[k] = sum * joint.diagonal[7 * k];
     }
 
-    bool other_bounds(Joint& joint, bool biased) {
+    bool other_bounds(Joint& joint, bool biased, bool settling) {
         const physics::Couple v = speeds(joint);
         const physics::uint before = joint.pins;
         for_each_axis(joint, [&](physics::uint k, const physics::JointAxis& axis, JointRow& row) {
@@ -284,7 +295,7 @@ private:
             const bool solved = unknown(joint, k);
             const float solution = solved ? joint.solution[k] : 0;
             const physics::uint now =
-                physics::pins_after(axis, row, k, pin, solved, solution, physics::row_speed(row, k < 3, v), biased, p_);
+                physics::pins_after(axis, row, k, pin, solved, solution, physics::row_speed(row, k < 3, v), biased, settling, p_);
             row = physics::row_after(row, axis, pin, solved, solution, p_);
             joint.pins = physics::with_pins(joint.pins, k, now);
         });
@@ -373,7 +384,7 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
         if (!block.moves()) return;
         block.note_pressing();
         block.lend(true);
-        block.place();
+        block.place(false);
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
         block.gather([](const JointRow& row) { return row.drive + row.stop; });
         block.hand_out([](const Joint& record) { return record.pressed; });
@@ -408,7 +419,8 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
         block.for_each_whole([&](const Joint& joint) {
             for (const physics::uint body : {joint.a, joint.b})
                 if (last && body != NONE)
-                    told = std::min(told, physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]));
+                    told =
+                        std::min(told, physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]));
         });
         block.note_pressing();
         block.hand_out([&](const Joint& record) { return last ? told : record.pressed; });

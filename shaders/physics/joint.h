@@ -1,14 +1,14 @@
 // A joint: where its bodies are along and about its six axes, and what each axis asks of their velocities.
 //
-// All joints of a block (compute/joints.h) are solved together and exactly, by elimination: (J M^-1 J^T + C) dl = -(J v + bias), the
-// rows that are at their bounds left out. So a block is one of those that mass splitting knows (block.h), however many joints it
-// has, and a chain carries a hundred times its links' weight without stretching. Rows that turn out to be at a bound, or to leave
-// one, are exchanged and the block is solved again (principal pivoting), a few times in a pass.
+// All joints of a block (compute/joints.h) are solved together and exactly, by elimination: (J M^-1 J^T + C) dl = -(J v + bias),
+// the rows that are at their bounds left out. So a block is one of those that mass splitting knows (block.h), however many joints
+// it has, and a chain carries a hundred times its links' weight without stretching. Rows that turn out to be at a bound, or to
+// leave one, are exchanged and the block is solved again (principal pivoting), a few times in a pass.
 //
-// A pendulum whose velocity were merely made to fit its joint where it hangs, moved and made to fit again would lose (h w)^2 of its
-// energy in each substep, half of all in a minute. So the biased pass also reckons with the way in which the joint's direction
-// turns during the substep (the drift): the impulses at either end of a substep are then alike, and what one adds to the speed the
-// other takes back (as in RATTLE: Andersen, J. Comput. Phys. 52, 1983).
+// A pendulum whose velocity were merely made to fit its joint where it hangs, moved and made to fit again would lose (h w)^2 of
+// its energy in each substep, half of all in a minute. So the biased pass also reckons with the way in which the joint's
+// direction turns during the substep (the drift): the impulses at either end of a substep are then alike, and what one adds to
+// the speed the other takes back (as in RATTLE: Andersen, J. Comput. Phys. 52, 1983).
 #ifndef SCREE_PHYSICS_JOINT_H
 #define SCREE_PHYSICS_JOINT_H
 
@@ -22,11 +22,12 @@ CONSTANT float JOINT_RATE = 0.25f;
 CONSTANT float JOINT_TURN_SPEED = 6.0f;  // rad/s, greatest speed at which axes are turned together
 // Compliance of rigid rows, of what the lent bodies give themselves: mechanisms have more joints than they need, and without any
 // the surplus has no solution. More, and chains stretch; less, and what is surplus grows in the rounding of a float.
-CONSTANT float JOINT_COMPLIANCE = 1.0e-4f;
+CONSTANT float JOINT_COMPLIANCE = 1.0e-3f;
 CONSTANT float GENTLE_SPRING = 0.25f;  // of what would throw a body past its place in one substep: weaker ones are forces
-CONSTANT uint JOINT_ROUNDS = 4u;       // times that a block is solved in a pass at most
-// The squares of a body's turn in a substep, rad, from which the drift is left out more and more, and wholly: it follows what turns
-// slowly to second order, but the end of a whip it drives.
+CONSTANT uint JOINT_ROUNDS = 8u;       // times that a block is solved in a pass at most
+CONSTANT uint SETTLING_ROUND = 2u;     // from then on bounds are only let go: with both, some blocks go round in circles
+// The squares of a body's turn in a substep, rad, from which the drift is left out more and more, and wholly: it follows what
+// turns slowly to second order, but the end of a whip it drives.
 CONSTANT float DRIFT_TURN = 0.0025f;
 CONSTANT float DRIFT_FADE = 133.33333f;  // 1 / (0.01 - 0.0025)
 CONSTANT float FARTHEST_SWING = 0.05f;
@@ -50,7 +51,7 @@ LAW float angle_of(float y, float x) {
 
 // A joint as its bodies lie.
 struct JointPlace {
-    vec3 x;     // its axes in A
+    vec3 x;       // its axes in A
     float twist;  // rad
     vec3 y;
     float swing_y;
@@ -135,8 +136,7 @@ LAW JointRow linear_row(JointRow row, JointPlace at, uint axis, uint flags, Coup
         row.place = dot3(u, at.gap);
         row.arm_a = cross3(at.arm_a + at.gap, u);
         vec3 rate = cross3(v.a.angular, u);
-        row.drift = drift_part(v, h) *
-                    ((dot3(u, turning) + 2.0f * dot3(rate, speed)) + dot3(cross3(v.a.angular, rate), at.gap));
+        row.drift = drift_part(v, h) * ((dot3(u, turning) + 2.0f * dot3(rate, speed)) + dot3(cross3(v.a.angular, rate), at.gap));
     }
     row.arm_b = cross3(at.arm_b, row.direction);
     return row;
@@ -211,7 +211,8 @@ LAW float held_drive(JointAxis axis, JointRow row, uint pin, float speed, bool b
     bool stopped = (pin & (STOP_LOW | STOP_HIGH)) != 0u;
     if ((axis.mode & AXIS_SPRING) != 0u) {
         if (!biased) return row.drive;
-        if (stopped || is_gentle(axis, row.give, parameters)) return spring_impulse(axis, row.place, stopped ? 0.0f : speed, parameters);
+        if (stopped || is_gentle(axis, row.give, parameters))
+            return spring_impulse(axis, row.place, stopped ? 0.0f : speed, parameters);
     }
     if ((axis.mode & AXIS_MOTOR) != 0u && stopped)
         return axis.speed > 0.0f ? most : (axis.speed < 0.0f ? -most : clamped(row.drive, -most, most));
@@ -224,13 +225,14 @@ LAW Demand drive_demand(JointAxis axis, JointRow row, uint index, bool biased, P
     demand.compliance = JOINT_COMPLIANCE * row.give;
     if ((axis.mode & AXIS_LOCKED) != 0u) {
         demand.bias = 0.0f;
-        if (biased) demand.bias = (joint_push(row.place - axis.rest, index, parameters) + row.drift) + demand.compliance * row.drive;
+        if (biased)
+            demand.bias = (joint_push(row.place - axis.rest, index, parameters) + row.drift) + demand.compliance * row.drive;
     } else if ((axis.mode & AXIS_SPRING) != 0u) {
         float resisting = axis.damping + parameters.h * axis.stiffness;
         float yielding = reciprocal(resisting);
         demand.compliance = yielding * parameters.inverse_h;
-        demand.bias = (axis.stiffness * (row.place - axis.rest) - axis.damping * axis.speed) * yielding +
-                      demand.compliance * row.drive;
+        demand.bias =
+            (axis.stiffness * (row.place - axis.rest) - axis.damping * axis.speed) * yielding + demand.compliance * row.drive;
     } else {
         demand.bias = -axis.speed;
     }
@@ -250,9 +252,10 @@ LAW Demand stop_demand(JointAxis axis, JointRow row, uint index, bool low, bool 
     return demand;
 }
 
-// The bits of an axis after a solution: which bounds act. `speed`: of the row afterwards; `solution`: of the row, if it was solved.
+// The bits of an axis after a solution: which bounds act. `speed`: of the row afterwards; `solution`: of the row, if it was
+// solved.
 LAW uint pins_after(JointAxis axis, JointRow row, uint index, uint pin, bool solved, float solution, float speed, bool biased,
-                    Parameters parameters) {
+                    bool settling, Parameters parameters) {
     if ((pin & STOP_LOW) != 0u) {
         if (row.stop + solution < 0.0f) return pin & ~STOP_LOW;
         return pin;
@@ -261,7 +264,7 @@ LAW uint pins_after(JointAxis axis, JointRow row, uint index, uint pin, bool sol
         if (row.stop + solution > 0.0f) return pin & ~STOP_HIGH;
         return pin;
     }
-    if ((axis.mode & AXIS_LIMITED) != 0u) {
+    if ((axis.mode & AXIS_LIMITED) != 0u && !settling) {
         Demand low = stop_demand(axis, row, index, true, biased, parameters);
         if (speed + low.bias < 0.0f) return STOP_LOW;
         Demand high = stop_demand(axis, row, index, false, biased, parameters);
@@ -274,7 +277,7 @@ LAW uint pins_after(JointAxis axis, JointRow row, uint index, uint pin, bool sol
         if (row.drive + solution > most) return PIN_HIGH;
         return 0u;
     }
-    if (pin != 0u) {
+    if (pin != 0u && !settling) {
         float error = speed + drive_demand(axis, row, index, biased, parameters).bias;
         if ((axis.mode & AXIS_SPRING) != 0u && !biased) return pin;
         if ((pin & PIN_LOW) != 0u && error < 0.0f) return 0u;

@@ -33,7 +33,7 @@ struct Traits {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;  // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
+    uint large;     // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
     uint owner;     // the body that this one is a part of; itself for a body
     uint fracture;  // where its fracture's description begins; NONE: it does not break
     uint joints;    // where the list of its joints begins; NONE: it has none
@@ -206,8 +206,8 @@ struct Slot {       // what one contact did to one body; a body sums its slots i
 };
 
 // ---- joints
-// What a joint may do along or about one of its six axes: along x, y and z of its frame in A, then the twist about x, and the swing
-// about y and z. A place is how far B is from A there.
+// What a joint may do along or about one of its six axes: along x, y and z of its frame in A, then the twist about x, and the
+// swing about y and z. A place is how far B is from A there.
 CONSTANT uint AXIS_LOCKED = 1u;
 CONSTANT uint AXIS_LIMITED = 2u;
 CONSTANT uint AXIS_MOTOR = 4u;   // driven to a speed; friction is a motor of speed 0
@@ -257,7 +257,7 @@ struct Joint {
     JointAxis axes[6];
     float break_force, break_torque;  // N, N m
     uint next_b;
-    uint links;     // how many
+    uint links;        // how many
     uint links_to[8];  // joints of the block behind this one that its elimination changes, in rising order (MOST_LINKS)
     // ---- of the block, in its first record
     uint block_joints, block_members;
@@ -275,14 +275,14 @@ struct Joint {
     // ---- the body of this record
     uint member;  // NONE: none
     uint slot;
-    float pressed;  // N s
-    uint pad1;
+    float pressed;      // N s
+    uint blocks;        // that have the body
     Mass mass;          // lent
     Velocity velocity;  // lent
     // ---- the pass's equations
     JointRow rows[6];
-    float solution[8];   // 6 are in use
-    float diagonal[36];  // 6 rows of 6
+    float solution[8];    // 6 are in use
+    float diagonal[36];   // 6 rows of 6
     float coupling[288];  // per link, 6 rows of the later joint by 6 of this one
 };
 CONSTANT uint MOST_LINKS = 8u;

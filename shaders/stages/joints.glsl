@@ -38,13 +38,18 @@ Couple couple_of(uint j) {
     return v;
 }
 
-// In the pass without bias, a body that is struck is shared among those who strike it.
+// In the biased pass, joints come after the contacts, and only blocks share a body. In the one without, it is shared with the
+// contacts, and if it is struck among those who strike it.
 void lend(bool biased) {
     for (uint m = block_first; m < block_members; ++m) {
         uint body = joints[m].member;
         Mass mass = masses[body];
-        mass.split = split_for(mass.split, joints[m].pressed, PARAMETERS);
-        if (!biased && loads[body].blows > 1.0f) mass.split = loads[body].blows;
+        if (biased)
+            mass.split = larger(1.0f, float(joints[m].blocks) * PARAMETERS.inverse_relaxation);
+        else if (loads[body].blows > 1.0f)
+            mass.split = loads[body].blows;
+        else
+            mass.split = split_for(mass.split, joints[m].pressed, PARAMETERS);
         if (joints[m].slot == NONE) {
             mass = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, mass.split);
         }
@@ -52,13 +57,26 @@ void lend(bool biased) {
     }
 }
 
-void begin_velocities() {
-    for (uint m = block_first; m < block_members; ++m) joints[m].velocity = velocities[joints[m].member];
+// `biased`: with what the contacts have just done to them, which is in the slots before those of the blocks.
+void begin_velocities(bool biased) {
+    for (uint m = block_first; m < block_members; ++m) {
+        uint body = joints[m].member;
+        Velocity velocity = velocities[body];
+        if (biased && joints[m].slot != NONE) {
+            uint last = slot_ends[body] - joints[m].blocks;
+            for (uint k = body == 0u ? 0u : slot_ends[body - 1u]; k < last; ++k) {
+                velocity.linear = velocity.linear + slots[k].linear;
+                velocity.angular = velocity.angular + slots[k].angular;
+            }
+        }
+        joints[m].velocity = velocity;
+    }
 }
 
 void place_rows(uint j) {
     uint a = joints[j].a, b = joints[j].b;
-    JointPlace at = joint_place(joints[j].anchor_a, joints[j].frame_a, pose_of(a), joints[j].anchor_b, joints[j].frame_b, pose_of(b));
+    JointPlace at =
+        joint_place(joints[j].anchor_a, joints[j].frame_a, pose_of(a), joints[j].anchor_b, joints[j].frame_b, pose_of(b));
     Couple v = couple_of(j);
     uint flags = joints[j].flags;
     uint side_a = joints[j].member_a, side_b = joints[j].member_b;
@@ -88,9 +106,11 @@ void push_row(uint j, uint k, float impulse) {
     uint side_a = joints[j].member_a, side_b = joints[j].member_b;
     bool linear = is_linear(k);
     if (side_a != NONE)
-        joints[side_a].velocity = row_pushed(joints[side_a].velocity, row.direction, row.arm_a, -impulse, linear, joints[side_a].mass);
+        joints[side_a].velocity =
+            row_pushed(joints[side_a].velocity, row.direction, row.arm_a, -impulse, linear, joints[side_a].mass);
     if (side_b != NONE)
-        joints[side_b].velocity = row_pushed(joints[side_b].velocity, row.direction, row.arm_b, impulse, linear, joints[side_b].mass);
+        joints[side_b].velocity =
+            row_pushed(joints[side_b].velocity, row.direction, row.arm_b, impulse, linear, joints[side_b].mass);
 }
 
 // Which axes are unknowns; the others' impulses are given, and act at once.
@@ -111,7 +131,8 @@ void choose_unknowns(uint j, bool biased) {
         bool driven = drive_is_solved(axis, row, pin, biased, PARAMETERS);
         if (stopped || driven) unknowns |= 1u << k;
         if (!stopped) row.stop_change = -row.stop;
-        if (!driven) row.drive_change = held_drive(axis, row, pin, row_speed(row, is_linear(k), v), biased, PARAMETERS) - row.drive;
+        if (!driven)
+            row.drive_change = held_drive(axis, row, pin, row_speed(row, is_linear(k), v), biased, PARAMETERS) - row.drive;
         joints[j].rows[k] = row;
         float given = row.drive_change + row.stop_change;
         if (given != 0.0f) push_row(j, k, given);
@@ -183,7 +204,8 @@ void eliminate(uint j, uint k) {
         float part = joints[j].diagonal[6u * n + k] * inverse;
         joints[j].solution[n] = joints[j].solution[n] - part * known;
         for (uint c = k + 1u; c <= n; ++c)
-            if (unknown(j, c)) joints[j].diagonal[6u * n + c] = joints[j].diagonal[6u * n + c] - part * joints[j].diagonal[6u * c + k];
+            if (unknown(j, c))
+                joints[j].diagonal[6u * n + c] = joints[j].diagonal[6u * n + c] - part * joints[j].diagonal[6u * c + k];
     }
     uint links = joints[j].links;
     for (uint l = 0u; l < links; ++l) {
@@ -194,16 +216,19 @@ void eliminate(uint j, uint k) {
             float part = joints[j].coupling[row + k] * inverse;
             joints[i].solution[n] = joints[i].solution[n] - part * known;
             for (uint c = k + 1u; c < 6u; ++c)
-                if (unknown(j, c)) joints[j].coupling[row + c] = joints[j].coupling[row + c] - part * joints[j].diagonal[6u * c + k];
+                if (unknown(j, c))
+                    joints[j].coupling[row + c] = joints[j].coupling[row + c] - part * joints[j].diagonal[6u * c + k];
             for (uint c = 0u; c <= n; ++c)
                 if (unknown(i, c))
-                    joints[i].diagonal[6u * n + c] = joints[i].diagonal[6u * n + c] - part * joints[j].coupling[36u * l + 6u * c + k];
+                    joints[i].diagonal[6u * n + c] =
+                        joints[i].diagonal[6u * n + c] - part * joints[j].coupling[36u * l + 6u * c + k];
             for (uint e = 0u; e < l; ++e) {
                 uint to = joints[j].links_to[e];
                 uint target = coupling_with(i, to) + 6u * n;
                 for (uint c = 0u; c < 6u; ++c)
                     if (unknown(to, c))
-                        joints[to].coupling[target + c] = joints[to].coupling[target + c] - part * joints[j].coupling[36u * e + 6u * c + k];
+                        joints[to].coupling[target + c] =
+                            joints[to].coupling[target + c] - part * joints[j].coupling[36u * e + 6u * c + k];
             }
         }
     }
@@ -236,7 +261,7 @@ void solve_equations(bool biased) {
 }
 
 // Whether another bound acts than was thought.
-bool look_at_bounds(uint j, bool biased) {
+bool look_at_bounds(uint j, bool biased, bool settling) {
     bool others = false;
     Couple v = couple_of(j);
     for (uint k = 0u; k < 6u; ++k) {
@@ -247,7 +272,7 @@ bool look_at_bounds(uint j, bool biased) {
         bool solved = unknown(j, k);
         float solution = solved ? joints[j].solution[k] : 0.0f;
         joints[j].rows[k] = row_after(row, axis, pin, solved, solution, PARAMETERS);
-        uint now = pins_after(axis, row, k, pin, solved, solution, row_speed(row, is_linear(k), v), biased, PARAMETERS);
+        uint now = pins_after(axis, row, k, pin, solved, solution, row_speed(row, is_linear(k), v), biased, settling, PARAMETERS);
         if (now == pin) continue;
         joints[j].pins = with_pins(joints[j].pins, k, now);
         others = true;
@@ -257,20 +282,20 @@ bool look_at_bounds(uint j, bool biased) {
 
 void solve_block(bool biased) {
     lend(biased);
-    begin_velocities();
+    begin_velocities(biased);
     for (uint j = block_first; j < block_joints; ++j) {
         joints[j].solved = 0u;
         if (holds(j)) place_rows(j);
     }
     bool others = true;
     for (uint round = 0u; round < JOINT_ROUNDS && others; ++round) {
-        begin_velocities();
+        begin_velocities(biased);
         for (uint j = block_first; j < block_joints; ++j)
             if (holds(j)) choose_unknowns(j, biased);
         solve_equations(biased);
         others = false;
         for (uint j = block_first; j < block_joints; ++j)
-            if (holds(j) && look_at_bounds(j, biased)) others = true;
+            if (holds(j) && look_at_bounds(j, biased, round >= SETTLING_ROUND)) others = true;
     }
 }
 
@@ -298,13 +323,15 @@ void share_out(uint j, bool changed, bool warms) {
 vec3 force_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 0u; k < 3u; ++k)
-        if (joints[j].axes[k].mode != 0u) sum = sum + joints[j].rows[k].direction * (joints[j].rows[k].drive + joints[j].rows[k].stop);
+        if (joints[j].axes[k].mode != 0u)
+            sum = sum + joints[j].rows[k].direction * (joints[j].rows[k].drive + joints[j].rows[k].stop);
     return sum;
 }
 vec3 torque_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 3u; k < 6u; ++k)
-        if (joints[j].axes[k].mode != 0u) sum = sum + joints[j].rows[k].direction * (joints[j].rows[k].drive + joints[j].rows[k].stop);
+        if (joints[j].axes[k].mode != 0u)
+            sum = sum + joints[j].rows[k].direction * (joints[j].rows[k].drive + joints[j].rows[k].stop);
     return sum;
 }
 

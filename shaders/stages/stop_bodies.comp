@@ -9,7 +9,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.fast == 0u) return;
     float stop = stop_of(bounds[i].flight);
-    if (stop >= 1.0f) return;
+    if (stop >= 1.0f || traits[i].joints != NONE) return;
     Halted after = halted(bounds[i].flight, poses[i], velocities[i], loads[i], stop);
     poses[i] = after.pose;
     velocities[i] = after.velocity;

@@ -41,10 +41,10 @@ const std::map<std::string, Record>& records() {
         std::map<std::string, Record> all;
         {
             using R = Traits;
-            all["Traits"] = {
-                sizeof(R),
-                {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution), M(rolling_resistance),
-                 M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large)}};
+            all["Traits"] = {sizeof(R),
+                             {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution),
+                              M(rolling_resistance), M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large),
+                              M(owner), M(fracture), M(joints), M(pad0)}};
         }
         {
             using R = Pose;
@@ -125,6 +125,57 @@ const std::map<std::string, Record>& records() {
             all["Flight"] = {sizeof(R), {M(position), M(pad0), M(orientation), M(stops), M(struck), M(pad1)}};
         }
         {
+            using R = JointAxis;
+            all["JointAxis"] = {sizeof(R), {M(mode), M(lower), M(upper), M(stiffness), M(damping), M(rest), M(speed), M(most)}};
+        }
+        {
+            using R = JointRow;
+            all["JointRow"] = {sizeof(R),
+                               {M(direction), M(place), M(arm_a), M(drift), M(arm_b), M(give), M(drive), M(stop), M(drive_change),
+                                M(stop_change)}};
+        }
+        {
+            using R = physics::Joint;
+            all["Joint"] = {sizeof(R), {M(a),
+                                        M(b),
+                                        M(member_a),
+                                        M(member_b),
+                                        M(anchor_a),
+                                        M(flags),
+                                        M(anchor_b),
+                                        M(next_a),
+                                        M(frame_a),
+                                        M(frame_b),
+                                        M(axes),
+                                        M(break_force),
+                                        M(break_torque),
+                                        M(next_b),
+                                        M(links),
+                                        M(links_to),
+                                        M(block_joints),
+                                        M(block_members),
+                                        M(first_of_block),
+                                        M(restless),
+                                        M(pins),
+                                        M(broken),
+                                        M(solved),
+                                        M(pad0),
+                                        M(force),
+                                        M(greatest_force),
+                                        M(torque),
+                                        M(greatest_torque),
+                                        M(member),
+                                        M(slot),
+                                        M(pressed),
+                                        M(blocks),
+                                        M(mass),
+                                        M(velocity),
+                                        M(rows),
+                                        M(solution),
+                                        M(diagonal),
+                                        M(coupling)}};
+        }
+        {
             using R = Parameters;
             all["Parameters"] = {sizeof(R),
                                  {M(gravity),
@@ -156,7 +207,7 @@ const std::map<std::string, Record>& records() {
                                   M(friction_factor),
                                   M(least_restitution),
                                   M(held),
-                                  M(pad0),
+                                  M(joint_blocks),
                                   M(grips)}};
         }
         {

@@ -29,7 +29,8 @@ std::vector<std::string> demo_names() {
 }
 
 std::string few_bodies(const std::string& name) {
-    return name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" ? " --bodies 300" : "";
+    return name == "pile" || name == "mix" || name == "avalanche" || name == "assortment" || name == "ragdolls" ? " --bodies 300"
+                                                                                                                : "";
 }
 
 std::string hash_of_run(const std::string& scene) {
