@@ -133,7 +133,7 @@ void DeviceRunner::upload() {
     using enum Table;
     parity_ = 0;
     const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls}) send(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints}) send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
     for (const Table table :
@@ -191,6 +191,9 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
             break;
         case Over::flights:
             indirect(physics::WORK_FLIGHTS);
+            break;
+        case Over::joint_blocks:
+            recording.dispatch(std::max(1u, physics::work_for(p.joint_blocks, p).x));
             break;
     }
 }
@@ -268,8 +271,8 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts, traits,  poses,           velocities,      rests,
-                          hulls,      masses, actions, contacts_before, impulses_before, first_contacts_before};
+    const auto lasting = {parameters, counts,  traits,          poses,           velocities,           rests, hulls, joints,
+                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
@@ -292,6 +295,15 @@ void DeviceRunner::fetch_bodies() {
 void DeviceRunner::fetch_contacts() {
     for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
     if (planned_content_.convex) fetch_live(Table::pairs);  // whose hulls traffic_of counts
+}
+
+void DeviceRunner::fetch_joints() {
+    if (state_->has_joints()) read(Table::joints, state_->raw(Table::joints));
+}
+
+void DeviceRunner::send_joint(std::size_t record) {
+    const physics::Joint& joint = state_->joints[record];
+    buffer(Table::joints).write(joint.axes, sizeof joint.axes, record * sizeof joint + offsetof(physics::Joint, axes));
 }
 
 void DeviceRunner::fetch() {

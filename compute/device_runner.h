@@ -32,6 +32,8 @@ public:
     void fetch_body(std::size_t index) override;
     void fetch_bodies() override;
     void fetch_contacts() override;
+    void fetch_joints() override;
+    void send_joint(std::size_t record) override;
     void fetch() override;
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }

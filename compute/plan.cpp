@@ -18,6 +18,13 @@ void scan(std::vector<Stage>& stages, const std::string& what, Over blocks, Tabl
     stages.push_back({"scan_" + what + "_offsets", blocks, offsets, {result}});
 }
 
+// The joints' half of a pass, after the contacts' or beside it; slots are whole only after both.
+void add_joints(std::vector<Stage>& stages, Stage half, bool after) {
+    stages.back().writes.pop_back();
+    stages.back().feeds_next = after;
+    stages.push_back(std::move(half));
+}
+
 const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_box",     "sphere_plane", "capsule_capsule",
                                   "capsule_box",   "capsule_plane",   "box_box",        "box_plane",    "plane_convex",
                                   "convex",        "sphere_triangle", "convex_triangle"};
@@ -26,7 +33,7 @@ const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_bo
 
 // clang-format off
 std::vector<Stage> plan(int substeps, const Content& content) {
-    const bool convex = content.convex || content.triangles;
+    const bool convex = content.convex || content.triangles, joined = content.joints;
     using enum Table;
     std::vector<Stage> s;
     // what pushes the bodies, where they will be
@@ -60,21 +67,32 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     // whom this wakes
     s.push_back({"wake_touched", Over::contacts, wake_touched, {}, 0, /* feeds_next */ false});
     s.push_back({"wake_deserted", Over::bodies, wake_deserted, {rests, counts}});
+    for (std::uint32_t wakes = 0; joined && wakes < 2; ++wakes)
+        s.push_back({"wake_joined", Over::joint_blocks, wake_joined, {Table::joints, rests}, wakes});
     for (std::uint32_t depth = physics::DEEPEST; depth > 1; --depth)
         s.push_back({"shake_sleepers", Over::shaken, shake_sleepers, {rests}, depth});
     // what the contacts inherit
     s.push_back({"count_slots", Over::contacts, count_slots, {slot_ends}});
+    if (joined) s.push_back({"count_joint_slots", Over::joint_blocks, count_joint_slots, {slot_ends, Table::joints}});
     scan(s, "slots", Over::body_blocks, slot_ends, scan_nothing, scan_slots_offsets);
     s.push_back({"fill_slots", Over::contacts, fill_slots, {slot_ends, counts}});
+    if (joined) s.push_back({"fill_joint_slots", Over::joint_blocks, fill_joint_slots, {slot_ends}});
     s.push_back({"order_slots", Over::bodies, order_slots, {slot_sides, first_contacts}});
+    if (joined) s.back().writes.push_back(Table::joints);
     s.push_back({"prepare_contacts", Over::contacts, prepare_contacts, {contacts, constraints, impulses, slots}});
+    if (joined) {
+        s.back().writes.pop_back();
+        s.push_back({"prepare_joints", Over::joint_blocks, prepare_joints, {Table::joints, slots}});
+    }
     // the solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t last = substep == substeps;
         s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}, substep == 1});
         s.push_back({"solve_contacts", Over::solved, solve_contacts, {impulses, slots}});
+        if (joined) add_joints(s, {"solve_joints", Over::joint_blocks, solve_joints, {Table::joints, slots}}, /* after */ true);
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
         s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});
+        if (joined) add_joints(s, {"relax_joints", Over::joint_blocks, relax_joints, {Table::joints, slots}, last}, /* after */ false);
     }
     s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, bounds, counts}});
     // what is fast stops before it passes through something

@@ -28,7 +28,8 @@ enum class Over {
     shaken,
     solved,
     kind,
-    flights
+    flights,
+    joint_blocks
 };
 
 struct Stage {

@@ -21,6 +21,8 @@ public:
     void fetch_body(std::size_t) override {}
     void fetch_bodies() override {}
     void fetch_contacts() override {}
+    void fetch_joints() override {}
+    void send_joint(std::size_t) override {}
     void fetch() override {}
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }

@@ -12,6 +12,7 @@
 #include "compute/compound.h"
 #include "compute/hull.h"
 #include "compute/mesh.h"
+#include "compute/scene_joints.h"
 #include "shaders/physics/hulls.h"
 
 namespace scree {
@@ -157,6 +158,8 @@ const Hulls::Made& Hulls::of(const std::vector<vec3>& points) {
     return one;
 }
 
+using Shift = std::optional<Recentred>;  // of the body's frame: to where its origin, along what its axes
+
 // To where its origin and its axes are, in its own frame.
 void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes) {
     const glm::dquat turn(orientation.w, orientation.x, orientation.y, orientation.z);
@@ -166,7 +169,7 @@ void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes
 }
 
 // `position` and `orientation`: of the body, or of the part.
-void examine_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, Hulls& hulls,
+Shift examine_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, Hulls& hulls,
                   std::vector<std::string>* notes) {
     try {
         const Hulls::Made& made = hulls.of(hull.points);
@@ -174,14 +177,15 @@ void examine_hull(const Examination& body, vec3& position, vec4& orientation, Hu
             notes->push_back(body.place() + "/shape/hull: simplified to " + std::to_string(physics::MOST_CORNERS) + " corners");
         }
         hull = made.hull;
-        if (made.centre == dvec3(0) && made.axes == glm::dquat(1, 0, 0, 0)) return;
+        if (made.centre == dvec3(0) && made.axes == glm::dquat(1, 0, 0, 0)) return {};
         move_frame(position, orientation, made.centre, made.axes);
+        return Recentred{made.centre, made.axes};
     } catch (const HullError& error) {
         body.refuse("/shape/hull/points", error.what());
     }
 }
 
-void examine_compound(const Examination& body, Body& b, Compound& compound, Hulls& hulls, std::vector<std::string>* notes) {
+Shift examine_compound(const Examination& body, Body& b, Compound& compound, Hulls& hulls, std::vector<std::string>* notes) {
     constexpr std::size_t most_parts = 10000;
     if (compound.parts.empty()) body.refuse("/shape/compound/parts", "a compound needs at least one part");
     if (compound.parts.size() > most_parts)
@@ -198,8 +202,9 @@ void examine_compound(const Examination& body, Body& b, Compound& compound, Hull
         if (auto* hull = std::get_if<Hull>(&p.shape)) examine_hull(part, p.position, p.orientation, *hull, hulls, notes);
     }
     const Recentred before = bring_to_centre(compound, b.density);
-    if (before.centre != dvec3(0) || before.axes != glm::dquat(1, 0, 0, 0))
-        move_frame(b.position, b.orientation, before.centre, before.axes);
+    if (before.centre == dvec3(0) && before.axes == glm::dquat(1, 0, 0, 0)) return {};
+    move_frame(b.position, b.orientation, before.centre, before.axes);
+    return before;
 }
 
 void examine_mesh(const Examination& body, Body& b, std::vector<std::string>* notes) {
@@ -240,13 +245,14 @@ void examine_mesh(const Examination& body, Body& b, std::vector<std::string>* no
 }
 
 // After position and orientation: what has its own centre moves them.
-void examine_whole(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
-    if (auto* hull = std::get_if<Hull>(&b.shape)) examine_hull(body, b.position, b.orientation, *hull, hulls, notes);
-    if (auto* compound = std::get_if<Compound>(&b.shape)) examine_compound(body, b, *compound, hulls, notes);
+Shift examine_whole(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
+    if (auto* hull = std::get_if<Hull>(&b.shape)) return examine_hull(body, b.position, b.orientation, *hull, hulls, notes);
+    if (auto* compound = std::get_if<Compound>(&b.shape)) return examine_compound(body, b, *compound, hulls, notes);
     if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape)) examine_mesh(body, b, notes);
+    return {};
 }
 
-void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
+Shift examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::string>* notes) {
     if (std::optional<SimpleShape> simple = simple_shape(b.shape)) {
         examine_simple(body, *simple, b.motion);
         b.shape = whole_shape(*simple);
@@ -254,7 +260,7 @@ void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::st
     body.between("/position", b.position, -largest_position, largest_position, " m");
     body.make_unit("/orientation", b.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
     body.between("/density", b.density, smallest_density, largest_density, " kg/m^3");
-    examine_whole(body, b, hulls, notes);
+    const Shift shift = examine_whole(body, b, hulls, notes);
     body.between("/velocity", b.velocity, -largest_velocity, largest_velocity, " m/s");
     body.between("/angular_velocity", b.angular_velocity, -largest_velocity, largest_velocity, " rad/s");
     body.between("/friction", b.friction, 0, largest_friction, "");
@@ -274,6 +280,7 @@ void examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::st
     if (b.motion == Motion::dynamic && !representable) {
         body.refuse("/density", "size and density give a mass or inertia out of the range of a float");
     }
+    return shift;
 }
 
 }  // namespace
@@ -289,8 +296,10 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         throw SceneError("/gravity/" + std::to_string(i), out_of_range(g, -largest_gravity, largest_gravity, " m/s^2"));
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
+        const Shift shift = examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
+        if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
+    check_joints(scene);
     return scene;
 }
 

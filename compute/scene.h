@@ -100,10 +100,86 @@ struct Body {
     float gravity_scale = 1;
 };
 
+// ---- joints
+// A joint holds a frame of axes in body A and one in body B; at rest, with nothing moved along or about any axis, they lie on
+// each other. x is the axis of a hinge, of a slider, and the middle of a cone.
+constexpr float unlimited = 1e30f;
+
+struct Limits {       // of how far B is from A along an axis (m) or about it (rad, within pi of 0)
+    float lower = 0;  // -unlimited to unlimited, not above `upper`
+    float upper = 0;
+};
+struct Spring {                   // pulls towards a place; with stiffness 0 a damper
+    float stiffness = 0;          // N/m or N m/rad, 0 to 1e12
+    float damping = 0;            // N s/m or N m s/rad, 0 to 1e12
+    float rest = 0;               // m or rad
+    float max_force = unlimited;  // N or N m
+};
+struct Motor {            // drives B against A
+    float speed = 0;      // m/s or rad/s
+    float max_force = 0;  // N or N m
+};
+// What may happen along or about one axis. One of spring, motor and friction.
+struct Axis {
+    bool locked = false;  // nothing
+    std::optional<Limits> limits;
+    std::optional<Spring> spring;
+    std::optional<Motor> motor;
+    float friction = 0;  // N or N m, with which it resists
+};
+
+struct Ball {            // the anchors stay together; all turns are free
+    float friction = 0;  // N m about each axis
+};
+struct Hinge {  // B turns about x
+    Axis turn;
+};
+struct Slider {  // B slides along x and does not turn
+    Axis slide;
+};
+struct Fixed {};                   // B does not move against A
+struct Distance {                  // between the anchors: a rope from 0 to its length, a rod with both alike, or with a spring
+    float least = 0;               // m
+    float greatest = unlimited;    // m
+    std::optional<Spring> spring;  // `rest` is its length
+};
+struct ConeTwist {       // the anchors stay together; B's x axis stays within a cone about A's
+    float swing = 0;     // half the cone's angle, rad, 0 to pi
+    Limits twist;        // about x
+    float friction = 0;  // N m, against the twist
+};
+struct SixDegrees {  // every axis as it says; they are free unless they say more
+    Axis x, y, z;    // along A's axes
+    Axis twist;      // about x, of B against where the swing has brought it
+    Axis swing_y, swing_z;
+};
+using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDegrees>;
+
+constexpr std::size_t the_world = static_cast<std::size_t>(-1);  // in place of a body: what never moves
+
+struct Joint {
+    std::string name;  // for messages; may be empty
+    JointKind kind = Ball{};
+    std::size_t a = the_world, b = the_world;  // bodies; not the same, and at least one that moves
+    vec3 anchor_a{0}, anchor_b{0};             // in the body's frame, from its centre of mass (the world's: from its origin), m
+    vec4 frame_a{0, 0, 0, 1}, frame_b{0, 0, 0, 1};  // of the joint's axes in the body's, quaternions; normalised when checked
+    bool collide = false;                           // whether the two bodies may touch
+    float break_force = unlimited;                  // N, mean over a step; above it the joint tears
+    float break_torque = unlimited;                 // N m
+    bool broken = false;                            // it has torn already
+};
+
 struct Scene {
     vec3 gravity{0, -9.81f, 0};  // m/s^2
     std::vector<Body> bodies;
+    std::vector<Joint> joints;
 };
+
+// A joint of two bodies of the scene (or the world) as they lie now, with its anchor and its x axis where they are in the world.
+// Throws SceneError for an axis without a length.
+Joint joint_at(const Scene& scene, JointKind kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis = vec3(1, 0, 0));
+// The same between an anchor in A and one in B, for a Distance.
+Joint joint_between(const Scene& scene, JointKind kind, std::size_t a, std::size_t b, vec3 anchor_a, vec3 anchor_b);
 
 // A scene that cannot be simulated. `pointer` is the place as a JSON pointer ("/bodies/17/shape/sphere/radius").
 struct SceneError : std::runtime_error {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "compute/json_reading.h"
+#include "compute/scene_json_joints.h"
 
 namespace scree {
 
@@ -271,9 +272,7 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     if (!rest["bodies"].is_array()) refuse(root / "bodies", "must be an array, is " + kind(rest["bodies"]));
     optional(rest, root, "gravity", document.scene.gravity);
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera");
-    if (const auto joints = rest.find("joints"); joints != rest.end() && !(joints->is_array() && joints->empty())) {
-        refuse(root / "joints", "joints are not supported yet; leave the key out");
-    }
+    if (rest.contains("joints")) read_joints(rest["joints"], document.scene);
     return document;
 }
 

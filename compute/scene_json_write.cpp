@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compute/scene_json.h"
+#include "compute/scene_json_joints.h"
 
 namespace scree {
 
@@ -198,7 +199,13 @@ std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& vi
         write(text, body);
         between = ",\n  ";
     }
-    text << "\n]}\n";
+    text << "\n]";
+    between = ",\n \"joints\": [\n  ";
+    for (const Joint& joint : scene.joints) {
+        text << between << joint_to_json(joint);
+        between = ",\n  ";
+    }
+    text << (scene.joints.empty() ? "}\n" : "\n]}\n");
     return text.take();
 }
 

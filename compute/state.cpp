@@ -10,6 +10,7 @@
 
 #include "compute/hull.h"
 #include "compute/mesh.h"
+#include "compute/joints.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/parts.h"
@@ -106,9 +107,8 @@ physics::uint sleep_steps_of(const Settings& settings) {
 }
 
 const std::array<TableInfo, table_count>& table_infos() {
-    using namespace physics;
     static const std::array<TableInfo, table_count> infos{{
-#define SCREE_INFO(binding, name, block, record, length) {#name, sizeof(record), Length::length},
+#define SCREE_INFO(binding, name, block, record, length) {#name, sizeof(physics::record), Length::length},
         SCREE_TABLES(SCREE_INFO)
 #undef SCREE_INFO
     }};
@@ -132,6 +132,10 @@ State::State(const Scene& scene, const Settings& settings, std::uint32_t group_s
     p.cell = cell_width(traits, p.speculative);
     p.inverse_cell = 1 / p.cell;
     mark_large(traits, p.cell);
+    JointTables joined = joint_tables(scene, traits);
+    joints = std::move(joined.records);
+    joint_records = std::move(joined.record_of);
+    p.joint_blocks = joined.blocks;
     p.bodies = rows;
     p.first_part = n;
     p.buckets = buckets_for(rows);
@@ -159,6 +163,11 @@ void State::tune(vec3 gravity, const Settings& settings) {
         impulses[i] = scaled(impulses[i], factor);
         contacts[i].load *= factor;
     }
+    for (physics::Joint& joint : joints)
+        for (physics::JointRow& row : joint.rows) {
+            row.drive *= factor;
+            row.stop *= factor;
+        }
 }
 
 std::size_t State::allocated(Length length) const {
@@ -187,7 +196,9 @@ std::size_t State::allocated(Length length) const {
         case Length::contacts:
             return p.contact_capacity;
         case Length::slots:
-            return 2 * std::size_t{p.contact_capacity};
+            return 2 * std::size_t{p.contact_capacity} + joints.size();
+        case Length::joints:
+            return std::max<std::size_t>(1, joints.size());
         case Length::hulls:
             return std::max<std::size_t>(1, hulls.size());
     }
@@ -229,7 +240,7 @@ void State::make(Table table) {
 
 void State::allocate() {
     using enum Table;
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls}) make(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints}) make(table);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }
@@ -252,6 +263,10 @@ void State::grow() {
     if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);
     counted().overflow = 0;
     allocate();
+}
+
+bool State::has_joints() const {
+    return parameters[0].joint_blocks != 0;
 }
 
 std::size_t State::bytes() const {

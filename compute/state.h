@@ -18,7 +18,20 @@
 namespace scree {
 
 // What tables are as long as.
-enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots, hulls };
+enum class Length {
+    one,
+    bodies,
+    bodies_and_end,
+    buckets,
+    pairs,
+    pairs_and_end,
+    kinds,
+    candidates,
+    contacts,
+    slots,
+    hulls,
+    joints
+};
 
 enum class Table : std::uint32_t {
 #define SCREE_NAME(binding, name, block, record, length) name = binding,
@@ -41,7 +54,8 @@ struct Content {
     bool convex = false;        // some body is a cylinder, cone or hull
     bool triangles = false;     // there are meshes or height fields
     bool moving_parts = false;  // there are compounds, or meshes, that move
-    static Content everything() { return {true, true, true}; }
+    bool joints = false;
+    static Content everything() { return {true, true, true, true}; }
     bool operator==(const Content&) const = default;
 };
 
@@ -76,6 +90,7 @@ struct State {
     std::size_t allocated(Length length) const;
     std::size_t live(Length length) const;
     Content content() const;
+    bool has_joints() const;
     // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : traits[row].owner;
@@ -103,6 +118,7 @@ struct State {
     }
 
     int substeps = 1;
+    std::vector<std::uint32_t> joint_records;  // of each joint of the scene
 
     // The plain loops' own, no table: the first partners of each body as they were counted, so that they need not be sought again
     // to be listed. More than any body has in a heap of equal ones; whoever has more seeks again.

@@ -65,6 +65,16 @@ void add_contacts(const State& state, Statistics& s) {
     if (inside) s.penetration_mean = depth / static_cast<double>(inside);
 }
 
+void add_joints(const State& state, Statistics& s) {
+    s.joints = state.joint_records.size();
+    for (const std::uint32_t record : state.joint_records) {
+        const physics::Joint& joint = state.joints[record];
+        s.joints_broken += joint.broken != 0;
+        s.joint_force_max = std::max(s.joint_force_max, static_cast<double>(joint.greatest_force));
+        s.joint_torque_max = std::max(s.joint_torque_max, static_cast<double>(joint.greatest_torque));
+    }
+}
+
 }  // namespace
 
 Statistics statistics_of(const Scene& scene, const State& state) {
@@ -88,6 +98,7 @@ Statistics statistics_of(const Scene& scene, const State& state) {
         });
     }
     add_contacts(state, s);
+    add_joints(state, s);
     for (int axis = 0; axis < 3; ++axis) {
         s.momentum[axis] = momentum[axis];
         s.angular_momentum[axis] = spin[axis];

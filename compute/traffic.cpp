@@ -28,9 +28,10 @@ enum class Amount {
     contacts,
     solved,
     slots,
-    binned,          // pairs of the stage's kind
-    binned_bodies,   // their bodies, at most all
-    binned_hulls,    // records of their hulls, each once
+    binned,         // pairs of the stage's kind
+    binned_bodies,  // their bodies, at most all
+    binned_hulls,   // records of their hulls, each once
+    joints,
     flights,         // pairs if some body is fast, else none
     flight_bodies,   // their bodies
     stirred,         // contacts if some body sleeps, else none
@@ -67,6 +68,8 @@ std::map<std::string, Accesses> all_accesses() {
     // Few pairs are fast: most are looked at no further.
     const Accesses foresight{{{touching, A::flights}, {pairs, A::flights}, {traits, A::flight_bodies}, {velocities, A::flight_bodies}}, {}};
     const Accesses search{{{pairs, A::flights}, {bounds, A::flight_bodies, 1}}, {}};
+    const Accesses joint_pass{{{joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {loads, A::joints}},
+                              {{joints, A::joints}, {slots, A::joints}}};
     std::map<std::string, Accesses> all = {
         {"begin_step", {{{traits, A::bodies, 1}}, {{cells, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {loads, A::bodies}}}},
         {"apply_actions", {{{actions, A::actions}, {traits, A::actions}, {poses, A::actions}, {velocities, A::actions}, {loads, A::actions}},
@@ -129,6 +132,12 @@ std::map<std::string, Accesses> all_accesses() {
                             {{impulses, A::solved}, {slots, A::slots}}}},
         {"end_step", {{{rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
                       {{velocities, A::movers}, {rests, A::movers}}}},
+        {"wake_joined", {{{joints, A::joints, 2}, {rests, A::joints}}, {}}},
+        {"count_joint_slots", {{{joints, A::joints, 2}, {rests, A::joints}}, {{joints, A::joints, 1}, {slot_ends, A::joints}}}},
+        {"fill_joint_slots", {{{joints, A::joints, 2}, {rests, A::joints}, {slot_ends, A::joints}}, {{slot_ends, A::joints}, {slot_sides, A::joints}}}},
+        {"prepare_joints", joint_pass},
+        {"solve_joints", joint_pass},
+        {"relax_joints", joint_pass},
         {"find_impacts", search},
         {"find_impacts_convex", search},
         {"stop_bodies", {{{bounds, A::flight_bodies, 1}}, {}}},
@@ -146,7 +155,8 @@ const std::map<std::string, Accesses>& accesses() {
 
 // How many of each there were in the last step.
 struct Step {
-    std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, kinds = 0, pairs = 0, contacts = 0, solved = 0, slots = 0;
+    std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, kinds = 0, pairs = 0, contacts = 0, solved = 0, slots = 0,
+                joints = 0;
     std::size_t actions = 0, flights = 0, stirred = 0;
     std::vector<std::size_t> of_kind, hulls_of_kind;
 
@@ -161,6 +171,7 @@ struct Step {
         const std::size_t block = std::size_t{state.fixed().group_size} << physics::SCAN_SHIFT;
         blocks = std::max(kinds, pairs) / block + 1;
         actions = state.fixed().actions;
+        joints = state.has_joints() ? state.joints.size() : 0;
         flights = c.arguments[physics::WORK_FLIGHTS].x ? pairs : 0;
         stirred = c.sleepers ? contacts : 0;
         for (physics::uint k = 0; k < physics::KINDS; ++k) of_kind.push_back(c.kind_first[k + 1] - c.kind_first[k]);
@@ -216,6 +227,8 @@ struct Step {
                 return std::min(2 * binned, bodies);
             case Amount::binned_hulls:
                 return stage.over == Over::kind ? hulls_of_kind[stage.pass] : 0;
+            case Amount::joints:
+                return joints;
             case Amount::flights:
                 return flights;
             case Amount::flight_bodies:

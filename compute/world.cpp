@@ -157,6 +157,8 @@ Scene World::snapshot() const {
         body.velocity = now.velocity;
         body.angular_velocity = now.angular_velocity;
     }
+    interior_->runner->fetch_joints();
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) scene.joints[i].broken = interior_->joint_state(i).broken;
     return scene;
 }
 
@@ -186,12 +188,14 @@ std::vector<Touching> World::touching(std::size_t body) const {
 Statistics World::statistics() const {
     interior_->runner->fetch_bodies();
     interior_->runner->fetch_contacts();
+    interior_->runner->fetch_joints();
     return statistics_of(interior_->scene, interior_->state);
 }
 
 const State& World::state() const {
     interior_->runner->fetch_bodies();
     interior_->runner->fetch_contacts();
+    interior_->runner->fetch_joints();
     return interior_->state;
 }
 

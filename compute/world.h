@@ -5,6 +5,7 @@
 //     for (const scree::BodyState& body : world.bodies()) ...
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -33,6 +34,19 @@ struct Touching {
     float force;       // N, along the normal; 0 between bodies that are about to touch
 };
 
+// A joint as the last step left it.
+enum class JointAxis { x, y, z, twist, swing_y, swing_z };  // along, then about the axes of its frame in A
+struct JointState {
+    vec3 force{0};              // on B, N, mean over the step; a sleeping joint's is that of its last step awake
+    vec3 torque{0};             // on B, N m
+    float greatest_force = 0;   // N, of any step so far
+    float greatest_torque = 0;  // N m
+    bool broken = false;
+    float gap = 0;  // m, between the anchors
+    // By JointAxis: how far B is from A, m and rad; of a Distance the first is the distance.
+    std::array<float, 6> places{};
+};
+
 // A hold on a body: a damped spring between a point of it and a place, solved implicitly and within every substep.
 struct GripSpring {
     float hertz = 5;               // 0.1 to 30, of the body at the point where it is held. Below, it hangs far down
@@ -57,7 +71,11 @@ struct Statistics {
     double drift_max = 0;                    // m, greatest distance of a dynamic body from its start
     std::size_t asleep = 0;                  // bodies
     std::size_t not_finite = 0;              // bodies
-    std::size_t below_ground = 0;            // dynamic bodies whose centre lies behind a plane of the scene
+    std::size_t joints = 0;                  // of every kind
+    std::size_t joints_broken = 0;
+    double joint_force_max = 0;    // N, mean over a step, of any joint in any step so far
+    double joint_torque_max = 0;   // N m
+    std::size_t below_ground = 0;  // dynamic bodies whose centre lies behind a plane of the scene
 };
 
 class World {
@@ -97,6 +115,12 @@ public:
     void wake_all();                  // in the next step
     void set_sleeping(bool allowed);  // false: from the next step on nobody sleeps
 
+    // From the next step on: drives an axis of a joint, in place of what drove it (a hinge's is twist, a slider's x). They wake
+    // its bodies. Throw std::out_of_range for the index, std::invalid_argument for an axis that cannot move, SceneError for the
+    // values.
+    void set_motor(std::size_t joint, JointAxis axis, const Motor& motor);
+    void set_spring(std::size_t joint, JointAxis axis, const Spring& spring);
+
     // Holds a dynamic body at `anchor` (in its own frame, from its centre; what lies outside of the box around it is brought to
     // that box) and draws that point to `target` (world, within 1e6 m of 0), step by step, until released. A held body is awake.
     // Returns the number of the grip. Throws as apply_force does, and std::length_error if most_grips are held already.
@@ -123,6 +147,8 @@ public:
     BodyState body(std::size_t index) const;                 // throws std::out_of_range
     std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts
     std::vector<BodyState> bodies() const;
+    JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
+    std::vector<JointState> joints() const;
     // The scene with every body where it is now and as fast. A world made of it goes on from there, but not to the same bits: its
     // contacts begin anew, sleepers are awake, and what a position has below its last bit is gone.
     Scene snapshot() const;

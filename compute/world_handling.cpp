@@ -130,7 +130,7 @@ void World::Interior::retune(const Settings& changed) {
 }
 
 void World::set_gravity(vec3 gravity) {
-    interior_->scene.gravity = checked(Scene{gravity, {}}).gravity;
+    interior_->scene.gravity = checked(Scene{gravity, {}, {}}).gravity;
     interior_->retune(interior_->settings);
     wake_all();
 }
@@ -162,7 +162,7 @@ void World::set_sleeping(bool allowed) {
 
 std::size_t World::add_body(const Body& body) {
     Interior& in = *interior_;
-    const Body added = checked(Scene{in.scene.gravity, {body}}).bodies.front();
+    const Body added = checked(Scene{in.scene.gravity, {body}, {}}).bodies.front();
     in.runner->fetch();
     in.state.add(added);
     in.scene.bodies.push_back(added);

@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 
+#include "compute/scene_joints.h"
 #include "compute/state.h"
 #include "compute/world.h"
 
@@ -35,6 +37,11 @@ struct World::Interior {
     void require_body(std::size_t body) const;
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;
+
+    // world_joints.cpp
+    void require_joint(std::size_t joint) const;  // throws std::out_of_range
+    JointState joint_state(std::size_t i) const;
+    void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
 
     // world_handling.cpp
     Held& held(std::size_t grip);  // throws std::out_of_range

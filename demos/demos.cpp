@@ -22,6 +22,11 @@ const std::vector<Demo>& all_demos() {
         {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
         {"terrain", "bodies of every shape tumble down hills, a height field, and gather in the valley", 600, true, terrain},
         {"mesh", "bodies of every shape come down a staircase into a bowl, a mesh from a file", 120, true, mesh},
+        {"chain", "two chains of twenty links swing, one with a load of a hundred links", 41, false, chain},
+        {"bridge", "a hanging bridge of planks bears a dozen crates", 36, false, bridge},
+        {"ragdolls", "three hundred figures of eleven limbs fall on steps and come to rest", 3300, true, ragdolls},
+        {"pendulums", "pendulums of every kind keep their period and their energy for a minute", 7, false, pendulums},
+        {"machine", "a motor turns two gears, a crank and a piston", 18, false, machine},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},

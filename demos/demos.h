@@ -59,6 +59,11 @@ DemoScene avalanche(const DemoOptions&);
 DemoScene assortment(const DemoOptions&);
 DemoScene terrain(const DemoOptions&);
 DemoScene mesh(const DemoOptions&);
+DemoScene chain(const DemoOptions&);
+DemoScene bridge(const DemoOptions&);
+DemoScene ragdolls(const DemoOptions&);
+DemoScene pendulums(const DemoOptions&);
+DemoScene machine(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);

@@ -67,6 +67,11 @@ std::string json_of(const RunReport& r) {
         {"momentum", s.momentum},
         {"angular_momentum", s.angular_momentum},
         {"drift_max", s.drift_max},
+        {"joints",
+         {{"count", s.joints},
+          {"broken", s.joints_broken},
+          {"greatest_force", s.joint_force_max},
+          {"greatest_torque", s.joint_torque_max}}},
         {"asleep", s.asleep},
         {"not_finite", s.not_finite},
         {"below_ground", s.below_ground},
@@ -105,6 +110,9 @@ std::string summary_of(const RunReport& r) {
     line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
     line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
     line("greatest drift", fmt::format("{:.4g} m", s.drift_max));
+    if (s.joints > 0)
+        line("joints", fmt::format("{}, {} torn; at most {:.4g} N and {:.4g} N m carried", s.joints, s.joints_broken,
+                                   s.joint_force_max, s.joint_torque_max));
     line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
                                 per_body(r, r.buffer_bytes), r.buffer_growths));
     line("state hash", hash_text(r.state_hash));

@@ -71,11 +71,27 @@ void for_each_carried_over(const State& state, std::uint32_t body, const Found& 
     }
 }
 
+// Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
+bool kept_apart(const State& state, std::uint32_t body, std::uint32_t other) {
+    if (state.traits[body].joints == physics::NONE) std::swap(body, other);
+    for (std::uint32_t j = state.traits[body].joints; j != physics::NONE;) {
+        const physics::Joint& joint = state.joints[j];
+        const bool joins = (joint.a == body && joint.b == other) || (joint.a == other && joint.b == body);
+        if (joins && !joint.broken && !(joint.flags & physics::JOINT_COLLIDES)) return true;
+        j = joint.a == body ? joint.next_a : joint.next_b;
+    }
+    return false;
+}
+
 // Calls found(other) for each body whose pair with `body` the latter owns.
 template <typename Found>
-void for_each_partner(const State& state, std::uint32_t body, const Found& found) {
+void for_each_partner(const State& state, std::uint32_t body, const Found& list) {
     const physics::Parameters& p = state.fixed();
     const physics::Traits& own = state.traits[body];
+    const bool joined = state.has_joints();
+    const auto found = [&](std::uint32_t other) {
+        if (!joined || !kept_apart(state, body, other)) list(other);
+    };
     const physics::Bounds& around = state.bounds[body];
     if ((around.level & physics::NOWHERE) != 0) return;
     for_each_carried_over(state, body, found);

@@ -82,8 +82,13 @@ void order_slots(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t last = state.slot_ends[i];
         std::sort(state.slot_sides.begin() + first, state.slot_sides.begin() + last);
         for (std::uint32_t slot = first; slot < last; ++slot) {
-            physics::Constraint& c = state.constraints[state.slot_sides[slot] / 2];
-            (state.slot_sides[slot] % 2 == 0 ? c.slot_a : c.slot_b) = slot;
+            const std::uint32_t side = state.slot_sides[slot];
+            if (side & physics::OF_JOINT) {
+                state.joints[side & ~physics::OF_JOINT].slot = slot;
+                continue;
+            }
+            physics::Constraint& c = state.constraints[side / 2];
+            (side % 2 == 0 ? c.slot_a : c.slot_b) = slot;
         }
     });
     state.first_contacts[n] = state.counted().contacts;

@@ -90,7 +90,7 @@ void stop_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const float stop = physics::stop_of(state.bounds[i].flight);
-        if (stop >= 1) return;
+        if (stop >= 1 || state.traits[i].joints != physics::NONE) return;
         const physics::Halted after =
             physics::halted(state.bounds[i].flight, state.poses[i], state.velocities[i], state.loads[i], stop);
         state.poses[i] = after.pose;

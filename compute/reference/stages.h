@@ -51,6 +51,14 @@ SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);
 
+// joints.cpp
+SCREE_STAGE(wake_joined);
+SCREE_STAGE(count_joint_slots);
+SCREE_STAGE(fill_joint_slots);
+SCREE_STAGE(prepare_joints);
+SCREE_STAGE(solve_joints);
+SCREE_STAGE(relax_joints);  // pass: whether it is the step's last
+
 // flights.cpp
 SCREE_STAGE(foresee_impacts);
 SCREE_STAGE(drop_passers);

@@ -53,9 +53,10 @@ LAW bool in_motion(Velocity v) {
     return v.linear.x != 0.0f || v.linear.y != 0.0f || v.linear.z != 0.0f || v.angular.x != 0.0f || v.angular.y != 0.0f ||
            v.angular.z != 0.0f;
 }
-// Whether a body at this velocity will be fast.
+// Whether a body at this velocity will be fast. What hangs on a joint never is: to stop it alone would tear it out of its joint
+// (limbs of figures that fall were 0.5 m apart), and the contacts that are made ahead of its way hold it back.
 LAW bool will_be_fast(Traits traits, Velocity velocity, Parameters parameters) {
-    if (!in_motion(velocity)) return false;
+    if (!in_motion(velocity) || traits.joints != NONE) return false;
     float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(traits);
     return traits.motion != MOTION_FIXED && way * parameters.dt > unwatched_way(traits);
 }
@@ -120,7 +121,7 @@ LAW float stop_of(Flight flight) {
 LAW bool was_fast(Traits traits, Flight flight, Pose end) {
     vec4 turn = turn_between(flight.orientation, end.orientation);
     float way = length3(end.position - flight.position) + turning_of(flight.orientation, turn) * lever_of(traits);
-    return way > unwatched_way(traits);
+    return way > unwatched_way(traits) && traits.joints == NONE;
 }
 
 // The fraction of a way along one axis, from 0 to `way`, that lies between -back and ahead (both may be negative: then none).

@@ -210,6 +210,89 @@ struct Slot {       // what one contact did to one body; a body sums its slots i
     float told;     // the normal impulse, N s; in the last pass what the other body tells of its rest (rest.h), steps
 };
 
+// ---- joints
+// What a joint may do along or about one of its six axes: along x, y and z of its frame in A, then the twist about x, and the
+// swing about y and z. A place is how far B is from A there.
+CONSTANT uint AXIS_LOCKED = 1u;
+CONSTANT uint AXIS_LIMITED = 2u;
+CONSTANT uint AXIS_MOTOR = 4u;   // driven to a speed; friction is a motor of speed 0
+CONSTANT uint AXIS_SPRING = 8u;  // drawn to a place, or damped
+struct JointAxis {
+    uint mode;           // AXIS_*
+    float lower, upper;  // of the place, m or rad
+    float stiffness;     // N/m or N m/rad
+    float damping;       // N s/m or N m s/rad
+    float rest;          // the spring's place, m or rad
+    float speed;         // of a motor, m/s or rad/s
+    float most;          // of a motor or spring, N or N m
+};
+// An axis in the pass at hand, and its impulses, which last.
+struct JointRow {
+    vec3 direction;  // along or about which B is pushed and A pushed back, world, unit
+    float place;     // m or rad
+    vec3 arm_a;      // what turns A: lever x direction, m, or the direction itself
+    float drift;     // what the place's second derivative adds to its speed until the middle of the substep, m/s or rad/s
+    vec3 arm_b;
+    float give;          // speed that an impulse of 1 brings about in the lent bodies, 1/kg or 1/(kg m^2)
+    float drive, stop;   // impulses of a substep: of lock, motor or spring; of the limit (> 0: of the lower), N s or N m s
+    float drive_change;  // in this pass
+    float stop_change;
+};
+
+CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's, and its place is their distance
+CONSTANT uint JOINT_CONE = 2u;      // axis y of the swing is the one that B has swung about, and its place the whole swing
+CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies may touch
+// Each axis has four bits of Joint.pins.
+CONSTANT uint PIN_LOW = 1u;   // the drive pushes as hard as it may, down
+CONSTANT uint PIN_HIGH = 2u;  // and up
+CONSTANT uint STOP_LOW = 4u;  // the lower limit acts
+CONSTANT uint STOP_HIGH = 8u;
+
+// A record holds the i-th joint of a block of joints and the i-th body of it; there are as many as the more numerous has. Joints
+// are in the order in which they are eliminated (compute/joints.h).
+struct Joint {
+    uint a, b;                // bodies; NONE: the world
+    uint member_a, member_b;  // records where the block has them; NONE for what is not dynamic
+    vec3 anchor_a;            // in A's frame, m
+    uint flags;               // JOINT_*
+    vec3 anchor_b;
+    uint next_a;   // joint of body A after this one in its list; NONE: the last
+    vec4 frame_a;  // from the joint's axes to A's
+    vec4 frame_b;
+    JointAxis axes[6];
+    float break_force, break_torque;  // N, N m
+    uint next_b;
+    uint links;        // how many
+    uint links_to[8];  // joints of the block behind this one that its elimination changes, in rising order (MOST_LINKS)
+    // ---- of the block, in its first record
+    uint block_joints, block_members;
+    uint first_of_block;  // in record i: where the i-th block begins
+    uint restless;        // 1: a body of it is, in this step
+    // ---- state
+    uint pins;    // per axis
+    uint broken;  // 1: it has torn
+    uint solved;  // bit per axis that is in the pass's system of equations
+    uint pad0;
+    vec3 force;  // on B, N: sums of impulses within a step, their mean at its end
+    float greatest_force;
+    vec3 torque;  // N m
+    float greatest_torque;
+    // ---- the body of this record
+    uint member;  // NONE: none
+    uint slot;
+    float pressed;      // N s
+    uint blocks;        // that have the body
+    Mass mass;          // lent
+    Velocity velocity;  // lent
+    // ---- the pass's equations
+    JointRow rows[6];
+    float solution[8];    // 6 are in use
+    float diagonal[36];   // 6 rows of 6
+    float coupling[288];  // per link, 6 rows of the later joint by 6 of this one
+};
+CONSTANT uint MOST_LINKS = 8u;
+CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slots' sides: of the block's body in this record
+
 // ---- the step itself
 struct Parameters {  // the same for every thread of a step
     vec3 gravity;    // m/s^2
@@ -242,7 +325,9 @@ struct Parameters {  // the same for every thread of a step
     float least_restitution;  // of every pair
     uint held;                // grips in use
     uint first_part;          // from this row on, rows are parts of bodies
-    Grip grips[4];            // MOST_GRIPS
+    uint joint_blocks;
+    uint pad0, pad1, pad2;
+    Grip grips[4];  // MOST_GRIPS
 };
 
 CONSTANT uint KINDS = 15u;  // of pairs: thirteen of shapes, those whose contact is kept, and those at rest

@@ -75,6 +75,11 @@ LAW bool stirs(uint motion, Velocity velocity, uint rest, uint sleep_steps) {
 LAW bool is_restless(uint motion, uint rest) {
     return motion != MOTION_DYNAMIC || quiet_steps(rest) == 0u;
 }
+// Whether a body wakes those that are joined to it. Being woken by one that it is joined to does not count before the next step.
+LAW bool stirs_joined(uint motion, Velocity velocity, uint rest) {
+    if (motion == MOTION_KINEMATIC) return in_motion(velocity);
+    return motion == MOTION_DYNAMIC && ((rest & WOKEN) != 0u || quiet_steps(rest) == 0u);
+}
 
 // ---- falling asleep
 // The speed of a body's fastest point, 1 where sleep ends.

@@ -24,7 +24,7 @@ layout(std430, set = 0, binding = 16) readonly buffer SlotEndTable {
     uint slot_ends[];  // of each body's slots, which begin where those of the body before end
 };
 layout(std430, set = 0, binding = 17) readonly buffer SlotSideTable {
-    uint slot_sides[];  // 2 * contact + side
+    uint slot_sides[];  // 2 * contact + side, or with OF_JOINT a joint's record
 };
 layout(std430, set = 0, binding = 18) readonly buffer RestTable {
     uint rests[];
@@ -39,15 +39,23 @@ bool sleeps(uint body) {
 float contact_impulse(uint body) {
     float sum = 0.0;
     for (uint k = body == 0u ? 0u : slot_ends[body - 1u]; k < slot_ends[body]; ++k) {
+        if ((slot_sides[k] & OF_JOINT) != 0u) continue;
         vec4 push = impulses[slot_sides[k] >> 1].normal;
         sum += push.x + push.y + push.z + push.w;
     }
     return sum;
 }
 
+float contacts_on(uint body) {
+    uint count = 0u;
+    for (uint k = body == 0u ? 0u : slot_ends[body - 1u]; k < slot_ends[body]; ++k)
+        if ((slot_sides[k] & OF_JOINT) == 0u) ++count;
+    return float(count);
+}
+
 float quantity(uint by, uint body) {
     if (by == COLOR_BY_CONTACT_IMPULSE) return contact_impulse(body);
-    if (by == COLOR_BY_CONTACTS) return float(slot_ends[body] - (body == 0u ? 0u : slot_ends[body - 1u]));
+    if (by == COLOR_BY_CONTACTS) return contacts_on(body);
     if (by == COLOR_BY_REST) return sleeps(body) ? 1e30 : float(quiet_steps(rests[body])) * frame.rest.y;
     Traits t = traits[body];
     Velocity v = velocities[body];

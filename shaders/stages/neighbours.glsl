@@ -5,6 +5,23 @@
 
 #include "shaders/physics/grid.h"
 
+// Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
+bool kept_apart(uint body, uint other) {
+    uint listed = traits.at[body].joints != NONE ? body : other;
+    uint partner = listed == body ? other : body;
+    for (uint j = traits.at[listed].joints; j != NONE;) {
+        bool is_a = joints.at[j].a == listed;
+        if ((is_a ? joints.at[j].b : joints.at[j].a) == partner && joints.at[j].broken == 0u &&
+            (joints.at[j].flags & JOINT_COLLIDES) == 0u)
+            return true;
+        j = is_a ? joints.at[j].next_a : joints.at[j].next_b;
+    }
+    return false;
+}
+void meets(uint body, uint other) {
+    if (PARAMETERS.joint_blocks == 0u || !kept_apart(body_of(body), body_of(other))) found(other);
+}
+
 void look_through_large(uint body, Traits own, Bounds around) {
     for (uint k = cells.at[PARAMETERS.buckets - 1u]; k < cells.at[PARAMETERS.buckets]; ++k) {
         uint other = cell_entries.at[k].body;
@@ -18,7 +35,7 @@ void look_through_large(uint body, Traits own, Bounds around) {
             near = reaches_plane(around.lower, around.upper, theirs.size, poses.at[other].position);
         else if (own.shape == SHAPE_PLANE)
             near = reaches_plane(entry.lower, entry.upper, own.size, poses.at[body].position);
-        if (near) found(other);
+        if (near) meets(body, other);
     }
 }
 
@@ -37,7 +54,7 @@ void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
         if (is_part(own) && entry.body >= PARAMETERS.first_part && traits.at[entry.body].owner == own.owner) continue;
-        if (motion_of(own) == MOTION_DYNAMIC || motion_of(traits.at[entry.body]) == MOTION_DYNAMIC) found(entry.body);
+        if (motion_of(own) == MOTION_DYNAMIC || motion_of(traits.at[entry.body]) == MOTION_DYNAMIC) meets(body, entry.body);
     }
 }
 

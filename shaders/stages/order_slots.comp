@@ -19,7 +19,9 @@ void main() {
     sort_range(first, count);
     for (uint k = first; k < first + count; ++k) {
         uint side = slot_sides.at[k];
-        if ((side & 1u) == 0u)
+        if ((side & OF_JOINT) != 0u)
+            joints.at[side & ~OF_JOINT].slot = k;
+        else if ((side & 1u) == 0u)
             constraints.at[side >> 1].slot_a = k;
         else
             constraints.at[side >> 1].slot_b = k;

@@ -130,6 +130,57 @@ const std::map<std::string, Record>& records() {
             all["Flight"] = {sizeof(R), {M(position), M(pad0), M(orientation), M(stops), M(struck), M(pad1)}};
         }
         {
+            using R = JointAxis;
+            all["JointAxis"] = {sizeof(R), {M(mode), M(lower), M(upper), M(stiffness), M(damping), M(rest), M(speed), M(most)}};
+        }
+        {
+            using R = JointRow;
+            all["JointRow"] = {sizeof(R),
+                               {M(direction), M(place), M(arm_a), M(drift), M(arm_b), M(give), M(drive), M(stop), M(drive_change),
+                                M(stop_change)}};
+        }
+        {
+            using R = physics::Joint;
+            all["Joint"] = {sizeof(R), {M(a),
+                                        M(b),
+                                        M(member_a),
+                                        M(member_b),
+                                        M(anchor_a),
+                                        M(flags),
+                                        M(anchor_b),
+                                        M(next_a),
+                                        M(frame_a),
+                                        M(frame_b),
+                                        M(axes),
+                                        M(break_force),
+                                        M(break_torque),
+                                        M(next_b),
+                                        M(links),
+                                        M(links_to),
+                                        M(block_joints),
+                                        M(block_members),
+                                        M(first_of_block),
+                                        M(restless),
+                                        M(pins),
+                                        M(broken),
+                                        M(solved),
+                                        M(pad0),
+                                        M(force),
+                                        M(greatest_force),
+                                        M(torque),
+                                        M(greatest_torque),
+                                        M(member),
+                                        M(slot),
+                                        M(pressed),
+                                        M(blocks),
+                                        M(mass),
+                                        M(velocity),
+                                        M(rows),
+                                        M(solution),
+                                        M(diagonal),
+                                        M(coupling)}};
+        }
+        {
             using R = Parameters;
             all["Parameters"] = {sizeof(R),
                                  {M(gravity),
@@ -162,6 +213,10 @@ const std::map<std::string, Record>& records() {
                                   M(least_restitution),
                                   M(held),
                                   M(first_part),
+                                  M(joint_blocks),
+                                  M(pad0),
+                                  M(pad1),
+                                  M(pad2),
                                   M(grips)}};
         }
         {

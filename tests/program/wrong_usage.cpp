@@ -121,7 +121,17 @@ TEST_CASE("program: a scene file with a wrong key or value is refused with its J
     require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "orientation": [0, 0, 0, 0]})"),
                           {"/bodies/1/orientation", "length 0"});
     require_scene_refused(scene_with(R"({"shape": {"plane": {}}})"), {"/bodies/1/motion", "fixed"});
-    require_scene_refused(R"({"bodies": [], "joints": [{}]})", {"/joints", "not supported yet"});
+    require_scene_refused(R"({"bodies": [], "joints": [{}]})", {"/joints/0", "lacks \"kind\""});
+    const std::string bodies =
+        R"({"bodies": [{"name": "door", "shape": {"sphere": {"radius": 1}}}], "joints": [{"name": "pin", )";
+    require_scene_refused(bodies + R"("kind": {"ball": {}}, "a": 7}]})", {"/joints/0/a", "no body 7", "pin"});
+    require_scene_refused(bodies + R"("kind": {"ball": {}}, "a": "gate"}]})", {"/joints/0/a", "no body named \"gate\""});
+    require_scene_refused(bodies + R"("kind": {"ball": {}}, "a": "door", "b": 0}]})", {"/joints/0/b", "joined to itself", "pin"});
+    require_scene_refused(bodies + R"("kind": {"hinge": {}}, "b": 0, "anchor": [0, 0, 0], "axis": [0, 0, 0]}]})",
+                          {"/joints/0/axis", "length 0"});
+    require_scene_refused(bodies + R"("kind": {"hinge": {"limits": {"lower": 1, "upper": -1}}}, "b": 0}]})",
+                          {"/joints/0/kind/hinge/limits", "reversed", "pin"});
+    require_scene_refused(bodies + R"("kind": {"hook": {}}, "b": 0}]})", {"/joints/0/kind", "unknown kind of joint \"hook\""});
 }
 
 TEST_CASE("program: more bodies than fit into memory are refused before they are made, with what would fit", "[program]") {

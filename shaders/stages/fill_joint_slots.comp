@@ -1,0 +1,19 @@
+// Gives each block of joints a slot with each of its bodies that can be moved.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/counts.h"
+#include "shaders/physics/rest.h"
+#include "shaders/stages/stage.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u || !any_stirs(COUNTS)) return;
+    uint first = joints.at[i].first_of_block;
+    uint last = first + joints.at[first].block_members;
+    for (uint m = first; m < last; ++m) {
+        uint body = joints.at[m].member;
+        if (is_movable(traits.at[body].motion, rests.at[body], PARAMETERS.sleep_steps))
+            slot_sides.at[atomicAdd(slot_ends.at[body], 1u)] = OF_JOINT | m;
+    }
+}

@@ -1,0 +1,27 @@
+// Warm starts of the step's first substep.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/block.h"
+#include "shaders/stages/stage.glsl"
+
+// after the tables that it works on
+#include "shaders/stages/joints.glsl"
+
+void main() {
+    if (!enter_block(thread())) return;
+    note_pressing();
+    lend(true);
+    begin_velocities(false);
+    for (uint j = block_first; j < block_joints; ++j) {
+        if (!holds(j)) continue;
+        joints.at[j].force = vec3(0.0f);
+        joints.at[j].torque = vec3(0.0f);
+        place_rows(j);
+    }
+    begin_shares();
+    for (uint j = block_first; j < block_joints; ++j)
+        if (holds(j)) share_out(j, false, true);
+    for (uint m = block_first; m < block_members; ++m)
+        if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, joints.at[m].pressed);
+}

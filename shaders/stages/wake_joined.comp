@@ -1,0 +1,31 @@
+// Wakes the sleepers of a block of joints one of whose bodies is restless: looks (push.pass 0), then wakes (1), because blocks
+// share bodies.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/counts.h"
+#include "shaders/physics/rest.h"
+#include "shaders/stages/stage.glsl"
+
+bool is_restless_body(uint body) {
+    return body != NONE && stirs_joined(traits.at[body].motion, velocities.at[body], rests.at[body]);
+}
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u || COUNTS.sleepers == 0u || !any_stirs(COUNTS)) return;
+    uint first = joints.at[i].first_of_block;
+    uint joints_end = first + joints.at[first].block_joints;
+    if (push.pass == 0u) {
+        bool restless = false;
+        for (uint j = first; j < joints_end; ++j)
+            if (joints.at[j].broken == 0u)
+                restless = restless || is_restless_body(joints.at[j].a) || is_restless_body(joints.at[j].b);
+        joints.at[first].restless = restless ? 1u : 0u;
+        return;
+    }
+    if (joints.at[first].restless == 0u) return;
+    uint last = first + joints.at[first].block_members;
+    for (uint m = first; m < last; ++m)
+        if (has_slept(rests.at[joints.at[m].member], PARAMETERS.sleep_steps)) atomicOr(rests.at[joints.at[m].member], WOKEN);
+}
