@@ -176,6 +176,7 @@ void State::place(std::uint32_t part) {
 
 Content State::content() const {
     Content found;
+    found.joints = has_joints();
     for (const physics::Traits& row : traits) {
         found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
