@@ -63,7 +63,9 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 void DeviceRunner::attach(State& state) {
     device_->wait_idle();
     state_ = &state;
-    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex()) make_plan();
+    if (planned_substeps_ != state.substeps || planned_convex_ != state.has_convex() ||
+        planned_breaking_ != state.has_fractures())
+        make_plan();
     make_buffers();
     upload();
     record();
@@ -72,7 +74,8 @@ void DeviceRunner::attach(State& state) {
 void DeviceRunner::make_plan() {
     planned_substeps_ = state_->substeps;
     planned_convex_ = state_->has_convex();
-    plan_ = plan(planned_substeps_, planned_convex_);
+    planned_breaking_ = state_->has_fractures();
+    plan_ = plan(planned_substeps_, planned_convex_, planned_breaking_);
     clock_ = StageClock(plan_);
     if (!layout_) {
         layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t));
@@ -251,7 +254,7 @@ void DeviceRunner::poison() {
 }
 
 void DeviceRunner::fetch_body(std::size_t index) {
-    for (const Table table : {Table::poses, Table::velocities, Table::rests}) {
+    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests}) {
         const std::size_t bytes = table_infos()[static_cast<std::size_t>(table)].record_bytes;
         buffer(table).read(state_->raw(table).subspan(index * bytes).data(), bytes, index * bytes);
     }
@@ -259,6 +262,7 @@ void DeviceRunner::fetch_body(std::size_t index) {
 
 void DeviceRunner::fetch_bodies() {
     for (const Table table : {Table::counts, Table::poses, Table::velocities, Table::rests}) read(table, state_->raw(table));
+    if (planned_breaking_) read(Table::traits, state_->raw(Table::traits));  // who is there
 }
 
 void DeviceRunner::fetch_contacts() {

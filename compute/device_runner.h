@@ -72,6 +72,7 @@ private:
     std::vector<Stage> plan_;
     int planned_substeps_ = 0;
     bool planned_convex_ = false;
+    bool planned_breaking_ = false;
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
     std::map<std::string, host::Pipeline> pipelines_;  // by the name of the stage

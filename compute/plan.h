@@ -44,6 +44,7 @@ struct Stage {
 // The stages of one step. Both texts of a stage bear its name: shaders/stages/<name>.comp and a function in compute/reference/.
 // `convex`: some body is a cylinder, cone or hull; else their collisions, which take seconds to compile on a processor, are left
 // out.
-std::vector<Stage> plan(int substeps, bool convex);
+// `breaking`: some body may break; else nobody looks how hard contacts press, and nothing comes after the step.
+std::vector<Stage> plan(int substeps, bool convex, bool breaking);
 
 }  // namespace scree

@@ -11,10 +11,13 @@ std::string ReferenceRunner::device() const {
 
 void ReferenceRunner::attach(State& state) {
     state_ = &state;
-    if (planned_substeps_ == state.substeps && planned_convex_ == state.has_convex()) return;
+    if (planned_substeps_ == state.substeps && planned_convex_ == state.has_convex() &&
+        planned_breaking_ == state.has_fractures())
+        return;
     planned_substeps_ = state.substeps;
     planned_convex_ = state.has_convex();
-    plan_ = plan(planned_substeps_, planned_convex_);
+    planned_breaking_ = state.has_fractures();
+    plan_ = plan(planned_substeps_, planned_convex_, planned_breaking_);
     clock_ = StageClock(plan_);
 }
 

@@ -34,6 +34,7 @@ private:
     std::vector<Stage> plan_;
     int planned_substeps_ = 0;
     bool planned_convex_ = false;
+    bool planned_breaking_ = false;
     StageClock clock_;
 };
 

@@ -10,6 +10,7 @@
 #include <numbers>
 #include <utility>
 
+#include "compute/fracture.h"
 #include "compute/hull.h"
 #include "shaders/physics/hulls.h"
 
@@ -254,6 +255,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
     }
+    add_pieces(scene);
     return scene;
 }
 

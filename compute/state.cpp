@@ -7,6 +7,7 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "compute/fracture.h"
 #include "compute/hull.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
@@ -61,7 +62,8 @@ std::vector<physics::uvec4> hull_records(const Hull& hull) {
 float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
     std::vector<float> widths;
     for (const physics::Traits& body : traits)
-        if (!physics::is_large(body) && body.motion == physics::MOTION_DYNAMIC) widths.push_back(width_of(body));
+        if (!physics::is_large(body) && (body.motion == physics::MOTION_DYNAMIC || body.motion == physics::MOTION_UNBORN))
+            widths.push_back(width_of(body));
     if (widths.empty()) return 1;
     const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
     std::nth_element(widths.begin(), tenth, widths.end());
@@ -122,7 +124,7 @@ physics::Pose start_of(const Body& body) {
     return {plane ? plane->normal * plane->offset : body.position, 0, plane ? vec4(0, 0, 0, 1) : body.orientation};
 }
 physics::Velocity start_velocity_of(const Body& body) {
-    const bool moves = body.motion != Motion::fixed;
+    const bool moves = body.motion != Motion::fixed && body.piece_of == no_body;
     return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
 }
 std::uint32_t buckets_for(std::uint32_t bodies) {
@@ -160,9 +162,28 @@ physics::uint State::place_of(const Hull& hull) {
     return known->second;
 }
 
-physics::Traits State::traits_of(const Body& body) {
+// In the form of shaders/physics/fracture.h.
+physics::uint State::place_of(const Fracture& fracture) {
+    const auto [known, fresh] = cuts_.try_emplace(fracture.cut, static_cast<physics::uint>(hulls.size()));
+    if (fresh) {
+        hulls.emplace_back(fracture.cut->pieces.size(), 0, 0, 0);
+        for (const Body& piece : fracture.cut->pieces) {
+            hulls.push_back(record_of(piece.position, 0));
+            hulls.push_back(record_of(vec3(piece.orientation), piece.orientation.w));
+        }
+    }
+    const bool of_momentum = fracture.momentum > 0;
+    hulls.emplace_back(std::bit_cast<physics::uint>(of_momentum ? fracture.momentum : fracture.impulse), of_momentum,
+                       fracture.first_piece, known->second);
+    return static_cast<physics::uint>(hulls.size() - 1);
+}
+
+physics::Traits State::traits_of(const Body& body, std::size_t index) {
     physics::Traits made{};
-    made.motion = static_cast<physics::uint>(body.motion);
+    made.motion = body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_UNBORN;
+    made.owner = static_cast<physics::uint>(index);
+    made.fracture = body.fracture ? place_of(*body.fracture) : physics::NONE;
+    made.joints = physics::NONE;
     made.shape = static_cast<physics::uint>(body.shape.index());
     if (const auto* sphere = std::get_if<Sphere>(&body.shape)) made.size = vec3(sphere->radius, 0, 0);
     if (const auto* capsule = std::get_if<Capsule>(&body.shape)) made.size = vec3(capsule->radius, capsule->half_height, 0);
@@ -186,6 +207,8 @@ physics::Traits State::traits_of(const Body& body) {
     made.linear_damping = body.linear_damping;
     made.angular_damping = body.angular_damping;
     if (made.shape == physics::SHAPE_PLANE) made.large = 1;
+    if (body.fracture && body.fracture->momentum > 0 && body.piece_of == no_body)
+        made.strain = std::bit_cast<physics::uint>(glm::length(body.velocity) / made.inverse_mass);
     return made;
 }
 
@@ -193,7 +216,7 @@ State::State(const Scene& scene, const Settings& settings, std::uint32_t group_s
     : substeps(settings.substeps), all_(all) {
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
     traits.reserve(n + 1);
-    for (const Body& body : scene.bodies) traits.push_back(traits_of(body));
+    for (const Body& body : scene.bodies) traits.push_back(traits_of(body, traits.size()));
 
     parameters.assign(1, tuned({}, scene.gravity, settings));
     physics::Parameters& p = fixed();
@@ -229,8 +252,8 @@ void State::tune(vec3 gravity, const Settings& settings) {
 
 void State::add(const Body& body) {
     physics::Parameters& p = fixed();
-    const physics::Traits added = traits_of(body);
     const std::uint32_t n = p.bodies++;
+    const physics::Traits added = traits_of(body, n);
     p.buckets = std::max(p.buckets, buckets_for(p.bodies));
     allocate();
     traits[n] = added;
@@ -251,6 +274,7 @@ std::size_t State::allocated(Length length) const {
         case Length::one:
             return 1;
         case Length::bodies:
+        case Length::entries:  // of bodies that are there
             return std::max(1u, p.bodies);
         case Length::bodies_and_end:
             return p.bodies + 1;
@@ -280,6 +304,8 @@ std::size_t State::live(Length length) const {
     switch (length) {
         case Length::bodies:
             return fixed().bodies;
+        case Length::entries:
+            return cells[fixed().buckets];
         case Length::pairs:
             return c.pairs;
         case Length::pairs_and_end:
@@ -337,6 +363,10 @@ void State::grow() {
 
 bool State::has_convex() const {
     return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.shape >= physics::SHAPE_CYLINDER; });
+}
+
+bool State::has_fractures() const {
+    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.fracture != physics::NONE; });
 }
 
 std::size_t State::bytes() const {

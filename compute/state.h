@@ -18,7 +18,7 @@
 namespace scree {
 
 // What tables are as long as.
-enum class Length { one, bodies, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots, hulls };
+enum class Length { one, bodies, entries, bodies_and_end, buckets, pairs, pairs_and_end, kinds, candidates, contacts, slots, hulls };
 
 enum class Table : std::uint32_t {
 #define SCREE_NAME(binding, name, block, record, length) name = binding,
@@ -67,6 +67,8 @@ struct State {
     std::size_t live(Length length) const;
     // Whether some body is a cylinder, cone or hull.
     bool has_convex() const;
+    // Whether some body may break.
+    bool has_fractures() const;
     std::size_t bytes() const;  // of all tables, wherever they are
 
     std::span<std::byte> raw(Table table);
@@ -98,10 +100,12 @@ struct State {
 
 private:
     void allocate();
-    physics::Traits traits_of(const Body& body);
+    physics::Traits traits_of(const Body& body, std::size_t index);
     physics::uint place_of(const Hull& hull);
+    physics::uint place_of(const Fracture& fracture);
     bool all_ = true;
     std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table
+    std::map<std::shared_ptr<const Cut>, physics::uint> cuts_;         // of how bodies come apart, in the same table
 };
 
 }  // namespace scree

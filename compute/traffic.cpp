@@ -126,13 +126,19 @@ std::map<std::string, Accesses> all_accesses() {
                          {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {loads, A::movers, 1}}}},
         {"relax_contacts", {{{binned, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {loads, A::movers}, {velocities, A::movers}},
                             {{impulses, A::solved}, {slots, A::slots}}}},
+        {"relax_contacts_felt", {{{binned, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {candidates, A::solved}, {masses, A::movers}, {loads, A::movers}, {velocities, A::movers}},
+                                 {{impulses, A::solved}, {candidates, A::solved}, {slots, A::slots}}}},
+        {"find_broken", {{{traits, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {candidates, A::solved}}, {{traits, A::movers, 1}}}},
+        {"give_back", {{{traits, A::bodies, 1}, {rests, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solved}, {loads, A::bodies, 1}, {candidates, A::solved}, {velocities, A::movers}},
+                       {{velocities, A::movers}}}},
+        {"break_bodies", {{{loads, A::bodies, 1}}, {}}},
         {"end_step", {{{rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
                       {{velocities, A::movers}, {rests, A::movers}}}},
         {"find_impacts", search},
         {"find_impacts_convex", search},
         {"stop_bodies", {{{bounds, A::flight_bodies, 1}}, {}}},
     };
-    for (const Stage& stage : plan(1, true))
+    for (const Stage& stage : plan(1, true, true))
         if (stage.over == Over::kind) all.try_emplace(stage.name, stage.pass < physics::KIND_PLANE_CONVEX ? collision : solid);
     return all;
 }
@@ -242,7 +248,7 @@ struct Step {
 std::vector<Traffic> traffic_of(const State& state) {
     const Step step(state);
     std::vector<Traffic> all;
-    for (const Stage& stage : plan(state.substeps, state.has_convex())) {
+    for (const Stage& stage : plan(state.substeps, state.has_convex(), state.has_fractures())) {
         auto found = std::find_if(all.begin(), all.end(), [&](const Traffic& traffic) { return traffic.stage == stage.name; });
         if (found == all.end()) found = all.insert(all.end(), {stage.name});
         const auto known = accesses().find(stage.name);
@@ -255,8 +261,9 @@ std::vector<Traffic> traffic_of(const State& state) {
 
 std::vector<std::string> stages_without_traffic(int substeps) {
     std::vector<std::string> missing;
-    for (const Stage& stage : plan(substeps, true))
-        if (!accesses().contains(stage.name)) missing.push_back(stage.name);
+    for (const bool breaking : {false, true})
+        for (const Stage& stage : plan(substeps, true, breaking))
+            if (!accesses().contains(stage.name)) missing.push_back(stage.name);
     return missing;
 }
 

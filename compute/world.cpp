@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "compute/fracture.h"
 #include "compute/statistics.h"
 #include "compute/world_interior.h"
 #include "shaders/physics/rest.h"
@@ -135,7 +136,7 @@ void World::wake_all() {
 }
 BodyState World::Interior::body_state(std::size_t i) const {
     return {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear, state.velocities[i].angular,
-            physics::is_asleep(state.rests[i], state.fixed().sleep_steps)};
+            physics::is_asleep(state.rests[i], state.fixed().sleep_steps), !physics::is_absent(state.traits[i].motion)};
 }
 
 std::vector<BodyState> World::bodies() const {
@@ -148,15 +149,18 @@ std::vector<BodyState> World::bodies() const {
 Scene World::snapshot() const {
     Scene scene = interior_->scene;
     interior_->runner->fetch_bodies();
+    std::vector<Body> there;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        Body& body = scene.bodies[i];
-        if (body.motion == Motion::fixed) continue;
         const BodyState now = interior_->body_state(i);
+        if (!now.there) continue;
+        Body& body = there.emplace_back(on_its_own(std::move(scene.bodies[i])));
+        if (body.motion == Motion::fixed) continue;
         body.position = now.position;
         body.orientation = now.orientation;
         body.velocity = now.velocity;
         body.angular_velocity = now.angular_velocity;
     }
+    scene.bodies = std::move(there);
     return scene;
 }
 

@@ -53,6 +53,8 @@ std::string json_of(const RunReport& r) {
         {"device", r.device},
         {"canvas", r.canvas},
         {"bodies", s.bodies},
+        {"broken", s.broken},
+        {"pieces", s.pieces},
         {"steps", r.steps},
         {"dt", 1.0 / r.rate},
         {"substeps", r.substeps},

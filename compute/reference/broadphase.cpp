@@ -77,6 +77,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& found
     const physics::Parameters& p = state.fixed();
     const physics::Traits& own = state.traits[body];
     const physics::Bounds& around = state.bounds[body];
+    if (around.level == physics::NOWHERE) return;
     for_each_carried_over(state, body, found);
     if (still(state, body) && !physics::any_stirs(state.counted())) return;
     for (const physics::CellEntry& other : bucket(state, p.buckets)) {
@@ -134,6 +135,7 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
 
 void fill_cells(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        if (state.bounds[i].bucket == physics::NONE) return;
         const std::uint32_t entry = std::atomic_ref(state.cells[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
         state.cell_entries[entry].body = static_cast<std::uint32_t>(i);
     });

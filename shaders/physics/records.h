@@ -17,10 +17,12 @@ CONSTANT uint SHAPE_HULL = 6u;      // size: half extents of the box about its c
 CONSTANT uint MOTION_DYNAMIC = 0u;
 CONSTANT uint MOTION_FIXED = 1u;
 CONSTANT uint MOTION_KINEMATIC = 2u;
+CONSTANT uint MOTION_UNBORN = 3u;  // a piece of a body that is still whole: it is nowhere
+CONSTANT uint MOTION_BROKEN = 4u;  // its pieces are there in its place
 
 CONSTANT uint NONE = 0xFFFFFFFFu;
 
-// ---- bodies, written when the scene is described
+// ---- bodies, written when the scene is described; when one breaks, its motion and that of its pieces change
 struct Traits {
     vec3 size;  // see SHAPE_*, m
     uint shape;
@@ -34,6 +36,10 @@ struct Traits {
     float angular_damping;  // 1/s
     uint motion;
     uint large;  // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
+    uint owner;     // the body that this one is a part of; itself for a body
+    uint fracture;  // where its fracture's description begins (fracture.h); NONE: it does not break
+    uint joints;    // where the list of its joints begins; NONE: it has none
+    uint strain;    // of a body that breaks, what the step before left of a blow: the bits of a float >= 0 (fracture.h)
 };
 
 // ---- bodies, state
@@ -61,7 +67,7 @@ struct Mass {
 };
 struct Load {
     vec3 acceleration;  // gravity and forces, m/s^2, over the whole step
-    float pad0;
+    float kept;  // part of their impulses that the body's contacts keep in this step: less than 1 if it breaks (fracture.h)
     vec3 angular_acceleration;  // rad/s^2
     float blows;                // contacts that struck the body in this substep and throw it back
 };
@@ -269,9 +275,14 @@ struct Counts {  // what the device counts in a step
     uint solved;           // contacts that move somebody: those of the solver
     uint kind_first[14];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uint fast;             // 1: some body will be fast in this step
-    uint pad0;
+    uint broken;           // bodies that break in this step
     uvec4 arguments[21];  // per WORK_*: workgroups x, y, z, and threads
 };
+
+// Not there at present: it touches nothing and is seen nowhere, only its row is kept.
+LAW bool is_absent(uint motion) {
+    return motion > MOTION_KINEMATIC;
+}
 
 LAWS_END
 

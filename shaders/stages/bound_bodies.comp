@@ -19,6 +19,10 @@ void main() {
     if (i >= PARAMETERS.bodies) return;
     Traits body = traits[i];
     Pose pose = poses[i];
+    if (is_absent(body.motion)) {
+        bounds[i] = no_bounds(pose);
+        return;
+    }
     Bounds around = bounds_of(body, pose, velocities[i], loads[i], PARAMETERS);
     if (will_be_fast(body, velocities[i], PARAMETERS)) note(COUNTS.fast, 1u);
     masses[i] = mass_in_world(body, pose.orientation, masses[i].split);

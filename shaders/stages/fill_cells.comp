@@ -6,7 +6,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies) return;
+    if (i >= PARAMETERS.bodies || bounds[i].bucket == NONE) return;
     uint entry = atomicAdd(cells[bounds[i].bucket], 1u);
     cell_entries[entry].body = i;
 }

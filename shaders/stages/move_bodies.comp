@@ -13,7 +13,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests[i], PARAMETERS.sleep_steps)) return;
     Traits body = traits[i];
-    if (body.motion == MOTION_FIXED) return;
+    if (body.motion == MOTION_FIXED || is_absent(body.motion)) return;
     Velocity velocity = velocities[i];
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);

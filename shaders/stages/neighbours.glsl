@@ -51,6 +51,7 @@ void carry_over(uint body) {
 
 void look_around(uint body) {
     Bounds around = bounds[body];
+    if (around.level == NOWHERE) return;
     bool still = (around.level & STILL) != 0u;
     if (still) carry_over(body);
     uint levels = levels_to_search(around.level, COUNTS);
