@@ -19,8 +19,8 @@ constexpr int sides = 24;  // of what is round about one axis
 // The corners of an icosahedron whose triangles are parted in four, twice: 162 directions, the farthest 10 degrees apart.
 std::vector<dvec3> directions() {
     const double g = std::numbers::phi;
-    std::vector<dvec3> corners = {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-                                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+    std::vector<dvec3> corners = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+                                  {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     for (dvec3& corner : corners) corner = glm::normalize(corner);
     double edge = glm::length(corners[0] - corners[1]);
     for (int round = 0; round < 2; ++round) {
@@ -66,7 +66,8 @@ std::vector<glm::dvec4> planes_of(const Shape& shape) {
     const auto around = [&](double slope) {
         for (int k = 0; k < sides; ++k) {
             const double angle = 2 * std::numbers::pi * k / sides;
-            touch({std::cos(angle), slope, std::sin(angle)});
+            // As floats: the last bits of sines and cosines differ between C libraries.
+            touch({static_cast<float>(std::cos(angle)), slope, static_cast<float>(std::sin(angle))});
         }
     };
     if (const auto* hull = std::get_if<Hull>(&shape)) {

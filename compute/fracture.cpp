@@ -20,7 +20,8 @@ using glm::dvec3;
 
 constexpr std::size_t most_pieces = 256;
 constexpr std::size_t most_depth = 4;
-constexpr std::size_t most_in_all = 10000;  // pieces of one body, those of pieces included: a scene of a few bodies fills no memory
+constexpr std::size_t most_in_all =
+    10000;  // pieces of one body, those of pieces included: a scene of a few bodies fills no memory
 
 // The mixing of splitmix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
 class Random {
@@ -47,10 +48,11 @@ std::vector<Body> halved(const Box& box, const Fracture& fracture) {
     Random random(fracture.seed);
     const auto volume = [](const Part& part) { return part.half.x * part.half.y * part.half.z; };
     while (parts.size() < fracture.pieces) {
-        const auto largest = std::max_element(parts.begin(), parts.end(),
-                                              [&](const Part& a, const Part& b) { return volume(a) < volume(b); });
+        const auto largest =
+            std::max_element(parts.begin(), parts.end(), [&](const Part& a, const Part& b) { return volume(a) < volume(b); });
         Part &first = *largest, second = first;
-        const int axis = first.half.y > first.half.x ? (first.half.z > first.half.y ? 2 : 1) : (first.half.z > first.half.x ? 2 : 0);
+        const int axis =
+            first.half.y > first.half.x ? (first.half.z > first.half.y ? 2 : 1) : (first.half.z > first.half.x ? 2 : 0);
         const double part = random.between(0.38, 0.62), whole = first.half[axis];
         first.half[axis] = whole * part;
         second.half[axis] = whole * (1 - part);
@@ -92,8 +94,7 @@ std::vector<Cell> cells_of(const Region& region, const std::vector<dvec3>& point
     std::vector<voro::wall_plane> walls;
     walls.reserve(region.planes.size());
     for (const glm::dvec4& plane : region.planes) container.add_wall(walls.emplace_back(plane.x, plane.y, plane.z, plane.w));
-    for (std::size_t i = 0; i < points.size(); ++i)
-        container.put(static_cast<int>(i), points[i].x, points[i].y, points[i].z);
+    for (std::size_t i = 0; i < points.size(); ++i) container.put(static_cast<int>(i), points[i].x, points[i].y, points[i].z);
     std::vector<Cell> cells(points.size());
     voro::c_loop_all loop(container);
     voro::voronoicell cell;
@@ -104,7 +105,8 @@ std::vector<Cell> cells_of(const Region& region, const std::vector<dvec3>& point
         Cell& made = cells[static_cast<std::size_t>(loop.pid())];
         std::vector<double> corners;
         cell.vertices(at.x, at.y, at.z, corners);
-        for (std::size_t k = 0; k + 2 < corners.size(); k += 3) made.corners.emplace_back(corners[k], corners[k + 1], corners[k + 2]);
+        for (std::size_t k = 0; k + 2 < corners.size(); k += 3)
+            made.corners.emplace_back(corners[k], corners[k + 1], corners[k + 2]);
         cell.centroid(made.centre.x, made.centre.y, made.centre.z);
         made.centre += at;
     } while (loop.inc());
@@ -136,10 +138,12 @@ std::vector<dvec3> ringed(const Region& region, std::size_t count, Random& rando
     std::vector<dvec3> points;
     for (std::size_t tries = 0; points.size() < count && tries < 1000 * count; ++tries) {
         const double part = (static_cast<double>(tries % count) + random.between(0.2, 0.8)) / static_cast<double>(count);
-        const double angle = 2 * std::numbers::pi * random.between(0, 1);
+        // A direction by rejection: sines and cosines differ between C libraries.
+        const double x = random.between(-1, 1), y = random.between(-1, 1), length = std::sqrt(x * x + y * y);
+        if (length > 1 || length < 0.1) continue;
         dvec3 point(0);
-        point[u] = half[u] * part * std::numbers::sqrt2 * std::cos(angle);
-        point[v] = half[v] * part * std::numbers::sqrt2 * std::sin(angle);
+        point[u] = half[u] * part * std::numbers::sqrt2 * (x / length);
+        point[v] = half[v] * part * std::numbers::sqrt2 * (y / length);
         if (region.holds(point)) points.push_back(point);
     }
     return points;
@@ -219,15 +223,16 @@ std::vector<Body> voronoi(const Shape& shape, const Fracture& fracture) {
     for (std::uint64_t attempt = 0;; ++attempt) {
         Random random(fracture.seed + (attempt << 32));
         const bool across = fracture.cutting == Cutting::splinters;
-        const std::vector<dvec3> points = across ? ringed(region, fracture.pieces, random) : scattered(region, fracture.pieces, random);
+        const std::vector<dvec3> points =
+            across ? ringed(region, fracture.pieces, random) : scattered(region, fracture.pieces, random);
         try {
             const std::vector<Cell> cells = cells_of(region, points);
             if (cells.size() != fracture.pieces) throw SceneError("", "a cell is empty");
             return fitted(cells, mass_properties(shape, 1));
         } catch (const SceneError& error) {
             if (attempt == 7)
-                throw FractureError("pieces", "cannot be cut into " + std::to_string(fracture.pieces) + " pieces (" + error.what() +
-                                                  "): ask for fewer or another seed");
+                throw FractureError("pieces", "cannot be cut into " + std::to_string(fracture.pieces) + " pieces (" +
+                                                  error.what() + "): ask for fewer or another seed");
         }
     }
 }
@@ -236,7 +241,9 @@ std::vector<double> key_of(const Shape& shape, const Fracture& f) {
     std::vector<double> key{static_cast<double>(shape.index()), static_cast<double>(f.cutting), static_cast<double>(f.pieces),
                             static_cast<double>(f.depth),       static_cast<double>(f.seed),    static_cast<double>(f.impulse),
                             static_cast<double>(f.momentum)};
-    const auto add = [&](vec3 v) { key.insert(key.end(), {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)}); };
+    const auto add = [&](vec3 v) {
+        key.insert(key.end(), {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
+    };
     if (const auto* sphere = std::get_if<Sphere>(&shape)) add(vec3(sphere->radius));
     if (const auto* capsule = std::get_if<Capsule>(&shape)) add({capsule->radius, capsule->half_height, 0});
     if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
@@ -255,7 +262,8 @@ void require_sense(const Shape& shape, const Fracture& f) {
         throw FractureError("", "needs one threshold that is positive: \"impulse\" or \"momentum\", N s");
     if (f.pieces < 2 || f.pieces > most_pieces)
         throw FractureError("pieces", "must be between 2 and 256, is " + std::to_string(f.pieces));
-    if (f.depth < 1 || f.depth > most_depth) throw FractureError("depth", "must be between 1 and 4, is " + std::to_string(f.depth));
+    if (f.depth < 1 || f.depth > most_depth)
+        throw FractureError("depth", "must be between 1 and 4, is " + std::to_string(f.depth));
     if (f.cutting == Cutting::boxes && !std::holds_alternative<Box>(shape))
         throw FractureError("cutting", "only a box can be cut into boxes; others: \"voronoi\", \"splinters\"");
     if (std::pow(static_cast<double>(f.pieces), static_cast<double>(f.depth)) > most_in_all)
@@ -299,8 +307,7 @@ void add_pieces(Scene& scene) {
         Fracture& fracture = *scene.bodies[i].fracture;
         const std::string place = "/bodies/" + std::to_string(i);
         const std::string name = whole.name.empty() ? "" : " (body \"" + whole.name + "\")";
-        if (whole.motion != Motion::dynamic)
-            throw SceneError(place + "/fracture", "only a dynamic body can break" + name);
+        if (whole.motion != Motion::dynamic) throw SceneError(place + "/fracture", "only a dynamic body can break" + name);
         try {
             if (!fracture.cut) fracture.cut = cuts.of(whole.shape, fracture);
         } catch (const FractureError& error) {

@@ -1,8 +1,8 @@
 // How a body comes apart: its pieces, cut when a scene is made.
 //
 // The pieces' masses add up to the body's, their centre of mass is its own, and so is their inertia together, to a few parts in a
-// million: pieces that move as parts of a rigid body have its momentum. A round body is cut as a polytope around it, which is then
-// stretched by a percent or so until its moments of inertia are those of the body.
+// million: pieces that move as parts of a rigid body have its momentum. A round body is cut as a polytope around it, which is
+// then stretched by a percent or so until its moments of inertia are those of the body.
 #pragma once
 
 #include <map>

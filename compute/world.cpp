@@ -135,8 +135,12 @@ void World::wake_all() {
     interior_->state.fixed().wake_all = 1;
 }
 BodyState World::Interior::body_state(std::size_t i) const {
-    return {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear, state.velocities[i].angular,
-            physics::is_asleep(state.rests[i], state.fixed().sleep_steps), !physics::is_absent(state.traits[i].motion)};
+    return {state.poses[i].position,
+            state.poses[i].orientation,
+            state.velocities[i].linear,
+            state.velocities[i].angular,
+            physics::is_asleep(state.rests[i], state.fixed().sleep_steps),
+            !physics::is_absent(state.traits[i].motion)};
 }
 
 std::vector<BodyState> World::bodies() const {

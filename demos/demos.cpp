@@ -20,6 +20,9 @@ const std::vector<Demo>& all_demos() {
         {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
         {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
         {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
+        {"wrecking", "a heavy ball breaks a brick wall", 193, false, wrecking},
+        {"glass", "a ball goes through six panes of glass, and stops at the seventh", 8, false, glass},
+        {"shatter", "bodies that fall into a pit burst into pieces", 2000, true, shatter},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
@@ -34,6 +37,8 @@ const std::vector<Demo>& all_demos() {
         {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},
 
         {"solids", "cylinders, cones and hulls stand, stack and roll", 17, false, solids, true},
+        {"thresholds", "bodies break on what is just above their threshold, not just below", 32, false, thresholds, true},
+        {"fragments", "bodies that break in empty space keep their momentum", 64, false, fragments, true},
 
         {"onset", "boxes begin to slide at the angle atan(mu)", 18, false, onset, true},
         {"hold", "boxes below that angle do not creep", 9, false, hold, true},

@@ -56,6 +56,9 @@ DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
 DemoScene assortment(const DemoOptions&);
+DemoScene wrecking(const DemoOptions&);
+DemoScene glass(const DemoOptions&);
+DemoScene shatter(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);
@@ -78,5 +81,7 @@ DemoScene tumbling(const DemoOptions&);
 DemoScene swarm(const DemoOptions&);
 DemoScene shots(const DemoOptions&);
 DemoScene strikes(const DemoOptions&);
+DemoScene thresholds(const DemoOptions&);
+DemoScene fragments(const DemoOptions&);
 
 }  // namespace scree::demos

@@ -77,8 +77,7 @@ void break_bodies(State& state, const Threads& threads, std::uint32_t) {
             physics::Traits& piece = state.traits[row];
             piece.motion = physics::MOTION_DYNAMIC;
             if (piece.fracture != physics::NONE)
-                piece.strain =
-                    physics::strain_after(physics::fracturing_of(table, piece.fracture), 0, piece, part.velocity);
+                piece.strain = physics::strain_after(physics::fracturing_of(table, piece.fracture), 0, piece, part.velocity);
         }
         state.traits[i].motion = physics::MOTION_BROKEN;
         state.traits[i].strain = 0;

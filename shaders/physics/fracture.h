@@ -23,9 +23,9 @@ LAWS_BEGIN
 // Of a threshold of momentum: less is no blow but a touch, and what slides along the ground would break.
 CONSTANT float LEAST_BLOW = 0.1f;
 
-// In the table of hulls, at Traits.fracture: one record (threshold as a float, 1 if it is one of momentum, row of the first piece,
-// where the cut begins). A cut, which equal bodies share: one record (pieces, -, -, -), and for each piece one of its centre from
-// the body's, m, and one of its orientation in the body's frame.
+// In the table of hulls, at Traits.fracture: one record (threshold as a float, 1 if it is one of momentum, row of the first
+// piece, where the cut begins). A cut, which equal bodies share: one record (pieces, -, -, -), and for each piece one of its
+// centre from the body's, m, and one of its orientation in the body's frame.
 struct Fracturing {
     float threshold;  // N s
     uint of_momentum;

@@ -35,7 +35,7 @@ struct Traits {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;  // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
+    uint large;     // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
     uint owner;     // the body that this one is a part of; itself for a body
     uint fracture;  // where its fracture's description begins (fracture.h); NONE: it does not break
     uint joints;    // where the list of its joints begins; NONE: it has none
@@ -276,7 +276,7 @@ struct Counts {  // what the device counts in a step
     uint kind_first[14];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uint fast;             // 1: some body will be fast in this step
     uint broken;           // bodies that break in this step
-    uvec4 arguments[21];  // per WORK_*: workgroups x, y, z, and threads
+    uvec4 arguments[21];   // per WORK_*: workgroups x, y, z, and threads
 };
 
 // Not there at present: it touches nothing and is seen nowhere, only its row is kept.
