@@ -16,14 +16,14 @@ using glm::dvec3;
 
 constexpr int sides = 24;  // of what is round about one axis
 
-// The corners of an icosahedron whose triangles are parted in four, twice: 162 directions, the farthest 10 degrees apart.
-std::vector<dvec3> directions() {
+// The corners of an icosahedron whose triangles are parted in four, once or twice: 42 directions, or 162.
+std::vector<dvec3> directions(int rounds) {
     const double g = std::numbers::phi;
     std::vector<dvec3> corners = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
                                   {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
     for (dvec3& corner : corners) corner = glm::normalize(corner);
     double edge = glm::length(corners[0] - corners[1]);
-    for (int round = 0; round < 2; ++round) {
+    for (int round = 0; round < rounds; ++round) {
         const std::size_t count = corners.size();
         double shortest = 2;
         for (std::size_t i = 0; i < count; ++i)
@@ -57,7 +57,7 @@ double reach_along(const Shape& shape, dvec3 n) {
     return most;
 }
 
-std::vector<glm::dvec4> planes_of(const Shape& shape) {
+std::vector<glm::dvec4> planes_of(const Shape& shape, bool fine) {
     std::vector<glm::dvec4> planes;
     const auto touch = [&](dvec3 direction) {
         const dvec3 n = glm::normalize(direction);
@@ -87,7 +87,7 @@ std::vector<glm::dvec4> planes_of(const Shape& shape) {
         around(static_cast<double>(cone->radius) / static_cast<double>(cone->height));
         touch({0, -1, 0});
     } else {
-        for (const dvec3& direction : directions()) touch(direction);
+        for (const dvec3& direction : directions(fine ? 2 : 1)) touch(direction);
     }
     return planes;
 }

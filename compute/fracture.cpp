@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <numbers>
 #include <string>
 #include <voro++/voro++.hh>
@@ -16,6 +17,7 @@ namespace scree {
 
 namespace {
 
+using glm::dmat3;
 using glm::dvec3;
 
 constexpr std::size_t most_pieces = 256;
@@ -149,12 +151,14 @@ std::vector<dvec3> ringed(const Region& region, std::size_t count, Random& rando
     return points;
 }
 
-// What the pieces come to together.
+// What the pieces come to together, at the densities that they have.
 struct Together {
-    double mass = 0;  // at the densities that they have
+    double mass = 0;
     dvec3 centre{0};
-    dvec3 squares{0};  // integral of x^2, y^2, z^2 over the mass
+    dmat3 spread{0};  // integral of x x^T over the mass, by the mass, about the origin
+    dmat3 places{0};  // the part of it that the pieces' centres alone make
 };
+// The integrals of x^2, y^2 and z^2 over the mass, from the moments of inertia.
 dvec3 squares_of(dvec3 inertia) {
     return dvec3(inertia.y + inertia.z - inertia.x, inertia.x + inertia.z - inertia.y, inertia.x + inertia.y - inertia.z) * 0.5;
 }
@@ -166,16 +170,51 @@ Together sum_of(const std::vector<Body>& pieces) {
         const dvec3 x(piece.position), own = squares_of(dvec3(mass.inertia));
         sum.mass += m;
         sum.centre += m * x;
-        sum.squares += m * x * x;
-        for (int axis = 0; axis < 3; ++axis) {
-            dvec3 unit(0);
-            unit[axis] = 1;
-            const dvec3 direction(physics::rotate(piece.orientation, vec3(unit)));
-            sum.squares += own[axis] * direction * direction;
-        }
+        sum.places += m * glm::outerProduct(x, x);
+        const glm::dquat turn(piece.orientation.w, piece.orientation.x, piece.orientation.y, piece.orientation.z);
+        const dmat3 axes = glm::mat3_cast(glm::normalize(turn));
+        for (int axis = 0; axis < 3; ++axis) sum.spread += own[axis] * glm::outerProduct(axes[axis], axes[axis]);
     }
     sum.centre /= sum.mass;
+    sum.spread = (sum.spread + sum.places) / sum.mass;
+    sum.places /= sum.mass;
     return sum;
+}
+dmat3 spread_of(const MassProperties& whole) {
+    const dvec3 squares = squares_of(dvec3(whole.inertia)) / static_cast<double>(whole.mass);
+    dmat3 spread(0);
+    for (int axis = 0; axis < 3; ++axis) spread[axis][axis] = squares[axis];
+    return spread;
+}
+double trace(const dmat3& matrix) {
+    return matrix[0][0] + matrix[1][1] + matrix[2][2];
+}
+
+// The small symmetric E with E P + P E = R for a symmetric P, but for what P leaves no lever for: (1 + E) stretches what is
+// spread as P by R.
+dmat3 stretch(const dmat3& p, const dmat3& r) {
+    const dmat3 axes = principal_axes(p), p_there = glm::transpose(axes) * p * axes;
+    dmat3 e = glm::transpose(axes) * r * axes;
+    for (int row = 0; row < 3; ++row)
+        for (int column = 0; column < 3; ++column) {
+            const double lever = p_there[row][row] + p_there[column][column];
+            e[row][column] = lever > 0.01 * trace(p) ? e[row][column] / lever : 0;
+        }
+    return axes * e * glm::transpose(axes);
+}
+
+// Moves the pieces by what rounding, and faces made one, have left between their inertia and the whole's: a few parts in ten
+// thousand of their size.
+void settle(std::vector<Body>& pieces, const MassProperties& whole) {
+    const dmat3 wanted = spread_of(whole);
+    for (int round = 0; round < 8; ++round) {
+        const Together sum = sum_of(pieces);
+        const dmat3 change = stretch(sum.places, wanted - sum.spread);
+        for (Body& piece : pieces) {
+            const dvec3 x = dvec3(piece.position) - sum.centre;
+            piece.position = vec3(x + change * x);
+        }
+    }
 }
 
 // The cells as bodies, as they are simulated: corners are floats, faces that are nearly one are one.
@@ -191,28 +230,32 @@ std::vector<Body> bodies_of(const std::vector<Cell>& cells) {
 
 // Stretches and moves the cells until together they have the inertia of the whole.
 std::vector<Body> fitted(std::vector<Cell> cells, const MassProperties& whole) {
-    const dvec3 wanted = squares_of(dvec3(whole.inertia)) / static_cast<double>(whole.mass);
+    const dmat3 wanted = spread_of(whole);
     std::vector<Body> best;
     double least = 1e9;
-    for (int round = 0; round < 5; ++round) {
+    for (int round = 0; round < 6; ++round) {
         std::vector<Body> pieces = bodies_of(cells);
         const Together sum = sum_of(pieces);
-        const dvec3 found = sum.squares / sum.mass - sum.centre * sum.centre;
-        const dvec3 factor = glm::sqrt(wanted / found);
-        const double off = glm::length(factor - 1.0) + glm::length(sum.centre) / std::sqrt(wanted.x + wanted.y + wanted.z);
+        const dmat3 found = sum.spread - glm::outerProduct(sum.centre, sum.centre);
+        const dmat3 change = stretch(found, wanted - found);
+        const double off =
+            std::sqrt(glm::dot(change[0], change[0]) + glm::dot(change[1], change[1]) + glm::dot(change[2], change[2])) +
+            glm::length(sum.centre) / std::sqrt(trace(wanted));
         if (off < least) {
             least = off;
             best = std::move(pieces);
         }
-        if (off < 2e-7) break;
+        if (off < 1e-6) break;
         for (Cell& cell : cells)
-            for (dvec3& corner : cell.corners) corner = (corner - sum.centre) * factor;
+            for (dvec3& corner : cell.corners) corner = (corner - sum.centre) + change * (corner - sum.centre);
     }
+    settle(best, whole);
     return best;
 }
 
 std::vector<Body> voronoi(const Shape& shape, const Fracture& fracture) {
-    Region region{planes_of(shape), dvec3(0)};
+    // A piece has at most 64 corners: few pieces of a fine ball would have more.
+    Region region{planes_of(shape, fracture.pieces >= 12), dvec3(0)};
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {-1.0, 1.0}) {
             dvec3 direction(0);

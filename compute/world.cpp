@@ -1,6 +1,7 @@
 // The world: walks steps, grows tables, and turns what the user asks into actions.
 #include "compute/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -91,6 +92,11 @@ void World::step(int count) {
 
 std::uint64_t World::steps() const {
     return interior_->steps;
+}
+std::size_t World::bodies_there() const {
+    if (!interior_->state.has_fractures()) return interior_->scene.bodies.size();
+    const std::vector<BodyState> all = bodies();
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const BodyState& body) { return body.there; }));
 }
 double World::time() const {
     return static_cast<double>(interior_->steps) / interior_->settings.rate;

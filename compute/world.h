@@ -79,6 +79,7 @@ public:
     void step(int count = 1);
 
     std::uint64_t steps() const;       // done so far
+    std::size_t bodies_there() const;  // of the scene's bodies; where some may break, read back
     double time() const;               // s
     // As checked, with gravity as it is now and the bodies that were added; pieces of bodies that may break are among its bodies,
     // whether they are there yet or not (BodyState::there).
@@ -119,16 +120,17 @@ public:
     // From the next step on. It reads everything back and sends it again once.
     void set_substeps(int substeps);  // 1 to 64
 
-    // One more body; returns its index. The highest, unless it may break: then its pieces follow it. It reads everything back and sends it again once. Throws
-    // SceneError as the constructor does. Buffers that a canvas draws from are others afterwards.
+    // One more body; returns its index. The highest, unless it may break: then its pieces follow it. It reads everything back and
+    // sends it again once. Throws SceneError as the constructor does. Buffers that a canvas draws from are others afterwards.
     std::size_t add_body(const Body& body);
 
     // Read back from wherever the world is.
     BodyState body(std::size_t index) const;                 // throws std::out_of_range
     std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts
     std::vector<BodyState> bodies() const;
-    // The scene with every body that is there where it is now and as fast; pieces are bodies as all others. A world made of it goes on from there, but not to the same bits: its
-    // contacts begin anew, sleepers are awake, and what a position has below its last bit is gone.
+    // The scene with every body that is there where it is now and as fast; pieces are bodies as all others. A world made of it
+    // goes on from there, but not to the same bits: its contacts begin anew, sleepers are awake, and what a position has below
+    // its last bit is gone.
     Scene snapshot() const;
     Statistics statistics() const;
     const State& state() const;        // every table of a step (compute/state.h), with bodies and contacts as they are now

@@ -41,10 +41,10 @@ const std::map<std::string, Record>& records() {
         std::map<std::string, Record> all;
         {
             using R = Traits;
-            all["Traits"] = {
-                sizeof(R),
-                {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution), M(rolling_resistance),
-                 M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large)}};
+            all["Traits"] = {sizeof(R),
+                             {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution),
+                              M(rolling_resistance), M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large),
+                              M(owner), M(fracture), M(joints), M(strain)}};
         }
         {
             using R = Pose;
@@ -60,7 +60,7 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Load;
-            all["Load"] = {sizeof(R), {M(acceleration), M(pad0), M(angular_acceleration), M(blows)}};
+            all["Load"] = {sizeof(R), {M(acceleration), M(kept), M(angular_acceleration), M(blows)}};
         }
         {
             using R = Action;
