@@ -66,7 +66,7 @@ DemoScene wrecking(const DemoOptions& options) {
             Body body = box_at({x, brick.y * static_cast<float>(2 * row + 1), random.between(-0.002f, 0.002f)},
                                brick - vec3(0.0005f, 0, 0));
             body.density = 1800;
-            body.fracture = breaking(1200, random.unit() < 0.5f ? Cutting::boxes : Cutting::voronoi, 7, 1 + random.bits() % 4);
+            body.fracture = breaking(1800, random.unit() < 0.5f ? Cutting::boxes : Cutting::voronoi, 7, 1 + random.bits() % 4);
             bricks.push_back(scene.bodies.size());
             scene.bodies.push_back(body);
         }
@@ -86,7 +86,7 @@ DemoScene wrecking(const DemoOptions& options) {
             low,
             high,
             10,
-            Promise(broken_at_least(0.15, bricks), mass_stays(), whole_and_in_place(0.4, bricks),
+            Promise(broken_at_least(0.1, bricks), mass_stays(), whole_and_in_place(0.4, bricks),
                     at_least("how far the ball got", 1, "m", "beyond the wall's middle, at the end",
                              [wrecker](const Trace& trace) { return static_cast<double>(trace.end.at(wrecker).position.z); }))};
 }
@@ -144,7 +144,7 @@ DemoScene shatter(const DemoOptions& options) {
     add_pit(scene, vec3(pit, 0, pit), 0.5f, 0.6f);
     for (std::size_t k = 1; k < scene.bodies.size(); ++k) {
         auto& wall = std::get<Box>(scene.bodies[k].shape);
-        wall.half_extents.y = 0.5f * (0.6f * side + 2);
+        wall.half_extents.y = 0.5f * (0.12f * side + 1.2f);
         scene.bodies[k].position.y = wall.half_extents.y;
     }
     Random random(options.seed);
@@ -177,10 +177,10 @@ DemoScene shatter(const DemoOptions& options) {
     }
     const vec3 low(-pit, 0, -pit), high(pit, 4 + spacing * side, pit);
     return {std::move(scene),
-            view_of(low, high, 30, 25),
+            view_of(low, high, 30, 35),
             low,
             high,
-            10,
+            7,
             Promise(broken_at_least(0.5, all), mass_stays(), end_speed_below(3))};
 }
 

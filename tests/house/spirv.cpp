@@ -164,7 +164,7 @@ const std::map<std::string, Record>& records() {
             all["Counts"] = {sizeof(R),
                              {M(pairs), M(contacts), M(levels), M(overflow), M(required_pairs), M(required_contacts), M(steps),
                               M(pairs_coarse), M(levels_stirring), M(large_stirring), M(sleepers), M(solved), M(kind_first),
-                              M(fast), M(pad0), M(arguments)}};
+                              M(fast), M(broken), M(arguments)}};
         }
         return all;
     }();
