@@ -282,7 +282,7 @@ void DeviceRunner::poison() {
 }
 
 void DeviceRunner::fetch_body(std::size_t index) {
-    for (const Table table : {Table::poses, Table::velocities, Table::rests}) {
+    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests}) {
         const std::size_t bytes = table_infos()[static_cast<std::size_t>(table)].record_bytes;
         buffer(table).read(state_->raw(table).subspan(index * bytes).data(), bytes, index * bytes);
     }
@@ -290,6 +290,7 @@ void DeviceRunner::fetch_body(std::size_t index) {
 
 void DeviceRunner::fetch_bodies() {
     for (const Table table : {Table::counts, Table::poses, Table::velocities, Table::rests}) read(table, state_->raw(table));
+    if (planned_breaking_) read(Table::traits, state_->raw(Table::traits));  // who is there
 }
 
 void DeviceRunner::fetch_contacts() {

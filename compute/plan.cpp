@@ -33,7 +33,7 @@ const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_bo
 
 // clang-format off
 std::vector<Stage> plan(int substeps, const Content& content) {
-    const bool convex = content.convex || content.triangles, joined = content.joints;
+    const bool convex = content.convex || content.triangles, joined = content.joints, breaking = content.breaking;
     using enum Table;
     std::vector<Stage> s;
     // what pushes the bodies, where they will be
@@ -44,7 +44,7 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     // broadphase: who is near whom
     scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
     s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
-    s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}});
+    s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}, 0, true, Length::entries});
     s.push_back({"count_pairs", Over::bodies, count_pairs, {pair_starts, counts}});
     scan(s, "pairs", Over::body_blocks, pair_starts, scan_pairs_spine, scan_pairs_offsets);
     s.push_back({"fill_pairs", Over::bodies, fill_pairs, {}});
@@ -91,7 +91,10 @@ std::vector<Stage> plan(int substeps, const Content& content) {
         s.push_back({"solve_contacts", Over::solved, solve_contacts, {impulses, slots}});
         if (joined) add_joints(s, {"solve_joints", Over::joint_blocks, solve_joints, {Table::joints, slots}}, /* after */ true);
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
-        s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});
+        if (breaking)
+            s.push_back({"relax_contacts_felt", Over::solved, relax_contacts_felt, {impulses, slots}, last | (substep == 1 ? 2u : 0u)});
+        else
+            s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});
         if (joined) add_joints(s, {"relax_joints", Over::joint_blocks, relax_joints, {Table::joints, slots}, last}, /* after */ false);
     }
     s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, bounds, counts}});
@@ -100,6 +103,11 @@ std::vector<Stage> plan(int substeps, const Content& content) {
         s.push_back({convex ? "find_impacts_convex" : "find_impacts", Over::flights, find_impacts, {bounds}, round});
     s.push_back({"stop_bodies", Over::bodies, stop_bodies, {poses, velocities}});
     if (content.moving_parts) s.push_back({"place_parts", Over::bodies, place_parts, {poses, velocities}});
+    if (!breaking) return s;
+    // what was struck too hard comes apart
+    s.push_back({"find_broken", Over::bodies, find_broken, {traits, loads, counts}});
+    s.push_back({"give_back", Over::bodies, give_back, {velocities}});
+    s.push_back({"break_bodies", Over::bodies, break_bodies, {traits, poses, velocities, rests}});
     return s;
 }
 // clang-format on

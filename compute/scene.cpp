@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "compute/compound.h"
+#include "compute/fracture.h"
 #include "compute/hull.h"
 #include "compute/mesh.h"
 #include "compute/scene_joints.h"
@@ -170,7 +171,7 @@ void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes
 
 // `position` and `orientation`: of the body, or of the part.
 Shift examine_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, Hulls& hulls,
-                  std::vector<std::string>* notes) {
+                   std::vector<std::string>* notes) {
     try {
         const Hulls::Made& made = hulls.of(hull.points);
         if (made.simplified && notes) {
@@ -300,6 +301,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
     check_joints(scene);
+    add_pieces(scene);
     return scene;
 }
 

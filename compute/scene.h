@@ -1,6 +1,7 @@
 // A scene: what bodies there are, where, of what shape and material. Plain data, in SI units, y up; World simulates it.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
 #include <memory>
@@ -81,6 +82,31 @@ enum class Motion {
     kinematic,  // moves with its velocity, whatever it meets
 };
 
+constexpr std::size_t no_body = static_cast<std::size_t>(-1);
+
+enum class Cutting {
+    voronoi,    // any shape but a plane: pieces of about one size, cells about points (voro++)
+    boxes,      // a box into boxes
+    splinters,  // the same across the thinnest of a body's extents, right through it, and finer towards its middle: panes
+};
+struct Cut;  // compute/fracture.h
+// How a dynamic body comes apart, and what breaks it. It breaks at the end of the step in which one contact has carried more than
+// the threshold (shaders/physics/fracture.h says exactly what counts, and what becomes of the blow); its pieces go on from there.
+// One of the two thresholds is positive.
+struct Fracture {
+    float impulse = 0;   // N s, normal, of one contact in this step and the one before; a load of F at rest counts 2 F / rate
+    float momentum = 0;  // N s, of the body itself as the step begins, when something stops a tenth of it
+    Cutting cutting = Cutting::voronoi;
+    std::size_t pieces = 8;  // 2 to 256
+    std::size_t depth = 1;   // how many times over: the pieces of a body of depth 2 break in their turn, 1 to 4. The threshold of
+                             // a piece is smaller as its cross-section is, by the part of the mass to the power of 2/3
+    std::uint32_t seed = 1;  // of how the cuts lie. Equal bodies with equal fractures share their pieces' shapes
+
+    // Made when the scene is checked.
+    std::shared_ptr<const Cut> cut{};
+    std::size_t first_piece = no_body;  // its pieces are the bodies of the scene from here on
+};
+
 struct Body {
     std::string name;  // for messages; may be empty
     Motion motion = Motion::dynamic;
@@ -98,6 +124,10 @@ struct Body {
     float linear_damping = 0;      // 1/s, >= 0
     float angular_damping = 0;     // 1/s, >= 0
     float gravity_scale = 1;
+    std::optional<Fracture> fracture{};  // none: it never breaks
+    // Of which body of the scene this is a piece, not there until that one breaks: its place is the one that it would have at the
+    // start. Pieces are added behind the other bodies when the scene is checked; no scene says it.
+    std::size_t piece_of = no_body;
 };
 
 // ---- joints
@@ -193,6 +223,8 @@ struct SceneError : std::runtime_error {
 // A hull is brought to its centre of mass and its principal axes of inertia: its points are moved, and the body's position and
 // orientation with them, so that every point stays where it is in the world; a compound and its parts likewise. `notes`, if
 // given, is told of hulls that had more than 64 corners and were simplified, and of what is odd about meshes.
+// Bodies that may break are cut: their pieces, and the pieces of those, become bodies behind all others, in the order of the
+// bodies that they are pieces of.
 Scene checked(Scene scene, std::vector<std::string>* notes = nullptr);
 
 // kg and kg m^2 (principal, body frame) of a shape of a given density. Planes, meshes and height fields have neither: 0.

@@ -17,7 +17,8 @@ using Event = json::parse_event_t;
 const Names scene_keys = {"gravity", "bodies", "joints", "camera"};
 const Names body_keys = {
     "name",    "motion",   "shape",       "position",           "orientation",    "velocity",        "angular_velocity",
-    "density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale"};
+    "density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale",
+    "fracture"};
 const Names shape_names = {"box", "capsule", "compound", "cone", "cylinder", "height_field", "hull", "mesh", "plane", "sphere"};
 
 }  // namespace
@@ -149,6 +150,32 @@ static void read(const json& value, const Place& place, Shape& out) {
     }
 }
 
+static void read(const json& value, const Place& place, Cutting& out) {
+    std::string word;
+    read(value, place, word);
+    const Names known = {"voronoi", "boxes", "splinters"};
+    const auto found = std::find(known.begin(), known.end(), word);
+    if (found == known.end()) refuse(place, unknown("cutting", word, known));
+    out = static_cast<Cutting>(found - known.begin());
+}
+
+static void read(const json& value, const Place& place, std::optional<Fracture>& out) {
+    only(value, place, {"impulse", "momentum", "cutting", "pieces", "depth", "seed"});
+    Fracture& fracture = out.emplace();
+    std::size_t seed = fracture.seed;
+    for (const char* threshold : {"impulse", "momentum"}) {
+        float& limit = threshold[0] == 'i' ? fracture.impulse : fracture.momentum;
+        optional(value, place, threshold, limit);
+        if (value.contains(threshold) && !(limit > 0)) refuse(place / threshold, "must be positive, N s");
+    }
+    optional(value, place, "cutting", fracture.cutting);
+    optional(value, place, "pieces", fracture.pieces);
+    optional(value, place, "depth", fracture.depth);
+    optional(value, place, "seed", seed);
+    if (seed > 0xFFFFFFFFu) refuse(place / "seed", "must be below 4294967296");
+    fracture.seed = static_cast<std::uint32_t>(seed);
+}
+
 Body body_of(const json& value, const Place& place) {
     only(value, place, body_keys);
     Body body;
@@ -166,6 +193,7 @@ Body body_of(const json& value, const Place& place) {
     optional(value, place, "linear_damping", body.linear_damping);
     optional(value, place, "angular_damping", body.angular_damping);
     optional(value, place, "gravity_scale", body.gravity_scale);
+    optional(value, place, "fracture", body.fracture);
     return body;
 }
 

@@ -132,6 +132,14 @@ void write(Text& text, const Shape& shape) {
     text << "}}";
 }
 
+void write(Text& text, const Fracture& fracture) {
+    static const char* const cuttings[] = {"voronoi", "boxes", "splinters"};
+    text << ", \"fracture\": {" << (fracture.momentum > 0 ? "\"momentum\": " : "\"impulse\": ")
+         << (fracture.momentum > 0 ? fracture.momentum : fracture.impulse) << ", \"cutting\": \""
+         << cuttings[static_cast<std::size_t>(fracture.cutting)] << "\", \"pieces\": " << std::to_string(fracture.pieces)
+         << ", \"depth\": " << std::to_string(fracture.depth) << ", \"seed\": " << std::to_string(fracture.seed) << "}";
+}
+
 void write(Text& text, const Body& body) {
     static const Body by_default;
     text << "{";
@@ -155,6 +163,7 @@ void write(Text& text, const Body& body) {
     text.unless_default("linear_damping", body.linear_damping, by_default.linear_damping);
     text.unless_default("angular_damping", body.angular_damping, by_default.angular_damping);
     text.unless_default("gravity_scale", body.gravity_scale, by_default.gravity_scale);
+    if (body.fracture) write(text, *body.fracture);
     text << "}";
 }
 
@@ -195,6 +204,7 @@ std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& vi
     text << " \"bodies\": [";
     const char* between = "\n  ";
     for (const Body& body : scene.bodies) {
+        if (body.piece_of != no_body) continue;  // made when the scene is checked
         text << between;
         write(text, body);
         between = ",\n  ";

@@ -8,9 +8,10 @@
 #include <optional>
 #include <stdexcept>
 
+#include "compute/fracture.h"
 #include "compute/hull.h"
-#include "compute/mesh.h"
 #include "compute/joints.h"
+#include "compute/mesh.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/parts.h"
@@ -37,7 +38,9 @@ float width_of(const physics::Traits& traits) {
 float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
     std::vector<float> widths;
     for (const physics::Traits& body : traits)
-        if (!physics::is_large(body) && physics::motion_of(body) == physics::MOTION_DYNAMIC && body.shape != physics::SHAPE_NONE)
+        if (!physics::is_large(body) &&
+            physics::(body.motion == physics::MOTION_UNBORN || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
+            body.shape != physics::SHAPE_NONE)
             widths.push_back(width_of(body));
     if (widths.empty()) return 1;
     const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
@@ -179,6 +182,7 @@ std::size_t State::allocated(Length length) const {
         case Length::one:
             return 1;
         case Length::bodies:
+        case Length::entries:  // of bodies that are there
             return std::max(1u, p.bodies);
         case Length::bodies_and_end:
             return p.bodies + 1;
@@ -210,6 +214,8 @@ std::size_t State::live(Length length) const {
     switch (length) {
         case Length::bodies:
             return fixed().bodies;
+        case Length::entries:
+            return cells[fixed().buckets];
         case Length::pairs:
             return c.pairs;
         case Length::pairs_and_end:
@@ -265,8 +271,16 @@ void State::grow() {
     allocate();
 }
 
+bool State::has_fractures() const {
+    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.fracture != physics::NONE; });
+}
+
 bool State::has_joints() const {
     return parameters[0].joint_blocks != 0;
+}
+
+bool State::has_fractures() const {
+    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.fracture != physics::NONE; });
 }
 
 std::size_t State::bytes() const {

@@ -55,7 +55,8 @@ struct Content {
     bool triangles = false;     // there are meshes or height fields
     bool moving_parts = false;  // there are compounds, or meshes, that move
     bool joints = false;
-    static Content everything() { return {true, true, true, true}; }
+    bool breaking = false;  // some body may break
+    static Content everything() { return {true, true, true, true, true}; }
     bool operator==(const Content&) const = default;
 };
 
@@ -91,6 +92,8 @@ struct State {
     std::size_t live(Length length) const;
     Content content() const;
     bool has_joints() const;
+    // Whether some body may break.
+    bool has_fractures() const;
     // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : traits[row].owner;
@@ -135,8 +138,10 @@ private:
     void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others
     void place(std::uint32_t part);                            // where its body is
     physics::uint place_of(const Hull& hull);
+    physics::uint place_of(const Fracture& fracture);
     bool all_ = true;
     std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table
+    std::map<std::shared_ptr<const Cut>, physics::uint> cuts_;         // of how bodies come apart, in the same table
 };
 
 }  // namespace scree

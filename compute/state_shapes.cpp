@@ -3,6 +3,7 @@
 #include <bit>
 #include <optional>
 
+#include "compute/fracture.h"
 #include "compute/hull.h"
 #include "compute/mesh.h"
 #include "compute/state.h"
@@ -86,7 +87,7 @@ physics::Pose State::start_of(const Body& body) {
     return {plane ? plane->normal * plane->offset : body.position, 0, plane ? vec4(0, 0, 0, 1) : body.orientation};
 }
 physics::Velocity State::start_velocity_of(const Body& body) {
-    const bool moves = body.motion != Motion::fixed;
+    const bool moves = body.motion != Motion::fixed && body.piece_of == no_body;
     return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
 }
 // Where the hull's records begin. Equal hulls made one by one are looked for only while the table is small: a long search for
@@ -109,6 +110,22 @@ physics::Traits State::form_of(const SimpleShape& shape) {
     return made;
 }
 
+// In the form of shaders/physics/fracture.h.
+physics::uint State::place_of(const Fracture& fracture) {
+    const auto [known, fresh] = cuts_.try_emplace(fracture.cut, static_cast<physics::uint>(hulls.size()));
+    if (fresh) {
+        hulls.emplace_back(fracture.cut->pieces.size(), 0, 0, 0);
+        for (const Body& piece : fracture.cut->pieces) {
+            hulls.push_back(record_of(piece.position, 0));
+            hulls.push_back(record_of(vec3(piece.orientation), piece.orientation.w));
+        }
+    }
+    const bool of_momentum = fracture.momentum > 0;
+    hulls.emplace_back(std::bit_cast<physics::uint>(of_momentum ? fracture.momentum : fracture.impulse), of_momentum,
+                       fracture.first_piece, known->second);
+    return static_cast<physics::uint>(hulls.size() - 1);
+}
+
 physics::Traits State::traits_of(const Body& body, std::uint32_t index) {
     physics::Traits made{};
     if (const std::optional<SimpleShape> simple = simple_shape(body.shape)) {
@@ -117,9 +134,10 @@ physics::Traits State::traits_of(const Body& body, std::uint32_t index) {
         made.shape = physics::SHAPE_NONE;
         made.size = size_of_whole(body.shape);
     }
-    made.motion = static_cast<physics::uint>(body.motion);
+    made.motion = body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_UNBORN;
     made.owner = index;
-    made.fracture = made.joints = physics::NONE;
+    made.fracture = body.fracture ? place_of(*body.fracture) : physics::NONE;
+    made.joints = physics::NONE;
     if (body.motion == Motion::dynamic) {
         const MassProperties properties = mass_properties(body.shape, body.density);
         made.inverse_mass = 1 / properties.mass;
@@ -132,6 +150,8 @@ physics::Traits State::traits_of(const Body& body, std::uint32_t index) {
     made.linear_damping = body.linear_damping;
     made.angular_damping = body.angular_damping;
     if (made.shape == physics::SHAPE_PLANE) made.large = 1;
+    if (body.fracture && body.fracture->momentum > 0 && body.piece_of == no_body)
+        made.strain = std::bit_cast<physics::uint>(glm::length(body.velocity) / made.inverse_mass);
     return made;
 }
 
@@ -177,6 +197,7 @@ void State::place(std::uint32_t part) {
 Content State::content() const {
     Content found;
     found.joints = has_joints();
+    found.breaking = has_fractures();
     for (const physics::Traits& row : traits) {
         found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;

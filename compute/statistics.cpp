@@ -79,12 +79,15 @@ void add_joints(const State& state, Statistics& s) {
 
 Statistics statistics_of(const Scene& scene, const State& state) {
     Statistics s;
-    s.bodies = scene.bodies.size();
     dvec3 momentum(0), spin(0);
     std::vector<const Plane*> planes;
     for (const Body& body : scene.bodies)
         if (const auto* plane = std::get_if<Plane>(&body.shape)) planes.push_back(plane);
-    for (std::size_t i = 0; i < s.bodies; ++i) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        s.broken += state.traits[i].motion == physics::MOTION_BROKEN;
+        if (physics::is_absent(state.traits[i].motion)) continue;
+        ++s.bodies;
+        s.pieces += scene.bodies[i].piece_of != no_body;
         if (!finite(state, i)) {
             ++s.not_finite;
             continue;
@@ -117,7 +120,11 @@ std::uint64_t hash_of(const State& state) {
         std::memcpy(row + 7, &state.velocities[i].linear, 12);
         std::memcpy(row + 10, &state.velocities[i].angular, 12);
     }
-    return XXH64(values.data(), values.size() * sizeof(float), 0);
+    const std::uint64_t hash = XXH64(values.data(), values.size() * sizeof(float), 0);
+    if (!state.has_fractures()) return hash;
+    std::vector<physics::uint> there;  // and who is there at all
+    for (const physics::Traits& body : state.traits) there.push_back(body.motion);
+    return XXH64(there.data(), there.size() * sizeof(physics::uint), hash);
 }
 
 }  // namespace scree

@@ -1,10 +1,12 @@
 // The world: walks steps, grows tables, and turns what the user asks into actions.
 #include "compute/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
 
+#include "compute/fracture.h"
 #include "compute/statistics.h"
 #include "compute/world_interior.h"
 #include "shaders/physics/rest.h"
@@ -91,6 +93,11 @@ void World::step(int count) {
 std::uint64_t World::steps() const {
     return interior_->steps;
 }
+std::size_t World::bodies_there() const {
+    if (!interior_->state.has_fractures()) return interior_->scene.bodies.size();
+    const std::vector<BodyState> all = bodies();
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const BodyState& body) { return body.there; }));
+}
 double World::time() const {
     return static_cast<double>(interior_->steps) / interior_->settings.rate;
 }
@@ -134,8 +141,12 @@ void World::wake_all() {
     interior_->state.fixed().wake_all = 1;
 }
 BodyState World::Interior::body_state(std::size_t i) const {
-    return {state.poses[i].position, state.poses[i].orientation, state.velocities[i].linear, state.velocities[i].angular,
-            physics::is_asleep(state.rests[i], state.fixed().sleep_steps)};
+    return {state.poses[i].position,
+            state.poses[i].orientation,
+            state.velocities[i].linear,
+            state.velocities[i].angular,
+            physics::is_asleep(state.rests[i], state.fixed().sleep_steps),
+            !physics::is_absent(state.traits[i].motion)};
 }
 
 std::vector<BodyState> World::bodies() const {
@@ -148,17 +159,33 @@ std::vector<BodyState> World::bodies() const {
 Scene World::snapshot() const {
     Scene scene = interior_->scene;
     interior_->runner->fetch_bodies();
+    std::vector<Body> there;
+    std::vector<std::size_t> place_there(scene.bodies.size(), no_body);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        Body& body = scene.bodies[i];
-        if (body.motion == Motion::fixed) continue;
         const BodyState now = interior_->body_state(i);
+        if (!now.there) continue;
+        place_there[i] = there.size();
+        Body& body = there.emplace_back(on_its_own(std::move(scene.bodies[i])));
+        if (body.motion == Motion::fixed) continue;
         body.position = now.position;
         body.orientation = now.orientation;
         body.velocity = now.velocity;
         body.angular_velocity = now.angular_velocity;
     }
+    scene.bodies = std::move(there);
     interior_->runner->fetch_joints();
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) scene.joints[i].broken = interior_->joint_state(i).broken;
+    std::vector<Joint> joints;
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        Joint& joint = joints.emplace_back(scene.joints[i]);
+        joint.broken = interior_->joint_state(i).broken;
+        const auto gone = [&](std::size_t& body) {
+            if (body == the_world) return false;
+            body = place_there[body];
+            return body == no_body;
+        };
+        if (gone(joint.a) | gone(joint.b)) joints.pop_back();
+    }
+    scene.joints = std::move(joints);
     return scene;
 }
 

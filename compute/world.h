@@ -24,6 +24,7 @@ struct BodyState {
     vec3 velocity;          // m/s
     vec3 angular_velocity;  // rad/s
     bool asleep = false;
+    bool there = true;  // false: it has broken, or is a piece of a body that has not; it is nowhere, and nothing acts on it
 };
 
 // What touches a body, as the last step left it: a record for each contact, of which two bodies have several where one of them is
@@ -58,7 +59,9 @@ constexpr std::size_t most_grips = 4;  // at once
 
 // Sums over the whole world, in double precision, and the extremes that a promise is made of.
 struct Statistics {
-    std::size_t bodies = 0;                  // of every motion
+    std::size_t bodies = 0;                  // of every motion, those that are there
+    std::size_t broken = 0;                  // bodies that have broken, pieces that have included
+    std::size_t pieces = 0;                  // that are there
     std::size_t manifolds = 0;               // pairs of bodies with contact points
     std::size_t points = 0;                  // contact points
     double penetration_mean = 0;             // m, over the points that penetrate; 0 if none does
@@ -95,8 +98,11 @@ public:
     void step(int count = 1);
 
     std::uint64_t steps() const;       // done so far
+    std::size_t bodies_there() const;  // of the scene's bodies; where some may break, read back
     double time() const;               // s
-    const Scene& scene() const;        // as checked, with gravity as it is now and the bodies that were added
+    // As checked, with gravity as it is now and the bodies that were added; pieces of bodies that may break are among its bodies,
+    // whether they are there yet or not (BodyState::there).
+    const Scene& scene() const;
     const Settings& settings() const;  // as they are now
     Runner& runner();
 
@@ -139,8 +145,8 @@ public:
     // From the next step on. It reads everything back and sends it again once.
     void set_substeps(int substeps);  // 1 to 64
 
-    // One more body; returns its index, which is the highest. It reads everything back and sends it again once. Throws
-    // SceneError as the constructor does. Buffers that a canvas draws from are others afterwards.
+    // One more body; returns its index. The highest, unless it may break: then its pieces follow it. It reads everything back and
+    // sends it again once. Throws SceneError as the constructor does. Buffers that a canvas draws from are others afterwards.
     std::size_t add_body(const Body& body);
 
     // Read back from wherever the world is.
@@ -149,8 +155,9 @@ public:
     std::vector<BodyState> bodies() const;
     JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
-    // The scene with every body where it is now and as fast. A world made of it goes on from there, but not to the same bits: its
-    // contacts begin anew, sleepers are awake, and what a position has below its last bit is gone.
+    // The scene with every body that is there where it is now and as fast; pieces are bodies as all others. A world made of it
+    // goes on from there, but not to the same bits: its contacts begin anew, sleepers are awake, and what a position has below
+    // its last bit is gone.
     Scene snapshot() const;
     Statistics statistics() const;
     const State& state() const;        // every table of a step (compute/state.h), with bodies and contacts as they are now

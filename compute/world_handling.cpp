@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "compute/fracture.h"
 #include "compute/world_interior.h"
 
 namespace scree {
@@ -111,7 +112,7 @@ void World::explode(vec3 centre, float radius, float speed) {
     const std::vector<BodyState> states = bodies();
     for (std::size_t i = 0; i < states.size(); ++i) {
         const Body& body = interior_->scene.bodies[i];
-        if (body.motion != Motion::dynamic) continue;
+        if (body.motion != Motion::dynamic || !states[i].there) continue;
         const vec3 apart = states[i].position - centre;
         const float distance = glm::length(apart);
         if (!(distance < radius)) continue;
@@ -162,12 +163,17 @@ void World::set_sleeping(bool allowed) {
 
 std::size_t World::add_body(const Body& body) {
     Interior& in = *interior_;
-    const Body added = checked(Scene{in.scene.gravity, {body}, {}}).bodies.front();
+    Scene added = checked(Scene{in.scene.gravity, {on_its_own(body)}, {}});
+    const std::size_t first = in.scene.bodies.size();
     in.runner->fetch();
-    in.state.add(added);
-    in.scene.bodies.push_back(added);
+    for (Body& one : added.bodies) {
+        if (one.piece_of != no_body) one.piece_of += first;
+        if (one.fracture) one.fracture->first_piece += first;
+        in.state.add(one);
+        in.scene.bodies.push_back(std::move(one));
+    }
     in.runner->attach(in.state);
-    return in.scene.bodies.size() - 1;
+    return first;
 }
 
 }  // namespace scree

@@ -146,7 +146,7 @@ void Viewer::draw() {
     const World& world = session_.world();
     const std::string caption =
         panel_.shown ? ""
-                     : fmt::format("{}\n{}, {:.2f} s{}", subject.name, counted(world.scene().bodies.size(), "body", "bodies"),
+                     : fmt::format("{}\n{}, {:.2f} s{}", subject.name, counted(world.bodies_there(), "body", "bodies"),
                                    world.time(), interaction_.paused ? ", paused" : "");
     PictureOptions colors;
     colors.color = color_;

@@ -27,6 +27,9 @@ const std::vector<Demo>& all_demos() {
         {"ragdolls", "three hundred figures of eleven limbs fall on steps and come to rest", 3300, true, ragdolls},
         {"pendulums", "pendulums of every kind keep their period and their energy for a minute", 7, false, pendulums},
         {"machine", "a motor turns two gears, a crank and a piston", 18, false, machine},
+        {"wrecking", "a heavy ball breaks a brick wall", 193, false, wrecking},
+        {"glass", "a ball goes through six panes of glass, and stops at the seventh", 8, false, glass},
+        {"shatter", "bodies that fall into a pit burst into pieces", 2000, true, shatter},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
@@ -41,6 +44,8 @@ const std::vector<Demo>& all_demos() {
         {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},
 
         {"solids", "cylinders, cones and hulls stand, stack and roll", 17, false, solids, true},
+        {"thresholds", "bodies break on what is just above their threshold, not just below", 32, false, thresholds, true},
+        {"fragments", "bodies that break in empty space keep their momentum", 64, false, fragments, true},
 
         {"compounds", "tables of five boxes carry columns; a bar tips where its centre of mass says", 14, false, compounds, true},
         {"rollmesh", "a ball rolls over 10,000 triangles in a plane as over a plane", 1, false, rollmesh, true},

@@ -64,6 +64,9 @@ DemoScene bridge(const DemoOptions&);
 DemoScene ragdolls(const DemoOptions&);
 DemoScene pendulums(const DemoOptions&);
 DemoScene machine(const DemoOptions&);
+DemoScene wrecking(const DemoOptions&);
+DemoScene glass(const DemoOptions&);
+DemoScene shatter(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);
@@ -89,5 +92,7 @@ DemoScene tumbling(const DemoOptions&);
 DemoScene swarm(const DemoOptions&);
 DemoScene shots(const DemoOptions&);
 DemoScene strikes(const DemoOptions&);
+DemoScene thresholds(const DemoOptions&);
+DemoScene fragments(const DemoOptions&);
 
 }  // namespace scree::demos

@@ -47,7 +47,7 @@ std::string name_of(const Scene& scene, std::size_t body) {
 
 void Panel::show_clock(Session& session, Interaction& interaction, const Rates& rates) {
     const World& world = session.world();
-    say_line(fmt::format("{:.2f} s, {} steps, {} bodies", world.time(), world.steps(), world.scene().bodies.size()));
+    say_line(fmt::format("{:.2f} s, {} steps, {} bodies", world.time(), world.steps(), world.bodies_there()));
     say_line(
         fmt::format("{:.1f} steps/s ({:g} is real time), {:.1f} pictures/s", rates.steps, world.settings().rate, rates.pictures));
     if (ImGui::Button(interaction.paused ? "Go on" : "Pause")) interaction.paused = !interaction.paused;

@@ -168,6 +168,7 @@ std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orienta
 std::optional<Hit> pick(const Scene& scene, const std::vector<BodyState>& states, const Ray& ray) {
     std::optional<Hit> best;
     for (std::size_t i = 0; i < states.size(); ++i) {
+        if (!states[i].there) continue;
         const std::optional<float> at = distance_to(scene.bodies[i].shape, states[i].position, states[i].orientation, ray);
         if (at && (!best || *at < best->distance)) best = Hit{i, *at, ray.from + ray.along * *at};
     }

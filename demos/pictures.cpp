@@ -116,8 +116,7 @@ struct Pictures::Interior {
 
     std::string caption() const {
         if (!captioned) return "";
-        return fmt::format("{} · {:.2f} s\n{}, {}\n{}", name, world.time(),
-                           counted(world.scene().bodies.size(), "body", "bodies"),
+        return fmt::format("{} · {:.2f} s\n{}, {}\n{}", name, world.time(), counted(world.bodies_there(), "body", "bodies"),
                            counted(drawing->contacts(), "contact", "contacts"), world.runner().device());
     }
 };

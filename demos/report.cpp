@@ -53,6 +53,8 @@ std::string json_of(const RunReport& r) {
         {"device", r.device},
         {"canvas", r.canvas},
         {"bodies", s.bodies},
+        {"broken", s.broken},
+        {"pieces", s.pieces},
         {"steps", r.steps},
         {"dt", 1.0 / r.rate},
         {"substeps", r.substeps},
@@ -107,6 +109,7 @@ std::string summary_of(const RunReport& r) {
     line("first step", fmt::format("after {}", duration(r.first_step_seconds)));
     line("contacts", fmt::format("{} pairs touch, in {} points", s.manifolds, s.points));
     line("asleep", fmt::format("{} of {} bodies", s.asleep, s.bodies));
+    if (s.broken || s.pieces) line("broken", fmt::format("{} bodies, into pieces of which {} are there", s.broken, s.pieces));
     line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
     line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
     line("greatest drift", fmt::format("{:.4g} m", s.drift_max));

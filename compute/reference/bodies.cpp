@@ -96,6 +96,7 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
     for (std::size_t i = 0; i < state.fixed().actions; ++i) {
         const physics::Action& action = state.actions[i];
         const std::size_t body = action.body;
+        if (physics::is_absent(state.traits[body].motion)) continue;
         const physics::Mass mass = physics::mass_in_world(state.traits[body], state.poses[body].orientation, 1);
         if (!state.fixed().redo) state.velocities[body] = physics::kicked(state.velocities[body], action, mass, state.fixed());
         state.rests[body] = 0;
@@ -126,6 +127,10 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         // Copies, or the compiler must suspect that what is written below changes them, and computes twice.
         const physics::Traits traits = state.traits[i];
         const physics::Pose pose = state.poses[i];
+        if (physics::is_absent(traits.motion)) {
+            state.bounds[i] = physics::no_bounds(pose);
+            return;
+        }
         const physics::Velocity velocity = state.velocities[i];
         const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
         physics::Bounds bounds = physics::bounds_of(traits, pose, velocity, state.loads[owner], state.fixed());
@@ -169,7 +174,10 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const WideStages* wide = wide_stages(threads.lanes());
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (state.traits[i].motion == physics::MOTION_FIXED || physics::is_part(state.traits[i]) || asleep(state, i)) return;
+        const physics::uint motion = state.traits[i].motion;
+        if (motion == physics::MOTION_FIXED || physics::is_part(state.traits[i]) || physics::is_absent(motion) ||
+            asleep(state, i))
+            return;
         if (!wide || !moved_by_contacts(state, i)) move(state, i);
     });
     if (!wide) return;

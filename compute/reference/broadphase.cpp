@@ -151,6 +151,7 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
 
 void fill_cells(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        if (state.bounds[i].bucket == physics::NONE) return;
         const std::uint32_t entry = std::atomic_ref(state.cells[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
         state.cell_entries[entry].body = static_cast<std::uint32_t>(i);
     });

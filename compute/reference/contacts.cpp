@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <bit>
 
 #include "compute/reference/stages.h"
 #include "compute/reference/wide.h"
@@ -174,7 +175,9 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
-void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
+namespace {
+
+void relax(State& state, const Threads& threads, bool last, bool first, bool felt) {
     const auto told = [&](std::uint32_t body) {
         return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
     };
@@ -182,6 +185,8 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         WideTables tables = wide_tables(state, state.binned);
         std::vector<float> all_told(last ? state.fixed().bodies : 0);
         threads.for_each(all_told.size(), [&](std::size_t i) { all_told[i] = told(static_cast<std::uint32_t>(i)); });
+        if (felt) tables.felt = reinterpret_cast<std::uint32_t*>(state.candidates.data());
+        tables.first = first;
         if (last) tables.told = reinterpret_cast<const std::uint32_t*>(all_told.data());
         threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->relax(tables, first, end); });
         return;
@@ -194,6 +199,11 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
         const physics::Couple before = velocities_of(state, c);
         const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         physics::Impulse& impulse = state.impulses[i];
+        if (felt) {
+            const float carried = physics::pressing(after.impulse);
+            physics::uint& sum = state.candidates[i].owner;
+            sum = std::bit_cast<physics::uint>(first ? carried : std::bit_cast<float>(sum) + carried);
+        }
         impulse = physics::without_blows(after.impulse, c.count);
         impulse.pressed = physics::pressing(impulse);
         physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
@@ -204,6 +214,16 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
             hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying, {impulse.pressed, impulse.pressed});
         }
     });
+}
+
+}  // namespace
+
+void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
+    relax(state, threads, last != 0, false, false);
+}
+
+void relax_contacts_felt(State& state, const Threads& threads, std::uint32_t pass) {
+    relax(state, threads, (pass & 1) != 0, (pass & 2) != 0, true);
 }
 
 }  // namespace scree::reference

@@ -361,7 +361,10 @@ void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
 }
 
 void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
+    const auto gone = [&](physics::uint body) { return body != NONE && physics::is_absent(state.traits[body].motion); };
     for_each_block(state, threads, [&](const Block& block) {
+        for (Joint& joint : block.joints())
+            if (gone(joint.a) || gone(joint.b)) joint.broken = 1;
         for (Joint& record : block.members()) {
             record.slot = NONE;
             if (movable(state, record.member)) std::atomic_ref(state.slot_ends[record.member]).fetch_add(1);

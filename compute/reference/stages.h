@@ -51,6 +51,8 @@ SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);
 
+SCREE_STAGE(relax_contacts_felt);
+
 // joints.cpp
 SCREE_STAGE(wake_joined);
 SCREE_STAGE(count_joint_slots);
@@ -64,6 +66,11 @@ SCREE_STAGE(foresee_impacts);
 SCREE_STAGE(drop_passers);
 SCREE_STAGE(find_impacts);  // pass: the round
 SCREE_STAGE(stop_bodies);
+
+// fracture.cpp
+SCREE_STAGE(find_broken);
+SCREE_STAGE(give_back);
+SCREE_STAGE(break_bodies);
 
 // scans.cpp: block sums are the devices' own affair; here the total is known in the spine, the offsets in the last stage.
 SCREE_STAGE(scan_nothing);

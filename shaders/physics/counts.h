@@ -65,6 +65,7 @@ LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.solved = 0u;
     counts.pairs_coarse = 0u;
     counts.fast = 0u;
+    counts.broken = 0u;
     for (uint k = 0u; k < KINDS + 1u; ++k) counts.kind_first[k] = 0u;
     for (uint k = 0u; k < WORKS; ++k) counts.arguments[k] = work_for(0u, parameters);
     counts = with_pairs(counts, 0u, parameters);

@@ -107,6 +107,18 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Par
     return bounds;
 }
 
+// Of a body that is not there: a level on which nobody is, and no bucket.
+CONSTANT uint NOWHERE = 0x200u;
+LAW Bounds no_bounds(Pose pose) {
+    Bounds bounds;
+    bounds.lower = pose.position;
+    bounds.upper = pose.position;
+    bounds.level = NOWHERE;
+    bounds.bucket = NONE;
+    bounds.flight = flight_of(pose);
+    return bounds;
+}
+
 LAW bool boxes_overlap(vec3 lower_a, vec3 upper_a, vec3 lower_b, vec3 upper_b) {
     return lower_a.x <= upper_b.x && lower_b.x <= upper_a.x && lower_a.y <= upper_b.y && lower_b.y <= upper_a.y &&
            lower_a.z <= upper_b.z && lower_b.z <= upper_a.z;

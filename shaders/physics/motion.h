@@ -11,7 +11,7 @@ LAWS_BEGIN
 LAW Load gravity_load(Traits traits, Parameters parameters) {
     Load load;
     load.acceleration = choose(traits.motion == MOTION_DYNAMIC, parameters.gravity * traits.gravity_scale, vec3(0.0f));
-    load.pad0 = 0.0f;
+    load.kept = 1.0f;
     load.angular_acceleration = vec3(0.0f);
     load.blows = 0.0f;
     return load;

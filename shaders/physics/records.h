@@ -19,13 +19,15 @@ CONSTANT uint SHAPE_NONE = 8u;      // only its parts touch. size: its thinnest 
 CONSTANT uint MOTION_DYNAMIC = 0u;
 CONSTANT uint MOTION_FIXED = 1u;
 CONSTANT uint MOTION_KINEMATIC = 2u;
+CONSTANT uint MOTION_UNBORN = 3u;  // a piece of a body that is still whole: it is nowhere
+CONSTANT uint MOTION_BROKEN = 4u;  // its pieces are there in its place
 // With one of these: a part of a body that moves so, a row of its own that the solver never moves. Where it lies in its body says
 // its Traits: position inverse_inertia, m; orientation inverse_mass, gravity_scale, linear_damping, angular_damping.
-CONSTANT uint MOTION_OF_PART = 4u;
+CONSTANT uint MOTION_OF_PART = 8u;
 
 CONSTANT uint NONE = 0xFFFFFFFFu;
 
-// ---- bodies, written when the scene is described
+// ---- bodies, written when the scene is described; when one breaks, its motion and that of its pieces change
 struct Traits {
     vec3 size;  // see SHAPE_*, m
     uint shape;
@@ -40,9 +42,9 @@ struct Traits {
     uint motion;
     uint large;     // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
     uint owner;     // the body that this one is a part of; itself for a body
-    uint fracture;  // where its fracture's description begins; NONE: it does not break
+    uint fracture;  // where its fracture's description begins (fracture.h); NONE: it does not break
     uint joints;    // where the list of its joints begins; NONE: it has none
-    uint pad0;
+    uint strain;    // of a body that breaks, what the step before left of a blow: the bits of a float >= 0 (fracture.h)
 };
 
 // ---- bodies, state
@@ -70,7 +72,7 @@ struct Mass {
 };
 struct Load {
     vec3 acceleration;  // gravity and forces, m/s^2, over the whole step
-    float pad0;
+    float kept;  // part of their impulses that the body's contacts keep in this step: less than 1 if it breaks (fracture.h)
     vec3 angular_acceleration;  // rad/s^2
     float blows;                // contacts that struck the body in this substep and throw it back
 };
@@ -363,9 +365,15 @@ struct Counts {  // what the device counts in a step
     uint solved;           // contacts that move somebody: those of the solver
     uint kind_first[16];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uint fast;             // 1: some body will be fast in this step
-    uint pad0, pad1, pad2;
+    uint broken;           // bodies that break in this step
+    uint pad0, pad1;
     uvec4 arguments[23];  // per WORK_*: workgroups x, y, z, and threads
 };
+
+// Not there at present: it touches nothing and is seen nowhere, only its row is kept.
+LAW bool is_absent(uint motion) {
+    return motion == MOTION_UNBORN || motion == MOTION_BROKEN;
+}
 
 LAWS_END
 

@@ -63,18 +63,44 @@ LAW vec3 rim_point(Solid solid, vec3 outward, float height) {
     return outward * solid.size.x + solid.axes.y * height;
 }
 
-LAW uint farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
-    uint best = 0u;
-    float farthest = -1.0e30f;
-    uint vertices = hull_vertices(hulls, solid.hull);
-    for (uint k = 0u; k < vertices; ++k) {
-        float reach = dot3(hull_vertex(hulls, solid.hull, k), local);
-        if (reach > farthest) {
-            farthest = reach;
-            best = k;
-        }
+struct Farthest {
+    uint vertex;
+    float reach;
+};
+LAW Farthest farther(Farthest so_far, vec3 vertex, uint k, vec3 local) {
+    float reach = dot3(vertex, local);
+    if (reach > so_far.reach) {
+        so_far.reach = reach;
+        so_far.vertex = k;
     }
-    return best;
+    return so_far;
+}
+// Eight at once; beyond the end the last one again. (lavapipe ends a shader's loops after 65,535 rounds in all, without a word:
+// two hulls of 30 corners that spin beside each other came to more, one by one.)
+LAW uint farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
+    Farthest found;
+    found.vertex = 0u;
+    found.reach = -1.0e30f;
+    uint last = hull_vertices(hulls, solid.hull) - 1u;
+    for (uint k = 0u; k <= last; k = k + 8u) {
+        uint k0 = k + 0u < last ? k + 0u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k0), k0, local);
+        uint k1 = k + 1u < last ? k + 1u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k1), k1, local);
+        uint k2 = k + 2u < last ? k + 2u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k2), k2, local);
+        uint k3 = k + 3u < last ? k + 3u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k3), k3, local);
+        uint k4 = k + 4u < last ? k + 4u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k4), k4, local);
+        uint k5 = k + 5u < last ? k + 5u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k5), k5, local);
+        uint k6 = k + 6u < last ? k + 6u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k6), k6, local);
+        uint k7 = k + 7u < last ? k + 7u : last;
+        found = farther(found, hull_vertex(hulls, solid.hull, k7), k7, local);
+    }
+    return found.vertex;
 }
 
 // The point of the core farthest in a direction (of any length but 0).

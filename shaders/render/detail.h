@@ -44,6 +44,7 @@ uint run_of_place(uint place) {
     if (place >= bodies_to_see()) return NOT_SEEN;
     uint body = instances[place];
     Traits t = traits[body];
+    if (is_absent(t.motion)) return NOT_SEEN;
     uint shape = place >= runs[RUN_ALL_SOLIDS].first     ? RUN_ALL_SOLIDS
                  : place >= runs[RUN_ALL_BOXES].first    ? RUN_ALL_BOXES
                  : place >= runs[RUN_ALL_CAPSULES].first ? RUN_ALL_CAPSULES

@@ -87,7 +87,7 @@ void main() {
     float unit = frame.ray_down.w / 720.0;
     out_half_width = max(0.5, 0.6 * unit);
     Corner at = corner_of_body();
-    if (!at.there) return;
+    if (!at.there || is_absent(traits[at.body].motion)) return;
     Traits t = traits[at.body];
     uint kind = pushed & 255u;
     if (kind == LINES_VELOCITIES) {

@@ -15,7 +15,7 @@ void main() {
     Corner chosen = corner_of_body();
     gl_Position = vec4(0, 0, -1, 1);
     out_place = vec2(0.0);
-    if (!chosen.there) return;
+    if (!chosen.there || is_absent(traits[chosen.body].motion)) return;
     uint body = chosen.body;
     Traits t = traits[body];
     Pose pose = poses[body];

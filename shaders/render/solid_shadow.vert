@@ -8,7 +8,7 @@
 void main() {
     Corner at = corner_of_body();
     gl_Position = vec4(0, 0, -1, 1);
-    if (!at.there) return;
+    if (!at.there || is_absent(traits[at.body].motion)) return;
     MeshCorner corner = mesh_corner(at, traits[at.body].size);
     if (!corner.there) return;
     Pose pose = poses[at.body];

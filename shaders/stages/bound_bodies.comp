@@ -19,6 +19,10 @@ void main() {
     if (i >= PARAMETERS.bodies) return;
     Traits body = traits.at[i];
     Pose pose = poses.at[i];
+    if (is_absent(body.motion)) {
+        bounds.at[i] = no_bounds(pose);
+        return;
+    }
     uint owner = body_of(i);
     Bounds around = bounds_of(body, pose, velocities.at[i], loads.at[owner], PARAMETERS);
     if (will_be_fast(body, velocities.at[i], PARAMETERS)) note(COUNTS.fast, 1u);

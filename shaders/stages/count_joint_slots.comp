@@ -1,4 +1,4 @@
-// Counts one slot for each body of each block of joints that can be moved.
+// Counts one slot for each body of each block of joints that can be moved; joints of bodies that are no more tear.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -6,10 +6,16 @@
 #include "shaders/physics/rest.h"
 #include "shaders/stages/stage.glsl"
 
+bool is_gone(uint body) {
+    return body != NONE && is_absent(traits.at[body].motion);
+}
+
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u) return;
     uint first = joints.at[i].first_of_block;
+    for (uint j = first; j < first + joints.at[first].block_joints; ++j)
+        if (is_gone(joints.at[j].a) || is_gone(joints.at[j].b)) joints.at[j].broken = 1u;
     uint last = first + joints.at[first].block_members;
     for (uint m = first; m < last; ++m) {
         uint body = joints.at[m].member;

@@ -14,7 +14,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
     Traits body = traits.at[i];
-    if (body.motion == MOTION_FIXED || is_part(body)) return;
+    if (body.motion == MOTION_FIXED || is_part(body) || is_absent(body.motion)) return;
     Velocity velocity = velocities.at[i];
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);

@@ -49,7 +49,7 @@ const std::map<std::string, Record>& records() {
             all["Traits"] = {sizeof(R),
                              {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution),
                               M(rolling_resistance), M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large),
-                              M(owner), M(fracture), M(joints), M(pad0)}};
+                              M(owner), M(fracture), M(joints), M(strain)}};
         }
         {
             using R = Pose;
@@ -65,7 +65,7 @@ const std::map<std::string, Record>& records() {
         }
         {
             using R = Load;
-            all["Load"] = {sizeof(R), {M(acceleration), M(pad0), M(angular_acceleration), M(blows)}};
+            all["Load"] = {sizeof(R), {M(acceleration), M(kept), M(angular_acceleration), M(blows)}};
         }
         {
             using R = Action;
@@ -224,7 +224,7 @@ const std::map<std::string, Record>& records() {
             all["Counts"] = {sizeof(R),
                              {M(pairs), M(contacts), M(levels), M(overflow), M(required_pairs), M(required_contacts), M(steps),
                               M(pairs_coarse), M(levels_stirring), M(large_stirring), M(sleepers), M(solved), M(kind_first),
-                              M(fast), M(pad0), M(pad1), M(pad2), M(arguments)}};
+                              M(fast), M(broken), M(pad0), M(pad1), M(arguments)}};
         }
         return all;
     }();

@@ -1,0 +1,187 @@
+// What breaks: a wall, panes of glass, and all that falls into a pit.
+#include <algorithm>
+#include <cmath>
+
+#include "demos/building.h"
+#include "demos/claims.h"
+#include "demos/demos.h"
+#include "demos/random.h"
+
+namespace scree::demos {
+
+namespace {
+
+Fracture breaking(float impulse, Cutting cutting, std::size_t pieces, std::uint32_t seed, std::size_t depth = 1) {
+    Fracture fracture;
+    fracture.impulse = impulse;
+    fracture.cutting = cutting;
+    fracture.pieces = pieces;
+    fracture.seed = seed;
+    fracture.depth = depth;
+    return fracture;
+}
+
+double mass_of(const Scene& scene, const std::vector<BodyState>& states) {
+    double sum = 0;
+    for (std::size_t i = 0; i < states.size(); ++i)
+        if (states[i].there && scene.bodies[i].motion == Motion::dynamic)
+            sum += static_cast<double>(mass_properties(scene.bodies[i].shape, scene.bodies[i].density).mass);
+    return sum;
+}
+Claim mass_stays() {
+    return close_to("mass at the end, of the start's", 1, 1e-5, "", "of the dynamic bodies that are there",
+                    [](const Trace& trace) { return mass_of(trace.scene, trace.end) / mass_of(trace.scene, trace.start); });
+}
+// Of bodies of the scene as it was described: pieces do not count.
+Claim broken_at_least(double part, Indices bodies) {
+    return at_least("bodies that broke, of those that may", part, "", "at the end", [bodies](const Trace& trace) {
+        const auto count = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t i) { return !trace.end.at(i).there; });
+        return static_cast<double>(count) / static_cast<double>(bodies.size());
+    });
+}
+Claim whole_and_in_place(double part, Indices bodies) {
+    return at_least("bricks that stayed whole and in their place", part, "", "within 0.3 m of their start at the end",
+                    [bodies](const Trace& trace) {
+                        const auto count = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t i) {
+                            return trace.end.at(i).there &&
+                                   glm::length(trace.end[i].position - trace.start.at(i).position) < 0.3f;
+                        });
+                        return static_cast<double>(count) / static_cast<double>(bodies.size());
+                    });
+}
+
+}  // namespace
+
+// Bricks in running bond, and a ball that weighs as much as forty of them.
+DemoScene wrecking(const DemoOptions& options) {
+    constexpr int rows = 12, columns = 16;
+    const vec3 brick(0.4f, 0.2f, 0.2f);
+    Scene scene;
+    scene.bodies.push_back(ground(0.8f));
+    Random random(options.seed);
+    Indices bricks;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const float x = 2 * brick.x * (static_cast<float>(column) - 0.5f * columns + (row % 2 == 1 ? 0.75f : 0.25f));
+            Body body = box_at({x, brick.y * static_cast<float>(2 * row + 1), random.between(-0.002f, 0.002f)},
+                               brick - vec3(0.0005f, 0, 0));
+            body.density = 1800;
+            body.fracture = breaking(1800, random.unit() < 0.5f ? Cutting::boxes : Cutting::voronoi, 7, 1 + random.bits() % 4);
+            bricks.push_back(scene.bodies.size());
+            scene.bodies.push_back(body);
+        }
+    }
+    Body ball;
+    ball.name = "ball";
+    ball.shape = Sphere{0.8f};
+    ball.density = 7800;
+    ball.position = {-0.7f, 1.9f, -9};
+    ball.velocity = {0.3f, 3.2f, 14};
+    ball.rolling_resistance = 0.1f;
+    const std::size_t wrecker = scene.bodies.size();
+    scene.bodies.push_back(ball);
+    const vec3 low(-6.6f, 0, -8), high(6.6f, 5, 7);
+    return {std::move(scene),
+            view_of(low, high, 205, 14),
+            low,
+            high,
+            10,
+            Promise(broken_at_least(0.1, bricks), mass_stays(), whole_and_in_place(0.4, bricks),
+                    at_least("how far the ball got", 1, "m", "beyond the wall's middle, at the end",
+                             [wrecker](const Trace& trace) { return static_cast<double>(trace.end.at(wrecker).position.z); }))};
+}
+
+// Panes that stand in grooves. The ball gives each no more than it can bear, and is hardly slower behind it.
+DemoScene glass(const DemoOptions& options) {
+    constexpr int panes = 7;
+    const vec3 half(1, 1, 0.02f);
+    constexpr float gap = 1.6f, rail = 0.05f, foot = 0.06f;
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Indices thin;
+    std::size_t thick = 0;
+    for (int k = 0; k < panes; ++k) {
+        const float z = gap * static_cast<float>(k);
+        const bool last = k == panes - 1;
+        const float depth = last ? 0.1f : half.z;
+        for (const float side : {-1.0f, 1.0f})
+            scene.bodies.push_back(fixed_box({0, foot, z + side * (depth + rail + 0.001f)}, {half.x + 0.1f, foot, rail}));
+        Body pane = box_at({0, half.y, z}, {half.x, half.y, depth});
+        pane.name = last ? "armoured pane" : "pane";
+        pane.density = 2500;
+        pane.friction = 0.4f;
+        pane.fracture = breaking(last ? 9000.0f : 260.0f, Cutting::splinters, 24,
+                                 static_cast<std::uint32_t>(options.seed) + static_cast<std::uint32_t>(k));
+        (last ? thick : thin.emplace_back()) = scene.bodies.size();
+        scene.bodies.push_back(pane);
+    }
+    Body ball;
+    ball.name = "ball";
+    ball.shape = Sphere{0.4f};
+    ball.density = 7800;
+    ball.position = {0.1f, 0.9f, -2};
+    ball.velocity = {0, 1.5f, 11};
+    const std::size_t shot = scene.bodies.size();
+    scene.bodies.push_back(ball);
+    const vec3 low(-1.6f, 0, -1), high(1.6f, 2.1f, gap * (panes - 1) + 0.5f);
+    Promise promise(
+        broken_at_least(1, thin),
+        at_most("armoured panes that broke", 0, "", "at the end",
+                [thick](const Trace& trace) { return trace.end.at(thick).there ? 0.0 : 1.0; }),
+        between("how far the ball got", gap * (panes - 2), gap * (panes - 1), "m", "at the end: behind the sixth pane",
+                [shot](const Trace& trace) { return static_cast<double>(trace.end.at(shot).position.z); }),
+        mass_stays());
+    return {std::move(scene), view_of(low, high, 65, 14), low, high, 6, promise};
+}
+
+// Five pieces each: with 2,000 bodies there are 10,000 of them.
+DemoScene shatter(const DemoOptions& options) {
+    const auto count = static_cast<float>(options.bodies);
+    const float spacing = 1.1f, side = std::max(2.0f, std::ceil(std::cbrt(count)));
+    const float pit = 0.5f * spacing * side + 0.7f;
+    Scene scene;
+    scene.bodies.push_back(ground());
+    add_pit(scene, vec3(pit, 0, pit), 0.5f, 0.6f);
+    for (std::size_t k = 1; k < scene.bodies.size(); ++k) {
+        auto& wall = std::get<Box>(scene.bodies[k].shape);
+        wall.half_extents.y = 0.5f * (0.12f * side + 1.2f);
+        scene.bodies[k].position.y = wall.half_extents.y;
+    }
+    Random random(options.seed);
+    Indices all;
+    for (std::size_t i = 0; i < options.bodies; ++i) {
+        const auto cell = static_cast<float>(i);
+        const float layer = std::floor(cell / (side * side)), in_layer = cell - layer * side * side;
+        const float row = std::floor(in_layer / side), column = in_layer - row * side;
+        Body body;
+        const std::uint32_t kind = random.bits() % 8, seed = 1 + random.bits() % 3;
+        Cutting cutting = Cutting::voronoi;
+        if (kind < 3) {
+            body.shape = Box{{0.3f, 0.25f, 0.35f}};
+            if (kind > 0) cutting = Cutting::boxes;
+        } else if (kind < 5) {
+            body.shape = Box{{0.4f, 0.1f, 0.3f}};
+            cutting = kind == 3 ? Cutting::boxes : Cutting::splinters;
+        } else if (kind < 7) {
+            body.shape = Sphere{0.32f};
+        } else {
+            body.shape = Cylinder{0.25f, 0.35f};
+        }
+        body.density = 800;
+        body.position = vec3(column - 0.5f * (side - 1), layer, row - 0.5f * (side - 1)) * spacing +
+                        vec3(random.between(-0.1f, 0.1f), 4 + random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f));
+        body.orientation = random.orientation();
+        body.fracture = breaking(250, cutting, 5, seed);
+        all.push_back(scene.bodies.size());
+        scene.bodies.push_back(body);
+    }
+    const vec3 low(-pit, 0, -pit), high(pit, 4 + spacing * side, pit);
+    return {std::move(scene),
+            view_of(low, high, 30, 35),
+            low,
+            high,
+            7,
+            Promise(broken_at_least(0.5, all), mass_stays(), end_speed_below(3))};
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,24 @@
+// Says which bodies break in this step, and what part of their impulses their contacts keep.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/fracture.h"
+#include "shaders/stages/hulls.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
+    Traits body = traits.at[i];
+    if (!may_break(body)) return;
+    float blow = 0.0f;
+    uint last = slot_ends.at[i];
+    for (uint k = i == 0u ? 0u : slot_ends.at[i - 1u]; k < last; ++k)
+        if ((slot_sides.at[k] & OF_JOINT) == 0u)
+            blow = larger(blow, uintBitsToFloat(candidates.at[slot_sides.at[k] >> 1u].owner));
+    Fracturing fracturing = fracturing_of(Hulls(0u), body.fracture);
+    float kept = kept_part(fracturing, blow, body);
+    traits.at[i].strain = strain_after(fracturing, blow, body, velocities.at[i]);
+    if (!(kept < 1.0f)) return;
+    loads.at[i].kept = kept;
+    atomicAdd(COUNTS.broken, 1u);
+}
