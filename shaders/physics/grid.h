@@ -67,7 +67,7 @@ LAW bool is_large(Traits traits) {
     return (traits.large & 1u) != 0u;
 }
 
-// The level of what is nowhere in the grid: a body that touches with its parts only.
+// The level of what is nowhere in the grid: a body that touches with its parts only, or is not there.
 CONSTANT uint NOWHERE = 0x40u;
 
 // Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
@@ -107,8 +107,7 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Par
     return bounds;
 }
 
-// Of a body that is not there: a level on which nobody is, and no bucket.
-CONSTANT uint NOWHERE = 0x200u;
+// Of a body that is not there: in no bucket.
 LAW Bounds no_bounds(Pose pose) {
     Bounds bounds;
     bounds.lower = pose.position;
