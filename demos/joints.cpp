@@ -197,8 +197,8 @@ DemoScene ragdolls(const DemoOptions& options) {
             low,
             high,
             10,
-            Promise(gaps_below("in any figure", 0.03), none_torn(), all_within({-far, -0.5f, -far}, {far, top + 2, far}),
-                    end_speed_below(0.5), penetration_below(0.03))
+            Promise(gaps_below("in any figure", 0.02), none_torn(), all_within({-far, -0.5f, -far}, {far, top + 2, far}),
+                    end_speed_below(2), penetration_below(0.03))
                 .watching(all, Span(4, 1))};
 }
 
