@@ -176,7 +176,7 @@ struct Step {
         std::vector<std::set<physics::uint>> places(physics::KINDS);
         for (std::size_t i = 0; i < pairs; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})
-                if (state.traits[body].shape == physics::SHAPE_HULL)
+                if (state.traits[body].shape == physics::SHAPE_HULL || state.traits[body].shape == physics::SHAPE_TRIANGLE)
                     places[state.pairs[i].kind].insert(physics::hull_of(state.traits[body]));
         for (const auto& hulls : places)
             hulls_of_kind.push_back(std::accumulate(hulls.begin(), hulls.end(), std::size_t{0}, [&](std::size_t sum, auto place) {
