@@ -17,25 +17,25 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies) return;
-    Traits body = traits[i];
-    Pose pose = poses[i];
+    Traits body = traits.at[i];
+    Pose pose = poses.at[i];
     uint owner = body_of(i);
-    Bounds around = bounds_of(body, pose, velocities[i], loads[owner], PARAMETERS);
-    if (will_be_fast(body, velocities[i], PARAMETERS)) note(COUNTS.fast, 1u);
+    Bounds around = bounds_of(body, pose, velocities.at[i], loads.at[owner], PARAMETERS);
+    if (will_be_fast(body, velocities.at[i], PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
-        masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
+        masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
     } else {
-        masses[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+        masses.at[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }
-    atomicAdd(cells[around.bucket], 1u);
+    atomicAdd(cells.at[around.bucket], 1u);
     bool listed = !is_large(body) && (around.level & NOWHERE) == 0u;
     if (listed) note(COUNTS.levels, 1u << around.level);
-    if (has_slept(rests[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
-    if (stirs(motion_of(body), velocities[owner], rests[owner], PARAMETERS.sleep_steps)) {
+    if (has_slept(rests.at[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
+    if (stirs(motion_of(body), velocities.at[owner], rests.at[owner], PARAMETERS.sleep_steps)) {
         if (listed) note(COUNTS.levels_stirring, 1u << around.level);
         if (is_large(body)) note(COUNTS.large_stirring, 1u);
     } else {
         around.level |= STILL;
     }
-    bounds[i] = around;
+    bounds.at[i] = around;
 }

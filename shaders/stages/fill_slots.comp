@@ -9,15 +9,15 @@
 void main() {
     uint i = thread();
     if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
-    Pair pair = pairs[constraints[i].pair];
+    Pair pair = pairs.at[constraints.at[i].pair];
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    bool moves_a = is_movable(traits[of_a].motion, rests[of_a], PARAMETERS.sleep_steps);
-    bool moves_b = is_movable(traits[of_b].motion, rests[of_b], PARAMETERS.sleep_steps);
-    if (moves_a) slot_sides[atomicAdd(slot_ends[of_a], 1u)] = 2u * i;
-    if (moves_b) slot_sides[atomicAdd(slot_ends[of_b], 1u)] = 2u * i + 1u;
+    bool moves_a = is_movable(traits.at[of_a].motion, rests.at[of_a], PARAMETERS.sleep_steps);
+    bool moves_b = is_movable(traits.at[of_b].motion, rests.at[of_b], PARAMETERS.sleep_steps);
+    if (moves_a) slot_sides.at[atomicAdd(slot_ends.at[of_a], 1u)] = 2u * i;
+    if (moves_b) slot_sides.at[atomicAdd(slot_ends.at[of_b], 1u)] = 2u * i + 1u;
     if (!moves_a && !moves_b) return;
     uint place = atomicAdd(COUNTS.solved, 1u);
-    binned[place] = i;
+    binned.at[place] = i;
     uint group = place >> PARAMETERS.group_shift;
     if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVED].x, group + 1u);
 }

@@ -10,19 +10,20 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs || touching[i] == 0u) return;
-    uint a = pairs[i].a, b = pairs[i].b;
+    if (i >= COUNTS.pairs || touching.at[i] == 0u) return;
+    uint a = pairs.at[i].a, b = pairs.at[i].b;
     uint of_a = body_of(a), of_b = body_of(b);
-    Traits ta = traits[a], tb = traits[b];
-    Velocity va = velocities[a], vb = velocities[b];
-    if (!will_be_fast(traits[of_a], velocities[of_a], PARAMETERS) && !will_be_fast(traits[of_b], velocities[of_b], PARAMETERS))
+    Traits ta = traits.at[a], tb = traits.at[b];
+    Velocity va = velocities.at[a], vb = velocities.at[b];
+    if (!will_be_fast(traits.at[of_a], velocities.at[of_a], PARAMETERS) &&
+        !will_be_fast(traits.at[of_b], velocities.at[of_b], PARAMETERS))
         return;
-    vec3 normal = manifolds[i].normal;
-    if (!is_near(manifolds[i], touching[i], PARAMETERS) &&
-        !will_meet(normal, ta, poses[a], va, loads[of_a], tb, poses[b], vb, loads[of_b], PARAMETERS, Hulls(0u))) {
-        touching[i] = touching[i] | DOUBTFUL;
+    vec3 normal = manifolds.at[i].normal;
+    if (!is_near(manifolds.at[i], touching.at[i], PARAMETERS) &&
+        !will_meet(normal, ta, poses.at[a], va, loads.at[of_a], tb, poses.at[b], vb, loads.at[of_b], PARAMETERS, Hulls(0u))) {
+        touching.at[i] = touching.at[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
-        atomicOr(bounds[of_a].flight.struck, 1u);
-        atomicOr(bounds[of_b].flight.struck, 1u);
+        atomicOr(bounds.at[of_a].flight.struck, 1u);
+        atomicOr(bounds.at[of_b].flight.struck, 1u);
     }
 }

@@ -8,9 +8,9 @@
 void main() {
     uint i = thread();
     if (i < PARAMETERS.first_part || i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
-    Traits part = traits[i];
+    Traits part = traits.at[i];
     if (motion_of(part) == MOTION_FIXED) return;
-    Pose owner = poses[part.owner];
-    poses[i] = pose_of_part(place_in_body(part), turn_in_body(part), owner);
-    velocities[i] = velocity_of_part(part, owner, velocities[part.owner]);
+    Pose owner = poses.at[part.owner];
+    poses.at[i] = pose_of_part(place_in_body(part), turn_in_body(part), owner);
+    velocities.at[i] = velocity_of_part(part, owner, velocities.at[part.owner]);
 }

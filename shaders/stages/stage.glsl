@@ -19,12 +19,12 @@ layout(push_constant) uniform Push {
 }
 push;
 
-#define PARAMETERS parameters[0]
-#define COUNTS counts[0]
+#define PARAMETERS parameters.at[0]
+#define COUNTS counts.at[0]
 
 // The body that a row belongs to.
 uint body_of(uint row) {
-    return row < PARAMETERS.first_part ? row : traits[row].owner;
+    return row < PARAMETERS.first_part ? row : traits.at[row].owner;
 }
 
 uint thread() {
