@@ -33,6 +33,8 @@ struct MeshForm {
     std::size_t branching = 0;  // edges with more than two triangles, or with two that face opposite ways
 };
 
+// How many of its triangles cut through another one.
+std::size_t crossing_triangles(const MeshForm& form);
 // What is odd about it, in words; empty if nothing is.
 std::string oddities(const MeshForm& form);
 

@@ -241,8 +241,8 @@ void examine_mesh(const Examination& body, Body& b, std::vector<std::string>* no
     } catch (const MeshError& error) {
         body.refuse(key + error.place, error.what());
     }
-    const std::string odd = mesh ? oddities(*mesh->form) : "";
-    if (notes && !odd.empty()) notes->push_back(body.place() + key + ": " + odd);
+    const std::string odd = mesh && notes ? oddities(*mesh->form) : "";
+    if (!odd.empty()) notes->push_back(body.place() + key + ": " + odd);
 }
 
 // After position and orientation: what has its own centre moves them.

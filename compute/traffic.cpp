@@ -194,7 +194,7 @@ struct Step {
         const std::size_t looked = state.content().convex ? pairs : 0;
         for (std::size_t i = 0; i < looked; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})
-                if (state.traits[body].shape == physics::SHAPE_HULL)
+                if (state.traits[body].shape == physics::SHAPE_HULL || state.traits[body].shape == physics::SHAPE_TRIANGLE)
                     places[state.pairs[i].kind].insert(physics::hull_of(state.traits[body]));
         for (const auto& hulls : places)
             hulls_of_kind.push_back(std::accumulate(hulls.begin(), hulls.end(), std::size_t{0}, [&](std::size_t sum, auto place) {

@@ -42,7 +42,7 @@ Claim none_falls_through(const std::string& what, double (*surface)(const Trace&
 
 // ---- hills
 constexpr float valley_radius = 30;  // m
-constexpr std::uint32_t side_points = 81;
+constexpr std::uint32_t side_points = 61;
 
 // A bowl with hills in it, higher on one side, that keeps what falls into it.
 float hill(float x, float z) {
@@ -98,7 +98,11 @@ DemoScene terrain(const DemoOptions& options) {
     Random random(options.seed);
     const auto side = std::max<std::size_t>(4, static_cast<std::size_t>(std::cbrt(2.0 * static_cast<double>(options.bodies))));
     constexpr float largest = 0.6f;
-    const vec3 place(-16, 13, 0);
+    // Over the highest ground under the lattice.
+    const float half = 1.025f * largest * static_cast<float>(side);
+    vec3 place(-16, 0, 0);
+    for (float x = -half; x <= half; x += 0.5f)
+        for (float z = -half; z <= half; z += 0.5f) place.y = std::max(place.y, hill(place.x + x, z) + 2 * largest);
     add_bodies(scene, options.bodies, side, place, 0.4f, 0.3f, largest, random);
     const float far = valley_radius;
     const vec3 low(-22, -1, -14), high(16, 13, 14);
@@ -122,7 +126,7 @@ DemoScene mesh(const DemoOptions& options) {
                             .shape = Mesh{.vertices = file.vertices, .triangles = file.triangles},
                             .friction = 0.15f});
     Random random(options.seed);
-    add_bodies(scene, options.bodies, 6, {-11.4f, 6.8f, 0}, 0.15f, 0.13f, 0.24f, random);
+    add_bodies(scene, options.bodies, 6, {-11.4f, 7.2f, 0}, 0.15f, 0.13f, 0.24f, random);
     const vec3 low(-13.2f, -1, -4), high(4, 7.5f, 4);
     return {std::move(scene),
             view_of(low, high, 35, 35),

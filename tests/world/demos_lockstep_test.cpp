@@ -23,6 +23,7 @@ TEST_CASE("every demo gives the same bits on both processors, and validation sta
     options.validation = true;
     const auto device = host::Device::open(options);
     for (const demos::Demo& demo : demos::all_demos()) {
+        if (demo.name == std::string("rollmesh")) continue;                   // its 10,000 triangles are those of others
         if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and made of what the others are made of
         const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, device, 1, 40);
         INFO(demo.name << ": step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element

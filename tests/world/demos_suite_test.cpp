@@ -154,7 +154,7 @@ TEST_CASE("suite: scenes are chosen by name, beginning and pattern, each once") 
     CHECK(names_of(demos::select_demos({"stack"})) == std::vector<std::string>{"stack"});
     CHECK(names_of(demos::select_demos({"stack?0", "tower"})) == std::vector<std::string>{"stack20", "stack80", "tower"});
     CHECK(names_of(demos::select_demos({"pyr", "pyramid"})) == std::vector<std::string>{"pyramid", "pyramid100"});
-    CHECK(names_of(demos::select_demos({"*1m"})) == std::vector<std::string>{"pile1m", "mix1m"});
+    CHECK(names_of(demos::select_demos({"*1m"})) == std::vector<std::string>{"pile1m", "mix1m", "hulls1m"});
     CHECK(demos::select_demos({}).size() == demos::all_demos().size());
     CHECK_THROWS_AS(demos::select_demos({"nosuch*"}), demos::UsageError);
     CHECK_THROWS_AS(demos::select_demos({"rest", ""}), demos::UsageError);

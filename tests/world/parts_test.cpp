@@ -223,6 +223,14 @@ TEST_CASE("a mesh is cleaned, and each triangle knows how its neighbours go on")
     REQUIRE(glm::length(flat.limits[1] - vec3(0, 0, 1)) < 1e-6f);
     REQUIRE(glm::length(flat.limits[2] - form.triangles[2].normal) < 1e-6f);
     REQUIRE(says(oddities(form), "2 triangles without area"));
+    REQUIRE(crossing_triangles(form) == 0);
+    // A fin through the first two, which cuts one of them and touches none of their corners.
+    std::vector<vec3> crossed = vertices;
+    crossed.insert(crossed.end(), {{0.2f, -1, 0.3f}, {0.3f, -1, 0.3f}, {0.25f, 1, 0.2f}});
+    std::vector<glm::uvec3> with_fin = triangles;
+    with_fin.emplace_back(7, 8, 9);
+    REQUIRE(crossing_triangles(mesh_form(crossed, with_fin)) == 2);
+    REQUIRE(says(oddities(mesh_form(crossed, with_fin)), "2 triangles that cut through another"));
 }
 
 TEST_CASE("compounds, meshes and height fields that cannot be simulated are refused by place and reason") {
