@@ -18,6 +18,8 @@ const std::vector<std::string> moving = {"onset",    "hold",  "steep", "rolling"
 const std::vector<std::string> heaps = {"pile", "mix", "avalanche", "assortment", "mix1m", "overlap"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};
 const std::vector<std::string> sleepers = {"pile1m"};
+const std::vector<std::string> breaking = {"thresholds", "wrecking"};
+const std::vector<std::string> splintering = {"glass", "shatter", "fragments"};
 const std::vector<std::string> large = {"pyramid100", "tray"};  // take minutes: `scree check` holds them
 
 std::vector<demos::Row> verdict_of(const std::string& name) {
@@ -41,7 +43,7 @@ void check_kept(const std::vector<std::string>& names) {
 
 TEST_CASE("every demo is held to its promise here, or takes minutes") {
     std::vector<std::string> held, all;
-    for (const auto* group : {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &large})
+    for (const auto* group : {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &breaking, &splintering, &large})
         held.insert(held.end(), group->begin(), group->end());
     for (const demos::Demo& demo : demos::all_demos()) all.emplace_back(demo.name);
     std::sort(held.begin(), held.end());
@@ -59,6 +61,14 @@ TEST_CASE("what slides, rolls, bounces, tumbles and is shot keeps to the formula
 
 TEST_CASE("what shall stand stands") {
     check_kept(standing);
+}
+
+TEST_CASE("what shall break breaks, and nothing else") {
+    check_kept(breaking);
+}
+
+TEST_CASE("what bursts into many pieces keeps its promises", "[long]") {
+    check_kept(splintering);
 }
 
 TEST_CASE("a small pile lies still, and is struck") {
