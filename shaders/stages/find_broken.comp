@@ -8,16 +8,16 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
-    Traits body = traits[i];
+    Traits body = traits.at[i];
     if (!may_break(body)) return;
     float blow = 0.0f;
-    uint last = slot_ends[i];
-    for (uint k = i == 0u ? 0u : slot_ends[i - 1u]; k < last; ++k)
-        blow = larger(blow, uintBitsToFloat(candidates[slot_sides[k] >> 1u].owner));
+    uint last = slot_ends.at[i];
+    for (uint k = i == 0u ? 0u : slot_ends.at[i - 1u]; k < last; ++k)
+        blow = larger(blow, uintBitsToFloat(candidates.at[slot_sides.at[k] >> 1u].owner));
     Fracturing fracturing = fracturing_of(Hulls(0u), body.fracture);
     float kept = kept_part(fracturing, blow, body);
-    traits[i].strain = strain_after(fracturing, blow, body, velocities[i]);
+    traits.at[i].strain = strain_after(fracturing, blow, body, velocities.at[i]);
     if (!(kept < 1.0f)) return;
-    loads[i].kept = kept;
+    loads.at[i].kept = kept;
     atomicAdd(COUNTS.broken, 1u);
 }
