@@ -137,7 +137,7 @@ DemoScene glass(const DemoOptions& options) {
 // Five pieces each: with 2,000 bodies there are 10,000 of them.
 DemoScene shatter(const DemoOptions& options) {
     const auto count = static_cast<float>(options.bodies);
-    const float spacing = 1.1f, side = std::max(2.0f, std::ceil(std::cbrt(count)));
+    const float spacing = 1.25f, side = std::max(2.0f, std::ceil(std::cbrt(count)));
     const float pit = 0.5f * spacing * side + 0.7f;
     Scene scene;
     scene.bodies.push_back(ground());
@@ -169,7 +169,7 @@ DemoScene shatter(const DemoOptions& options) {
         }
         body.density = 800;
         body.position = vec3(column - 0.5f * (side - 1), layer, row - 0.5f * (side - 1)) * spacing +
-                        vec3(random.between(-0.1f, 0.1f), 4 + random.between(-0.1f, 0.1f), random.between(-0.1f, 0.1f));
+                        vec3(random.between(-0.05f, 0.05f), 4 + random.between(-0.05f, 0.05f), random.between(-0.05f, 0.05f));
         body.orientation = random.orientation();
         body.fracture = breaking(250, cutting, 5, seed);
         all.push_back(scene.bodies.size());

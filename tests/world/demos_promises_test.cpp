@@ -18,6 +18,8 @@ const std::vector<std::string> moving = {"onset", "hold",  "steep",   "rolling",
 const std::vector<std::string> heaps = {"pile", "mix", "avalanche", "assortment", "mix1m", "overlap", "terrain", "mesh"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};
 const std::vector<std::string> sleepers = {"pile1m"};
+const std::vector<std::string> breaking = {"thresholds", "wrecking"};
+const std::vector<std::string> splintering = {"glass", "shatter", "fragments"};
 const std::vector<std::string> large = {"pyramid100", "tray", "hulls1m"};  // take minutes: `scree check` holds them
 
 std::vector<demos::Row> verdict_of(const std::string& name, float offset) {
@@ -42,7 +44,7 @@ void check_kept(const std::vector<std::string>& names, float offset = 0) {
 
 TEST_CASE("every demo is held to its promise here, or takes minutes") {
     std::vector<std::string> held, all;
-    for (const auto* group : {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &large})
+    for (const auto* group : {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &breaking, &splintering, &large})
         held.insert(held.end(), group->begin(), group->end());
     for (const demos::Demo& demo : demos::all_demos()) all.emplace_back(demo.name);
     std::sort(held.begin(), held.end());
@@ -66,6 +68,14 @@ TEST_CASE("ten kilometres from the origin promises are kept as at it") {
 
 TEST_CASE("what shall stand stands") {
     check_kept(standing);
+}
+
+TEST_CASE("what shall break breaks, and nothing else") {
+    check_kept(breaking);
+}
+
+TEST_CASE("what bursts into many pieces keeps its promises", "[long]") {
+    check_kept(splintering);
 }
 
 TEST_CASE("a small pile lies still, and is struck") {
