@@ -290,7 +290,7 @@ void DeviceRunner::fetch_body(std::size_t index) {
 
 void DeviceRunner::fetch_bodies() {
     for (const Table table : {Table::counts, Table::poses, Table::velocities, Table::rests}) read(table, state_->raw(table));
-    if (planned_breaking_) read(Table::traits, state_->raw(Table::traits));  // who is there
+    if (planned_content_.breaking) read(Table::traits, state_->raw(Table::traits));  // who is there
 }
 
 void DeviceRunner::fetch_contacts() {

@@ -39,7 +39,7 @@ float cell_width(const std::vector<physics::Traits>& traits, float speculative) 
     std::vector<float> widths;
     for (const physics::Traits& body : traits)
         if (!physics::is_large(body) &&
-            physics::(body.motion == physics::MOTION_UNBORN || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
+            (body.motion == physics::MOTION_UNBORN || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
             body.shape != physics::SHAPE_NONE)
             widths.push_back(width_of(body));
     if (widths.empty()) return 1;
@@ -269,10 +269,6 @@ void State::grow() {
     if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);
     counted().overflow = 0;
     allocate();
-}
-
-bool State::has_fractures() const {
-    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.fracture != physics::NONE; });
 }
 
 bool State::has_joints() const {

@@ -21,6 +21,7 @@ namespace scree {
 enum class Length {
     one,
     bodies,
+    entries,
     bodies_and_end,
     buckets,
     pairs,
