@@ -8,9 +8,9 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.actions || COUNTS.overflow != 0u) return;
-    Action action = actions[i];
-    Mass mass = mass_in_world(traits[action.body], poses[action.body].orientation, 1.0f);
-    if (PARAMETERS.redo == 0u) velocities[action.body] = kicked(velocities[action.body], action, mass, PARAMETERS);
-    rests[action.body] = 0u;
-    loads[action.body] = loaded(loads[action.body], action, mass);
+    Action action = actions.at[i];
+    Mass mass = mass_in_world(traits.at[action.body], poses.at[action.body].orientation, 1.0f);
+    if (PARAMETERS.redo == 0u) velocities.at[action.body] = kicked(velocities.at[action.body], action, mass, PARAMETERS);
+    rests.at[action.body] = 0u;
+    loads.at[action.body] = loaded(loads.at[action.body], action, mass);
 }

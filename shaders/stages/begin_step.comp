@@ -7,14 +7,14 @@
 
 void main() {
     uint i = thread();
-    if (i < PARAMETERS.buckets + 2u) cells[i] = 0u;
+    if (i < PARAMETERS.buckets + 2u) cells.at[i] = 0u;
     if (i <= PARAMETERS.bodies) {
-        pair_starts[i] = 0u;
-        slot_ends[i] = 0u;
+        pair_starts.at[i] = 0u;
+        slot_ends.at[i] = 0u;
     }
     if (i < PARAMETERS.bodies) {
-        loads[i] = gravity_load(traits[i], PARAMETERS);
-        if (PARAMETERS.wake_all != 0u) rests[i] = 0u;
+        loads.at[i] = gravity_load(traits.at[i], PARAMETERS);
+        if (PARAMETERS.wake_all != 0u) rests.at[i] = 0u;
     }
     if (i == 0u) COUNTS = emptied(COUNTS, PARAMETERS);
 }

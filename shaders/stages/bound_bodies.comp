@@ -17,19 +17,19 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies) return;
-    Traits body = traits[i];
-    Pose pose = poses[i];
-    Bounds around = bounds_of(body, pose, velocities[i], loads[i], PARAMETERS);
-    if (will_be_fast(body, velocities[i], PARAMETERS)) note(COUNTS.fast, 1u);
-    masses[i] = mass_in_world(body, pose.orientation, masses[i].split);
-    atomicAdd(cells[around.bucket], 1u);
+    Traits body = traits.at[i];
+    Pose pose = poses.at[i];
+    Bounds around = bounds_of(body, pose, velocities.at[i], loads.at[i], PARAMETERS);
+    if (will_be_fast(body, velocities.at[i], PARAMETERS)) note(COUNTS.fast, 1u);
+    masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
+    atomicAdd(cells.at[around.bucket], 1u);
     if (!is_large(body)) note(COUNTS.levels, 1u << around.level);
-    if (has_slept(rests[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
-    if (stirs(body.motion, velocities[i], rests[i], PARAMETERS.sleep_steps)) {
+    if (has_slept(rests.at[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
+    if (stirs(body.motion, velocities.at[i], rests.at[i], PARAMETERS.sleep_steps)) {
         if (!is_large(body)) note(COUNTS.levels_stirring, 1u << around.level);
         if (is_large(body)) note(COUNTS.large_stirring, 1u);
     } else {
         around.level |= STILL;
     }
-    bounds[i] = around;
+    bounds.at[i] = around;
 }

@@ -47,11 +47,11 @@
 void main() {
     uint i = thread() + COUNTS.kind_first[KIND];
     if (i >= COUNTS.kind_first[KIND + 1]) return;
-    uint pair = binned[i];
-    uint a = pairs[pair].a, b = pairs[pair].b;
-    Traits ta = traits[a], tb = traits[b];
-    Pose pa = poses[a], pb = poses[b];
-    float margin = margin_of(ta, velocities[a], tb, velocities[b], PARAMETERS);
+    uint pair = binned.at[i];
+    uint a = pairs.at[pair].a, b = pairs.at[pair].b;
+    Traits ta = traits.at[a], tb = traits.at[b];
+    Pose pa = poses.at[a], pb = poses.at[b];
+    float margin = margin_of(ta, velocities.at[a], tb, velocities.at[b], PARAMETERS);
     // The law wants the simpler shape first.
     bool swap = ta.shape > tb.shape;
     Traits first_traits = swap ? tb : ta;
@@ -60,6 +60,6 @@ void main() {
     Pose second = swap ? pa : pb;
     Touch touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
-    manifolds[pair] = touch.manifold;
-    touching[pair] = touch.count;
+    manifolds.at[pair] = touch.manifold;
+    touching.at[pair] = touch.count;
 }

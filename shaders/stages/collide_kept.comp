@@ -9,9 +9,9 @@
 void main() {
     uint i = thread() + COUNTS.kind_first[KIND_KEPT];
     if (i >= COUNTS.kind_first[KIND_KEPT + 1u]) return;
-    uint index = binned[i];
-    Pair pair = pairs[index];
-    Contact contact = contacts_before[pair.previous];
-    manifolds[index] = kept_manifold(contact, poses[pair.a], poses[pair.b]);
-    touching[index] = contact.count;
+    uint index = binned.at[i];
+    Pair pair = pairs.at[index];
+    Contact contact = contacts_before.at[pair.previous];
+    manifolds.at[index] = kept_manifold(contact, poses.at[pair.a], poses.at[pair.b]);
+    touching.at[index] = contact.count;
 }

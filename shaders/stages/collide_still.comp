@@ -9,9 +9,9 @@
 void main() {
     uint i = thread() + COUNTS.kind_first[KIND_STILL];
     if (i >= COUNTS.kind_first[KIND_STILL + 1u]) return;
-    uint index = binned[i];
-    uint previous = pairs[index].previous;
-    Contact contact = contacts_before[previous];
-    manifolds[index] = resting_manifold(contact, impulses_before[previous]);
-    touching[index] = contact.count;
+    uint index = binned.at[i];
+    uint previous = pairs.at[index].previous;
+    Contact contact = contacts_before.at[previous];
+    manifolds.at[index] = resting_manifold(contact, impulses_before.at[previous]);
+    touching.at[index] = contact.count;
 }

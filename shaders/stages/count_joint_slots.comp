@@ -9,12 +9,12 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u) return;
-    uint first = joints[i].first_of_block;
-    uint last = first + joints[first].block_members;
+    uint first = joints.at[i].first_of_block;
+    uint last = first + joints.at[first].block_members;
     for (uint m = first; m < last; ++m) {
-        uint body = joints[m].member;
-        joints[m].slot = NONE;
-        if (any_stirs(COUNTS) && is_movable(traits[body].motion, rests[body], PARAMETERS.sleep_steps))
-            atomicAdd(slot_ends[body], 1u);
+        uint body = joints.at[m].member;
+        joints.at[m].slot = NONE;
+        if (any_stirs(COUNTS) && is_movable(traits.at[body].motion, rests.at[body], PARAMETERS.sleep_steps))
+            atomicAdd(slot_ends.at[body], 1u);
     }
 }

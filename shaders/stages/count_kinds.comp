@@ -11,6 +11,6 @@ void main() {
     uint found[KINDS];
     for (uint k = 0u; k < KINDS; ++k) found[k] = 0u;
     uint last = min((i + 1u) * SPAN, COUNTS.pairs);
-    for (uint pair = i * SPAN; pair < last; ++pair) ++found[pairs[pair].kind];
-    for (uint k = 0u; k < KINDS; ++k) contact_starts[k * spans + i] = found[k];
+    for (uint pair = i * SPAN; pair < last; ++pair) ++found[pairs.at[pair].kind];
+    for (uint k = 0u; k < KINDS; ++k) contact_starts.at[k * spans + i] = found[k];
 }

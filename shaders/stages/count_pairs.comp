@@ -14,6 +14,6 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies) return;
     look_around(i);
-    pair_starts[i] = pairs_found;
+    pair_starts.at[i] = pairs_found;
     if (pairs_found > 0u) atomicAdd(COUNTS.pairs_coarse, (pairs_found + 255u) >> 8);
 }

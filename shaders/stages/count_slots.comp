@@ -9,8 +9,8 @@
 void main() {
     uint i = thread();
     if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
-    Pair pair = pairs[constraints[i].pair];
+    Pair pair = pairs.at[constraints.at[i].pair];
     uint sleep_steps = PARAMETERS.sleep_steps;
-    if (is_movable(traits[pair.a].motion, rests[pair.a], sleep_steps)) atomicAdd(slot_ends[pair.a], 1u);
-    if (is_movable(traits[pair.b].motion, rests[pair.b], sleep_steps)) atomicAdd(slot_ends[pair.b], 1u);
+    if (is_movable(traits.at[pair.a].motion, rests.at[pair.a], sleep_steps)) atomicAdd(slot_ends.at[pair.a], 1u);
+    if (is_movable(traits.at[pair.b].motion, rests.at[pair.b], sleep_steps)) atomicAdd(slot_ends.at[pair.b], 1u);
 }

@@ -7,7 +7,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs || (touching[i] & DOUBTFUL) == 0u) return;
-    bool struck = (bounds[pairs[i].a].flight.struck | bounds[pairs[i].b].flight.struck) != 0u;
-    touching[i] = struck ? touching[i] & ~DOUBTFUL : 0u;
+    if (i >= COUNTS.pairs || (touching.at[i] & DOUBTFUL) == 0u) return;
+    bool struck = (bounds.at[pairs.at[i].a].flight.struck | bounds.at[pairs.at[i].b].flight.struck) != 0u;
+    touching.at[i] = struck ? touching.at[i] & ~DOUBTFUL : 0u;
 }

@@ -15,23 +15,23 @@ void main() {
     uint i = thread();
     if (COUNTS.overflow != 0u) return;
     if (i == 0u) ++COUNTS.steps;
-    if (i >= PARAMETERS.bodies || is_asleep(rests[i], PARAMETERS.sleep_steps)) return;
-    Traits body = traits[i];
+    if (i >= PARAMETERS.bodies || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
+    Traits body = traits.at[i];
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
-    Velocity velocity = velocities[i];
+    Velocity velocity = velocities.at[i];
     velocity.linear = without_dust(velocity.linear + sum.change.linear);
     velocity.angular = without_dust(velocity.angular + sum.change.angular);
     float pace = pace_of(body, velocity, PARAMETERS);
-    rests[i] = rest_after(rests[i], pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
-    if (is_asleep(rests[i], PARAMETERS.sleep_steps)) {
+    rests.at[i] = rest_after(rests.at[i], pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
+    if (is_asleep(rests.at[i], PARAMETERS.sleep_steps)) {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);
     }
-    velocities[i] = velocity;
-    Flight flight = bounds[i].flight;
-    if (!was_fast(body, flight, poses[i])) return;
-    bounds[i].flight = stopped_at(flight, seen_part(body, flight, poses[i], bounds[i]));
+    velocities.at[i] = velocity;
+    Flight flight = bounds.at[i].flight;
+    if (!was_fast(body, flight, poses.at[i])) return;
+    bounds.at[i].flight = stopped_at(flight, seen_part(body, flight, poses.at[i], bounds.at[i]));
     atomicOr(COUNTS.fast, 1u);
     atomicMax(COUNTS.arguments[WORK_FLIGHTS].x, COUNTS.arguments[WORK_PAIRS].x);
     atomicMax(COUNTS.arguments[WORK_FLIGHTS].w, COUNTS.arguments[WORK_PAIRS].w);

@@ -7,6 +7,6 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies) return;
-    uint entry = atomicAdd(cells[bounds[i].bucket], 1u);
-    cell_entries[entry].body = i;
+    uint entry = atomicAdd(cells.at[bounds.at[i].bucket], 1u);
+    cell_entries.at[entry].body = i;
 }

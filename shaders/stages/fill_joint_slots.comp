@@ -9,11 +9,11 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u || !any_stirs(COUNTS)) return;
-    uint first = joints[i].first_of_block;
-    uint last = first + joints[first].block_members;
+    uint first = joints.at[i].first_of_block;
+    uint last = first + joints.at[first].block_members;
     for (uint m = first; m < last; ++m) {
-        uint body = joints[m].member;
-        if (is_movable(traits[body].motion, rests[body], PARAMETERS.sleep_steps))
-            slot_sides[atomicAdd(slot_ends[body], 1u)] = OF_JOINT | m;
+        uint body = joints.at[m].member;
+        if (is_movable(traits.at[body].motion, rests.at[body], PARAMETERS.sleep_steps))
+            slot_sides.at[atomicAdd(slot_ends.at[body], 1u)] = OF_JOINT | m;
     }
 }

@@ -7,13 +7,13 @@
 uint owner;
 uint next;
 void found(uint other) {
-    candidates[next++] = Candidate(owner, other);
+    candidates.at[next++] = Candidate(owner, other);
 }
 #include "shaders/stages/neighbours.glsl"
 
 void main() {
     owner = thread();
     if (owner >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
-    next = pair_starts[owner];
+    next = pair_starts.at[owner];
     look_around(owner);
 }

@@ -9,14 +9,14 @@
 void main() {
     uint i = thread();
     if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
-    Pair pair = pairs[constraints[i].pair];
-    bool moves_a = is_movable(traits[pair.a].motion, rests[pair.a], PARAMETERS.sleep_steps);
-    bool moves_b = is_movable(traits[pair.b].motion, rests[pair.b], PARAMETERS.sleep_steps);
-    if (moves_a) slot_sides[atomicAdd(slot_ends[pair.a], 1u)] = 2u * i;
-    if (moves_b) slot_sides[atomicAdd(slot_ends[pair.b], 1u)] = 2u * i + 1u;
+    Pair pair = pairs.at[constraints.at[i].pair];
+    bool moves_a = is_movable(traits.at[pair.a].motion, rests.at[pair.a], PARAMETERS.sleep_steps);
+    bool moves_b = is_movable(traits.at[pair.b].motion, rests.at[pair.b], PARAMETERS.sleep_steps);
+    if (moves_a) slot_sides.at[atomicAdd(slot_ends.at[pair.a], 1u)] = 2u * i;
+    if (moves_b) slot_sides.at[atomicAdd(slot_ends.at[pair.b], 1u)] = 2u * i + 1u;
     if (!moves_a && !moves_b) return;
     uint place = atomicAdd(COUNTS.solved, 1u);
-    binned[place] = i;
+    binned.at[place] = i;
     uint group = place >> PARAMETERS.group_shift;
     if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVED].x, group + 1u);
 }

@@ -10,17 +10,17 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs || touching[i] == 0u) return;
-    uint a = pairs[i].a, b = pairs[i].b;
-    Traits ta = traits[a], tb = traits[b];
-    Velocity va = velocities[a], vb = velocities[b];
+    if (i >= COUNTS.pairs || touching.at[i] == 0u) return;
+    uint a = pairs.at[i].a, b = pairs.at[i].b;
+    Traits ta = traits.at[a], tb = traits.at[b];
+    Velocity va = velocities.at[a], vb = velocities.at[b];
     if (!will_be_fast(ta, va, PARAMETERS) && !will_be_fast(tb, vb, PARAMETERS)) return;
-    vec3 normal = manifolds[i].normal;
-    if (!is_near(manifolds[i], touching[i], PARAMETERS) &&
-        !will_meet(normal, ta, poses[a], va, loads[a], tb, poses[b], vb, loads[b], PARAMETERS, Hulls(0u))) {
-        touching[i] = touching[i] | DOUBTFUL;
+    vec3 normal = manifolds.at[i].normal;
+    if (!is_near(manifolds.at[i], touching.at[i], PARAMETERS) &&
+        !will_meet(normal, ta, poses.at[a], va, loads.at[a], tb, poses.at[b], vb, loads.at[b], PARAMETERS, Hulls(0u))) {
+        touching.at[i] = touching.at[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
-        atomicOr(bounds[a].flight.struck, 1u);
-        atomicOr(bounds[b].flight.struck, 1u);
+        atomicOr(bounds.at[a].flight.struck, 1u);
+        atomicOr(bounds.at[b].flight.struck, 1u);
     }
 }

@@ -6,9 +6,9 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs || touching[i] == 0u) return;
-    uint contact = contact_starts[i];
-    constraints[contact].pair = i;
-    constraints[contact].slot_a = NONE;
-    constraints[contact].slot_b = NONE;
+    if (i >= COUNTS.pairs || touching.at[i] == 0u) return;
+    uint contact = contact_starts.at[i];
+    constraints.at[contact].pair = i;
+    constraints.at[contact].slot_a = NONE;
+    constraints.at[contact].slot_b = NONE;
 }

@@ -8,12 +8,12 @@
 
 // The contacts that a body owned are in the order of the other body.
 uint contact_before(uint owner, uint other) {
-    uint low = first_contacts_before[owner];
-    uint high = first_contacts_before[owner + 1u];
+    uint low = first_contacts_before.at[owner];
+    uint high = first_contacts_before.at[owner + 1u];
     while (low < high) {
         uint middle = (low + high) >> 1;
-        uint a = contacts_before[middle].a;
-        uint partner = a == owner ? contacts_before[middle].b : a;
+        uint a = contacts_before.at[middle].a;
+        uint partner = a == owner ? contacts_before.at[middle].b : a;
         if (partner == other) return middle;
         if (partner < other)
             low = middle + 1u;
@@ -26,24 +26,24 @@ uint contact_before(uint owner, uint other) {
 void main() {
     uint i = thread();
     if (i >= COUNTS.pairs) return;
-    Candidate candidate = candidates[i];
-    uint place = pair_starts[candidate.owner];
-    uint last = pair_starts[candidate.owner + 1u];
+    Candidate candidate = candidates.at[i];
+    uint place = pair_starts.at[candidate.owner];
+    uint last = pair_starts.at[candidate.owner + 1u];
     for (uint k = place; k < last; ++k)
-        if (candidates[k].other < candidate.other) ++place;
+        if (candidates.at[k].other < candidate.other) ++place;
     Pair pair = Pair(min(candidate.owner, candidate.other), max(candidate.owner, candidate.other), 0u, NONE);
     // Bodies change level with their speed, and then the other one owns the pair.
     pair.previous = contact_before(pair.a, pair.b);
     if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);
-    if ((bounds[pair.a].level & bounds[pair.b].level & STILL) != 0u) {
+    if ((bounds.at[pair.a].level & bounds.at[pair.b].level & STILL) != 0u) {
         pair.kind = KIND_STILL;
     } else {
-        Traits ta = traits[pair.a], tb = traits[pair.b];
+        Traits ta = traits.at[pair.a], tb = traits.at[pair.b];
         bool kept = false;
         if (pair.previous != NONE)
-            kept = is_kept(contacts_before[pair.previous], impulses_before[pair.previous], ta, poses[pair.a], velocities[pair.a],
-                           tb, poses[pair.b], velocities[pair.b]);
+            kept = is_kept(contacts_before.at[pair.previous], impulses_before.at[pair.previous], ta, poses.at[pair.a],
+                           velocities.at[pair.a], tb, poses.at[pair.b], velocities.at[pair.b]);
         pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
     }
-    pairs[place] = pair;
+    pairs.at[place] = pair;
 }

@@ -11,18 +11,18 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests[i], PARAMETERS.sleep_steps)) return;
-    Traits body = traits[i];
+    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
+    Traits body = traits.at[i];
     if (body.motion == MOTION_FIXED) return;
-    Velocity velocity = velocities[i];
+    Velocity velocity = velocities.at[i];
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
-        loads[i].blows = sum.carrying;
+        loads.at[i].blows = sum.carrying;
     }
-    Moved after = moved(poses[i], velocity, body, PARAMETERS.h);
-    poses[i] = after.pose;
-    velocities[i] = after.velocity;
-    if (!turns_evenly(body)) masses[i] = mass_in_world(body, after.pose.orientation, masses[i].split);
+    Moved after = moved(poses.at[i], velocity, body, PARAMETERS.h);
+    poses.at[i] = after.pose;
+    velocities.at[i] = after.velocity;
+    if (!turns_evenly(body)) masses.at[i] = mass_in_world(body, after.pose.orientation, masses.at[i].split);
 }

@@ -4,20 +4,20 @@
 
 #include "shaders/stages/stage.glsl"
 
-#define SORT_GET(i) cell_entries[i].body
-#define SORT_SET(i, value) cell_entries[i].body = value
+#define SORT_GET(i) cell_entries.at[i].body
+#define SORT_SET(i, value) cell_entries.at[i].body = value
 #include "shaders/stages/sort.glsl"
 
 void main() {
     uint i = thread();
     if (i > PARAMETERS.buckets) return;
-    uint first = i == 0u ? 0u : cells[i - 1u];
-    uint last = cells[i];
+    uint first = i == 0u ? 0u : cells.at[i - 1u];
+    uint last = cells.at[i];
     sort_range(first, last - first);
     for (uint k = first; k < last; ++k) {
-        Bounds around = bounds[cell_entries[k].body];
-        cell_entries[k].lower = around.lower;
-        cell_entries[k].upper = around.upper;
-        cell_entries[k].level = around.level;
+        Bounds around = bounds.at[cell_entries.at[k].body];
+        cell_entries.at[k].lower = around.lower;
+        cell_entries.at[k].upper = around.upper;
+        cell_entries.at[k].level = around.level;
     }
 }

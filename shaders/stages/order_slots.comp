@@ -4,26 +4,26 @@
 
 #include "shaders/stages/stage.glsl"
 
-#define SORT_GET(i) slot_sides[i]
-#define SORT_SET(i, value) slot_sides[i] = value
+#define SORT_GET(i) slot_sides.at[i]
+#define SORT_SET(i, value) slot_sides.at[i] = value
 #include "shaders/stages/sort.glsl"
 
 void main() {
     uint i = thread();
     if (COUNTS.overflow != 0u) return;
-    if (i == 0u) first_contacts[PARAMETERS.bodies] = COUNTS.contacts;  // even of no bodies
+    if (i == 0u) first_contacts.at[PARAMETERS.bodies] = COUNTS.contacts;  // even of no bodies
     if (i >= PARAMETERS.bodies) return;
-    first_contacts[i] = contact_starts[pair_starts[i]];
-    uint first = i == 0u ? 0u : slot_ends[i - 1u];
-    uint count = slot_ends[i] - first;
+    first_contacts.at[i] = contact_starts.at[pair_starts.at[i]];
+    uint first = i == 0u ? 0u : slot_ends.at[i - 1u];
+    uint count = slot_ends.at[i] - first;
     sort_range(first, count);
     for (uint k = first; k < first + count; ++k) {
-        uint side = slot_sides[k];
+        uint side = slot_sides.at[k];
         if ((side & OF_JOINT) != 0u)
-            joints[side & ~OF_JOINT].slot = k;
+            joints.at[side & ~OF_JOINT].slot = k;
         else if ((side & 1u) == 0u)
-            constraints[side >> 1].slot_a = k;
+            constraints.at[side >> 1].slot_a = k;
         else
-            constraints[side >> 1].slot_b = k;
+            constraints.at[side >> 1].slot_b = k;
     }
 }

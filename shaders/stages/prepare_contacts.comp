@@ -10,57 +10,57 @@
 
 // Between two bodies that sleep, or one that sleeps and one that never moves.
 void carry_over(uint i, uint pair_index, uint previous) {
-    Contact contact = aged(contacts_before[previous]);
-    Impulse impulse = continued(contact, impulses_before[previous]);
-    impulse.separation = separations_of(manifolds[pair_index]);
-    contacts[i] = contact;
-    impulses[i] = impulse;
-    constraints[i] = idle_constraint(contact);
+    Contact contact = aged(contacts_before.at[previous]);
+    Impulse impulse = continued(contact, impulses_before.at[previous]);
+    impulse.separation = separations_of(manifolds.at[pair_index]);
+    contacts.at[i] = contact;
+    impulses.at[i] = impulse;
+    constraints.at[i] = idle_constraint(contact);
 }
 
 void main() {
     uint i = thread();
     if (i >= COUNTS.contacts) return;
-    uint pair_index = constraints[i].pair;
-    Pair pair = pairs[pair_index];
-    uint slot_a = constraints[i].slot_a, slot_b = constraints[i].slot_b;
+    uint pair_index = constraints.at[i].pair;
+    Pair pair = pairs.at[pair_index];
+    uint slot_a = constraints.at[i].slot_a, slot_b = constraints.at[i].slot_b;
     bool idle = slot_a == NONE && slot_b == NONE;
     if (idle && pair.kind == KIND_STILL) {
         carry_over(i, pair_index, pair.previous);
         return;
     }
-    Traits ta = traits[pair.a], tb = traits[pair.b];
-    Contact contact = contact_of(pair, manifolds[pair_index], touching[pair_index], poses[pair.a], poses[pair.b]);
+    Traits ta = traits.at[pair.a], tb = traits.at[pair.b];
+    Contact contact = contact_of(pair, manifolds.at[pair_index], touching.at[pair_index], poses.at[pair.a], poses.at[pair.b]);
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
-        contact = aged(contacts_before[pair.previous]);
-        impulse = continued(contact, impulses_before[pair.previous]);
+        contact = aged(contacts_before.at[pair.previous]);
+        impulse = continued(contact, impulses_before.at[pair.previous]);
     } else if (pair.previous != NONE) {
-        impulse = inherited(contact, contacts_before[pair.previous], impulses_before[pair.previous], match_radius(ta, tb));
+        impulse = inherited(contact, contacts_before.at[pair.previous], impulses_before.at[pair.previous], match_radius(ta, tb));
     }
-    impulse.separation = separations_of(manifolds[pair_index]);
+    impulse.separation = separations_of(manifolds.at[pair_index]);
     if (pair.previous != NONE) {
         bool one_sleeps = (slot_a == NONE && ta.motion == MOTION_DYNAMIC) || (slot_b == NONE && tb.motion == MOTION_DYNAMIC);
-        contact.load = load_of(one_sleeps, contacts_before[pair.previous], impulses_before[pair.previous]);
+        contact.load = load_of(one_sleeps, contacts_before.at[pair.previous], impulses_before.at[pair.previous]);
     }
     if (!idle) impulse.pressed = pressing(impulse);
-    contacts[i] = contact;
-    impulses[i] = impulse;
+    contacts.at[i] = contact;
+    impulses.at[i] = impulse;
     if (idle) {
-        constraints[i] = idle_constraint(contact);
+        constraints.at[i] = idle_constraint(contact);
         return;
     }
     Constraint constraint = constraint_of(contact, ta, tb, slot_a, slot_b, PARAMETERS);
     constraint.pair = pair_index;
-    constraints[i] = constraint;
+    constraints.at[i] = constraint;
 
-    Mass ma = lent(masses[pair.a], impulse, PARAMETERS);
-    Mass mb = lent(masses[pair.b], impulse, PARAMETERS);
+    Mass ma = lent(masses.at[pair.a], impulse, PARAMETERS);
+    Mass mb = lent(masses.at[pair.b], impulse, PARAMETERS);
     Couple now;
-    now.a = velocities[pair.a];
-    now.b = velocities[pair.b];
+    now.a = velocities.at[pair.a];
+    now.b = velocities.at[pair.b];
     float carrying = carries(constraint, impulse, now, PARAMETERS);
     Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
-    if (constraint.slot_a != NONE) slots[constraint.slot_a] = slot_of(share.a, carrying, impulse.pressed);
-    if (constraint.slot_b != NONE) slots[constraint.slot_b] = slot_of(share.b, carrying, impulse.pressed);
+    if (constraint.slot_a != NONE) slots.at[constraint.slot_a] = slot_of(share.a, carrying, impulse.pressed);
+    if (constraint.slot_b != NONE) slots.at[constraint.slot_b] = slot_of(share.b, carrying, impulse.pressed);
 }

@@ -15,13 +15,13 @@ void main() {
     begin_velocities(false);
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
-        joints[j].force = vec3(0.0f);
-        joints[j].torque = vec3(0.0f);
+        joints.at[j].force = vec3(0.0f);
+        joints.at[j].torque = vec3(0.0f);
         place_rows(j);
     }
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j)
         if (holds(j)) share_out(j, false, true);
     for (uint m = block_first; m < block_members; ++m)
-        if (joints[m].slot != NONE) slots[joints[m].slot] = slot_of(joints[m].velocity, 1.0f, joints[m].pressed);
+        if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, joints.at[m].pressed);
 }

@@ -9,28 +9,28 @@
 
 void main() {
     if (thread() >= COUNTS.solved) return;
-    uint i = binned[thread()];
-    Constraint c = constraints[i];
-    Impulse impulse = impulses[i];
-    Mass ma = shared_for(impulse, masses[c.a], loads[c.a], PARAMETERS);
-    Mass mb = shared_for(impulse, masses[c.b], loads[c.b], PARAMETERS);
+    uint i = binned.at[thread()];
+    Constraint c = constraints.at[i];
+    Impulse impulse = impulses.at[i];
+    Mass ma = shared_for(impulse, masses.at[c.a], loads.at[c.a], PARAMETERS);
+    Mass mb = shared_for(impulse, masses.at[c.b], loads.at[c.b], PARAMETERS);
     Couple before;
-    before.a = velocities[c.a];
-    before.b = velocities[c.b];
-    vec3 pull = c.restitution > 0.0f ? pull_of(loads[c.a], loads[c.b]) : vec3(0.0f);
+    before.a = velocities.at[c.a];
+    before.b = velocities.at[c.b];
+    vec3 pull = c.restitution > 0.0f ? pull_of(loads.at[c.a], loads.at[c.b]) : vec3(0.0f);
     Solved after = relaxed(c, impulse, before, ma, mb, pull, PARAMETERS);
     impulse = without_blows(after.impulse, c.count);
     impulse.pressed = pressing(impulse);
-    impulses[i] = impulse;
+    impulses.at[i] = impulse;
     Couple share = shares_of(before, after.couple, ma, mb);
     float told_a = impulse.pressed, told_b = impulse.pressed;
     if (push.pass == 0u) {
         share = warm_start(c, impulse, share, ma, mb);
     } else {
-        told_a = told_quiet(traits[c.a].motion, before.a, rests[c.a]);
-        told_b = told_quiet(traits[c.b].motion, before.b, rests[c.b]);
+        told_a = told_quiet(traits.at[c.a].motion, before.a, rests.at[c.a]);
+        told_b = told_quiet(traits.at[c.b].motion, before.b, rests.at[c.b]);
     }
     float carrying = carries(c, impulse, after.couple, PARAMETERS);
-    if (c.slot_a != NONE) slots[c.slot_a] = slot_of(share.a, carrying, told_b);
-    if (c.slot_b != NONE) slots[c.slot_b] = slot_of(share.b, carrying, told_a);
+    if (c.slot_a != NONE) slots.at[c.slot_a] = slot_of(share.a, carrying, told_b);
+    if (c.slot_b != NONE) slots.at[c.slot_b] = slot_of(share.b, carrying, told_a);
 }

@@ -11,28 +11,28 @@
 
 void take_stock(uint j) {
     for (uint k = 0u; k < 6u; ++k) {
-        joints[j].rows[k].drive = joints[j].rows[k].drive + joints[j].rows[k].drive_change;
-        joints[j].rows[k].stop = joints[j].rows[k].stop + joints[j].rows[k].stop_change;
+        joints.at[j].rows[k].drive = joints.at[j].rows[k].drive + joints.at[j].rows[k].drive_change;
+        joints.at[j].rows[k].stop = joints.at[j].rows[k].stop + joints.at[j].rows[k].stop_change;
     }
-    vec3 force = joints[j].force + force_impulse(j);
-    vec3 torque = joints[j].torque + torque_impulse(j);
+    vec3 force = joints.at[j].force + force_impulse(j);
+    vec3 torque = joints.at[j].torque + torque_impulse(j);
     if (push.pass != 0u) {
         float inverse_dt = reciprocal(PARAMETERS.dt);
         force = force * inverse_dt;
         torque = torque * inverse_dt;
-        joints[j].greatest_force = larger(joints[j].greatest_force, length3(force));
-        joints[j].greatest_torque = larger(joints[j].greatest_torque, length3(torque));
-        if (joint_tears(force, joints[j].break_force, torque, joints[j].break_torque)) {
-            joints[j].broken = 1u;
-            joints[j].pins = 0u;
+        joints.at[j].greatest_force = larger(joints.at[j].greatest_force, length3(force));
+        joints.at[j].greatest_torque = larger(joints.at[j].greatest_torque, length3(torque));
+        if (joint_tears(force, joints.at[j].break_force, torque, joints.at[j].break_torque)) {
+            joints.at[j].broken = 1u;
+            joints.at[j].pins = 0u;
             for (uint k = 0u; k < 6u; ++k) {
-                joints[j].rows[k].drive = 0.0f;
-                joints[j].rows[k].stop = 0.0f;
+                joints.at[j].rows[k].drive = 0.0f;
+                joints.at[j].rows[k].stop = 0.0f;
             }
         }
     }
-    joints[j].force = force;
-    joints[j].torque = torque;
+    joints.at[j].force = force;
+    joints.at[j].torque = torque;
 }
 
 // The least quiet of all that the block joins.
@@ -41,8 +41,8 @@ float told_by_block() {
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
         for (uint side = 0u; side < 2u; ++side) {
-            uint body = side == 0u ? joints[j].a : joints[j].b;
-            if (body != NONE) told = smaller(told, told_quiet(traits[body].motion, velocities[body], rests[body]));
+            uint body = side == 0u ? joints.at[j].a : joints.at[j].b;
+            if (body != NONE) told = smaller(told, told_quiet(traits.at[body].motion, velocities.at[body], rests.at[body]));
         }
     }
     return told;
@@ -61,6 +61,6 @@ void main() {
     if (push.pass != 0u) told = told_by_block();
     note_pressing();
     for (uint m = block_first; m < block_members; ++m)
-        if (joints[m].slot != NONE)
-            slots[joints[m].slot] = slot_of(joints[m].velocity, 1.0f, push.pass != 0u ? told : joints[m].pressed);
+        if (joints.at[m].slot != NONE)
+            slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, push.pass != 0u ? told : joints.at[m].pressed);
 }

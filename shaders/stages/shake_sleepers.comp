@@ -6,14 +6,14 @@
 #include "shaders/stages/stage.glsl"
 
 void shake(uint by, uint other) {
-    if (shakes(rests[by], push.pass) && traits[other].motion == MOTION_DYNAMIC)
-        atomicOr(rests[other], shaking_bit(push.pass - 1u));
+    if (shakes(rests.at[by], push.pass) && traits.at[other].motion == MOTION_DYNAMIC)
+        atomicOr(rests.at[other], shaking_bit(push.pass - 1u));
 }
 
 void main() {
     uint i = thread();
     if (i >= COUNTS.contacts) return;
-    Pair pair = pairs[constraints[i].pair];
+    Pair pair = pairs.at[constraints.at[i].pair];
     shake(pair.a, pair.b);
     shake(pair.b, pair.a);
 }

@@ -16,10 +16,10 @@ void main() {
         if (!holds(j)) continue;
         share_out(j, true, false);
         for (uint k = 0u; k < 6u; ++k) {
-            joints[j].rows[k].drive = joints[j].rows[k].drive + joints[j].rows[k].drive_change;
-            joints[j].rows[k].stop = joints[j].rows[k].stop + joints[j].rows[k].stop_change;
+            joints.at[j].rows[k].drive = joints.at[j].rows[k].drive + joints.at[j].rows[k].drive_change;
+            joints.at[j].rows[k].stop = joints.at[j].rows[k].stop + joints.at[j].rows[k].stop_change;
         }
     }
     for (uint m = block_first; m < block_members; ++m)
-        if (joints[m].slot != NONE) slots[joints[m].slot] = slot_of(joints[m].velocity, 1.0f, 0.0f);
+        if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, 0.0f);
 }

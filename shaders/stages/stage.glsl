@@ -19,8 +19,8 @@ layout(push_constant) uniform Push {
 }
 push;
 
-#define PARAMETERS parameters[0]
-#define COUNTS counts[0]
+#define PARAMETERS parameters.at[0]
+#define COUNTS counts.at[0]
 
 uint thread() {
     return gl_GlobalInvocationID.x;

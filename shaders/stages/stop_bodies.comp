@@ -8,9 +8,9 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.fast == 0u) return;
-    float stop = stop_of(bounds[i].flight);
-    if (stop >= 1.0f || traits[i].joints != NONE) return;
-    Halted after = halted(bounds[i].flight, poses[i], velocities[i], loads[i], stop);
-    poses[i] = after.pose;
-    velocities[i] = after.velocity;
+    float stop = stop_of(bounds.at[i].flight);
+    if (stop >= 1.0f || traits.at[i].joints != NONE) return;
+    Halted after = halted(bounds.at[i].flight, poses.at[i], velocities.at[i], loads.at[i], stop);
+    poses.at[i] = after.pose;
+    velocities.at[i] = after.velocity;
 }

@@ -8,23 +8,24 @@
 #include "shaders/stages/stage.glsl"
 
 bool is_restless_body(uint body) {
-    return body != NONE && stirs_joined(traits[body].motion, velocities[body], rests[body]);
+    return body != NONE && stirs_joined(traits.at[body].motion, velocities.at[body], rests.at[body]);
 }
 
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u || COUNTS.sleepers == 0u || !any_stirs(COUNTS)) return;
-    uint first = joints[i].first_of_block;
-    uint joints_end = first + joints[first].block_joints;
+    uint first = joints.at[i].first_of_block;
+    uint joints_end = first + joints.at[first].block_joints;
     if (push.pass == 0u) {
         bool restless = false;
         for (uint j = first; j < joints_end; ++j)
-            if (joints[j].broken == 0u) restless = restless || is_restless_body(joints[j].a) || is_restless_body(joints[j].b);
-        joints[first].restless = restless ? 1u : 0u;
+            if (joints.at[j].broken == 0u)
+                restless = restless || is_restless_body(joints.at[j].a) || is_restless_body(joints.at[j].b);
+        joints.at[first].restless = restless ? 1u : 0u;
         return;
     }
-    if (joints[first].restless == 0u) return;
-    uint last = first + joints[first].block_members;
+    if (joints.at[first].restless == 0u) return;
+    uint last = first + joints.at[first].block_members;
     for (uint m = first; m < last; ++m)
-        if (has_slept(rests[joints[m].member], PARAMETERS.sleep_steps)) atomicOr(rests[joints[m].member], WOKEN);
+        if (has_slept(rests.at[joints.at[m].member], PARAMETERS.sleep_steps)) atomicOr(rests.at[joints.at[m].member], WOKEN);
 }
