@@ -87,6 +87,9 @@ LAW JointPlace joint_place(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, v
     at.twist = choose(q.x < 0.0f, -2.0f * half_twist, 2.0f * half_twist);
     float unit = reciprocal(larger(along, 1.0e-6f));
     float sy = (q.w * q.y - q.x * q.z) * unit, sz = (q.w * q.z + q.x * q.y) * unit;
+    vec3 clean = without_dust(vec3(sy, sz, along));  // a zero's sign is not the same everywhere
+    sy = clean.x;
+    sz = clean.y;
     float across = square_root(sy * sy + sz * sz);
     at.swing = 2.0f * angle_of(across, larger(along, 1.0e-6f));
     bool swings = across > 1.0e-6f;
