@@ -119,8 +119,10 @@ void choose_unknowns(uint j, bool biased) {
     uint unknowns = 0u;
     uint pins = joints.at[j].pins;
     Couple v;
-    v.a = joints.at[j].a != NONE ? velocities.at[joints.at[j].a] : velocity_of(NONE, NONE);
-    v.b = joints.at[j].b != NONE ? velocities.at[joints.at[j].b] : velocity_of(NONE, NONE);
+    v.a = velocity_of(NONE, NONE);
+    v.b = v.a;
+    if (joints.at[j].a != NONE) v.a = velocities.at[joints.at[j].a];
+    if (joints.at[j].b != NONE) v.b = velocities.at[joints.at[j].b];
     for (uint k = 0u; k < 6u; ++k) {
         JointAxis axis = joints.at[j].axes[k];
         JointRow row = joints.at[j].rows[k];

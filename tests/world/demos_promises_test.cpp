@@ -18,6 +18,7 @@ const std::vector<std::string> moving = {"onset", "hold",  "steep",   "rolling",
 const std::vector<std::string> heaps = {"pile", "mix", "avalanche", "assortment", "mix1m", "overlap", "terrain", "mesh"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};
 const std::vector<std::string> sleepers = {"pile1m"};
+const std::vector<std::string> jointed = {"chain", "bridge", "machine", "pendulums", "ragdolls"};
 const std::vector<std::string> breaking = {"thresholds", "wrecking"};
 const std::vector<std::string> splintering = {"glass", "shatter", "fragments"};
 const std::vector<std::string> large = {"pyramid100", "tray", "hulls1m"};  // take minutes: `scree check` holds them
@@ -44,7 +45,8 @@ void check_kept(const std::vector<std::string>& names, float offset = 0) {
 
 TEST_CASE("every demo is held to its promise here, or takes minutes") {
     std::vector<std::string> held, all;
-    for (const auto* group : {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &breaking, &splintering, &large})
+    for (const auto* group :
+         {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &jointed, &breaking, &splintering, &large})
         held.insert(held.end(), group->begin(), group->end());
     for (const demos::Demo& demo : demos::all_demos()) all.emplace_back(demo.name);
     std::sort(held.begin(), held.end());
@@ -84,6 +86,10 @@ TEST_CASE("a small pile lies still, and is struck") {
 
 TEST_CASE("heaps of a hundred bodies keep their promises") {
     check_kept(heaps);
+}
+
+TEST_CASE("what hangs together keeps its promises") {
+    check_kept(jointed);
 }
 
 TEST_CASE("the wall keeps its promise", "[long]") {
