@@ -297,6 +297,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         throw SceneError("/gravity/" + std::to_string(i), out_of_range(g, -largest_gravity, largest_gravity, " m/s^2"));
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (scene.bodies[i].piece_of != no_body) continue;  // of a scene that was checked before
         const Shift shift = examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
