@@ -90,7 +90,7 @@ LAW vec4 turn_between(vec4 from, vec4 to) {
     return cosine < 0.0f ? -to - from : to - from;
 }
 // A bound on how fast a body turns if its quaternion goes straight from one orientation by `turn` to the other, rad per step: the
-// quaternion's angle p (half of the turn) passes fastest in the middle, at 2 tan(half of p) = 2 |turn| over |from + to|.
+// quaternion's angle p (half of the turn) passes fastest midway, at twice the tangent of half of p: 2 |turn| over |from + to|.
 LAW float turning_of(vec4 from, vec4 turn) {
     vec4 both = from * 2.0f + turn;
     float chord = (turn.x * turn.x + turn.y * turn.y) + (turn.z * turn.z + turn.w * turn.w);
