@@ -20,7 +20,12 @@ std::string amount(double value, const std::string& unit) {
 
 Row Claim::operator()(const Trace& trace) const {
     const double value = measure(trace);
-    return {what, promised, amount(value, unit), low <= value && value <= high, value, low, high, unit};
+    return {what, promised, amount(value, unit), low <= value && value <= high, value, low, high, unit, by_clock};
+}
+
+Claim by_clock(Claim claim) {
+    claim.by_clock = true;
+    return claim;
 }
 
 Claim at_most(std::string what, double limit, std::string unit, std::string how, Measure measure) {

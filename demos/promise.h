@@ -41,6 +41,7 @@ struct Row {
     double value = 0;  // measured, in `unit`
     double low = 0, high = 0;
     std::string unit;
+    bool by_clock = false;  // depends on the machine and on what else it does
 };
 
 // What is promised of one measured value: that it lies between two limits, both included.
@@ -51,6 +52,7 @@ struct Claim {
     std::string unit;  // may be empty
     std::string how;   // it is measured
     std::function<double(const Trace&)> measure;
+    bool by_clock = false;  // measured by the clock: meant for a machine that does nothing else
 
     Row operator()(const Trace& trace) const;  // a value that is not a number passes nothing
 };
@@ -59,6 +61,7 @@ using Measure = std::function<double(const Trace&)>;
 Claim at_most(std::string what, double limit, std::string unit, std::string how, Measure measure);
 Claim at_least(std::string what, double limit, std::string unit, std::string how, Measure measure);
 Claim between(std::string what, double low, double high, std::string unit, std::string how, Measure measure);
+Claim by_clock(Claim claim);
 Claim close_to(std::string what, double expected, double tolerance, std::string unit, std::string how, Measure measure);
 
 using Indices = std::vector<std::size_t>;

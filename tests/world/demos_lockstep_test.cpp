@@ -16,13 +16,12 @@ demos::DemoScene small(const demos::Demo& demo) {
     return demos::build(demo, options);
 }
 
-}  // namespace
-
-TEST_CASE("every demo gives the same bits on both processors, and validation stays silent") {
+void check_lockstep(bool trial, bool takes_bodies) {
     host::DeviceOptions options;
     options.validation = true;
     const auto device = host::Device::open(options);
     for (const demos::Demo& demo : demos::all_demos()) {
+        if (demo.trial != trial || demo.takes_bodies != takes_bodies) continue;
         if (demo.name == std::string("rollmesh")) continue;                   // its 10,000 triangles are those of others
         if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and made of what the others are made of
         const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, device, 1, 40);
@@ -31,6 +30,24 @@ TEST_CASE("every demo gives the same bits on both processors, and validation sta
         CHECK(result.equal);
     }
     for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
+
+}  // namespace
+
+TEST_CASE("every demo gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(false, false);
+}
+
+TEST_CASE("every demo of any size gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(false, true);
+}
+
+TEST_CASE("every trial gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(true, false);
+}
+
+TEST_CASE("every trial of any size gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(true, true);
 }
 
 TEST_CASE("no demo but one begins with bodies inside each other or inside what holds them") {

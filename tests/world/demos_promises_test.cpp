@@ -35,6 +35,7 @@ std::vector<demos::Row> verdict_of(const std::string& name, float offset) {
 void check_kept(const std::vector<std::string>& names, float offset = 0) {
     for (const std::string& name : names) {
         for (const demos::Row& row : verdict_of(name, offset)) {
+            if (row.by_clock) continue;  // tests run beside others; `scree check` holds it
             INFO(name << ": " << row.what << ": promised " << row.promised << ", measured " << row.measured);
             CHECK(row.pass);
         }
