@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "demos/bench.h"
+#include "demos/bench_kinds.h"
 #include "demos/commands.h"
 #include "demos/demos.h"
 #include "demos/failure.h"
@@ -23,6 +24,7 @@ struct Options {
     BenchOptions bench;
     std::string csv;
     bool sleeping = false;
+    std::size_t pairs = 0;  // of each two kinds of shapes, in place of demos
     MachineOptions machine;
 };
 
@@ -67,13 +69,31 @@ void print(const Options& options, const std::vector<Measurement>& all) {
     print_spread(all);
 }
 
+void write_csv(const std::string& file, const std::vector<Cells>& rows) {
+    if (file == "-") fmt::print("\n{}", csv(rows));
+    if (!file.empty() && file != "-") at_work([&] { host::write_atomically(file, csv(rows)); });
+}
+
+int bench_kinds(const Options& options, const Machine& machine) {
+    const KindCosts measured =
+        at_work([&] { return measure_kinds(options.pairs, options.bench.steps, machine, options.bench.quiet); });
+    if (is_interrupted()) return interrupted;
+    machine.require_valid();
+    fmt::print("narrowphase on {}, per pair of bodies that touch: medians of {} steps\n\n{}", measured.device,
+               3 * options.bench.steps, table(kind_rows(measured.costs)));
+    write_csv(options.csv, kind_rows(measured.costs));
+    return done;
+}
+
 int bench(const Options& options) {
+    if (options.pairs > 0 && !options.names.empty()) throw UsageError("--pairs: makes its own scenes, so name no demo");
     if (!options.bench.settled.empty() && options.bench.settle <= 0)
         throw UsageError("--settled: say with --settle for how many seconds");
     const std::vector<SceneOptions> scenes = scenes_of(options);
     require_writable_file("--csv", options.csv);
     const Machine machine = choose_machine(options.machine, Choice::a_device);
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
+    if (options.pairs > 0) return bench_kinds(options, machine);
     const double copy_speed = at_work([&] { return machine.copy_speed(); });
     std::vector<Measurement> all;
     for (const SceneOptions& scene : scenes) {
@@ -85,8 +105,7 @@ int bench(const Options& options) {
     }
     machine.require_valid();
     print(options, all);
-    if (options.csv == "-") fmt::print("\n{}", csv(long_form(all)));
-    if (!options.csv.empty() && options.csv != "-") at_work([&] { host::write_atomically(options.csv, csv(long_form(all))); });
+    write_csv(options.csv, long_form(all));
     return done;
 }
 
@@ -107,6 +126,11 @@ void add_bench(CLI::App& program, int& status) {
         ->check(CLI::Range(0.0, 1e5));
     command->add_option("--settled", options->bench.settled,
                         "a folder that keeps what --settle made, and from which it is taken the next time, on any backend");
+    command
+        ->add_option_function<std::string>(
+            "--pairs", [options](const std::string& count) { options->pairs = count_of(count); },
+            "so many touching pairs of every two kinds of shapes, and what the narrowphase takes for one, in place of demos")
+        ->type_name("COUNT");
     command->add_flag("--sleep", options->sleeping, "bodies at rest may sleep (default: what is measured stays awake)");
     command->add_option("--csv", options->csv, "a file for the numbers; - is the standard output");
     add_options(*command, options->machine);
