@@ -9,6 +9,7 @@
 
 #include "compute/state.h"
 #include "compute/world.h"
+#include "demos/failure.h"
 #include "demos/interrupt.h"
 #include "demos/progress.h"
 #include "demos/random.h"
@@ -17,9 +18,9 @@ namespace scree::demos {
 
 namespace {
 
-constexpr int rounds = 3;         // over all kinds, so that a disturbance does not fall on one alone
-constexpr int halvings = 10;      // of the way between apart and inside: to a thousandth of a metre
-constexpr float spacing = 4;      // m, between pairs
+constexpr int at_a_time = 20;  // steps of one kind before the next one's turn: a disturbance falls on all, and none drifts apart
+constexpr int halvings = 10;   // of the way between apart and inside: to a thousandth of a metre
+constexpr float spacing = 4;   // m, between pairs
 constexpr float overlap = 0.01f;  // m, by which each pair is then pushed together
 constexpr float spin = 0.06f;     // rad/s, just above where a contact is let go (shaders/physics/persistence.h)
 
@@ -43,6 +44,12 @@ Hull round_hull(int vertices, float radius) {
 std::vector<Kind> kinds() {
     return {{"box", Box{vec3(0.5f, 0.4f, 0.45f)}}, {"hull", round_hull(32, 0.5f)},     {"sphere", Sphere{0.5f}},
             {"capsule", Capsule{0.3f, 0.3f}},      {"cylinder", Cylinder{0.4f, 0.5f}}, {"cone", Cone{0.4f, 0.9f}}};
+}
+
+bool is_named(const std::vector<std::string>& names, const Kind& a, const Kind& b) {
+    return std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+        return name == fmt::format("{}-{}", a.name, b.name) || name == fmt::format("{}-{}", b.name, a.name);
+    });
 }
 
 // Bodies 2i and 2i + 1 are a pair: the second `distances[i]` from the first along a direction of its own.
@@ -116,11 +123,11 @@ struct Candidate {
     std::string device{};
 };
 
-void sample(Candidate& candidate, int steps, const Machine& machine) {
+void sample(Candidate& candidate, const Machine& machine) {
     World world(candidate.scene, at_rest(), machine.make_runner());
     const std::size_t pairs = candidate.scene.bodies.size() / 2;
     world.step(2);  // buffers have grown, caches are warm
-    for (int i = 0; i < steps; ++i) {
+    for (int i = 0; i < at_a_time; ++i) {
         world.step();
         candidate.ms.push_back(narrowphase_ms(world.last_stage_times()));
     }
@@ -137,20 +144,37 @@ double median(std::vector<double> values) {
 
 }  // namespace
 
-KindCosts measure_kinds(std::size_t pairs, int steps, const Machine& machine, bool quiet) {
+void require_kinds(const std::vector<std::string>& names) {
+    for (const std::string& name : names) {
+        bool known = false;
+        std::string all;
+        for (const Kind& a : kinds()) {
+            all += (all.empty() ? "" : ", ") + std::string(a.name);
+            for (const Kind& b : kinds()) known = known || is_named({name}, a, b);
+        }
+        if (!known)
+            throw UsageError(fmt::format("--pairs: {} names no two of these kinds: {}; say for instance hull-box", name, all));
+    }
+}
+
+KindCosts measure_kinds(const std::vector<std::string>& names, std::size_t pairs, int steps, const Machine& machine, bool quiet) {
     const std::vector<Kind> all = kinds();
     std::vector<Candidate> candidates;
-    const int count = static_cast<int>(all.size() * (all.size() + 1) / 2);
-    Progress progress(fmt::format("{} pairs of each two kinds", pairs), (1 + rounds) * count, "parts", quiet);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        for (std::size_t j = i; j < all.size() && !is_interrupted(); ++j) {
-            candidates.push_back({all[i], all[j], pairs_of(all[i], all[j], touching_distances(all[i], all[j], pairs)), {}});
-            progress.done(static_cast<int>(candidates.size()));
+        for (std::size_t j = i; j < all.size(); ++j) {
+            if (i + j == 0 || names.empty() || is_named(names, all[i], all[j])) candidates.push_back({all[i], all[j], {}, {}});
         }
     }
-    for (int done = 0; done < rounds * count && !is_interrupted(); ++done) {
-        sample(candidates[static_cast<std::size_t>(done % count)], steps, machine);
-        progress.done(count + done + 1);
+    const int count = static_cast<int>(candidates.size()), rounds = (steps + at_a_time - 1) / at_a_time;
+    Progress progress(fmt::format("{} pairs of each two kinds", pairs), (1 + rounds) * count, "parts", quiet);
+    for (int i = 0; i < count && !is_interrupted(); ++i) {
+        Candidate& candidate = candidates[static_cast<std::size_t>(i)];
+        candidate.scene = pairs_of(candidate.a, candidate.b, touching_distances(candidate.a, candidate.b, pairs));
+        progress.done(i + 1);
+    }
+    for (int part = 0; part < rounds * count && !is_interrupted(); ++part) {
+        sample(candidates[static_cast<std::size_t>(part % count)], machine);
+        progress.done(count + part + 1);
     }
     if (is_interrupted()) return {};
     KindCosts result{candidates.front().device, {}};

@@ -45,7 +45,13 @@ LAW Feature facing(Solid solid, vec3 direction, Hulls hulls) {
     uint best = 0u;
     float most = -2.0f;
     uint faces = faces_of(solid, hulls);
+    vec3 local = in_body(solid.axes, direction);
     for (uint k = 0u; k < faces; ++k) {
+        if (solid.shape == SHAPE_HULL && (k & 3u) == 0u &&
+            largest_of(along(hull_planes_at(hulls, solid.hull, k >> 2u), local)) < most - 1.0e-5f) {
+            k += 3u;
+            continue;
+        }
         vec4 plane = plane_of(solid, k, hulls);
         vec3 normal = vec3(plane.x, plane.y, plane.z);
         float towards = dot3(normal, direction);

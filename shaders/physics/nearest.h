@@ -86,21 +86,22 @@ LAW vec3 difference_along(Solid a, Solid b, vec3 d, vec3 direction, Hulls hulls)
     return (d + support_of(b, -direction, hulls)) - support_of(a, direction, hulls);
 }
 
-// The shortest way from A's core to B's, m; `start`: a direction to begin with. Where they overlap, any short way.
-LAW vec3 way_between(Solid a, Solid b, vec3 d, vec3 start, Hulls hulls) {
+// Where the shortest way from A's core to B's is found: its `nearest`, m; `start`: a direction to begin with. Where they overlap,
+// any short way.
+LAW Simplex way_between(Solid a, Solid b, vec3 d, vec3 start, Hulls hulls) {
     Simplex simplex = simplex_of(start, 0u, start, start, start);
     for (uint k = 0u; k < NEAREST_ROUNDS; ++k) {
         vec3 way = simplex.nearest;
         float squared = dot3(way, way);
-        if (squared < 1.0e-20f) return way;
+        if (squared < 1.0e-20f) break;
         vec3 corner = difference_along(a, b, d, way, hulls);
         bool first = simplex.count == 0u;
-        if (!first && squared - dot3(way, corner) <= NEAREST_PROGRESS * squared) return way;
+        if (!first && squared - dot3(way, corner) <= NEAREST_PROGRESS * squared) break;
         Simplex next = with_corner(simplex, corner);
-        if (!first && dot3(next.nearest, next.nearest) >= squared) return way;
+        if (!first && dot3(next.nearest, next.nearest) >= squared) break;
         simplex = next;
     }
-    return simplex.nearest;
+    return simplex;
 }
 
 LAWS_END

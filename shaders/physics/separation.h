@@ -5,7 +5,8 @@
 // the others are found by pushing the bodies apart along the axis until there is a little room, and taking the shortest way
 // between them for the next axis: the separation grows with each round, and what no longer changes is a largest one (in the words
 // of optimisation a proximal point method, Rockafellar, SIAM J. Control and Optimization 14, 1976). So discs, cones and polyhedra
-// need nothing but their supports, and edges need no list.
+// need nothing but their supports, and edges need no list. Of an axis of polyhedra one look tells that it will not change: what
+// the bodies push against each other with lies over the face, or the origin over the triangle of their difference.
 #ifndef SCREE_PHYSICS_SEPARATION_H
 #define SCREE_PHYSICS_SEPARATION_H
 
@@ -26,6 +27,7 @@ struct Separation {
     uint face_b;
     float by_face_a;  // its separation, m; -1e30 without faces
     float by_face_b;
+    bool over_face;  // the better of the two faces has what reaches farthest towards it over itself
 };
 
 // Axes that belong to the side of a cylinder or a cone: straight towards the other one's middle.
@@ -37,8 +39,74 @@ LAW bool has_side(Solid solid) {
     return solid.shape == SHAPE_CYLINDER || solid.shape == SHAPE_CONE || solid.shape == SHAPE_CAPSULE;
 }
 
+// At most so far apart is the body `other` from the faces of `own`, four at once from a first of four on (one, of what is no
+// polyhedron with a list); `between` from the centre of `own` to that of `other`, in the world and in the frame of `own`.
+LAW Floats4 bounds_of_faces(Solid own, uint face, vec3 between, vec3 local, float inner, Hulls hulls) {
+    if (own.shape == SHAPE_HULL) {
+        Four planes = hull_planes_at(hulls, own.hull, face >> 2u);
+        return (along(planes, local) - planes.off) - four_floats(inner);
+    }
+    vec4 plane = plane_of(own, face, hulls);
+    return four_floats((dot3(vec3(plane.x, plane.y, plane.z), between) - plane.w) - inner);
+}
+// The face that looks most towards the other body, as far as it reaches.
+LAW uint promising_face(Solid own, vec3 between, vec3 local, Hulls hulls) {
+    uint faces = faces_of(own, hulls), stride = own.shape == SHAPE_HULL ? 4u : 1u;
+    uint found = 0u;
+    Floats4 best = four_floats(-1.0e30f);
+    for (uint face = 0u; face < faces; face += stride) {
+        Floats4 bounds = bounds_of_faces(own, face, between, local, own.radius, hulls);
+        if (largest_of(bounds) <= largest_of(best)) continue;
+        best = bounds;
+        found = face;
+    }
+    float most = largest_of(best);
+    for (uint k = 0u; k + 1u < stride; ++k)
+        if (one_of(best, k) == most) return found + k;
+    return found + stride - 1u;
+}
+
+// Whether a point, seen from the body's centre, lies over a face: then nothing near that face's axis parts the bodies farther.
+LAW bool lies_over(Solid own, uint face, vec3 point, Hulls hulls) {
+    vec4 plane = plane_of(own, face, hulls);
+    vec3 normal = vec3(plane.x, plane.y, plane.z);
+    if (own.shape == SHAPE_CYLINDER || own.shape == SHAPE_CONE) {
+        vec3 across = point - normal * dot3(normal, point);
+        return dot3(across, across) < own.size.x * own.size.x;
+    }
+    Feature sides = face_as_feature(own, face, normal, hulls);
+    if (sides.stride > 1u) return false;
+    vec3 from = corner_of(own, sides, sides.points - 1u, hulls);
+    for (uint k = 0u; k < sides.points; ++k) {
+        vec3 to = corner_of(own, sides, k, hulls);
+        if (dot3(cross3(to - from, point - from), normal) < 0.0f) return false;
+        from = to;
+    }
+    return true;
+}
+// The same of a triangle of points of the difference of the two bodies.
+LAW bool lies_over_triangle(Simplex s, vec3 point) {
+    if (s.count != 3u) return false;
+    vec3 normal = cross3(s.b - s.a, s.c - s.a);
+    float first = dot3(cross3(s.b - s.a, point - s.a), normal);
+    float second = dot3(cross3(s.c - s.b, point - s.b), normal);
+    float third = dot3(cross3(s.a - s.c, point - s.c), normal);
+    return first > 0.0f && second > 0.0f && third > 0.0f;
+}
+
+// From a face on the first of a four that promises no less than `best`; as many as there are when none does.
+LAW uint next_promising(Solid own, uint from, vec3 between, vec3 local, float inner, float best, Hulls hulls) {
+    uint faces = faces_of(own, hulls), stride = own.shape == SHAPE_HULL ? 4u : 1u;
+    uint face = from;
+    while (face < faces && largest_of(bounds_of_faces(own, face, between, local, inner, hulls)) < best) face += stride;
+    return face;
+}
+
 // The laws below look at both bodies in one loop instead of twice in a row: every support that is asked for in another place is
 // another copy of its code on a device, and drivers took minutes to compile a dozen of them.
+//
+// A face's support is asked for only if the face may be the best one: of each body that which promises most first, then every one
+// that promises no less than the best so far has. Of equals the first counts.
 LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, Hulls hulls) {
     Separation s;
     s.normal = unit3(d, a.axes.y);
@@ -47,29 +115,54 @@ LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, Hulls hulls) {
     s.face_b = 0u;
     s.by_face_a = -1.0e30f;
     s.by_face_b = -1.0e30f;
-    uint faces_a = faces_of(a, hulls);
-    uint faces = faces_a + faces_of(b, hulls);
-    for (uint k = 0u; k < faces; ++k) {
-        bool of_a = k < faces_a;
-        Solid own = of_a ? a : b;
-        Solid other = of_a ? b : a;
-        vec3 between = of_a ? d : -d;
-        uint face = of_a ? k : k - faces_a;
-        vec4 plane = plane_of(own, face, hulls);
-        vec3 normal = vec3(plane.x, plane.y, plane.z);
-        float separation = dot3(normal, between + support_of(other, -normal, hulls)) - plane.w;
-        if (separation > (of_a ? s.by_face_a : s.by_face_b)) {
-            if (of_a) {
-                s.by_face_a = separation;
-                s.face_a = face;
-            } else {
-                s.by_face_b = separation;
-                s.face_b = face;
-            }
+    s.over_face = false;
+    for (uint side = 0u; side < 2u; ++side) {
+        Solid own = a;
+        Solid other = b;
+        vec3 between = d;
+        if (side == 1u) {
+            own = b;
+            other = a;
+            between = -d;
         }
-        if (separation > s.distance) {
-            s.distance = separation;
-            s.normal = of_a ? normal : -normal;
+        uint faces = faces_of(own, hulls);
+        if (faces == 0u) continue;
+        vec3 local = in_body(own.axes, between);
+        float inner = inner_radius(other, hulls);
+        uint best_face = promising_face(own, between, local, hulls);
+        float best = -1.0e30f;
+        vec3 over = between, axis = between;
+        uint face = best_face;
+        bool first = true;
+        while (face < faces) {
+            vec4 plane = plane_of(own, face, hulls);
+            vec3 normal = vec3(plane.x, plane.y, plane.z);
+            if (first || (dot3(normal, between) - plane.w) - inner >= best) {
+                vec3 corner = between + support_of(other, -normal, hulls);
+                float separation = dot3(normal, corner) - plane.w;
+                if (separation > best || (separation == best && face < best_face)) {
+                    best = separation;
+                    best_face = face;
+                    over = corner;
+                    axis = normal;
+                }
+            }
+            uint next = first ? 0u : face + 1u;
+            first = false;
+            bool within = own.shape == SHAPE_HULL && (next & 3u) != 0u;
+            face = within ? next : next_promising(own, next, between, local, inner, best, hulls);
+        }
+        if (side == 0u) {
+            s.face_a = best_face;
+            s.by_face_a = best;
+        } else {
+            s.face_b = best_face;
+            s.by_face_b = best;
+        }
+        if (best > s.distance) {
+            s.distance = best;
+            s.normal = side == 0u ? axis : -axis;
+            s.over_face = lies_over(own, best_face, over, hulls);
         }
     }
     return s;
@@ -89,22 +182,26 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
     float radii = a.radius + b.radius;
     Separation s = separation_by_faces(a, b, d, hulls);
     float room = PUSH_ROOM * smaller(a.scale, b.scale);
+    bool known = s.over_face;
     for (uint k = 0u; k < SIDE_AXES + PUSH_ROUNDS; ++k) {
-        if (s.distance - radii >= enough) break;
+        if (s.distance - radii >= enough || (known && k >= SIDE_AXES)) break;
         bool apart = s.distance >= room;
         vec3 normal = s.normal;
         if (k < SIDE_AXES) {
             if ((k != 1u && !has_side(a)) || (k != 0u && !has_side(b))) continue;
             normal = side_axis_between(a, b, d, k);
         } else {
-            vec3 pushed = apart ? d : d + s.normal * (room - s.distance);
-            normal = unit3(way_between(a, b, pushed, s.normal, hulls), s.normal);
+            vec3 push = apart ? d - d : s.normal * (room - s.distance);
+            Simplex nearest = way_between(a, b, d + push, s.normal, hulls);
+            normal = unit3(nearest.nearest, s.normal);
+            known = lies_over_triangle(nearest, push);
         }
         float distance = dot3(normal, difference_along(a, b, d, normal, hulls));
         float gain = distance - s.distance;
         if (gain > 0.0f) {
             s.distance = distance;
             s.normal = normal;
+            if (k < SIDE_AXES) known = false;
         }
         if (k >= SIDE_AXES && (apart || gain < 1.0e-5f * room)) break;
     }

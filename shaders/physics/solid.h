@@ -64,43 +64,33 @@ LAW vec3 rim_point(Solid solid, vec3 outward, float height) {
 }
 
 struct Farthest {
-    uint vertex;
-    float reach;
+    Floats4 reach;  // of four runs through the vertices, each of every fourth
+    Uints4 group;   // where
 };
-LAW Farthest farther(Farthest so_far, vec3 vertex, uint k, vec3 local) {
-    float reach = dot3(vertex, local);
-    if (reach > so_far.reach) {
-        so_far.reach = reach;
-        so_far.vertex = k;
-    }
-    return so_far;
+LAW Farthest farther(Farthest found, Solid solid, uint group, vec3 local, Hulls hulls) {
+    Floats4 reach = along(hull_vertices_at(hulls, solid.hull, group), local);
+    found.group = where_larger(reach, found.reach, four_uints(group), found.group);
+    found.reach = larger4(reach, found.reach);
+    return found;
 }
-// Eight at once; beyond the end the last one again. (lavapipe ends a shader's loops after 65,535 rounds in all, without a word:
-// two hulls of 30 corners that spin beside each other came to more, one by one.)
+// The first of those that reach farthest. Eight in a round: lavapipe ends a shader's loops after 65,535 rounds in all, without a
+// word, and two hulls of 30 corners that spin beside each other came to more, one by one.
 LAW uint farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
     Farthest found;
-    found.vertex = 0u;
-    found.reach = -1.0e30f;
-    uint last = hull_vertices(hulls, solid.hull) - 1u;
-    for (uint k = 0u; k <= last; k = k + 8u) {
-        uint k0 = k + 0u < last ? k + 0u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k0), k0, local);
-        uint k1 = k + 1u < last ? k + 1u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k1), k1, local);
-        uint k2 = k + 2u < last ? k + 2u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k2), k2, local);
-        uint k3 = k + 3u < last ? k + 3u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k3), k3, local);
-        uint k4 = k + 4u < last ? k + 4u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k4), k4, local);
-        uint k5 = k + 5u < last ? k + 5u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k5), k5, local);
-        uint k6 = k + 6u < last ? k + 6u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k6), k6, local);
-        uint k7 = k + 7u < last ? k + 7u : last;
-        found = farther(found, hull_vertex(hulls, solid.hull, k7), k7, local);
+    found.reach = four_floats(-1.0e30f);
+    found.group = four_uints(0u);
+    uint groups = fours_of(hull_vertices(hulls, solid.hull));
+    for (uint k = 0u; k < groups; k += 2u) {
+        found = farther(found, solid, k, local, hulls);
+        found = farther(found, solid, k + 1u < groups ? k + 1u : k, local, hulls);
     }
-    return found.vertex;
+    float reach = largest_of(found.reach);
+    uint vertex = 0xFFFFFFFFu;
+    for (uint k = 0u; k < 4u; ++k) {
+        uint at = 4u * one_of(found.group, k) + k;
+        if (one_of(found.reach, k) == reach && at < vertex) vertex = at;
+    }
+    return vertex;
 }
 
 // The point of the core farthest in a direction (of any length but 0).
@@ -124,6 +114,16 @@ LAW vec3 support_of(Solid solid, vec3 direction, Hulls hulls) {
         return dot3(apex - rim, direction) > 0.0f ? apex : rim;
     }
     return solid.axes.y * (along < 0.0f ? -solid.size.y : solid.size.y);  // of a sphere 0, of a capsule half its axis
+}
+
+// The core reaches at least so far from its centre, in any direction, m.
+LAW float inner_radius(Solid solid, Hulls hulls) {
+    if (solid.shape == SHAPE_HULL) return hull_inner_radius(hulls, solid.hull);
+    if (solid.shape == SHAPE_BOX) return smaller(solid.size.x, smaller(solid.size.y, solid.size.z));
+    if (solid.shape == SHAPE_CYLINDER) return smaller(solid.size.x, solid.size.y);
+    if (solid.shape != SHAPE_CONE) return solid.size.x - solid.size.x;
+    float slope = solid.size.x * inverse_square_root(solid.size.x * solid.size.x + solid.size.y * solid.size.y);
+    return smaller(-cone_base(solid.size), slope * cone_apex(solid.size));
 }
 
 LAW uint faces_of(Solid solid, Hulls hulls) {
