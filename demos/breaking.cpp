@@ -238,7 +238,9 @@ DemoScene shatter(const DemoOptions& options) {
             low,
             high,
             7,
-            Promise(broken_at_least(0.5, all), mass_stays(), end_speed_below(3))};
+            Promise(broken_at_least(0.5, all), mass_stays(), end_speed_below(3),
+                    at_most("mean penetration", 0.005, "m", "over the points that penetrate, at the end",
+                            [](const Trace& trace) { return trace.statistics.penetration_mean; }))};
 }
 
 }  // namespace scree::demos
