@@ -41,13 +41,19 @@ std::size_t argument_offset(physics::uint row) {
 }
 
 std::string what_would_fit(const State& state, const host::DeviceReport& device) {
-    const auto bodies = static_cast<double>(state.fixed().bodies);
+    // A body brings its parts and the pieces that it may break into: all have rows.
+    const auto pieces = static_cast<std::size_t>(std::count_if(
+        state.traits.begin(), state.traits.end(), [](const physics::Traits& t) { return t.motion == physics::MOTION_UNBORN; }));
+    const std::size_t parts = state.fixed().bodies - state.fixed().first_part;
+    const auto bodies = static_cast<double>(state.fixed().first_part - pieces);
     const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
+    std::string with;
+    if (pieces > 0) with += ", with the " + std::to_string(pieces) + " pieces that they may break into,";
+    if (parts > 0) with += ", with their " + std::to_string(parts) + " parts,";
     char text[160];
-    std::snprintf(text, sizeof text,
-                  "All tables of the %.0f bodies take %.3g GB, %s has %.3g: about %.2g bodies like these would fit", bodies,
-                  needed / 1e9, device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
-    return text;
+    std::snprintf(text, sizeof text, " take %.3g GB, %s has %.3g: about %.2g bodies like these would fit", needed / 1e9,
+                  device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
+    return "All tables of the " + std::to_string(state.fixed().first_part - pieces) + " bodies" + with + text;
 }
 
 }  // namespace

@@ -151,7 +151,10 @@ Frame frame_of(const Scene& scene, std::size_t body) {
 }  // namespace
 
 void check_joints(Scene& scene) {
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) examine(Examination(i, scene.joints[i]), scene.joints[i], scene);
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) check_joint(scene, i);
+}
+void check_joint(Scene& scene, std::size_t index) {
+    examine(Examination(index, scene.joints[index]), scene.joints[index], scene);
 }
 
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes) {

@@ -11,6 +11,7 @@ namespace scree {
 // Makes frames unit quaternions. Throws SceneError, naming the joint, for a body that is missing, a joint of a body with itself
 // or between two that never move, an axis or frame without length, limits reversed, and what is not finite or out of range.
 void check_joints(Scene& scene);
+void check_joint(Scene& scene, std::size_t index);  // one of them
 
 // A body's own frame has moved: its origin to `centre`, its axes along `axes` (in the old frame). Anchors stay where they are.
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes);

@@ -200,6 +200,12 @@ void read_joints(const nlohmann::json& value, Scene& scene) {
     for (std::size_t i = 0; i < value.size(); ++i) scene.joints.push_back(joint_of(value[i], joints / i, scene, named));
 }
 
+Joint joint_of(const nlohmann::json& value, const Place& place) {
+    if (value.is_object() && value.contains("anchor"))
+        refuse(place / "anchor", "its bodies move: say \"anchor_a\" and \"anchor_b\", in the frames of the bodies");
+    return joint_of(value, place, Scene{}, {});
+}
+
 std::string joint_to_json(const Joint& joint) {
     // Numbers are written as doubles with all the digits that bring the float back.
     nlohmann::ordered_json made = nlohmann::ordered_json::object();

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -87,6 +88,8 @@ struct State {
     // One more body, the last; the rows of parts move up behind it. Everything that lasts must be here, and the runner be
     // attached again.
     void add(const Body& body);
+    // The joints are the scene's: those that were here, but for the one at `without`, and then others. The same holds.
+    void rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
 
     // Items of a table as allocated, and those that mean something at present.
     std::size_t allocated(Length length) const;

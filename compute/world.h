@@ -149,6 +149,16 @@ public:
     // sends it again once. Throws SceneError as the constructor does. Buffers that a canvas draws from are others afterwards.
     std::size_t add_body(const Body& body);
 
+    // One more joint; returns its index, the highest. It wakes the joint's bodies, and reads everything back and sends it again
+    // once. Throws SceneError for what a scene would not take, and for a body that is not there.
+    std::size_t add_joint(const Joint& joint);
+    // Takes a joint away, at the same cost; those behind it move up by one. What it held wakes and goes on as it moves. Throws
+    // std::out_of_range.
+    void remove_joint(std::size_t joint);
+    // A joint for add_joint between two bodies (or the_world) as they lie now, made as scree::joint_at makes one. Throws
+    // std::out_of_range for the bodies, SceneError for an axis without a length.
+    Joint joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis = vec3(1, 0, 0)) const;
+
     // Read back from wherever the world is.
     BodyState body(std::size_t index) const;                 // throws std::out_of_range
     std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts

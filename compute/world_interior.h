@@ -41,6 +41,7 @@ struct World::Interior {
     // world_joints.cpp
     void require_joint(std::size_t joint) const;  // throws std::out_of_range
     JointState joint_state(std::size_t i) const;
+    void wake(const Joint& joint);  // its bodies, in the next step
     void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
 
     // world_handling.cpp

@@ -2,8 +2,10 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
+#include <utility>
 
 #include "compute/joints.h"
+#include "compute/scene_joints.h"
 #include "compute/world_interior.h"
 #include "shaders/physics/joint.h"
 
@@ -71,6 +73,10 @@ void World::Interior::set_axis(std::size_t index, JointAxis axis, const std::fun
     const auto k = static_cast<std::size_t>(axis);
     state.joints[record].axes[k] = axis_record(axes_of_kind(joint.kind).axes[k]);
     runner->send_joint(record);
+    wake(joint);
+}
+
+void World::Interior::wake(const Joint& joint) {
     for (const std::size_t body : {joint.a, joint.b})
         if (body != the_world && scene.bodies[body].motion == Motion::dynamic) action_on(body, vec3(0), vec3(0));
 }
@@ -104,6 +110,55 @@ void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) 
         a.friction = 0;
         a.spring = spring;
     });
+}
+
+std::size_t World::add_joint(const Joint& joint) {
+    Interior& in = *interior_;
+    in.runner->fetch();
+    const std::size_t index = in.scene.joints.size();
+    in.scene.joints.push_back(joint);
+    try {
+        check_joint(in.scene, index);
+        for (const auto& [key, body] : {std::pair{"/a", joint.a}, std::pair{"/b", joint.b}})
+            if (body != the_world && !in.body_state(body).there)
+                throw SceneError(
+                    "/joints/" + std::to_string(index) + key,
+                    "body " + std::to_string(body) + " is not there: it has broken, or is a piece of one that has not");
+    } catch (const SceneError&) {
+        in.scene.joints.pop_back();
+        throw;
+    }
+    in.state.rejoin(in.scene);
+    in.runner->attach(in.state);
+    in.wake(joint);
+    return index;
+}
+
+void World::remove_joint(std::size_t index) {
+    Interior& in = *interior_;
+    in.require_joint(index);
+    in.runner->fetch();
+    in.wake(in.scene.joints[index]);
+    in.scene.joints.erase(in.scene.joints.begin() + static_cast<std::ptrdiff_t>(index));
+    in.state.rejoin(in.scene, index);
+    in.runner->attach(in.state);
+}
+
+Joint World::joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis) const {
+    Scene two;  // the bodies' places are all that counts
+    const auto placed = [&](std::size_t index) {
+        if (index == the_world) return the_world;
+        const BodyState now = body(index);
+        Body& one = two.bodies.emplace_back();
+        one.position = now.position;
+        one.orientation = now.orientation;
+        return two.bodies.size() - 1;
+    };
+    const std::size_t place_a = placed(a), place_b = placed(b);
+    Joint joint = scree::joint_at(two, kind, place_a, place_b, anchor, axis);
+    joint.a = a;
+    joint.b = b;
+    return joint;
 }
 
 }  // namespace scree

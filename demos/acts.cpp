@@ -21,6 +21,8 @@ struct Performer {
     void operator()(const Drag& act) const { world.move_grip(act.grip, act.target); }
     void operator()(const Release& act) const { world.release(act.grip); }
     void operator()(const Add& act) const { world.add_body(act.body); }
+    void operator()(const Join& act) const { world.add_joint(act.joint); }
+    void operator()(const Unjoin& act) const { world.remove_joint(act.joint); }
     void operator()(const Push& act) const { world.apply_force(act.body, act.force); }
     void operator()(const Explode& act) const { world.explode(act.centre, act.radius, act.speed); }
     void operator()(const Turn& act) const {

@@ -27,6 +27,12 @@ struct Release {
 struct Add {
     Body body;
 };
+struct Join {
+    Joint joint;
+};
+struct Unjoin {  // see World::remove_joint
+    std::size_t joint = 0;
+};
 struct Push {  // for one step
     std::size_t body = 0;
     vec3 force{0};  // N
@@ -44,7 +50,7 @@ struct Turn {  // the dials; what is empty stays
     std::optional<bool> sleeping;
 };
 
-using Act = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn>;
+using Act = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin>;
 
 struct TimedAct {
     std::uint64_t step = 0;  // steps done before it

@@ -13,12 +13,15 @@
 //       {"step": 4, "drag": {"grip": 0, "target": [1, 2.5, 3]}},
 //       {"step": 9, "release": {"grip": 0}},
 //       {"step": 9, "add": {"shape": {"sphere": {"radius": 0.3}}, "position": [0, 2, 9], "velocity": [0, 3, -15]}},
+//       {"step": 9, "join": {"kind": {"ball": {}}, "a": 17, "b": 18, "anchor_a": [0, 0.5, 0], "anchor_b": [0, -0.5, 0]}},
+//       {"step": 15, "unjoin": {"joint": 0}},
 //       {"step": 20, "push": {"body": 17, "force": [500, 0, 0]}},
 //       {"step": 30, "explode": {"centre": [0, 0, 0], "radius": 5, "speed": 10}},
 //       {"step": 40, "turn": {"gravity": [0, -1.6, 0], "substeps": 4, "friction_factor": 0.5, "least_restitution": 0.9,
 //                             "sleeping": false}}
 //     ]}
-// Anchors are in the body's frame, "add" takes a body as a scene file does, "turn" any of its keys. SI units.
+// Anchors are in the body's frame, "add" takes a body and "join" a joint as a scene file does (bodies by their
+// index, places in their frames), "turn" any of its keys. SI units.
 #pragma once
 
 #include <cstdint>

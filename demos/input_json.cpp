@@ -8,6 +8,7 @@
 
 #include "compute/json_reading.h"
 #include "compute/scene_json.h"
+#include "compute/scene_json_joints.h"
 #include "demos/input.h"
 #include "demos/report.h"
 
@@ -19,7 +20,7 @@ using namespace json_reading;
 
 const Names keys = {"scree_input", "scene", "bodies",   "seed", "rate",      "substeps",
                     "sleeping",    "steps", "end_hash", "acts", "start_hash"};
-const Names act_names = {"grab", "drag", "release", "add", "push", "explode", "turn"};
+const Names act_names = {"grab", "drag", "release", "add", "join", "unjoin", "push", "explode", "turn"};
 constexpr std::uint64_t most_steps = 1000000000;  // as --steps
 
 // ---- writing
@@ -49,6 +50,8 @@ struct Writer {
     }
     std::string operator()(const Release& act) const { return fmt::format(R"("release": {{"grip": {}}})", act.grip); }
     std::string operator()(const Add& act) const { return "\"add\": " + body_to_json(act.body); }
+    std::string operator()(const Join& act) const { return "\"join\": " + joint_to_json(act.joint); }
+    std::string operator()(const Unjoin& act) const { return fmt::format(R"("unjoin": {{"joint": {}}})", act.joint); }
     std::string operator()(const Push& act) const {
         return fmt::format(R"("push": {{"body": {}, "force": {}}})", act.body, text_of(act.force));
     }
@@ -115,6 +118,13 @@ Body added_body(const json& value, const Place& place) {
 Act act_of(const std::string& name, const json& value, const Place& place) {
     if (name == "add") return Add{added_body(value, place)};
     if (name == "turn") return turn_of(value, place);
+    if (name == "join") return Join{joint_of(value, place)};
+    if (name == "unjoin") {
+        Unjoin act;
+        only(value, place, {"joint"});
+        required(value, place, "joint", act.joint);
+        return act;
+    }
     if (name == "grab") {
         Grab act;
         only(value, place, {"grip", "body", "anchor", "target"});

@@ -113,7 +113,7 @@ DemoScene chain(const DemoOptions&) {
     add_chain(scene, {0, 11, 1.5f}, 60 * degrees, 100);
     const Indices all = every_body(scene);
     const vec3 low(-11, 0, -3), high(11, 11.5f, 3);
-    return awake({std::move(scene), view_of(low, high, 10, 6), low, high, 20,
+    return awake({std::move(scene), view_of(low, high, 35, 8), low, high, 20,
                   Promise(gaps_below("of two chains, one with a load of a hundred links", 0.02 * link)).watching(all)});
 }
 
@@ -204,6 +204,10 @@ DemoScene ragdolls(const DemoOptions& options) {
 
 DemoScene pendulums(const DemoOptions&) {
     Scene scene;
+    scene.bodies.push_back(ground());
+    for (const float end : {-3.6f, 3.6f}) scene.bodies.push_back(fixed_box({0, 2.04f, end}, {0.08f, 2.04f, 0.08f}));
+    scene.bodies.push_back(fixed_box({0, 4, 0}, {0.04f, 0.04f, 3.6f}));  // from which all hang
+    const std::size_t beam = scene.bodies.size() - 1;
     std::vector<Swinging> all;
     const auto add = [&](Body body, float lever, float angle, float z, const JointKind& kind, bool rod) {
         const vec3 pivot(0, 4, z);
@@ -212,8 +216,8 @@ DemoScene pendulums(const DemoOptions&) {
         body.orientation = turned({0, 0, 1}, angle);
         scene.bodies.push_back(body);
         const std::size_t index = scene.bodies.size() - 1;
-        scene.joints.push_back(rod ? joint_between(scene, kind, the_world, index, pivot, body.position)
-                                   : joint_at(scene, kind, the_world, index, pivot, {0, 0, 1}));
+        scene.joints.push_back(rod ? joint_between(scene, kind, beam, index, pivot, body.position)
+                                   : joint_at(scene, kind, beam, index, pivot, {0, 0, 1}));
         const MassProperties m = mass_properties(body.shape, body.density);
         // A ball on a rod is not turned with it.
         const double own = rod ? 0.0 : static_cast<double>(m.inertia.z);
@@ -231,10 +235,10 @@ DemoScene pendulums(const DemoOptions&) {
     add(plank, 0.8f, 60 * degrees, 1, Hinge{}, false);
     add(plank, 1.5f, 120 * degrees, 2, Hinge{}, false);
     add(ball, 1.2f, 10 * degrees, 3, Hinge{}, false);
-    const vec3 low(-3, 1, -3.5f), high(3, 5, 3.5f);
+    const vec3 low(-3, 0, -3.6f), high(3, 5, 3.6f);
     const Indices watched = every_body(scene);
     return awake(
-        {std::move(scene), view_of(low, high, 25, 12), low, high, 60,
+        {std::move(scene), view_of(low, high, 40, 12), low, high, 60,
          Promise(periods_as_theory(all, 1), swings_keep_energy(all, 0.02), gaps_below("", 0.001)).watching(watched, every_step)});
 }
 

@@ -88,12 +88,36 @@ void read_meshes(Scene& scene, const std::filesystem::path& folder) {
     }
 }
 
+std::string free_memory() {
+    return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", available_memory() / 1e9,
+                       static_cast<double>(most_bodies()) / 1e3);
+}
+
+// Pieces of bodies that may break have rows of their own from the start (compute/fracture.h).
+void require_memory_for_pieces(const Scene& scene, const std::string& what) {
+    constexpr std::size_t deepest = 4;
+    double pieces = 0;
+    for (const Body& body : scene.bodies) {
+        if (!body.fracture) continue;
+        double of_level = 1;
+        for (std::size_t level = 0; level < std::min(body.fracture->depth, deepest); ++level)
+            pieces += of_level *= static_cast<double>(body.fracture->pieces);
+    }
+    const double rows = static_cast<double>(scene.bodies.size()) + pieces;
+    if (pieces == 0 || rows <= static_cast<double>(most_bodies())) return;
+    throw UsageError(
+        fmt::format("{}: beyond memory: {} bodies and the {:.0f} pieces that they may break into need about {:.3g} "
+                    "GB, {}, pieces included; ask for fewer",
+                    what, scene.bodies.size(), pieces, rows * bytes_per_body / 1e9, free_memory()));
+}
+
 Subject from_file(const std::string& path) {
     Subject subject;
     subject.name = path;
     try {
         SceneDocument document = scene_from_json(host::read_text(path), most_bodies());
         read_meshes(document.scene, std::filesystem::path(path).parent_path());
+        require_memory_for_pieces(document.scene, path);
         std::vector<std::string> notes;
         subject.scene = checked(std::move(document.scene), &notes);
         for (const std::string& note : notes) say("scree: note: {}: {}\n", path, note);
@@ -103,11 +127,6 @@ Subject from_file(const std::string& path) {
         throw UsageError(path + ": " + error.what());
     }
     return subject;
-}
-
-std::string free_memory() {
-    return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", available_memory() / 1e9,
-                       static_cast<double>(most_bodies()) / 1e3);
 }
 
 }  // namespace
@@ -147,6 +166,7 @@ Subject load_subject(const SceneOptions& options) {
     }
     require_memory_for(options.bodies);
     DemoScene built = build(*demo, {options.bodies, options.seed});
+    require_memory_for_pieces(built.scene, options.bodies ? fmt::format("--bodies {}", options.bodies) : options.name);
     return {demo->name,
             std::move(built.scene),
             built.viewpoint,

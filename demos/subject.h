@@ -25,7 +25,8 @@ struct Subject {
     Settings settings(const SceneOptions& options) const;  // what the user asks, as far as the scene allows it
 };
 
-// Throws UsageError naming the nearest demo, the place of a mistake in a file, or how many bodies would fit into the memory.
+// Throws UsageError naming the nearest demo, the place of a mistake in a file, or how many bodies would fit into the memory,
+// pieces of those that may break included.
 Subject load_subject(const SceneOptions& options);
 
 // Throws UsageError if a run of that many bodies would not fit into the memory that is free.

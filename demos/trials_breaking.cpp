@@ -76,6 +76,8 @@ DemoScene thresholds(const DemoOptions&) {
                     at_least("balls broken by 3% more", static_cast<double>(weak.size()), "", "at the end", broken(weak)))};
 }
 
+// The bodies are slow for their size, so that no piece is fast (flight.h): one that is stopped on its way is set back on it,
+// which changes its moment about the origin (at twice the speed they lose 6e-5 of the angular momentum so).
 DemoScene fragments(const DemoOptions& options) {
     Scene scene;
     scene.gravity = vec3(0);
@@ -98,13 +100,13 @@ DemoScene fragments(const DemoOptions& options) {
         }
         const vec3 cell(static_cast<float>(i % 4), static_cast<float>(i / 4 % 4), static_cast<float>(i / 16));
         body.position = (cell - 1.5f) * 2.0f;
-        body.velocity =
-            body.position * -0.5f + vec3(random.between(-0.3f, 0.3f), random.between(-0.3f, 0.3f), random.between(-0.3f, 0.3f));
-        body.angular_velocity = vec3(random.between(-1, 1), random.between(-1, 1), random.between(-1, 1));
+        body.velocity = body.position * -0.25f +
+                        vec3(random.between(-0.15f, 0.15f), random.between(-0.15f, 0.15f), random.between(-0.15f, 0.15f));
+        body.angular_velocity = vec3(random.between(-0.5f, 0.5f), random.between(-0.5f, 0.5f), random.between(-0.5f, 0.5f));
         body.orientation = random.orientation();
         body.friction = 0.4f;
         body.fracture.emplace();
-        body.fracture->impulse = 60;
+        body.fracture->impulse = 30;
         body.fracture->pieces = 6;
         body.fracture->depth = i % 8 == 0 ? 2 : 1;
         const MassProperties mass = mass_properties(body.shape, body.density);
@@ -115,11 +117,10 @@ DemoScene fragments(const DemoOptions& options) {
     }
     const vec3 low(-5), high(5);
     Promise promise(keeps("greatest change of momentum", &Statistics::momentum, 1e-5, momentum),
-                    // Pieces that lie side by side have contacts that are kept (persistence.h), whose forces act a little apart.
-                    keeps("greatest change of angular momentum", &Statistics::angular_momentum, 2e-4, angular),
+                    keeps("greatest change of angular momentum", &Statistics::angular_momentum, 1e-5, angular),
                     at_least("bodies that broke", 30, "", "pieces that did included",
                              [](const Trace& trace) { return static_cast<double>(trace.statistics.broken); }));
-    return {std::move(scene), view_of(low, high, 30, 20), low, high, 5, std::move(promise).sampling(30)};
+    return {std::move(scene), view_of(low, high, 30, 20), low, high, 8, std::move(promise).sampling(30)};
 }
 
 }  // namespace scree::demos

@@ -140,7 +140,7 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
     }
     const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
     const std::uint32_t of_a = state.body_of(pair.a), of_b = state.body_of(pair.b);
-    const bool kept = pair.previous != physics::NONE &&
+    const bool kept = pair.previous != physics::NONE && physics::has_weight(state.fixed()) &&
                       physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta,
                                        state.poses[of_a], state.velocities[of_a], tb, state.poses[of_b], state.velocities[of_b]);
     pair.kind = kept ? physics::KIND_KEPT : physics::kind_of(ta.shape, tb.shape);

@@ -5,7 +5,8 @@
 // take away the sideways shift of the load that makes a column of soft contacts buckle, and what is the same in every step
 // can come to true rest. The price: the two forces of a contact act up to the tolerance apart, and a resting pair's
 // angular momentum is exact only to that. So the tolerance is small against the bodies: what slides or rolls lets go at once,
-// and so does what tips.
+// and so does what tips. Where there is no weight nothing stands or leans, and no contact is kept: what collides and breaks in
+// empty space has its angular momentum to rounding.
 #ifndef SCREE_PHYSICS_PERSISTENCE_H
 #define SCREE_PHYSICS_PERSISTENCE_H
 
@@ -36,6 +37,11 @@ LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
     vec3 mark_a = rotate(a.orientation, rotate_back(contact.turn_a, arm - half_gap));
     vec3 mark_b = rotate(b.orientation, rotate_back(contact.turn_b, (arm - contact.d) + half_gap));
     return (b.position - a.position) + mark_b - mark_a;
+}
+
+LAW bool has_weight(Parameters parameters) {
+    vec3 pull = absolute3(parameters.gravity);
+    return pull.x > 1.0e-9f || pull.y > 1.0e-9f || pull.z > 1.0e-9f;
 }
 
 LAW float cosine_between(vec4 before, vec4 now) {

@@ -41,7 +41,7 @@ void main() {
         Traits ta = traits.at[pair.a], tb = traits.at[pair.b];
         uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
-        if (pair.previous != NONE)
+        if (pair.previous != NONE && has_weight(PARAMETERS))
             kept = is_kept(contacts_before.at[pair.previous], impulses_before.at[pair.previous], ta, poses.at[of_a],
                            velocities.at[of_a], tb, poses.at[of_b], velocities.at[of_b]);
         pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);

@@ -137,6 +137,9 @@ TEST_CASE("program: a scene file with a wrong key or value is refused with its J
 
 TEST_CASE("program: more bodies than fit into memory are refused before they are made, with what would fit", "[program]") {
     require_refused(run_scree("run pile --bodies 900G"), {"--bodies 900000000000", "beyond memory", "GB", "enough for about"});
+    // Five pieces each: the bodies alone would fit.
+    require_refused(run_scree("run shatter --bodies 20000 --backend cpu", "ulimit -v 400000;"),
+                    {"--bodies 20000", "beyond memory", "20005 bodies and the 100000 pieces"});
     const Place place;
     std::string text = "{\"bodies\": [";
     for (int i = 0; i < 150000; ++i) text += std::string(i ? "," : "") + "{\"shape\":{\"sphere\":{\"radius\":1}}}\n";

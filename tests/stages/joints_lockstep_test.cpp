@@ -1,8 +1,10 @@
 // Joints of every kind: the same bits on both processors.
 #include <catch2/catch.hpp>
 
+#include "compute/device_runner.h"
 #include "compute/lockstep.h"
 #include "compute/scene.h"
+#include "compute/world.h"
 #include "host/device.h"
 
 using namespace scree;
@@ -65,4 +67,30 @@ TEST_CASE("joints of every kind give the same bits on both processors, and valid
                  << result.detail);
     CHECK(result.equal);
     for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
+
+TEST_CASE("joints that come and go while a world runs give the same bits on both processors") {
+    host::DeviceOptions options;
+    options.validation = true;
+    options.on_message = [](const std::string& message) { FAIL_CHECK(message); };
+    Scene bare = all_kinds();
+    const std::vector<Joint> joints = bare.joints;
+    bare.joints.clear();
+    World cpu(bare, {}, 2), there(bare, {}, make_device_runner(host::Device::open(options)));
+    for (int step = 0; step < 30; ++step) {
+        for (World* world : {&cpu, &there}) {
+            // None, then all, then every second one goes, and two chains are tied together where they are.
+            if (step == 3)
+                for (const Joint& joint : joints) world->add_joint(joint);
+            if (step == 12)
+                for (std::size_t j = joints.size(); j-- > 0;)
+                    if (j % 2 == 1) world->remove_joint(j);
+            if (step == 20) world->add_joint(world->joint_at(Fixed{}, 1, 7, world->body(1).position));
+            world->step();
+        }
+        CAPTURE(step);
+        REQUIRE(there.state_hash() == cpu.state_hash());
+    }
+    CHECK(there.joint(2).greatest_force == cpu.joint(2).greatest_force);
+    CHECK(cpu.statistics().not_finite == 0);
 }

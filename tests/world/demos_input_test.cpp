@@ -37,6 +37,17 @@ void play(Session& session) {
             ball.velocity = vec3(-12.3456789f, 3, -0.0f);
             session.perform(Add{ball});
         }
+        if (step == 36) {
+            Joint rope;
+            rope.name = "a rope";
+            rope.kind = Distance{0.1f, 10.0f / 3, Spring{1e3f / 3, 1.1f, 0.7f}};
+            rope.a = 3;
+            rope.b = 6;
+            rope.anchor_a = vec3(0.1f, 1.0f / 3, -0.0f);
+            rope.break_force = 1e7f / 3;
+            session.perform(Join{rope});
+        }
+        if (step == 70) session.perform(Unjoin{0});
         if (step > 40 && step < 45) session.perform(Push{5, vec3(3e4f, 1, -2)});
         if (step == 50) session.perform(Explode{vec3(0.3f, 0, 0), 4, 7});
         if (step == 60)
@@ -140,6 +151,12 @@ TEST_CASE("a recording of another scene is refused") {
     input.start_hash.reset();
     input.acts.push_back({0, Push{500, vec3(1)}});
     REQUIRE_THROWS_WITH(replayed(input, options_of("stack")), Catch::Contains("played.json: /acts/0: body 500"));
+    input.acts.back().act = Unjoin{3};
+    REQUIRE_THROWS_WITH(replayed(input, options_of("stack")), Catch::Contains("played.json: /acts/0: joint 3 of 0"));
+    Joint joint;
+    joint.a = 500;
+    input.acts.back().act = Join{joint};
+    REQUIRE_THROWS_WITH(replayed(input, options_of("stack")), Catch::Contains("there is no body 500"));
 }
 
 TEST_CASE("a mistake in a recording is told with its place") {
@@ -162,6 +179,10 @@ TEST_CASE("a mistake in a recording is told with its place") {
     CHECK_THAT(wrong(R"({"step": 1, "add": {"shape": {"torus": {}}}})"), Contains("/acts/0/add/shape: unknown shape"));
     CHECK_THAT(wrong(R"({"step": 1, "add": {"shape": {"sphere": {"radius": 0}}}})"),
                Contains("/acts/0/add/shape/sphere/radius: must be"));
+    CHECK_THAT(wrong(R"({"step": 1, "join": {"kind": {"ball": {}}, "a": 1, "anchor": [0, 0, 0]}})"),
+               Contains("/acts/0/join/anchor: its bodies move: say \"anchor_a\""));
+    CHECK_THAT(wrong(R"({"step": 1, "join": {"kind": {"rope": {}}, "a": 1}})"), Contains("/acts/0/join/kind: unknown kind"));
+    CHECK_THAT(wrong(R"({"step": 1, "unjoin": {"joint": -1}})"), Contains("/acts/0/unjoin/joint: must be a whole number"));
     CHECK_THAT(wrong(R"({"step": 1, "turn": {}})"), Contains("/acts/0/turn: turns nothing"));
     CHECK_THAT(wrong(R"({"step": 1, "turn": {"substeps": 65}})"), Contains("/acts/0/turn/substeps"));
     CHECK_THAT(wrong(R"({"step": 1, "push": {"body": 1, "force": [1, 1e99, 0]}})"), Contains("/acts/0/push/force/1"));

@@ -59,6 +59,12 @@ const Hull hull{{{-0.5f, -0.3f, -0.4f}, {0.6f, -0.3f, -0.5f}, {0.1f, 0.7f, -0.1f
 double length_of(const double (&v)[3]) {
     return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
+// kg m^2/s, about the origin: of its way and of its spin, added up as lengths.
+double moment_of(const Body& body) {
+    const MassProperties mass = mass_properties(body.shape, body.density);
+    return static_cast<double>(mass.mass * glm::length(glm::cross(body.position, body.velocity)) +
+                               glm::length(mass.inertia * body.angular_velocity));
+}
 double change_of(const double (&before)[3], const double (&after)[3]) {
     return std::sqrt(std::pow(after[0] - before[0], 2) + std::pow(after[1] - before[1], 2) + std::pow(after[2] - before[2], 2));
 }
@@ -109,26 +115,35 @@ TEST_CASE("a body that breaks keeps linear and angular momentum to 1e-5, the str
         {Box{{0.5f, 0.4f, 0.3f}}, Cutting::boxes}, {Sphere{0.4f}, Cutting::voronoi}, {Cone{0.4f, 1}, Cutting::voronoi},
         {Capsule{0.3f, 0.4f}, Cutting::voronoi},   {hull, Cutting::voronoi},         {Box{{1, 0.8f, 0.05f}}, Cutting::splinters}};
     for (const auto& [shape, cutting] : wholes) {
-        for (const float spin : {0.0f, 3.0f}) {
-            Scene scene;
-            scene.gravity = vec3(0);
-            scene.bodies.push_back(body_of(shape, vec3(0), {0, 1, 0}));
-            scene.bodies[0].angular_velocity = vec3(0.3f, 1, -0.6f) * spin;
-            scene.bodies[0].fracture = broken_by(40, cutting, 12);
-            scene.bodies.push_back(body_of(Sphere{0.3f}, {-3, 0.2f, 0.1f}, {6, 0, 0}));
-            World world(scene, {}, 1);
-            const Statistics start = world.statistics();
-            Statistics before = start, after = start;
-            for (int i = 0; i < 120 && after.broken == 0; ++i) {
-                before = after;
-                world.step();
-                after = world.statistics();
+        for (const float speed : {0.75f, 6.0f}) {
+            for (const float spin : {0.0f, 0.5f}) {
+                Scene scene;
+                scene.gravity = vec3(0);
+                scene.bodies.push_back(body_of(shape, vec3(0), vec3(0, 1, 0) * (speed / 6)));
+                scene.bodies[0].angular_velocity = vec3(0.3f, 1, -0.6f) * (spin * speed);
+                scene.bodies[0].fracture = broken_by(6 * speed, cutting, 12);
+                scene.bodies.push_back(body_of(Sphere{0.3f}, {-1.5f, 0.2f, 0.1f}, {speed, 0, 0}));
+                // Of what the two have about the origin, added up as lengths.
+                const double moment = moment_of(scene.bodies[0]) + moment_of(scene.bodies[1]);
+                World world(scene, {}, 1);
+                const Statistics start = world.statistics();
+                Statistics before = start, after = start;
+                for (int i = 0; i < 120 && after.broken == 0; ++i) {
+                    before = after;
+                    world.step();
+                    after = world.statistics();
+                }
+                INFO("shape " << shape.index() << ", speed " << speed << ", spin " << spin);
+                REQUIRE(after.broken == 1);
+                REQUIRE(after.pieces == 12);
+                CHECK(change_of(before.momentum, after.momentum) < 1e-5 * length_of(start.momentum));
+                CHECK(change_of(before.angular_momentum, after.angular_momentum) < 1e-5 * moment);
+                if (speed > 1) continue;  // what is fast is set back on its way (flight.h), which changes its moment
+                world.step(90);           // the pieces meet each other and the ball, side by side and in the way
+                const Statistics end = world.statistics();
+                CHECK(change_of(start.momentum, end.momentum) < 1e-5 * length_of(start.momentum));
+                CHECK(change_of(start.angular_momentum, end.angular_momentum) < 1e-5 * moment);
             }
-            INFO("shape " << shape.index() << ", spin " << spin);
-            REQUIRE(after.broken == 1);
-            REQUIRE(after.pieces == 12);
-            CHECK(change_of(before.momentum, after.momentum) < 1e-5 * length_of(start.momentum));
-            CHECK(change_of(before.angular_momentum, after.angular_momentum) < 1e-5 * (length_of(start.angular_momentum) + 300));
         }
     }
 }

@@ -136,6 +136,35 @@ TEST_CASE("a joint tears above its force, and not below") {
     CHECK(tears.snapshot().joints[0].broken);
 }
 
+TEST_CASE("a joint of a body that breaks tears, and what hung on it falls") {
+    Scene scene = hung({0, -0.3f, 0}, {0, 0, 0}, Ball{});
+    scene.bodies[0].shape = Box{vec3(0.3f)};
+    scene.bodies[0].fracture.emplace().impulse = 500;
+    Body load;
+    load.shape = Sphere{0.1f};
+    load.position = {0, -1.2f, 0};
+    scene.bodies.push_back(load);
+    scene.joints.push_back(joint_at(scene, Ball{}, 0, 1, {0, -0.6f, 0}));
+    Body ball;
+    ball.shape = Sphere{0.2f};
+    ball.density = 4000;
+    ball.position = {-1.5f, -0.3f, 0};
+    ball.velocity = {10, 0, 0};
+    scene.bodies.push_back(ball);
+    World world(scene, awake(), 1);
+    world.step(3);
+    REQUIRE_FALSE(world.joint(0).broken);
+    REQUIRE_FALSE(world.joint(1).broken);
+    world.step(60);
+    REQUIRE_FALSE(world.body(0).there);
+    CHECK(world.joint(0).broken);
+    CHECK(world.joint(1).broken);
+    CHECK(world.statistics().joints_broken == 2);
+    CHECK(world.statistics().not_finite == 0);
+    CHECK(world.body(1).position.y < -3);
+    CHECK(world.snapshot().joints.empty());
+}
+
 TEST_CASE("joined bodies touch only if the joint says so") {
     for (const bool collide : {false, true}) {
         Scene scene;
@@ -169,6 +198,89 @@ TEST_CASE("what hangs on a sleeper wakes it") {
     world.apply_impulse(4, {20, 0, 0});
     world.step(2);
     CHECK(world.statistics().asleep == 0);
+}
+
+TEST_CASE("a joint that is added before the first step is as good as one of the scene") {
+    Scene scene = hung({0.5f, 0, 0}, {0, 0, 0}, Hinge{});
+    for (int i = 1; i < 5; ++i) {
+        Body body = scene.bodies[0];
+        body.position.x = 0.5f + static_cast<float>(i);
+        scene.bodies.push_back(body);
+        scene.joints.push_back(
+            joint_at(scene, Ball{}, static_cast<std::size_t>(i) - 1, static_cast<std::size_t>(i), {static_cast<float>(i), 0, 0}));
+    }
+    World whole(scene, {}, 1);
+    Scene bare = scene;
+    bare.joints.clear();
+    World added(bare, {}, 1);
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) REQUIRE(added.add_joint(scene.joints[j]) == j);
+    whole.step(60);
+    added.step(60);
+    CHECK(added.state_hash() == whole.state_hash());
+    CHECK(added.joint(4).force.y == whole.joint(4).force.y);
+    CHECK(added.snapshot().joints.size() == 5);
+}
+
+TEST_CASE("joints that are added while a world runs hold, those beside them go on as before, and what is let go falls") {
+    Scene scene = hung({0, -1, 0}, {0, 0, 0}, Ball{});
+    scene.joints[0].break_force = 1e6f;
+    Body other = scene.bodies[0];
+    other.position = {0, -2, 0};
+    scene.bodies.push_back(other);
+    scene.joints.push_back(joint_at(scene, Ball{}, the_world, 1, {0.6f, -2, 0}));
+    World world(scene, {}, 1);
+    world.step(240);
+    const float greatest = world.joint(0).greatest_force;
+    const vec3 low = world.body(1).position;
+    // From where the upper one has come to rest to where the lower one has.
+    REQUIRE(world.add_joint(world.joint_at(Fixed{}, 0, 1, 0.5f * (world.body(0).position + low), {0, 1, 0})) == 2);
+    CHECK(world.joint(0).greatest_force == greatest);
+    CHECK(world.scene().joints.size() == 3);
+    world.step(60);
+    CHECK(world.joint(2).gap < 1e-3f);
+    world.remove_joint(1);
+    CHECK(world.scene().joints.size() == 2);
+    world.step(120);
+    const float weight = 2 * mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass * 9.81f;
+    CHECK(world.joint(1).gap < 2e-3f);
+    CHECK(world.joint(0).greatest_force > 0.9f * weight);  // it bears both now
+    CHECK(world.body(1).position.y > -3);
+    world.remove_joint(0);
+    world.remove_joint(0);
+    world.step(60);
+    CHECK(world.joints().empty());
+    CHECK(world.body(0).position.y < -4);
+    CHECK(world.statistics().not_finite == 0);
+}
+
+TEST_CASE("a joint that a world cannot take is refused by name, and leaves no trace") {
+    Scene scene = hung({0, 0, 0}, {0, 0, 0}, Ball{});
+    Body brittle = scene.bodies[0];
+    brittle.position = {5, 0, 0};
+    brittle.fracture.emplace().impulse = 100;
+    scene.bodies.push_back(brittle);
+    World world(scene, {}, 1), untouched(scene, {}, 1);
+    Joint joint = joint_at(scene, Ball{}, the_world, 1, {5, 0, 0});
+    joint.name = "pin";
+    const auto refused = [&](std::size_t a, std::size_t b) -> std::string {
+        joint.a = a;
+        joint.b = b;
+        try {
+            world.add_joint(joint);
+        } catch (const SceneError& error) {
+            return error.what();
+        }
+        return "taken";
+    };
+    CHECK(says(refused(the_world, 99), "/joints/1/b: there is no body 99; the scene has 10 (joint \"pin\")"));
+    CHECK(says(refused(1, 1), "/joints/1/b: body 1 is joined to itself"));
+    CHECK(says(refused(the_world, 3), "/joints/1/b: body 3 is not there: it has broken, or is a piece of one that has not"));
+    CHECK_THROWS_AS(world.remove_joint(1), std::out_of_range);
+    CHECK_THROWS_AS(world.joint_at(Ball{}, 0, 99, vec3(0)), std::out_of_range);
+    CHECK(world.scene().joints.size() == 1);
+    world.step(10);
+    untouched.step(10);
+    CHECK(world.state_hash() == untouched.state_hash());
 }
 
 TEST_CASE("bad joints are refused by name, with what to do about it") {

@@ -1,0 +1,32 @@
+// Joints that are added or taken away while a world runs: blocks and lists are made anew, what lasts of the others stays.
+#include <algorithm>
+
+#include "compute/joints.h"
+#include "compute/state.h"
+
+namespace scree {
+
+void State::rejoin(const Scene& scene, std::optional<std::size_t> without) {
+    std::vector<physics::Joint> before;
+    for (const std::uint32_t record : joint_records) before.push_back(joints[record]);
+    if (without) before.erase(before.begin() + static_cast<std::ptrdiff_t>(*without));
+    for (physics::Traits& row : traits) row.joints = physics::NONE;
+    JointTables made = joint_tables(scene, traits);
+    joints = std::move(made.records);
+    joint_records = std::move(made.record_of);
+    fixed().joint_blocks = made.blocks;
+    for (std::size_t j = 0; j < std::min(before.size(), joint_records.size()); ++j) {
+        physics::Joint& now = joints[joint_records[j]];
+        const physics::Joint& was = before[j];
+        std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with the impulses that the next step begins with
+        now.pins = was.pins;
+        now.broken = was.broken;
+        now.force = was.force;
+        now.greatest_force = was.greatest_force;
+        now.torque = was.torque;
+        now.greatest_torque = was.greatest_torque;
+    }
+    allocate();
+}
+
+}  // namespace scree
