@@ -11,7 +11,6 @@ namespace scree {
 
 namespace {
 
-
 // Where a vehicle stands: its axes are x to the left, y up and z ahead.
 struct Stand {
     vec3 position;
@@ -45,8 +44,8 @@ void mount(Scene& scene, Vehicle& vehicle, const Stand& stand, Body body, const 
     scene.bodies.push_back(std::move(body));
     Wheel wheel = m.wheel;
     wheel.joint = scene.joints.size();
-    scene.joints.push_back(joint_at(scene, m.kind, vehicle.chassis, scene.bodies.size() - 1, stand.at(m.place),
-                                    stand.along(vec3(1, 0, 0))));
+    scene.joints.push_back(
+        joint_at(scene, m.kind, vehicle.chassis, scene.bodies.size() - 1, stand.at(m.place), stand.along(vec3(1, 0, 0))));
     scene.joints.back().name = scene.bodies.back().name;
     vehicle.wheels.push_back(wheel);
 }
@@ -71,7 +70,8 @@ SixDegrees suspension_of(float load, float mass, const Car& car, bool steers) {
 std::size_t add_car(Scene& scene, const Car& car) {
     const Stand stand(car.position, car.heading);
     const float s = car.size, radius = 0.33f * s, base = 1.3f * s, track = 0.76f * s;
-    Vehicle vehicle{.name = car.name, .chassis = scene.bodies.size(), .wheels = {}, .engine = car.engine, .steering = car.steering};
+    Vehicle vehicle{
+        .name = car.name, .chassis = scene.bodies.size(), .wheels = {}, .engine = car.engine, .steering = car.steering};
 
     Body chassis;
     chassis.name = car.name;
@@ -100,8 +100,8 @@ std::size_t add_car(Scene& scene, const Car& car) {
                     .hand_brake = front ? 0 : 2 * hold,
                     .steers = front};
         mount(scene, vehicle, stand, body,
-              {vec3(left ? track : -track, radius, front ? base : -base), suspension_of(mass * pull * 0.25f, mass * 0.25f, car, front),
-               wheel},
+              {vec3(left ? track : -track, radius, front ? base : -base),
+               suspension_of(mass * pull * 0.25f, mass * 0.25f, car, front), wheel},
               car.speed);
     }
     scene.vehicles.push_back(std::move(vehicle));

@@ -312,8 +312,7 @@ void DeviceRunner::fetch_vehicles() {
 void DeviceRunner::send_vehicle(std::size_t index) {
     constexpr std::size_t first = offsetof(physics::Handling, throttle);
     constexpr std::size_t bytes = offsetof(physics::Handling, next) - first;
-    buffer(Table::vehicles)
-        .write(&state_->vehicles[index].handling.throttle, bytes, index * sizeof(physics::Vehicle) + first);
+    buffer(Table::vehicles).write(&state_->vehicles[index].handling.throttle, bytes, index * sizeof(physics::Vehicle) + first);
 }
 
 void DeviceRunner::send_joint(std::size_t record) {

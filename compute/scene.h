@@ -131,7 +131,7 @@ struct Body {
     float linear_damping = 0;      // 1/s, >= 0
     float angular_damping = 0;     // 1/s, >= 0
     float gravity_scale = 1;
-    std::optional<Tyre> tyre{};          // of a sphere, capsule or cylinder, or of a compound's parts that are; none: plain friction
+    std::optional<Tyre> tyre{};  // of a sphere, capsule or cylinder, or of a compound's parts that are; none: plain friction
     std::optional<Fracture> fracture{};  // none: it never breaks
     // Of which body of the scene this is a piece, not there until that one breaks: its place is the one that it would have at the
     // start. Pieces are added behind the other bodies when the scene is checked; no scene says it.
@@ -251,8 +251,8 @@ struct Vehicle {
     Engine engine{};
     Steering steering{};
     Controls controls{};  // until World::drive says otherwise
-    // Points to drive past one after the other, from the first (where it begins) to the last, where it stops; at least 2, or none.
-    // A vehicle with a route follows it by itself, on the device, until World::drive takes it over.
+    // Points to drive past one after the other, from the first (where it begins) to the last, where it stops; at least 2, or
+    // none. A vehicle with a route follows it by itself, on the device, until World::drive takes it over.
     std::vector<WayPoint> route{};
     bool loops = false;  // behind the last point it goes on to the first
     // State, for a scene that goes on.

@@ -100,8 +100,8 @@ void examine_route(const Examination& vehicle, const Vehicle& v) {
     if (v.route.empty()) return;
     if (v.route.size() < 2) vehicle.refuse("/route", "a route has at least 2 points: where it begins, and where it leads");
     if (v.next > v.route.size())
-        vehicle.refuse("/next", "there is no way point " + std::to_string(v.next) + "; the route has " +
-                                    std::to_string(v.route.size()));
+        vehicle.refuse("/next",
+                       "there is no way point " + std::to_string(v.next) + "; the route has " + std::to_string(v.route.size()));
     for (std::size_t k = 0; k < v.route.size(); ++k) {
         const std::string key = "/route/" + std::to_string(k);
         for (int i = 0; i < 3; ++i)

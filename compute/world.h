@@ -50,13 +50,13 @@ struct JointState {
 
 // A vehicle as the last step left it.
 struct VehicleState {
-    Controls controls{};      // what it was told, or what its driver does
-    float speed = 0;          // m/s, ahead
-    float curvature = 0;      // of the curve that its wheels are steered to, 1/m, > 0: to the left
-    bool by_route = false;    // the driver follows the route
-    std::size_t passed = 0;   // way points so far
-    std::size_t next = 0;     // way point that it drives to
-    bool arrived = false;     // at the end of the route
+    Controls controls{};     // what it was told, or what its driver does
+    float speed = 0;         // m/s, ahead
+    float curvature = 0;     // of the curve that its wheels are steered to, 1/m, > 0: to the left
+    bool by_route = false;   // the driver follows the route
+    std::size_t passed = 0;  // way points so far
+    std::size_t next = 0;    // way point that it drives to
+    bool arrived = false;    // at the end of the route
 };
 
 // A hold on a body: a damped spring between a point of it and a place, solved implicitly and within every substep.

@@ -108,8 +108,8 @@ void World::put_upright(std::size_t vehicle) {
     ahead = glm::length(ahead) > 1e-3f ? glm::normalize(ahead) : physics::tangent(up);
     left = glm::normalize(glm::cross(up, ahead));
     const glm::quat turn = glm::normalize(glm::quat_cast(glm::mat3(left, up, ahead)));
-    const vec4 upright = physics::unit_quaternion(
-        physics::compose(vec4(turn.x, turn.y, turn.z, turn.w), physics::conjugate(frame)));
+    const vec4 upright =
+        physics::unit_quaternion(physics::compose(vec4(turn.x, turn.y, turn.z, turn.w), physics::conjugate(frame)));
     const Body& first = in.scene.bodies[v.chassis];
     const vec3 place = before.position + up * lift_of_a_righted_vehicle;
     const auto put = [&](std::size_t body, vec3 position, vec4 orientation) {

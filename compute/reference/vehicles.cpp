@@ -25,8 +25,7 @@ void drive_vehicles(State& state, const Threads& threads, std::uint32_t) {
             if (awake) state.rests[wheel.body] = 0;
             if (p.redo) continue;
             physics::Joint& joint = state.joints[wheel.joint];
-            const float spin =
-                physics::dot3(axle, state.velocities[wheel.body].angular - state.velocities[chassis].angular);
+            const float spin = physics::dot3(axle, state.velocities[wheel.body].angular - state.velocities[chassis].angular);
             joint.axes[3] = physics::wheel_motor(joint.axes[3], handling, wheel, spin);
             if (joint.axes[3].mode == 0) {
                 joint.rows[3].drive = 0;

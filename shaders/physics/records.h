@@ -246,7 +246,7 @@ struct JointRow {
 CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's, and its place is their distance
 CONSTANT uint JOINT_CONE = 2u;      // axis y of the swing is the one that B has swung about, and its place the whole swing
 CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies may touch
-CONSTANT uint JOINT_SPINS = 8u;     // B spins about its x axis: with its swing's axes as they are at rest, swinging would stop that
+CONSTANT uint JOINT_SPINS = 8u;  // B spins about its x axis: with its swing's axes as they are at rest, swinging would stop that
 // Each axis has four bits of Joint.pins.
 CONSTANT uint PIN_LOW = 1u;   // the drive pushes as hard as it may, down
 CONSTANT uint PIN_HIGH = 2u;  // and up
@@ -300,7 +300,7 @@ CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slots' sides: of the bl
 
 // ---- vehicles (vehicle.h)
 struct VehicleWheel {
-    uint joint;        // its record
+    uint joint;  // its record
     uint body;
     float radius;      // m
     float ahead;       // of the axis that it turns about when the vehicle turns, m; 0 for a wheel that is not steered
@@ -331,8 +331,8 @@ struct Handling {
     // What it is told.
     float throttle, brake, steer, hand_brake;  // as in scree::Controls
     uint by_route;                             // 1: the driver follows the route
-    uint next;    // state: way point that it drives to; `points`: it has arrived
-    uint passed;  // state: way points so far
+    uint next;                                 // state: way point that it drives to; `points`: it has arrived
+    uint passed;                               // state: way points so far
     uint pad0;
 };
 CONSTANT uint MOST_WHEELS = 8u;

@@ -1,6 +1,7 @@
 // A vehicle in one step: what its driver does, how far its wheels are turned, and what drives or brakes each of them.
 //
-// It has no equations of its own: it says what the motors of its wheels' joints do (joint.h), and friction does the rest (tyre.h).
+// It has no equations of its own: it says what the motors of its wheels' joints do (joint.h), and friction does the rest
+// (tyre.h).
 #ifndef SCREE_PHYSICS_VEHICLE_H
 #define SCREE_PHYSICS_VEHICLE_H
 
@@ -51,8 +52,8 @@ LAW Handling parked(Handling v) {
     return v;
 }
 
-// The driver: towards a point of the route that lies ahead, on the circle through it (pure pursuit: Coulter, CMU-RI-TR-92-01, 1992),
-// as fast as the route says.
+// The driver: towards a point of the route that lies ahead, on the circle through it (pure pursuit: Coulter, CMU-RI-TR-92-01,
+// 1992), as fast as the route says.
 LAW Handling by_route(Handling v, Hulls table, Axes axes, vec3 place) {
     if (has_arrived(v)) return parked(v);
     vec4 from = way_point(table, v, v.next == 0u ? v.points - 1u : v.next - 1u);
