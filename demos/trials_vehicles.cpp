@@ -64,88 +64,123 @@ double greatest_lateral(const Trace& trace, std::size_t slot) {
     return greatest;
 }
 
-}  // namespace
-
-DemoScene roadtest(const DemoOptions&) {
+// The trial under construction. Those that are watched have a slot.
+struct Roadtest {
     Scene scene;
-    scene.bodies.push_back(ground(1));
-    const auto chassis = [&](std::size_t vehicle) { return scene.vehicles[vehicle].chassis; };
+    std::vector<Claim> claims;
+    Indices all, watched;
 
+    std::size_t chassis(std::size_t vehicle) {
+        all.push_back(scene.vehicles[vehicle].chassis);
+        return all.back();
+    }
+    std::size_t slot(std::size_t vehicle) {
+        watched.push_back(chassis(vehicle));
+        return watched.size() - 1;
+    }
+};
+
+// One with its wheels locked, which slide, and one whose brakes are a little too weak for that.
+void add_braking(Roadtest& test) {
+    Scene& scene = test.scene;
     const std::size_t locked = add_car(scene, {.position = {-18, 0, 0}, .speed = fast, .brake = 10});
     const std::size_t rolling = add_car(scene, {.position = {-12, 0, 0}, .speed = fast, .brake = 0.75f});
     for (const std::size_t vehicle : {locked, rolling}) scene.vehicles[vehicle].controls.brake = 1;
-    const Weight weight = weight_of(scene, scene.vehicles[rolling]);
     double torque = 0;
     for (const Wheel& wheel : scene.vehicles[rolling].wheels) torque += static_cast<double>(wheel.brake);
-    const double gentle = torque / static_cast<double>(wheel_radius) / weight.moving;
+    const double gentle = torque / static_cast<double>(wheel_radius) / weight_of(scene, scene.vehicles[rolling]).moving;
+    test.claims.push_back(brakes("wheels locked", test.chassis(locked), 0.75 * g));
+    test.claims.push_back(brakes("wheels rolling", test.chassis(rolling), gentle));
+}
 
-    const std::size_t starting = add_car(scene, {.position = {-6, 0, 0}, .engine = {.top_speed = 25}});
-    const Engine engine = scene.vehicles[starting].engine;
-    scene.vehicles[starting].controls.throttle = 1;
-    const double force = static_cast<double>(engine.torque / wheel_radius), power = static_cast<double>(engine.power);
-    const double knee = power / force;
-    const double seconds_to_fast = weight.moving * (knee / force + (20.0 * 20.0 - knee * knee) / (2 * power));
+void add_start(Roadtest& test) {
+    const std::size_t vehicle = add_car(test.scene, {.position = {-6, 0, 0}, .engine = {.top_speed = 25}});
+    Vehicle& car = test.scene.vehicles[vehicle];
+    car.controls.throttle = 1;
+    const double moving = weight_of(test.scene, car).moving, power = static_cast<double>(car.engine.power);
+    const double force = static_cast<double>(car.engine.torque / wheel_radius), knee = power / force;
+    const double seconds = moving * (knee / force + (20.0 * 20.0 - knee * knee) / (2 * power));
+    const std::size_t slot = test.slot(vehicle), body = test.all.back();
+    test.claims.push_back(close_to("time from 0 to 20 m/s", seconds, 0.05 * seconds, "s",
+                                   "full torque up to the speed P / F, then full power",
+                                   [slot](const Trace& trace) { return time_to(trace, slot, 20); }));
+    test.claims.push_back(close_to("top speed", 25, 0.5, "m/s", "at the end, at full throttle",
+                                   [body](const Trace& trace) { return speed_of(trace.end[body]); }));
+}
 
-    const std::size_t circling = add_car(scene, {.position = {15, 0, 0}, .speed = 5, .engine = {.drag = 0}});
-    scene.vehicles[circling].controls.steer = 0.5f;
-    const double tightest = std::tan(static_cast<double>(scene.vehicles[circling].steering.angle)) / 2.6;
-    const double radius = std::hypot(1 / (0.5 * tightest), 1.3);
+// One slowly round a curve, and one as fast as its tyres let it with its wheels turned too far.
+void add_curves(Roadtest& test) {
+    Scene& scene = test.scene;
+    const std::size_t slow = add_car(scene, {.position = {15, 0, 0}, .speed = 5, .engine = {.drag = 0}});
+    scene.vehicles[slow].controls.steer = 0.5f;
+    const double tightest = std::tan(static_cast<double>(scene.vehicles[slow].steering.angle)) / 2.6;
+    const double radius = std::hypot(1 / (0.5 * tightest), 1.3);  // of the middle's circle
     const std::size_t sliding = add_car(
         scene, {.position = {60, 0, 0}, .speed = 15, .engine = {.torque = 600}, .steering = {.angle = 0.2f, .lateral = 1000}});
-    scene.vehicles[sliding].controls.steer = 1;
-    scene.vehicles[sliding].controls.throttle = 1;
+    scene.vehicles[sliding].controls = {.throttle = 1, .steer = 1};
+    const std::size_t slow_slot = test.slot(slow), sliding_slot = test.slot(sliding);
+    test.claims.push_back(close_to("radius of a slow curve", radius, 0.05 * radius, "m",
+                                   "speed / rate of turning after 3 s; wheelbase / tan(angle)", [slow_slot](const Trace& trace) {
+                                       for (const Trace::Moment& moment : trace.moments) {
+                                           const BodyState& body = moment.bodies[slow_slot];
+                                           if (moment.time >= 3)
+                                               return speed_of(body) / static_cast<double>(std::abs(body.angular_velocity.y));
+                                       }
+                                       return no_number;
+                                   }));
+    test.claims.push_back(between("greatest acceleration in a curve", 0.75 * g, 1.03 * g, "m/s^2",
+                                  "across the way, mean over half a second, wheels turned too far: v^2 / r <= mu g",
+                                  [sliding_slot](const Trace& trace) { return greatest_lateral(trace, sliding_slot); }));
+}
 
-    const float slope = 12 * degrees;
+void add_parked(Roadtest& test) {
+    constexpr float slope = 12 * degrees;
     const vec3 foot(-40, 0, 0);
     const vec4 tilt = turned({1, 0, 0}, -slope);
-    scene.bodies.push_back(fixed_box(foot + physics::rotate(tilt, vec3(0, -0.5f, 5)), {3, 0.5f, 8}, 1, tilt));
-    const std::size_t parked = add_car(scene, {.position = foot + vec3(0, 0, 5)});
-    turn_vehicle(scene, parked, foot, tilt);
-    scene.vehicles[parked].controls.hand_brake = 1;
-
-    const std::size_t tank = add_cart(scene, {.position = {-60, 0, 0}});
-    scene.vehicles[tank].controls = {.throttle = 0.5f, .steer = 0.5f};
-
-    const Indices watched = {chassis(starting), chassis(circling), chassis(sliding), chassis(parked), chassis(tank)};
-    const float seconds = 22;
-    const Claim starts =
-        close_to("time from 0 to 20 m/s", seconds_to_fast, 0.05 * seconds_to_fast, "s",
-                 "full torque to the speed P / F, then full power", [](const Trace& trace) { return time_to(trace, 0, 20); });
-    const Claim fastest = close_to("top speed", 25, 0.5, "m/s", "at the end, at full throttle",
-                                   [=](const Trace& trace) { return speed_of(trace.end[watched[0]]); });
-    const Claim turns = close_to("radius of a slow curve", radius, 0.05 * radius, "m",
-                                 "speed / rate of turning after 3 s; wheelbase / tan(angle)", [](const Trace& trace) {
-                                     for (const Trace::Moment& moment : trace.moments)
-                                         if (moment.time >= 3)
-                                             return speed_of(moment.bodies[1]) /
-                                                    static_cast<double>(std::abs(moment.bodies[1].angular_velocity.y));
-                                     return no_number;
-                                 });
-    const Claim holds = between("greatest acceleration in a curve", 0.75 * g, 1.03 * g, "m/s^2",
-                                "across the way, mean over half a second, with the wheels turned too far: v^2 / r <= mu g",
-                                [](const Trace& trace) { return greatest_lateral(trace, 2); });
-    const Claim stays =
-        at_most("drift of a car parked on a slope of 12 degrees", 0.001, "m", "from 1 s to the end", [](const Trace& trace) {
+    test.scene.bodies.push_back(fixed_box(foot + physics::rotate(tilt, vec3(0, -0.5f, 5)), {3, 0.5f, 8}, 1, tilt));
+    const std::size_t parked = add_car(test.scene, {.position = foot + vec3(0, 0, 5)});
+    turn_vehicle(test.scene, parked, foot, tilt);
+    test.scene.vehicles[parked].controls.hand_brake = 1;
+    const std::size_t slot = test.slot(parked);
+    test.claims.push_back(at_most(
+        "drift of a car parked on a slope of 12 degrees", 0.001, "m", "from 1 s to the end, 21 s", [slot](const Trace& trace) {
             for (const Trace::Moment& moment : trace.moments)
                 if (moment.time >= 1)
-                    return static_cast<double>(glm::distance(moment.bodies[3].position, trace.moments.back().bodies[3].position));
+                    return static_cast<double>(
+                        glm::distance(moment.bodies[slot].position, trace.moments.back().bodies[slot].position));
             return no_number;
-        });
-    const Claim turns_on_the_spot =
-        at_least("turns of the plain cart", 3, "", "sum of its turning about the vertical", [](const Trace& trace) {
+        }));
+}
+
+void add_plain(Roadtest& test) {
+    const std::size_t tank = add_cart(test.scene, {.position = {-60, 0, 0}});
+    test.scene.vehicles[tank].controls = {.throttle = 0.5f, .steer = 0.5f};
+    const std::size_t slot = test.slot(tank);
+    test.claims.push_back(
+        at_least("turns of the plain cart", 3, "", "sum of its turning to the left", [slot](const Trace& trace) {
             double sum = 0;
             for (std::size_t i = 1; i < trace.moments.size(); ++i)
-                sum += static_cast<double>(trace.moments[i].bodies[4].angular_velocity.y) *
+                sum += static_cast<double>(trace.moments[i].bodies[slot].angular_velocity.y) *
                        (trace.moments[i].time - trace.moments[i - 1].time);
             return sum / 6.2831853;
-        });
+        }));
+}
+
+}  // namespace
+
+DemoScene roadtest(const DemoOptions&) {
+    Roadtest test;
+    test.scene.bodies.push_back(ground(1));
+    add_braking(test);
+    add_start(test);
+    add_curves(test);
+    add_parked(test);
+    add_plain(test);
+    Promise promise(all_upright("all of them", test.all));
+    for (const Claim& claim : test.claims) promise.also(claim);
     const vec3 low(-64, 0, -10), high(80, 3, 40);
-    return awake({std::move(scene), view_of(low, high, 20, 30), low, high, seconds,
-                  Promise(brakes("wheels locked", chassis(locked), 0.75 * g), brakes("wheels rolling", chassis(rolling), gentle),
-                          starts, fastest, turns, holds, stays, turns_on_the_spot,
-                          all_upright("all of them", {chassis(locked), chassis(rolling), chassis(starting), chassis(circling),
-                                                      chassis(sliding), chassis(parked), chassis(tank)}))
-                      .watching(watched, 30)});
+    return awake(
+        {std::move(test.scene), view_of(low, high, 20, 30), low, high, 22, std::move(promise).watching(test.watched, 30)});
 }
 
 }  // namespace scree::demos

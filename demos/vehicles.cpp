@@ -126,6 +126,25 @@ std::vector<double> passages(const Trace& trace, const Course& c) {
     return times;
 }
 
+Promise promise_of(const Course& c, std::size_t car, const Indices& loose, const Claim& upright) {
+    const auto gates = static_cast<double>(c.gates.size());
+    const Claim all_gates = at_least("gates driven through", gates, "", "in their order, between the posts",
+                                     [c](const Trace& trace) { return static_cast<double>(passages(trace, c).size()); });
+    const Claim in_time = at_most("time to the last gate", 40, "s", "from the start", [c](const Trace& trace) {
+        const std::vector<double> times = passages(trace, c);
+        return times.size() == c.gates.size() ? times.back() : no_number;
+    });
+    const Claim pushed =
+        at_least("loose bodies pushed away", 12, "", "further than 0.5 m by the end", [loose](const Trace& trace) {
+            return static_cast<double>(std::count_if(loose.begin(), loose.end(), [&](std::size_t body) {
+                return glm::distance(trace.start[body].position, trace.end[body].position) > 0.5f;
+            }));
+        });
+    const Claim parks = at_most("speed of the car at the end", 0.01, "m/s", "it parks by itself",
+                                [car](const Trace& trace) { return static_cast<double>(glm::length(trace.end[car].velocity)); });
+    return Promise(all_gates, in_time, upright, pushed, parks).watching({car}, every_step);
+}
+
 }  // namespace
 
 DemoScene drive(const DemoOptions&) {
@@ -145,21 +164,6 @@ DemoScene drive(const DemoOptions&) {
     const Indices loose = add_loose(scene);
     const std::size_t cart = scene.vehicles[plain].chassis;
 
-    const auto gates = static_cast<double>(c.gates.size());
-    const Claim all_gates = at_least("gates driven through", gates, "", "in their order, between the posts",
-                                     [c](const Trace& trace) { return static_cast<double>(passages(trace, c).size()); });
-    const Claim in_time = at_most("time to the last gate", 40, "s", "from the start", [c](const Trace& trace) {
-        const std::vector<double> times = passages(trace, c);
-        return times.size() == c.gates.size() ? times.back() : no_number;
-    });
-    const Claim pushed =
-        at_least("loose bodies pushed away", 12, "", "further than 0.5 m by the end", [loose](const Trace& trace) {
-            return static_cast<double>(std::count_if(loose.begin(), loose.end(), [&](std::size_t body) {
-                return glm::distance(trace.start[body].position, trace.end[body].position) > 0.5f;
-            }));
-        });
-    const Claim parks = at_most("speed of the car at the end", 0.01, "m/s", "it parks by itself",
-                                [car](const Trace& trace) { return static_cast<double>(glm::length(trace.end[car].velocity)); });
     const vec3 low(-5, 0, -4), high(49, 4, 126);
     return {
         std::move(scene),
