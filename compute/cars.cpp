@@ -110,7 +110,7 @@ std::size_t add_car(Scene& scene, const Car& car) {
 
 std::size_t add_cart(Scene& scene, const Cart& cart) {
     const Stand stand(cart.position, cart.heading);
-    constexpr float radius = 0.3f, track = 0.65f, base = 0.6f;
+    constexpr float radius = 0.3f, track = 0.72f, base = 0.4f;
     Vehicle vehicle{.name = cart.name, .chassis = scene.bodies.size(), .wheels = {}, .engine = cart.engine};
     Body box;
     box.name = cart.name;

@@ -116,10 +116,13 @@ LAW JointAxis wheel_motor(JointAxis axis, Handling v, VehicleWheel wheel, float 
     float throttle = wheel_throttle(v, wheel);
     axis.speed = 0.0f;
     axis.most = larger(wheel.drag, braking);
-    if (braking <= 0.0f && throttle != 0.0f) {
-        axis.speed = (throttle > 0.0f ? v.top_speed : -v.back_speed) * reciprocal(wheel.radius);
-        if (wheel.skid != 0.0f) axis.speed = axis.speed * abs(throttle);  // else both sides would end up at the top speed
-        axis.most = abs(throttle) * smaller(wheel.torque, wheel.power * reciprocal(larger(abs(spin), 0.1f)));
+    bool is_track = wheel.skid != 0.0f && (v.throttle != 0.0f || v.steer != 0.0f);
+    if (braking <= 0.0f && (throttle != 0.0f || is_track)) {
+        float fastest = (throttle < 0.0f ? -v.back_speed : v.top_speed) * reciprocal(wheel.radius);
+        float torque = smaller(wheel.torque, wheel.power * reciprocal(larger(abs(spin), 0.1f)));
+        // The throttle says how hard a car's wheels are driven, and how fast a tank's, of which one side may have to stand.
+        axis.speed = is_track ? fastest * abs(throttle) : fastest;
+        axis.most = is_track ? torque : torque * abs(throttle);
     }
     axis.mode = axis.most > 0.0f ? AXIS_MOTOR : 0u;
     return axis;
