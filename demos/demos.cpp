@@ -31,7 +31,7 @@ const std::vector<Demo>& all_demos() {
         {"glass", "a ball goes through six panes of glass, and stops at the seventh", 8, false, glass},
         {"shatter", "bodies that fall into a pit burst into pieces", 2000, true, shatter},
         {"drive", "a car drives a course with a ramp, a banked curve and things to push", 37, false, drive},
-        {"cars", "cars of five bodies drive round and round, each by itself", 500, true, cars},
+        {"cars", "cars of five bodies drive round and round, each by itself", 100, true, cars},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
