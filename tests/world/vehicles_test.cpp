@@ -187,5 +187,5 @@ TEST_CASE("a scene file may name a vehicle's bodies and joints, and a wrong name
           0);
     CHECK(said(R"({"chassis": 0})").find("/vehicles/0: needs \"wheels\"") == 0);
     CHECK(said(R"({"chassis": 0, "wheels": [{"joint": 0}], "engine": {"torqe": 1}})")
-              .find("/vehicles/0/engine: unknown key \"torqe\"") == 0);
+              .find("/vehicles/0/engine/torqe: unknown key \"torqe\"") == 0);
 }
