@@ -1,10 +1,10 @@
 // Tyres: rubber holds by slipping a little, holds best at some slip, and worse when it slides.
 //
-// The slip is how fast the tread moves over the ground, of how fast the wheel goes along or its tread goes round, whichever is
-// faster: at rest against the hub 0, of a locked wheel 1; sideways it is the tangent of the slip angle. Up to the best slip the
-// friction grows in proportion to it, then it falls to that of a sliding tyre at slip 1 (as brush models and measured curves do:
-// Pacejka, Tire and Vehicle Dynamics, chapters 1 and 3), and it points against the slip whichever way that goes, so that braking
-// and cornering share what there is.
+// The slip is how fast the tread moves over the ground, in parts of how fast the wheel goes along or its tread goes round,
+// whichever is faster: 0 of a wheel that rolls freely, 1 of a locked one; sideways it is the tangent of the slip angle. Up to the
+// best slip the friction grows in proportion to it, then it falls to that of a sliding tyre at slip 1 (as brush models and
+// measured curves do: Pacejka, Tire and Vehicle Dynamics, chapters 1 and 3), and it points against the slip whichever way that
+// goes, so that braking and cornering share what there is.
 //
 // The rising part would be far too stiff for a force known from the slip before: a light wheel stops slipping within a
 // millisecond. So it is the compliance of the friction's rows, solved with them (block.h); only the falling part is taken from
