@@ -197,7 +197,7 @@ void relax(State& state, const Threads& threads, bool last, bool first, bool fel
         if (felt) tables.felt = reinterpret_cast<std::uint32_t*>(state.candidates.data());
         tables.first = first;
         if (last) tables.told = reinterpret_cast<const std::uint32_t*>(all_told.data());
-        threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->relax(tables, first, end); });
+        threads.for_ranges(state.counted().solved, [&](std::size_t from, std::size_t to) { wide->relax(tables, from, to); });
         return;
     }
     threads.for_each(state.counted().solved, [&](std::size_t k) {
