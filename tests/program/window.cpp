@@ -1,5 +1,6 @@
 // The window itself, on a display without a screen, with a mouse and keys made by xdotool; pictures of it stay in the build
 // folder.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <csignal>
@@ -161,7 +162,8 @@ TEST_CASE("in the window keys drive a car and put it on its wheels, and a record
     REQUIRE(viewer.process().end(30) == 0);
     const json recorded = json::parse(place.read("driven.json"));
     REQUIRE(recorded.at("acts").size() >= 5);
-    REQUIRE(recorded.at("acts").back().contains("righten"));
+    const json& acts = recorded.at("acts");
+    REQUIRE(std::any_of(acts.begin(), acts.end(), [](const json& act) { return act.contains("righten"); }));
     const Outcome outcome = run_scree("run --input '" + recording + "' --backend cpu");
     INFO(outcome.output << outcome.errors);
     REQUIRE(outcome.status != 2);  // a promise is no matter here
