@@ -139,7 +139,7 @@ void DeviceRunner::upload() {
     using enum Table;
     parity_ = 0;
     const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints}) send(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles}) send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
     for (const Table table :
@@ -200,6 +200,9 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
             break;
         case Over::joint_blocks:
             recording.dispatch(std::max(1u, physics::work_for(p.joint_blocks, p).x));
+            break;
+        case Over::vehicles:
+            recording.dispatch(std::max(1u, physics::work_for(p.vehicles, p).x));
             break;
     }
 }
@@ -277,8 +280,8 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts,  traits,          poses,           velocities,           rests, hulls, joints,
-                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
+    const auto lasting = {parameters, counts,   traits, poses,   velocities,      rests,           hulls,
+                          joints,     vehicles, masses, actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
@@ -306,6 +309,16 @@ void DeviceRunner::fetch_contacts() {
 
 void DeviceRunner::fetch_joints() {
     if (state_->has_joints()) read(Table::joints, state_->raw(Table::joints));
+}
+
+void DeviceRunner::fetch_vehicles() {
+    if (planned_content_.vehicles) read(Table::vehicles, state_->raw(Table::vehicles));
+}
+
+void DeviceRunner::send_vehicle(std::size_t index) {
+    constexpr std::size_t first = offsetof(physics::Handling, throttle);
+    constexpr std::size_t bytes = offsetof(physics::Handling, next) - first;
+    buffer(Table::vehicles).write(&state_->vehicles[index].handling.throttle, bytes, index * sizeof(physics::Vehicle) + first);
 }
 
 void DeviceRunner::send_joint(std::size_t record) {

@@ -34,6 +34,8 @@ public:
     void fetch_contacts() override;
     void fetch_joints() override;
     void send_joint(std::size_t record) override;
+    void fetch_vehicles() override;
+    void send_vehicle(std::size_t index) override;
     void fetch() override;
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }

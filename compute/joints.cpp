@@ -193,6 +193,7 @@ JointAxes axes_of_kind(const JointKind& kind) {
         made.axes[3].friction = cone->friction;
     } else if (const auto* six = std::get_if<SixDegrees>(&kind)) {
         const Axis all[] = {six->x, six->y, six->z, six->twist, six->swing_y, six->swing_z};
+        if (!six->twist.locked) made.flags = physics::JOINT_SPINS;
         std::copy(std::begin(all), std::end(all), made.axes);
     }
     return made;

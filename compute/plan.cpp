@@ -39,6 +39,7 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     // what pushes the bodies, where they will be
     s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, rests, counts}});
     s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads, rests}});
+    if (content.vehicles) s.push_back({"drive_vehicles", Over::vehicles, drive_vehicles, {vehicles, Table::joints, rests}});
     if (content.moving_parts) s.push_back({"place_parts", Over::bodies, place_parts, {poses, velocities}});
     s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts}});
     // broadphase: who is near whom

@@ -29,7 +29,8 @@ enum class Over {
     solved,
     kind,
     flights,
-    joint_blocks
+    joint_blocks,
+    vehicles
 };
 
 struct Stage {

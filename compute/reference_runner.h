@@ -23,6 +23,8 @@ public:
     void fetch_contacts() override {}
     void fetch_joints() override {}
     void send_joint(std::size_t) override {}
+    void fetch_vehicles() override {}
+    void send_vehicle(std::size_t) override {}
     void fetch() override {}
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }

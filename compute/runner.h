@@ -33,8 +33,10 @@ public:
     virtual void fetch_body(std::size_t index) = 0;  // pose, velocity and rest of one
     virtual void fetch_bodies() = 0;
     virtual void fetch_contacts() = 0;
-    virtual void fetch_joints() = 0;                  // all of them
-    virtual void send_joint(std::size_t record) = 0;  // the axes of a record, which were changed in the attached state
+    virtual void fetch_joints() = 0;                   // all of them
+    virtual void send_joint(std::size_t record) = 0;   // the axes of a record, which were changed in the attached state
+    virtual void fetch_vehicles() = 0;                 // all of them
+    virtual void send_vehicle(std::size_t index) = 0;  // what it is told, which was changed in the attached state
     virtual void fetch() = 0;
     virtual StageTimes stage_times() const = 0;       // means over the steps since the runner was first attached, or
                                                       // the substeps changed

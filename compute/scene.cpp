@@ -14,6 +14,7 @@
 #include "compute/hull.h"
 #include "compute/mesh.h"
 #include "compute/scene_joints.h"
+#include "compute/scene_vehicles.h"
 #include "shaders/physics/hulls.h"
 
 namespace scree {
@@ -270,6 +271,10 @@ Shift examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::s
     body.between("/linear_damping", b.linear_damping, 0, largest_damping, " 1/s");
     body.between("/angular_damping", b.angular_damping, 0, largest_damping, " 1/s");
     body.between("/gravity_scale", b.gravity_scale, -largest_scale, largest_scale, "");
+    if (b.tyre) {
+        body.between("/tyre/best_slip", b.tyre->best_slip, 0.01f, 0.9f, "");
+        body.between("/tyre/sliding", b.tyre->sliding, 0, 1, "");
+    }
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
         body.refuse("/velocity", "a fixed body has no velocity; a body that moves whatever it meets is \"kinematic\"");
     }
@@ -302,6 +307,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
     check_joints(scene);
+    check_vehicles(scene);
     add_pieces(scene);
     return scene;
 }

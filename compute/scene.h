@@ -76,6 +76,13 @@ using Shape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull, Co
 std::optional<SimpleShape> simple_shape(const Shape& shape);
 Shape whole_shape(const SimpleShape& shape);
 
+// Rubber: a wheel's friction with slip (shaders/physics/tyre.h). The friction of a Body is that at the best slip.
+struct Tyre {
+    float best_slip = 0.1f;  // at which it holds best, 0.01 to 0.9; sideways the tangent of the slip angle
+    float sliding = 0.75f;   // part of the friction that is left when it slides, 0 to 1
+    bool operator==(const Tyre&) const = default;
+};
+
 enum class Motion {
     dynamic,    // moved by forces and contacts
     fixed,      // never moves
@@ -124,6 +131,7 @@ struct Body {
     float linear_damping = 0;      // 1/s, >= 0
     float angular_damping = 0;     // 1/s, >= 0
     float gravity_scale = 1;
+    std::optional<Tyre> tyre{};  // of a sphere, capsule or cylinder, or of a compound's parts that are; none: plain friction
     std::optional<Fracture> fracture{};  // none: it never breaks
     // Of which body of the scene this is a piece, not there until that one breaks: its place is the one that it would have at the
     // start. Pieces are added behind the other bodies when the scene is checked; no scene says it.
@@ -199,10 +207,64 @@ struct Joint {
     bool broken = false;                            // it has torn already
 };
 
+// ---- vehicles
+// A chassis and wheels, each a body held to it by a joint from the chassis (a) to the wheel (b), whose x axis is the axle and
+// points to the left, and whose y axis points up: a Hinge, or SixDegrees whose twist is free, with a spring along y for a
+// suspension, and whose swing_y has equal limits if the wheel is steered. The step drives these joints' motors.
+// compute/cars.h makes such bodies and joints.
+struct Controls {
+    float throttle = 0;    // -1 to 1, < 0: backwards
+    float brake = 0;       // 0 to 1. A wheel that is braked is not driven
+    float steer = 0;       // -1 to 1, 1: to the left
+    float hand_brake = 0;  // 0 to 1
+    bool operator==(const Controls&) const = default;
+};
+struct Wheel {
+    std::size_t joint = 0;  // of the scene
+    float radius = 0.3f;    // m, 1e-3 to 1e3
+    float drive = 0;        // its share of the engine, >= 0; the shares of all wheels are brought to a sum of 1
+    float brake = 0;        // N m, of the brake fully trodden
+    float hand_brake = 0;   // N m
+    bool steers = false;    // turns about the joint's y axis, as the curve asks (Ackermann)
+    float skid = 0;         // what steering adds to its throttle, -1 to 1: vehicles without steered wheels turn like tanks
+};
+struct Engine {
+    float torque = 1500;    // N m, at full throttle, of all driven wheels together
+    float power = 75000;    // W; above power / torque the torque falls as 1 / speed
+    float top_speed = 50;   // m/s
+    float back_speed = 10;  // m/s, backwards
+    float drag = 40;        // N m, of all driven wheels together without throttle
+};
+struct Steering {
+    float angle = 0.6f;  // rad, of a wheel in the middle at full lock, 0.01 to 1.2
+    float time = 0.4f;   // s, from straight ahead to full lock, 0.01 to 100
+    float lateral = 8;   // m/s^2: no curve is asked for that needs more at the present speed, 0.1 to 1e4
+};
+struct WayPoint {
+    vec3 position{0};  // m
+    float speed = 10;  // m/s, 0.1 to 1e3; on the way to the next it changes evenly
+};
+struct Vehicle {
+    std::string name;  // for messages; may be empty
+    std::size_t chassis = 0;
+    std::vector<Wheel> wheels;  // 1 to 8
+    Engine engine{};
+    Steering steering{};
+    Controls controls{};  // until World::drive says otherwise
+    // Points to drive past one after the other, from the first (where it begins) to the last, where it stops; at least 2, or
+    // none. A vehicle with a route follows it by itself, on the device, until World::drive takes it over.
+    std::vector<WayPoint> route{};
+    bool loops = false;  // behind the last point it goes on to the first
+    // State, for a scene that goes on.
+    bool by_route = true;  // whether the route drives, if there is one
+    std::size_t next = 1;  // way point that it drives to
+};
+
 struct Scene {
     vec3 gravity{0, -9.81f, 0};  // m/s^2
     std::vector<Body> bodies;
     std::vector<Joint> joints;
+    std::vector<Vehicle> vehicles{};
 };
 
 // A joint of two bodies of the scene (or the world) as they lie now, with its anchor and its x axis where they are in the world.

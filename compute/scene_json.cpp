@@ -6,6 +6,7 @@
 
 #include "compute/json_reading.h"
 #include "compute/scene_json_joints.h"
+#include "compute/scene_json_vehicles.h"
 
 namespace scree {
 
@@ -14,11 +15,11 @@ namespace {
 using namespace json_reading;
 using Event = json::parse_event_t;
 
-const Names scene_keys = {"gravity", "bodies", "joints", "camera"};
+const Names scene_keys = {"gravity", "bodies", "joints", "vehicles", "camera"};
 const Names body_keys = {
     "name",    "motion",   "shape",       "position",           "orientation",    "velocity",        "angular_velocity",
     "density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale",
-    "fracture"};
+    "tyre",    "fracture"};
 const Names shape_names = {"box", "capsule", "compound", "cone", "cylinder", "height_field", "hull", "mesh", "plane", "sphere"};
 
 }  // namespace
@@ -176,6 +177,13 @@ static void read(const json& value, const Place& place, std::optional<Fracture>&
     fracture.seed = static_cast<std::uint32_t>(seed);
 }
 
+static void read(const json& value, const Place& place, std::optional<Tyre>& out) {
+    only(value, place, {"best_slip", "sliding"});
+    Tyre& tyre = out.emplace();
+    optional(value, place, "best_slip", tyre.best_slip);
+    optional(value, place, "sliding", tyre.sliding);
+}
+
 Body body_of(const json& value, const Place& place) {
     only(value, place, body_keys);
     Body body;
@@ -193,6 +201,7 @@ Body body_of(const json& value, const Place& place) {
     optional(value, place, "linear_damping", body.linear_damping);
     optional(value, place, "angular_damping", body.angular_damping);
     optional(value, place, "gravity_scale", body.gravity_scale);
+    optional(value, place, "tyre", body.tyre);
     optional(value, place, "fracture", body.fracture);
     return body;
 }
@@ -301,6 +310,7 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     optional(rest, root, "gravity", document.scene.gravity);
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera");
     if (rest.contains("joints")) read_joints(rest["joints"], document.scene);
+    if (rest.contains("vehicles")) read_vehicles(rest["vehicles"], document.scene);
     return document;
 }
 

@@ -6,6 +6,7 @@
 
 #include "compute/scene_json.h"
 #include "compute/scene_json_joints.h"
+#include "compute/scene_json_vehicles.h"
 
 namespace scree {
 
@@ -163,6 +164,8 @@ void write(Text& text, const Body& body) {
     text.unless_default("linear_damping", body.linear_damping, by_default.linear_damping);
     text.unless_default("angular_damping", body.angular_damping, by_default.angular_damping);
     text.unless_default("gravity_scale", body.gravity_scale, by_default.gravity_scale);
+    if (body.tyre)
+        text << ", \"tyre\": {\"best_slip\": " << body.tyre->best_slip << ", \"sliding\": " << body.tyre->sliding << "}";
     if (body.fracture) write(text, *body.fracture);
     text << "}";
 }
@@ -215,7 +218,13 @@ std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& vi
         text << between << joint_to_json(joint);
         between = ",\n  ";
     }
-    text << (scene.joints.empty() ? "}\n" : "\n]}\n");
+    if (!scene.joints.empty()) text << "\n]";
+    between = ",\n \"vehicles\": [\n  ";
+    for (const Vehicle& vehicle : scene.vehicles) {
+        text << between << vehicle_to_json(vehicle);
+        between = ",\n  ";
+    }
+    text << (scene.vehicles.empty() ? "}\n" : "\n]}\n");
     return text.take();
 }
 

@@ -12,6 +12,7 @@
 #include "compute/hull.h"
 #include "compute/joints.h"
 #include "compute/mesh.h"
+#include "compute/vehicles.h"
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/parts.h"
@@ -139,6 +140,8 @@ State::State(const Scene& scene, const Settings& settings, std::uint32_t group_s
     joints = std::move(joined.records);
     joint_records = std::move(joined.record_of);
     p.joint_blocks = joined.blocks;
+    vehicles = vehicle_records(scene, joint_records, hulls);
+    p.vehicles = static_cast<std::uint32_t>(vehicles.size());
     p.bodies = rows;
     p.first_part = n;
     p.buckets = buckets_for(rows);
@@ -203,6 +206,8 @@ std::size_t State::allocated(Length length) const {
             return 2 * std::size_t{p.contact_capacity} + joints.size();
         case Length::joints:
             return std::max<std::size_t>(1, joints.size());
+        case Length::vehicles:
+            return std::max<std::size_t>(1, vehicles.size());
         case Length::hulls:
             return std::max<std::size_t>(1, hulls.size());
     }
@@ -246,7 +251,8 @@ void State::make(Table table) {
 
 void State::allocate() {
     using enum Table;
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints}) make(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints, vehicles})
+        make(table);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }

@@ -32,7 +32,8 @@ enum class Length {
     contacts,
     slots,
     hulls,
-    joints
+    joints,
+    vehicles
 };
 
 enum class Table : std::uint32_t {
@@ -58,7 +59,8 @@ struct Content {
     bool moving_parts = false;  // there are compounds, or meshes, that move
     bool joints = false;
     bool breaking = false;  // some body may break
-    static Content everything() { return {true, true, true, true, true}; }
+    bool vehicles = false;
+    static Content everything() { return {true, true, true, true, true, true}; }
     bool operator==(const Content&) const = default;
 };
 
@@ -139,12 +141,15 @@ private:
     void allocate();
     physics::Traits traits_of(const Body& body, std::uint32_t index);
     physics::Traits form_of(const SimpleShape& shape);
+    physics::Traits form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
     void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others
     void place(std::uint32_t part);                            // where its body is
     physics::uint place_of(const Hull& hull);
     physics::uint place_of(const Fracture& fracture);
+    physics::uint place_of(const std::optional<Tyre>& tyre);
     bool all_ = true;
     std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table
+    std::map<std::pair<float, float>, physics::uint> tyres_;           // likewise
     std::map<std::shared_ptr<const Cut>, physics::uint> cuts_;         // of how bodies come apart, in the same table
 };
 

@@ -145,10 +145,28 @@ physics::uint State::place_of(const Fracture& fracture) {
     return static_cast<physics::uint>(hulls.size() - 1);
 }
 
+// In the form of shaders/physics/tyre.h; 0: none.
+physics::uint State::place_of(const std::optional<Tyre>& tyre) {
+    if (!tyre) return 0;
+    const physics::uvec4 record(std::bit_cast<physics::uint>(tyre->best_slip), std::bit_cast<physics::uint>(tyre->sliding), 0, 0);
+    const auto [known, fresh] =
+        tyres_.try_emplace({tyre->best_slip, tyre->sliding}, static_cast<physics::uint>(hulls.size() + 1));
+    if (fresh) hulls.push_back(record);
+    return known->second;
+}
+
+physics::Traits State::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
+    physics::Traits made = form_of(shape);
+    const bool rolls = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Capsule>(shape) ||
+                       std::holds_alternative<Cylinder>(shape);
+    if (rolls) made.large = place_of(tyre) << 1;
+    return made;
+}
+
 physics::Traits State::traits_of(const Body& body, std::uint32_t index) {
     physics::Traits made{};
     if (const std::optional<SimpleShape> simple = simple_shape(body.shape)) {
-        made = form_of(*simple);
+        made = form_of(*simple, body.tyre);
     } else {
         made.shape = physics::SHAPE_NONE;
         made.size = size_of_whole(body.shape);
@@ -191,7 +209,7 @@ void State::append_parts(const Body& body, std::uint32_t owner) {
         traits.push_back(part);
     };
     if (const auto* compound = std::get_if<Compound>(&body.shape))
-        for (const Part& part : compound->parts) append(form_of(part.shape), part.position, part.orientation);
+        for (const Part& part : compound->parts) append(form_of(part.shape, body.tyre), part.position, part.orientation);
     if (const MeshForm* form = mesh_form_of(body.shape)) {
         hulls.reserve(hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
         for (const MeshForm::Triangle& triangle : form->triangles) {
@@ -216,6 +234,7 @@ void State::place(std::uint32_t part) {
 Content State::content() const {
     Content found;
     found.joints = has_joints();
+    found.vehicles = fixed().vehicles != 0;
     found.breaking = has_fractures();
     for (const physics::Traits& row : traits) {
         found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;

@@ -32,6 +32,7 @@ enum class Amount {
     binned_bodies,  // their bodies, at most all
     binned_hulls,   // records of their hulls, each once
     joints,
+    vehicles,
     flights,         // pairs if some body is fast, else none
     flight_bodies,   // their bodies
     stirred,         // contacts if some body sleeps, else none
@@ -76,6 +77,7 @@ std::map<std::string, Accesses> all_accesses() {
                            {{velocities, A::actions}, {rests, A::actions}, {loads, A::actions}}}},
         {"bound_bodies", {{{traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}, {loads, A::bodies}, {masses, A::bodies, 1}, {rests, A::bodies}, {cells, A::bodies}},
                           {{bounds, A::bodies}, {masses, A::bodies}, {cells, A::bodies}}}},
+        {"drive_vehicles", {{{vehicles, A::vehicles}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}}, {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, {rests, A::joints}}}},
         {"place_parts", {{{traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}}, {{poses, A::bodies}, {velocities, A::bodies}}}},
         {"scan_cells_sums", scan_sums(cells, A::buckets)},
         {"scan_cells_spine", scan_spine()},
@@ -162,7 +164,7 @@ const std::map<std::string, Accesses>& accesses() {
 // How many of each there were in the last step.
 struct Step {
     std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, kinds = 0, pairs = 0, contacts = 0, solved = 0, slots = 0,
-                joints = 0;
+                joints = 0, vehicles = 0;
     std::size_t actions = 0, flights = 0, stirred = 0;
     std::vector<std::size_t> of_kind, hulls_of_kind;
 
@@ -178,6 +180,7 @@ struct Step {
         blocks = std::max(kinds, pairs) / block + 1;
         actions = state.fixed().actions;
         joints = state.has_joints() ? state.joints.size() : 0;
+        vehicles = state.fixed().vehicles;
         flights = c.arguments[physics::WORK_FLIGHTS].x ? pairs : 0;
         stirred = c.sleepers ? contacts : 0;
         for (physics::uint k = 0; k < physics::KINDS; ++k) of_kind.push_back(c.kind_first[k + 1] - c.kind_first[k]);
@@ -235,6 +238,8 @@ struct Step {
                 return stage.over == Over::kind ? hulls_of_kind[stage.pass] : 0;
             case Amount::joints:
                 return joints;
+            case Amount::vehicles:
+                return vehicles;
             case Amount::flights:
                 return flights;
             case Amount::flight_bodies:

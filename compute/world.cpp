@@ -175,7 +175,9 @@ Scene World::snapshot() const {
     scene.bodies = std::move(there);
     interior_->runner->fetch_joints();
     std::vector<Joint> joints;
+    std::vector<std::size_t> joint_there(scene.joints.size(), no_body);
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        joint_there[i] = joints.size();
         Joint& joint = joints.emplace_back(scene.joints[i]);
         joint.broken = interior_->joint_state(i).broken;
         const auto gone = [&](std::size_t& body) {
@@ -183,9 +185,13 @@ Scene World::snapshot() const {
             body = place_there[body];
             return body == no_body;
         };
-        if (gone(joint.a) | gone(joint.b)) joints.pop_back();
+        if (gone(joint.a) | gone(joint.b)) {
+            joints.pop_back();
+            joint_there[i] = no_body;
+        }
     }
     scene.joints = std::move(joints);
+    interior_->keep_vehicles(scene, place_there, joint_there);
     return scene;
 }
 
@@ -223,6 +229,7 @@ const State& World::state() const {
     interior_->runner->fetch_bodies();
     interior_->runner->fetch_contacts();
     interior_->runner->fetch_joints();
+    interior_->runner->fetch_vehicles();
     return interior_->state;
 }
 

@@ -48,6 +48,17 @@ struct JointState {
     std::array<float, 6> places{};
 };
 
+// A vehicle as the last step left it.
+struct VehicleState {
+    Controls controls{};     // what it was told, or what its driver does
+    float speed = 0;         // m/s, ahead
+    float curvature = 0;     // of the curve that its wheels are steered to, 1/m, > 0: to the left
+    bool by_route = false;   // the driver follows the route
+    std::size_t passed = 0;  // way points so far
+    std::size_t next = 0;    // way point that it drives to
+    bool arrived = false;    // at the end of the route
+};
+
 // A hold on a body: a damped spring between a point of it and a place, solved implicitly and within every substep.
 struct GripSpring {
     float hertz = 5;               // 0.1 to 30, of the body at the point where it is held. Below, it hangs far down
@@ -127,6 +138,13 @@ public:
     void set_motor(std::size_t joint, JointAxis axis, const Motor& motor);
     void set_spring(std::size_t joint, JointAxis axis, const Spring& spring);
 
+    // From the next step on, until told otherwise: what a vehicle's driver does; its route no longer drives it. Wakes it. Throws
+    // std::out_of_range for the index, std::invalid_argument for values out of range.
+    void drive(std::size_t vehicle, const Controls& controls);
+    void drive_by_route(std::size_t vehicle);  // from where it was left; std::invalid_argument if it has none
+    // Puts a vehicle on its wheels, at rest, half a metre above where it is. It reads everything back and sends it again once.
+    void put_upright(std::size_t vehicle);
+
     // Holds a dynamic body at `anchor` (in its own frame, from its centre; what lies outside of the box around it is brought to
     // that box) and draws that point to `target` (world, within 1e6 m of 0), step by step, until released. A held body is awake.
     // Returns the number of the grip. Throws as apply_force does, and std::length_error if most_grips are held already.
@@ -165,6 +183,8 @@ public:
     std::vector<BodyState> bodies() const;
     JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
+    VehicleState vehicle(std::size_t index) const;  // throws std::out_of_range; reads all vehicles
+    std::vector<VehicleState> vehicles() const;
     // The scene with every body that is there where it is now and as fast; pieces are bodies as all others. A world made of it
     // goes on from there, but not to the same bits: its contacts begin anew, sleepers are awake, and what a position has below
     // its last bit is gone.

@@ -44,6 +44,13 @@ struct World::Interior {
     void wake(const Joint& joint);  // its bodies, in the next step
     void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
 
+    // world_vehicles.cpp
+    void require_vehicle(std::size_t vehicle) const;  // throws std::out_of_range
+    void tell(std::size_t vehicle, const Controls& controls, bool by_route);
+    VehicleState vehicle_state(std::size_t index) const;
+    // As they are now, into a snapshot whose bodies and joints are those that are there (no_body: gone).
+    void keep_vehicles(Scene& snapshot, const std::vector<std::size_t>& bodies, const std::vector<std::size_t>& joints) const;
+
     // world_handling.cpp
     Held& held(std::size_t grip);  // throws std::out_of_range
     void take_up_grips();          // into the parameters of the coming step

@@ -25,6 +25,8 @@ struct Performer {
     void operator()(const Unjoin& act) const { world.remove_joint(act.joint); }
     void operator()(const Push& act) const { world.apply_force(act.body, act.force); }
     void operator()(const Explode& act) const { world.explode(act.centre, act.radius, act.speed); }
+    void operator()(const Drive& act) const { world.drive(act.vehicle, act.controls); }
+    void operator()(const Righten& act) const { world.put_upright(act.vehicle); }
     void operator()(const Turn& act) const {
         if (act.gravity) world.set_gravity(*act.gravity);
         if (act.substeps) world.set_substeps(*act.substeps);

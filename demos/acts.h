@@ -42,6 +42,13 @@ struct Explode {
     float radius = 1;  // m
     float speed = 0;   // m/s
 };
+struct Drive {  // until told otherwise; see World::drive
+    std::size_t vehicle = 0;
+    Controls controls;
+};
+struct Righten {  // puts it on its wheels
+    std::size_t vehicle = 0;
+};
 struct Turn {  // the dials; what is empty stays
     std::optional<vec3> gravity;
     std::optional<int> substeps;
@@ -50,7 +57,7 @@ struct Turn {  // the dials; what is empty stays
     std::optional<bool> sleeping;
 };
 
-using Act = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin>;
+using Act = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin, Drive, Righten>;
 
 struct TimedAct {
     std::uint64_t step = 0;  // steps done before it

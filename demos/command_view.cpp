@@ -198,6 +198,10 @@ void Viewer::write_report() {
                                    {"steps_per_second", rates_.steps},
                                    {"pictures_per_second", rates_.pictures},
                                    {"seconds", seconds_between(started_, Clock::now())}};
+    if (interaction_.vehicle()) {
+        const VehicleState vehicle = world.vehicle(*interaction_.vehicle());
+        json["vehicle"] = {{"speed", vehicle.speed}, {"by_route", vehicle.by_route}, {"steer", vehicle.controls.steer}};
+    }
     if (interaction_.selected()) {
         json["selected"] = *interaction_.selected();
         json["selected_position"] = numbers(world.body(*interaction_.selected()).position);

@@ -30,6 +30,8 @@ const std::vector<Demo>& all_demos() {
         {"wrecking", "a heavy ball on a chain breaks through a brick wall", 204, false, wrecking},
         {"glass", "a ball goes through six panes of glass, and stops at the seventh", 8, false, glass},
         {"shatter", "bodies that fall into a pit burst into pieces", 2000, true, shatter},
+        {"drive", "a car drives a course with a ramp, a banked curve and things to push", 37, false, drive},
+        {"cars", "cars of five bodies drive round and round, each by itself", 100, true, cars},
 
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
@@ -45,6 +47,7 @@ const std::vector<Demo>& all_demos() {
 
         {"solids", "cylinders, cones and hulls stand, stack and roll", 17, false, solids, true},
         {"thresholds", "bodies break on what is just above their threshold, not just below", 32, false, thresholds, true},
+        {"roadtest", "cars brake, accelerate, corner and park as the formulas say", 35, false, roadtest, true},
         {"fragments", "bodies that break in empty space keep their momentum", 64, false, fragments, true},
 
         {"compounds", "tables of five boxes carry columns; a bar tips where its centre of mass says", 14, false, compounds, true},
@@ -76,6 +79,8 @@ DemoScene build(const Demo& demo, DemoOptions options) {
     const vec3 offset(options.offset, 0, options.offset);
     for (Body& body : made.scene.bodies) body.position += offset;
     for (vec3* place : {&made.viewpoint.eye, &made.viewpoint.target, &made.low, &made.high}) *place += offset;
+    for (Vehicle& vehicle : made.scene.vehicles)
+        for (WayPoint& point : vehicle.route) point.position += offset;
     for (ViewKey& key : made.viewpoint.path) key.eye += offset, key.target += offset;
     return made;
 }

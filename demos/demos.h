@@ -67,6 +67,8 @@ DemoScene machine(const DemoOptions&);
 DemoScene wrecking(const DemoOptions&);
 DemoScene glass(const DemoOptions&);
 DemoScene shatter(const DemoOptions&);
+DemoScene drive(const DemoOptions&);
+DemoScene cars(const DemoOptions&);
 
 DemoScene stack20(const DemoOptions&);
 DemoScene stack80(const DemoOptions&);
@@ -94,5 +96,6 @@ DemoScene shots(const DemoOptions&);
 DemoScene strikes(const DemoOptions&);
 DemoScene thresholds(const DemoOptions&);
 DemoScene fragments(const DemoOptions&);
+DemoScene roadtest(const DemoOptions&);
 
 }  // namespace scree::demos

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace scree::demos {
 
@@ -10,6 +11,7 @@ namespace {
 constexpr float steepest = 1.55f;                      // rad: at the pole left and right have no meaning
 constexpr float nearest = 0.05f, farthest = 20000.0f;  // m
 constexpr float turn_of_a_pixel = 0.006f;              // rad
+constexpr float chasing_elevation = 0.28f;             // rad
 }  // namespace
 
 Eye::Eye(const Viewpoint& view) : target_(view.target), vertical_fov_(view.vertical_fov) {
@@ -50,6 +52,17 @@ void Eye::pan(double dx, double dy, Extent extent) {
 
 void Eye::zoom(double clicks) {
     distance_ = std::clamp(distance_ * std::pow(0.88f, static_cast<float>(clicks)), nearest, farthest);
+}
+
+void Eye::chase(vec3 target, vec3 ahead, float distance, double seconds) {
+    constexpr double in_place = 8, behind = 2.5;  // 1/s
+    const auto part = [&](double rate) { return static_cast<float>(1 - std::exp(-rate * std::min(seconds, 1.0))); };
+    target_ += (target - target_) * part(in_place);
+    distance_ += (distance - distance_) * part(behind);
+    elevation_ += (chasing_elevation - elevation_) * part(behind);
+    if (std::abs(ahead.x) + std::abs(ahead.z) < 0.1f) return;  // on its nose
+    const float turn = std::atan2(-ahead.x, -ahead.z) - azimuth_;
+    azimuth_ += std::remainder(turn, 2 * std::numbers::pi_v<float>) * part(behind);
 }
 
 Ray Eye::ray(double x, double y, Extent extent) const {

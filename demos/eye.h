@@ -30,9 +30,11 @@ public:
     float distance() const { return distance_; }  // m, to the target
     vec3 target() const { return target_; }
 
-    void orbit(double dx, double dy);                // by a way of the pointer, pixels
-    void pan(double dx, double dy, Extent extent);   // what lies as far away as the target goes with the pointer
-    void zoom(double clicks);                        // nearer for > 0
+    void orbit(double dx, double dy);               // by a way of the pointer, pixels
+    void pan(double dx, double dy, Extent extent);  // what lies as far away as the target goes with the pointer
+    void zoom(double clicks);                       // nearer for > 0
+    // As a camera that chases what drives: it looks at the target, and comes round to behind it within a second or so.
+    void chase(vec3 target, vec3 ahead, float distance, double seconds);
     void look_at(vec3 target) { target_ = target; }  // from the same side and distance
 
     // Through the middle of a pixel (x to the right, y down), and back; nothing for a point behind the eye.

@@ -19,9 +19,11 @@
 //       {"step": 30, "explode": {"centre": [0, 0, 0], "radius": 5, "speed": 10}},
 //       {"step": 40, "turn": {"gravity": [0, -1.6, 0], "substeps": 4, "friction_factor": 0.5, "least_restitution": 0.9,
 //                             "sleeping": false}}
+//       {"step": 50, "drive": {"vehicle": 0, "throttle": 1, "brake": 0, "steer": -0.5, "hand_brake": 0}},
+//       {"step": 90, "righten": {"vehicle": 0}}
 //     ]}
 // Anchors are in the body's frame, "add" takes a body and "join" a joint as a scene file does (bodies by their
-// index, places in their frames), "turn" any of its keys. SI units.
+// index, places in their frames), "turn" any of its keys, "drive" holds until the next one. SI units.
 #pragma once
 
 #include <cstdint>

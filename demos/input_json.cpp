@@ -20,7 +20,7 @@ using namespace json_reading;
 
 const Names keys = {"scree_input", "scene", "bodies",   "seed", "rate",      "substeps",
                     "sleeping",    "steps", "end_hash", "acts", "start_hash"};
-const Names act_names = {"grab", "drag", "release", "add", "join", "unjoin", "push", "explode", "turn"};
+const Names act_names = {"grab", "drag", "release", "add", "join", "unjoin", "push", "explode", "turn", "drive", "righten"};
 constexpr std::uint64_t most_steps = 1000000000;  // as --steps
 
 // ---- writing
@@ -59,6 +59,12 @@ struct Writer {
         return fmt::format(R"("explode": {{"centre": {}, "radius": {}, "speed": {}}})", text_of(act.centre), text_of(act.radius),
                            text_of(act.speed));
     }
+    std::string operator()(const Drive& act) const {
+        return fmt::format(R"("drive": {{"vehicle": {}, "throttle": {}, "brake": {}, "steer": {}, "hand_brake": {}}})",
+                           act.vehicle, text_of(act.controls.throttle), text_of(act.controls.brake), text_of(act.controls.steer),
+                           text_of(act.controls.hand_brake));
+    }
+    std::string operator()(const Righten& act) const { return fmt::format(R"("righten": {{"vehicle": {}}})", act.vehicle); }
     std::string operator()(const Turn& act) const {
         std::string inside;
         const auto add = [&](const char* key, const auto& value) {
@@ -145,6 +151,22 @@ Act act_of(const std::string& name, const json& value, const Place& place) {
         Release act;
         only(value, place, {"grip"});
         required(value, place, "grip", act.grip);
+        return act;
+    }
+    if (name == "drive") {
+        Drive act;
+        only(value, place, {"vehicle", "throttle", "brake", "steer", "hand_brake"});
+        required(value, place, "vehicle", act.vehicle);
+        optional(value, place, "throttle", act.controls.throttle);
+        optional(value, place, "brake", act.controls.brake);
+        optional(value, place, "steer", act.controls.steer);
+        optional(value, place, "hand_brake", act.controls.hand_brake);
+        return act;
+    }
+    if (name == "righten") {
+        Righten act;
+        only(value, place, {"vehicle"});
+        required(value, place, "vehicle", act.vehicle);
         return act;
     }
     if (name == "push") {

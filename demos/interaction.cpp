@@ -14,6 +14,7 @@ namespace {
 constexpr double most_steps = 8;    // in one go, and seconds that they may take: a slow machine falls behind the clock rather
 constexpr double most_time = 0.05;  // than show nothing
 constexpr double slowest = 1.0 / 16;
+constexpr std::size_t few_vehicles = 4;  // that one of them is what a scene is about
 
 host::Key key(char character) {
     return host::key_of(character);
@@ -28,13 +29,18 @@ const char* const key_help =
     "  Space, B           throw a ball, a box through the pointer\n"
     "  arrows, Page Up/Down  push the selected body; X: an explosion where the pointer points\n"
     "  1, 2, 3            add a sphere, a capsule, a box\n"
+    "  where there is a vehicle:\n"
+    "  W, S, A, D or arrows  drive it: accelerate, brake (then backwards), left, right; Space: the hand brake\n"
+    "  Backspace, C       put it on its wheels where it is; the camera chases it, or stays\n"
     "  F                  follow the selected body; Home: the first view again\n"
     "  P, .               pause, a single step; L: slower (1/2 to 1/16), then full speed again\n"
     "  R, Tab             begin again, the next demo (with Shift the one before)\n"
     "  H, Q               hide the panel, close the window";
 
 Interaction::Interaction(Session& session, Extent extent)
-    : session_(session), extent_(extent), eye_(session.subject().viewpoint) {}
+    : session_(session), extent_(extent), eye_(session.subject().viewpoint) {
+    begin_again();
+}
 
 void Interaction::perform(const Act& act) {
     try {
@@ -123,6 +129,12 @@ void Interaction::scroll(double clicks) {
 void Interaction::press_key(const host::Event& event) {
     using enum host::Key;
     const host::Key pressed = event.key;
+    if (is_driving_key(pressed)) {
+        if (!told_) told_ = Controls{};
+        return;
+    }
+    if (pressed == backspace) put_upright();
+    if (pressed == key('C') && vehicle()) chases = !chases;
     if (pressed == space) throw_body(Kind::sphere);
     if (pressed == key('B')) throw_body(Kind::box);
     if (pressed == key('X')) explode();
@@ -147,6 +159,8 @@ void Interaction::begin_again() {
     handled_.clear();
     thrown_ = 0;
     follows = false;
+    told_.reset();
+    chases = !session_.subject().scene.vehicles.empty() && session_.subject().scene.vehicles.size() <= few_vehicles;
     backlog_ = 0;
     single_steps_ = 0;
 }
@@ -182,6 +196,7 @@ void Interaction::open_next(int direction) {
 // ---- the clock
 void Interaction::make_step() {
     push_selected();
+    drive();
     session_.step();
 }
 
@@ -199,6 +214,7 @@ void Interaction::advance(double seconds) {
         }
     }
     for (; single_steps_ > 0; --single_steps_) make_step();
+    if (chases) chase(seconds);
     if (follows && selected_) eye_.look_at(session_.world().body(*selected_).position);
 }
 

@@ -44,6 +44,7 @@ public:
     // What the panel sets and shows.
     bool paused = false;
     bool follows = false;  // the selected body
+    bool chases = false;   // the vehicle, from behind
     float pace = 1;        // simulated seconds in a second
     void step_once() { ++single_steps_; }
     void reset();
@@ -52,12 +53,14 @@ public:
     void add(Kind kind);                 // falls onto the middle of the view
     void throw_body(Kind kind);          // from the eye through the pointer
     void explode();                      // where the pointer points
+    void put_upright();                  // the vehicle, where it is
     void perform(const Act& act);        // says what is wrong in message()
 
     bool wants_to_close() const { return wants_to_close_; }
     Extent extent() const { return extent_; }
     const Eye& eye() const { return eye_; }
     std::optional<std::size_t> selected() const { return selected_; }
+    std::optional<std::size_t> vehicle() const;  // that the keys drive: the selected body's, or the first
     std::optional<Pull> pull();
     std::vector<Handled> handled();  // the present one included
     const std::string& message() const { return message_; }
@@ -81,6 +84,9 @@ private:
     void let_go();
     void drag();
     void push_selected();
+    void drive();                // as the keys say, from the first of them on
+    void chase(double seconds);  // of the wall clock
+    bool is_driving_key(host::Key key) const;
     void make_step();
     std::optional<Hit> hit_under_pointer();
     float size_of_a_new_body() const;
@@ -94,6 +100,8 @@ private:
     std::optional<std::size_t> selected_;
     std::vector<Handled> handled_;
     std::set<host::Key> held_keys_;
+    std::optional<Controls> told_;  // to the vehicle last; none: it drives by itself
+    std::size_t told_vehicle_ = 0;
     double backlog_ = 0;  // steps that the wall clock is ahead
     int single_steps_ = 0;
     std::size_t thrown_ = 0;

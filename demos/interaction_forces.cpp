@@ -112,7 +112,7 @@ void Interaction::explode() {
 }
 
 void Interaction::push_selected() {
-    if (!selected_ || held_keys_.empty()) return;
+    if (!selected_ || held_keys_.empty() || vehicle()) return;
     using enum host::Key;
     const vec3 ahead = glm::normalize(glm::cross(vec3(0, 1, 0), eye_.right()));
     const std::array<std::pair<host::Key, vec3>, 6> directions{{{left, -eye_.right()},

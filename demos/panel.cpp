@@ -118,6 +118,19 @@ void Panel::show_selected(Session& session, Interaction& interaction) {
     ImGui::Checkbox("follow", &interaction.follows);
 }
 
+void Panel::show_vehicle(Session& session, Interaction& interaction) {
+    const std::optional<std::size_t> which = interaction.vehicle();
+    if (!which) return;
+    const VehicleState now = session.world().vehicle(*which);
+    const std::string& name = session.world().scene().vehicles[*which].name;
+    say_line(fmt::format("{}: {:.0f} km/h{}", name.empty() ? fmt::format("vehicle {}", *which) : name,
+                         static_cast<double>(now.speed) * 3.6, now.by_route ? ", drives by itself" : ""));
+    say_line("W S A D or arrows drive it, Space: hand brake");
+    if (ImGui::Button("on its wheels")) interaction.put_upright();
+    ImGui::SameLine();
+    ImGui::Checkbox("chase", &interaction.chases);
+}
+
 // In the order of its strength from pale to red, and thicker.
 void Panel::show_pull(Interaction& interaction) const {
     const std::optional<Pull> pull = interaction.pull();
@@ -153,6 +166,7 @@ void Panel::lay_out(Session& session, Interaction& interaction, const Rates& rat
     show_dials(session, interaction);
     show_additions(interaction);
     ImGui::Separator();
+    show_vehicle(session, interaction);
     show_selected(session, interaction);
     if (!interaction.message().empty()) ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", interaction.message().c_str());
     if (ImGui::TreeNodeEx("keys", ImGuiTreeNodeFlags_None)) {

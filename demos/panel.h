@@ -27,6 +27,7 @@ private:
     void show_dials(Session& session, Interaction& interaction);
     void show_additions(Interaction& interaction);
     void show_selected(Session& session, Interaction& interaction);
+    void show_vehicle(Session& session, Interaction& interaction);
     void show_pull(Interaction& interaction) const;
 
     std::vector<Touching> touching_;  // of the selected body, looked at some times a second

@@ -90,7 +90,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
     const physics::Traits& own = state.traits[body];
     const bool joined = state.has_joints();
     const auto found = [&](std::uint32_t other) {
-        if (!joined || !kept_apart(state, body, other)) list(other);
+        if (!joined || !kept_apart(state, state.body_of(body), state.body_of(other))) list(other);
     };
     const physics::Bounds& around = state.bounds[body];
     if ((around.level & physics::NOWHERE) != 0) return;

@@ -11,6 +11,7 @@
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
 #include "shaders/physics/rest.h"
+#include "shaders/physics/tyre.h"
 
 namespace scree::reference {
 
@@ -108,6 +109,8 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         physics::Contact& contact = state.contacts[i];
         physics::Impulse& impulse = state.impulses[i];
         const bool idle = c.slot_a == physics::NONE && c.slot_b == physics::NONE;
+        const bool tyre_is_a = physics::tyre_of(ta) != 0;
+        const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb);
         if (idle && pair.kind == physics::KIND_STILL) {
             contact = physics::aged(state.contacts_before[pair.previous]);
             impulse = physics::continued(contact, state.impulses_before[pair.previous]);
@@ -122,10 +125,15 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
             impulse = physics::continued(contact, state.impulses_before[pair.previous]);
         } else {
             contact = physics::contact_of(pair, manifold, state.touching[index], state.poses[a], state.poses[b]);
-            impulse = pair.previous == physics::NONE
-                          ? physics::no_impulse(contact.d)
-                          : physics::inherited(contact, state.contacts_before[pair.previous],
-                                               state.impulses_before[pair.previous], physics::match_radius(ta, tb));
+            impulse = physics::no_impulse(contact.d);
+            if (pair.previous != physics::NONE) {
+                const physics::Contact& before = state.contacts_before[pair.previous];
+                const physics::uvec4 matches =
+                    tyre ? physics::matches_of_tyre(contact, before, tyre_is_a,
+                                                    std::min(physics::thickness(ta), physics::thickness(tb)))
+                         : physics::matches_of(contact, before, physics::match_radius(ta, tb));
+                impulse = physics::inherited(contact, state.impulses_before[pair.previous], matches);
+            }
         }
         impulse.separation = physics::separations_of(manifold);
         const bool sleeps_a = physics::motion_of(ta) == physics::MOTION_DYNAMIC && c.slot_a == physics::NONE;
@@ -143,6 +151,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c.a = a;
         c.b = b;
         c.pair = index;
+        if (tyre) c = physics::on_tyre(c, tyre_is_a, state.hulls[tyre - 1], contact.d, velocities_of(state, c));
 
         impulse.pressed = physics::pressing(impulse);
         if (wide) return;

@@ -61,6 +61,9 @@ SCREE_STAGE(prepare_joints);
 SCREE_STAGE(solve_joints);
 SCREE_STAGE(relax_joints);  // pass: whether it is the step's last
 
+// vehicles.cpp
+SCREE_STAGE(drive_vehicles);
+
 // flights.cpp
 SCREE_STAGE(foresee_impacts);
 SCREE_STAGE(drop_passers);

@@ -51,6 +51,7 @@ LAW Constraint at_present(Constraint c, vec3 d) {
     c.arms[0] = choose(follows, vec4(arm, 0.0f), c.arms[0]);
     c.centre = choose(follows, arm, c.centre);
     c.anchor = choose(follows, ANCHOR_A, c.anchor);
+    c.radius_a = choose(follows, 0.0f, c.radius_a);
     return c;
 }
 
@@ -81,6 +82,10 @@ LAW Solved rolled(Constraint c, Solved s, float normal, Mass a, Mass b) {
     return s;
 }
 
+// A tyre that bears nothing holds nothing; these keep its rows within what a float holds.
+CONSTANT float LEAST_HOLD = 1.0e-20f;  // N s
+CONSTANT float MOST_GIVE = 1.0e6f;     // of what the bodies give
+
 // Friction of the patch: twist about the normal, then slip within the circular cone |f| <= mu n.
 LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     float most = c.friction * normal;
@@ -105,6 +110,15 @@ LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
     k22 = k22 * unit;
     float k12 = (dot3(row2.arm_a, row1.turn_a) * a.split + dot3(row2.arm_b, row1.turn_b) * b.split) * unit;
     float slip1 = speed_along(row1, s.couple) * unit, slip2 = speed_along(row2, s.couple) * unit;
+    bool slips = c.radius_a > 0.0f;
+    if (!none(slips)) {
+        // A tyre (tyre.h): slip + give * impulse = 0, in the same units.
+        float give = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MOST_GIVE);
+        k11 = choose(slips, k11 + give, k11);
+        k22 = choose(slips, k22 + give, k22);
+        slip1 = choose(slips, slip1 + give * dot3(t1, s.impulse.friction), slip1);
+        slip2 = choose(slips, slip2 + give * dot3(t2, s.impulse.friction), slip2);
+    }
     float inverse = reciprocal(k11 * k22 - k12 * k12);
     vec3 wanted = t1 * ((k22 * slip1 - k12 * slip2) * inverse) + t2 * ((k11 * slip2 - k12 * slip1) * inverse);
     vec3 before = s.impulse.friction;

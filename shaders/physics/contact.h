@@ -60,9 +60,8 @@ LAW uvec4 matches_of(Contact now, Contact before, float radius) {
     return matches;
 }
 
-LAW Impulse inherited(Contact now, Contact before, Impulse was, float radius) {
+LAW Impulse inherited(Contact now, Impulse was, uvec4 matches) {
     Impulse impulse = no_impulse(now.d);
-    uvec4 matches = matches_of(now, before, radius);
     for (uint k = 0u; k < 4u; ++k) {
         if (matches[k] == NONE) continue;
         impulse.normal[k] = was.normal[matches[k]];
@@ -152,8 +151,8 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a,
     c.count = contact.count;
     c.pair = NONE;
     c.anchor = anchor_of(contact, ta, tb);
-    c.radius_a = ta.size.x;
-    c.radius_b = tb.size.x;
+    c.radius_a = c.anchor == ANCHOR_ROUND ? ta.size.x : 0.0f;
+    c.radius_b = c.anchor == ANCHOR_ROUND ? tb.size.x : 0.0f;
     c.leave = c.anchor == ANCHOR_ROUND ? 1.0e30f : width_along(ta, contact.turn_a, contact.normal);
     if (c.anchor == ANCHOR_A) c.leave = width_along(tb, contact.turn_b, contact.normal);
     vec3 centre = patch_centre(contact, parameters);

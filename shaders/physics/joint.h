@@ -67,6 +67,8 @@ struct JointPlace {
     float swing;  // the whole, rad
     vec3 swing_axis;
     float pad3;
+    vec3 x_b;  // B's own x axis
+    float pad4;
 };
 
 LAW JointPlace joint_place(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, vec4 frame_b, Pose b) {
@@ -100,11 +102,13 @@ LAW JointPlace joint_place(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, v
     at.swing_axis = choose(swings, unit3(about, at.y), at.y);
     // The twist's rate is w.(xA + xB) / (1 + cos swing).
     vec3 x_b = axes_of(turn_b).x;
+    at.x_b = x_b;
     at.twist_axis = (at.x + x_b) * reciprocal(larger(1.0f + dot3(at.x, x_b), FARTHEST_SWING));
     at.pad0 = 0.0f;
     at.pad1 = 0.0f;
     at.pad2 = 0.0f;
     at.pad3 = 0.0f;
+    at.pad4 = 0.0f;
     return at;
 }
 
@@ -148,6 +152,8 @@ LAW JointRow linear_row(JointRow row, JointPlace at, uint axis, uint flags, Coup
 LAW JointRow angular_row(JointRow row, JointPlace at, uint axis, uint flags, Couple v, float h) {
     bool cone = (flags & JOINT_CONE) != 0u;
     vec3 u = axis == 0u ? at.twist_axis : (axis == 1u ? (cone ? at.swing_axis : at.y) : at.z);
+    // What spins about its own x axis does not swing, however far it has swung: a steered wheel.
+    if (axis != 0u && (flags & JOINT_SPINS) != 0u) u = u - at.twist_axis * dot3(u, at.x_b);
     row.direction = u;
     row.place = axis == 0u ? at.twist : (axis == 1u ? (cone ? at.swing : at.swing_y) : at.swing_z);
     row.arm_a = u;

@@ -40,7 +40,9 @@ struct Traits {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;     // bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h)
+    // Bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (hulls.h), or that of its tyre
+    // (tyre.h).
+    uint large;
     uint owner;     // the body that this one is a part of; itself for a body
     uint fracture;  // where its fracture's description begins (fracture.h); NONE: it does not break
     uint joints;    // where the list of its joints begins; NONE: it has none
@@ -201,7 +203,7 @@ struct Constraint {
     float restitution;         // of the pair
     uint count;                // points
     uint anchor;               // ANCHOR_*
-    float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m
+    float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m; else radius_a: slip at which a tyre holds best, m/s; 0: no tyre
     uint pair;                 // whose manifold it is
     float leave;               // way after which the points have left the body that they slide over, m
 };
@@ -244,6 +246,7 @@ struct JointRow {
 CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's, and its place is their distance
 CONSTANT uint JOINT_CONE = 2u;      // axis y of the swing is the one that B has swung about, and its place the whole swing
 CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies may touch
+CONSTANT uint JOINT_SPINS = 8u;  // B spins about its x axis: with its swing's axes as they are at rest, swinging would stop that
 // Each axis has four bits of Joint.pins.
 CONSTANT uint PIN_LOW = 1u;   // the drive pushes as hard as it may, down
 CONSTANT uint PIN_HIGH = 2u;  // and up
@@ -295,6 +298,49 @@ struct Joint {
 CONSTANT uint MOST_LINKS = 8u;
 CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slots' sides: of the block's body in this record
 
+// ---- vehicles (vehicle.h)
+struct VehicleWheel {
+    uint joint;  // its record
+    uint body;
+    float radius;      // m
+    float ahead;       // of the axis that it turns about when the vehicle turns, m; 0 for a wheel that is not steered
+    float aside;       // of the vehicle's middle, to the left, m
+    float torque;      // N m, at full throttle
+    float power;       // W, at full throttle
+    float drag;        // N m, without throttle
+    float brake;       // N m
+    float hand_brake;  // N m
+    float skid;        // part of the steering that is added to its throttle, -1 to 1
+    uint steers;       // 1: its joint is turned
+};
+// How a vehicle is driven: all of it but its wheels.
+struct Handling {
+    uint chassis;
+    uint wheels;
+    uint route;        // where its way points begin in the table of hulls: x, y, z, m, and the speed there, m/s
+    uint points;       // of the route; 0: it has none
+    vec4 frame;        // from its axes (x to the left, y up, z ahead) to those of the chassis
+    float top_speed;   // m/s
+    float back_speed;  // m/s, backwards
+    float tightest;    // curvature of the curve at full lock, 1/m
+    float turning;     // greatest change of that, 1/(m s)
+    float lateral;     // m/s^2, the most that a curve may need at the present speed
+    uint loops;        // 1: the route begins again behind its last point
+    float speed;       // state: ahead, m/s
+    float curvature;   // state: of the curve that its wheels are steered to, 1/m, > 0: to the left
+    // What it is told.
+    float throttle, brake, steer, hand_brake;  // as in scree::Controls
+    uint by_route;                             // 1: the driver follows the route
+    uint next;                                 // state: way point that it drives to; `points`: it has arrived
+    uint passed;                               // state: way points so far
+    uint pad0;
+};
+CONSTANT uint MOST_WHEELS = 8u;
+struct Vehicle {
+    Handling handling;
+    VehicleWheel wheel[8];  // MOST_WHEELS
+};
+
 // ---- the step itself
 struct Parameters {  // the same for every thread of a step
     vec3 gravity;    // m/s^2
@@ -328,7 +374,8 @@ struct Parameters {  // the same for every thread of a step
     uint held;                // grips in use
     uint first_part;          // from this row on, rows are parts of bodies
     uint joint_blocks;
-    uint pad0, pad1, pad2;
+    uint vehicles;
+    uint pad0, pad1;
     Grip grips[4];  // MOST_GRIPS
 };
 

@@ -6,7 +6,11 @@
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
 #include "shaders/physics/rest.h"
+#include "shaders/physics/tyre.h"
 #include "shaders/stages/stage.glsl"
+
+// after the tables that it looks into
+#include "shaders/stages/hulls.glsl"
 
 // Between two bodies that sleep, or one that sleeps and one that never moves.
 void carry_over(uint i, uint pair_index, uint previous) {
@@ -32,6 +36,7 @@ void main() {
         return;
     }
     Traits ta = traits.at[pair.a], tb = traits.at[pair.b];
+    bool has_tyre = tyre_of(ta) != 0u || tyre_of(tb) != 0u;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     Contact contact = contact_of(pair, manifolds.at[pair_index], touching.at[pair_index], poses.at[of_a], poses.at[of_b]);
     Impulse impulse = no_impulse(contact.d);
@@ -39,7 +44,10 @@ void main() {
         contact = aged(contacts_before.at[pair.previous]);
         impulse = continued(contact, impulses_before.at[pair.previous]);
     } else if (pair.previous != NONE) {
-        impulse = inherited(contact, contacts_before.at[pair.previous], impulses_before.at[pair.previous], match_radius(ta, tb));
+        Contact before = contacts_before.at[pair.previous];
+        uvec4 matches = matches_of(contact, before, match_radius(ta, tb));
+        if (has_tyre) matches = matches_of_tyre(contact, before, tyre_of(ta) != 0u, smaller(thickness(ta), thickness(tb)));
+        impulse = inherited(contact, impulses_before.at[pair.previous], matches);
     }
     impulse.separation = separations_of(manifolds.at[pair_index]);
     if (pair.previous != NONE) {
@@ -60,13 +68,20 @@ void main() {
     constraint.a = of_a;
     constraint.b = of_b;
     constraint.pair = pair_index;
+    Couple now;
+    now.a = velocities.at[of_a];
+    now.b = velocities.at[of_b];
+    if (has_tyre) {
+        bool is_a = tyre_of(ta) != 0u;
+        Hulls table;
+        table.bound = 0u;
+        uvec4 tyre = hull_record(table, tyre_of(is_a ? ta : tb) - 1u);
+        constraint = on_tyre(constraint, is_a, tyre, contact.d, now);
+    }
     constraints.at[i] = constraint;
 
     Mass ma = lent(masses.at[of_a], impulse, PARAMETERS);
     Mass mb = lent(masses.at[of_b], impulse, PARAMETERS);
-    Couple now;
-    now.a = velocities.at[of_a];
-    now.b = velocities.at[of_b];
     float carrying = carries(constraint, impulse, now, PARAMETERS);
     Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
     if (constraint.slot_a != NONE) slots.at[constraint.slot_a] = slot_of(share.a, carrying, impulse.pressed);

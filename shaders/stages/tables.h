@@ -36,6 +36,7 @@
     X(27, candidates, CandidatesTable, Candidate, candidates) /* near each body, in any order; or a scan's sums */               \
     X(28, rests, RestsTable, uint, bodies)                    /* how long each body has been quiet, and what woke it: rest.h */  \
     X(29, hulls, HullsTable, uvec4, hulls)                    /* the convex hulls that there are, in the form of hulls.h */      \
-    X(30, joints, JointsTable, Joint, joints)
+    X(30, joints, JointsTable, Joint, joints)                                                                                    \
+    X(31, vehicles, VehiclesTable, Vehicle, vehicles)
 
 #endif

@@ -181,6 +181,23 @@ const std::map<std::string, Record>& records() {
                                         M(coupling)}};
         }
         {
+            using R = VehicleWheel;
+            all["VehicleWheel"] = {sizeof(R),
+                                   {M(joint), M(body), M(radius), M(ahead), M(aside), M(torque), M(power), M(drag), M(brake),
+                                    M(hand_brake), M(skid), M(steers)}};
+        }
+        {
+            using R = Handling;
+            all["Handling"] = {sizeof(R),
+                               {M(chassis),  M(wheels),  M(route),      M(points),   M(frame), M(top_speed), M(back_speed),
+                                M(tightest), M(turning), M(lateral),    M(loops),    M(speed), M(curvature), M(throttle),
+                                M(brake),    M(steer),   M(hand_brake), M(by_route), M(next),  M(passed),    M(pad0)}};
+        }
+        {
+            using R = physics::Vehicle;
+            all["Vehicle"] = {sizeof(R), {M(handling), M(wheel)}};
+        }
+        {
             using R = Parameters;
             all["Parameters"] = {sizeof(R),
                                  {M(gravity),
@@ -214,9 +231,9 @@ const std::map<std::string, Record>& records() {
                                   M(held),
                                   M(first_part),
                                   M(joint_blocks),
+                                  M(vehicles),
                                   M(pad0),
                                   M(pad1),
-                                  M(pad2),
                                   M(grips)}};
         }
         {

@@ -27,7 +27,7 @@ TEST_CASE("a contact that shrinks to one point keeps its push and its friction, 
     was.friction = vec3(0.5f, 0, 0.25f);
     was.twist = 0.75f;
     for (const std::uint32_t count : {1u, 2u, 4u}) {
-        const Impulse now = inherited(patch(count), patch(4), was, 0.1f);
+        const Impulse now = inherited(patch(count), was, matches_of(patch(count), patch(4), 0.1f));
         INFO(count << " points");
         CHECK(now.normal.x == 4);
         CHECK(now.friction == was.friction);

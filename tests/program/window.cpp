@@ -1,6 +1,8 @@
 // The window itself, on a display without a screen, with a mouse and keys made by xdotool; pictures of it stay in the build
 // folder.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <csignal>
 #include <nlohmann/json.hpp>
 
@@ -133,6 +135,39 @@ TEST_CASE(
             REQUIRE(says(outcome.output, viewer.report().at("state_hash").get<std::string>()));
         }
     }
+}
+
+TEST_CASE("in the window keys drive a car and put it on its wheels, and a recording of it leads to the same state") {
+    if (!can_show()) return;
+    const Screen screen;
+    const Place place;
+    const std::string recording = (place / "driven.json").string();
+    Viewer viewer(screen, place, "drive", {"drive", "--backend", "cpu", "--size", "640x360", "--record", recording});
+    viewer.find_window();
+    REQUIRE(viewer.until([](const json& now) { return now.at("vehicle").at("by_route") == true && now.at("steps") > 5; }));
+    viewer.hand("keydown w");
+    REQUIRE(viewer.until(
+        [](const json& now) { return now.at("vehicle").at("by_route") == false && now.at("vehicle").at("speed") > 2; }));
+    viewer.hand("keydown Left");
+    REQUIRE(viewer.until([](const json& now) { return now.at("vehicle").at("steer") == 1; }));
+    viewer.shoot("driving");
+    viewer.hand("keyup Left");
+    viewer.hand("keyup w");
+    viewer.hand("keydown space");
+    REQUIRE(viewer.until([](const json& now) { return std::abs(now.at("vehicle").at("speed").get<double>()) < 0.1; }));
+    viewer.hand("keyup space");
+    viewer.strike("BackSpace");
+    wait_for(0.5);
+    viewer.strike("q");
+    REQUIRE(viewer.process().end(30) == 0);
+    const json recorded = json::parse(place.read("driven.json"));
+    REQUIRE(recorded.at("acts").size() >= 5);
+    const json& acts = recorded.at("acts");
+    REQUIRE(std::any_of(acts.begin(), acts.end(), [](const json& act) { return act.contains("righten"); }));
+    const Outcome outcome = run_scree("run --input '" + recording + "' --backend cpu");
+    INFO(outcome.output << outcome.errors);
+    REQUIRE(outcome.status != 2);  // a promise is no matter here
+    REQUIRE(says(outcome.output, "as recorded"));
 }
 
 TEST_CASE("the window goes through the demos, closes at a signal, and leaves its recording") {

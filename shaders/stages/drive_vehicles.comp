@@ -1,0 +1,40 @@
+// Drives each vehicle: its driver, its steering, and the motors of its wheels. Once, also when the step is done again.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/vehicle.h"
+#include "shaders/stages/stage.glsl"
+
+// after the tables that it looks into
+#include "shaders/stages/hulls.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= PARAMETERS.vehicles || COUNTS.overflow != 0u) return;
+    Handling v = vehicles.at[i].handling;
+    if (is_absent(traits.at[v.chassis].motion)) return;
+    if (PARAMETERS.redo == 0u) {
+        Hulls table;
+        table.bound = 0u;
+        v = driven(v, table, poses.at[v.chassis], velocities.at[v.chassis], PARAMETERS);
+        vehicles.at[i].handling = v;
+    }
+    bool awake = is_under_way(v);
+    if (awake) rests.at[v.chassis] = 0u;
+    vec3 axle = vehicle_axes(v, poses.at[v.chassis].orientation).x;
+    vec3 turning = velocities.at[v.chassis].angular;
+    for (uint k = 0u; k < v.wheels; ++k) {
+        VehicleWheel wheel = vehicles.at[i].wheel[k];
+        if (is_absent(traits.at[wheel.body].motion)) continue;
+        if (awake) rests.at[wheel.body] = 0u;
+        if (PARAMETERS.redo != 0u) continue;
+        float spin = dot3(axle, velocities.at[wheel.body].angular - turning);
+        JointAxis motor = wheel_motor(joints.at[wheel.joint].axes[3], v, wheel, spin);
+        joints.at[wheel.joint].axes[3] = motor;
+        if (motor.mode == 0u) {
+            joints.at[wheel.joint].rows[3].drive = 0.0f;
+            joints.at[wheel.joint].pins = with_pins(joints.at[wheel.joint].pins, 3u, 0u);
+        }
+        if (wheel.steers != 0u) joints.at[wheel.joint].axes[4].rest = wheel_angle(v, wheel);
+    }
+}

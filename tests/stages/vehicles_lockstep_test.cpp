@@ -1,0 +1,36 @@
+// Vehicles: the same bits on both processors, whoever drives them.
+#include <catch2/catch.hpp>
+
+#include "compute/cars.h"
+#include "compute/lockstep.h"
+#include "host/device.h"
+
+using namespace scree;
+
+TEST_CASE("cars that brake, drift, follow a route, turn on the spot and sleep give the same bits on both processors") {
+    host::DeviceOptions options;
+    options.validation = true;
+    const auto device = host::Device::open(options);
+    Scene scene;
+    Body ground;
+    ground.motion = Motion::fixed;
+    ground.shape = Plane{};
+    scene.bodies.push_back(ground);
+    const auto controlled = [&](std::size_t vehicle, const Controls& controls) { scene.vehicles[vehicle].controls = controls; };
+    controlled(add_car(scene, {.position = {0, 0, 0}, .speed = 12}), {.brake = 1, .steer = 0.5f});
+    controlled(add_car(scene, {.position = {6, 0, 0}, .speed = 10}), {.throttle = 1, .steer = -1});
+    controlled(add_car(scene, {.position = {12, 0, 0}}), {.hand_brake = 1});
+    controlled(add_cart(scene, {.position = {18, 0, 0}}), {.throttle = 0.5f, .steer = 0.6f});
+    const std::size_t routed = add_car(scene, {.position = {-6, 0, 0}, .heading = 0.3f, .speed = 6});
+    scene.vehicles[routed].route = {{{-6, 0, 0}, 6}, {{-5, 0, 4}, 8}, {{-8, 0, 8}, 3}};
+    Settings settings;
+    settings.sleep_time = 0.2f;
+    settings.pairs_at_first = 40;  // so that the first step is done again
+    Lockstep lockstep(scene, settings, device, 2);
+    for (int i = 0; i < 60 && lockstep.step(); ++i) continue;
+    const LockstepResult& result = lockstep.result();
+    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                 << result.detail);
+    CHECK(result.equal);
+    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
