@@ -41,7 +41,7 @@ struct Cart {
     float friction = 1;
     float brake = 1;  // of the brakes' torque
     Tyre tyre{};
-    Engine engine{.torque = 2000, .power = 15000, .top_speed = 6, .back_speed = 6, .drag = 5};
+    Engine engine{2000, 15000, 6, 6, 5};
 };
 std::size_t add_cart(Scene& scene, const Cart& cart);
 

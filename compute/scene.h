@@ -80,7 +80,7 @@ Shape whole_shape(const SimpleShape& shape);
 struct Tyre {
     float best_slip = 0.1f;  // at which it holds best, 0.01 to 0.9; sideways the tangent of the slip angle
     float sliding = 0.75f;   // part of the friction that is left when it slides, 0 to 1
-    bool operator==(const Tyre&) const = default;
+    bool operator==(const Tyre& o) const { return best_slip == o.best_slip && sliding == o.sliding; }
 };
 
 enum class Motion {
@@ -217,7 +217,9 @@ struct Controls {
     float brake = 0;       // 0 to 1. A wheel that is braked is not driven
     float steer = 0;       // -1 to 1, 1: to the left
     float hand_brake = 0;  // 0 to 1
-    bool operator==(const Controls&) const = default;
+    bool operator==(const Controls& o) const {
+        return throttle == o.throttle && brake == o.brake && steer == o.steer && hand_brake == o.hand_brake;
+    }
 };
 struct Wheel {
     std::size_t joint = 0;  // of the scene

@@ -19,6 +19,7 @@ const std::vector<std::string> heaps = {"pile", "mix", "avalanche", "assortment"
 const std::vector<std::string> buildings = {"wall", "pyramid"};
 const std::vector<std::string> sleepers = {"pile1m"};
 const std::vector<std::string> jointed = {"chain", "bridge", "machine", "pendulums", "ragdolls"};
+const std::vector<std::string> driven = {"drive", "cars", "roadtest"};
 const std::vector<std::string> breaking = {"thresholds", "wrecking"};
 const std::vector<std::string> splintering = {"glass", "shatter", "fragments"};
 const std::vector<std::string> large = {"pyramid100", "tray", "hulls1m"};  // take minutes: `scree check` holds them
@@ -47,7 +48,7 @@ void check_kept(const std::vector<std::string>& names, float offset = 0) {
 TEST_CASE("every demo is held to its promise here, or takes minutes") {
     std::vector<std::string> held, all;
     for (const auto* group :
-         {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &jointed, &breaking, &splintering, &large})
+         {&quick, &standing, &moving, &heaps, &buildings, &sleepers, &jointed, &driven, &breaking, &splintering, &large})
         held.insert(held.end(), group->begin(), group->end());
     for (const demos::Demo& demo : demos::all_demos()) all.emplace_back(demo.name);
     std::sort(held.begin(), held.end());
@@ -91,6 +92,14 @@ TEST_CASE("heaps of a hundred bodies keep their promises") {
 
 TEST_CASE("what hangs together keeps its promises") {
     check_kept(jointed);
+}
+
+TEST_CASE("the cars of a course and a track keep their promises") {
+    check_kept({driven[0], driven[1]});
+}
+
+TEST_CASE("cars brake, accelerate, corner and park as the formulas say") {
+    check_kept({driven[2]});
 }
 
 TEST_CASE("the wall keeps its promise", "[long]") {
