@@ -171,7 +171,7 @@ public:
     // once. Throws SceneError for what a scene would not take, and for a body that is not there.
     std::size_t add_joint(const Joint& joint);
     // Takes a joint away, at the same cost; those behind it move up by one. What it held wakes and goes on as it moves. Throws
-    // std::out_of_range.
+    // std::out_of_range, and std::invalid_argument for the joint of a vehicle's wheel.
     void remove_joint(std::size_t joint);
     // A joint for add_joint between two bodies (or the_world) as they lie now, made as scree::joint_at makes one. Throws
     // std::out_of_range for the bodies, SceneError for an axis without a length.

@@ -46,6 +46,7 @@ struct World::Interior {
 
     // world_vehicles.cpp
     void require_vehicle(std::size_t vehicle) const;  // throws std::out_of_range
+    void require_no_wheel(std::size_t joint) const;   // throws std::invalid_argument if a vehicle has a wheel on it
     void tell(std::size_t vehicle, const Controls& controls, bool by_route);
     VehicleState vehicle_state(std::size_t index) const;
     // As they are now, into a snapshot whose bodies and joints are those that are there (no_body: gone).

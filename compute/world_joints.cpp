@@ -137,8 +137,11 @@ std::size_t World::add_joint(const Joint& joint) {
 void World::remove_joint(std::size_t index) {
     Interior& in = *interior_;
     in.require_joint(index);
+    in.require_no_wheel(index);
     in.runner->fetch();
     in.wake(in.scene.joints[index]);
+    for (Vehicle& vehicle : in.scene.vehicles)
+        for (Wheel& wheel : vehicle.wheels) wheel.joint -= wheel.joint > index;
     in.scene.joints.erase(in.scene.joints.begin() + static_cast<std::ptrdiff_t>(index));
     in.state.rejoin(in.scene, index);
     in.runner->attach(in.state);

@@ -1,4 +1,5 @@
 // The vehicles of a world: what they are told, how they fare, and how they are put back on their wheels.
+#include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <stdexcept>
@@ -27,6 +28,16 @@ void World::Interior::tell(std::size_t vehicle, const Controls& controls, bool b
     told.by_route = by_route;
     runner->send_vehicle(vehicle);
     action_on(scene.vehicles[vehicle].chassis, vec3(0), vec3(0));  // wakes it, and all that is joined to it
+}
+
+void World::Interior::require_no_wheel(std::size_t joint) const {
+    for (std::size_t v = 0; v < scene.vehicles.size(); ++v) {
+        const Vehicle& vehicle = scene.vehicles[v];
+        if (std::none_of(vehicle.wheels.begin(), vehicle.wheels.end(), [&](const Wheel& wheel) { return wheel.joint == joint; }))
+            continue;
+        throw std::invalid_argument("joint " + std::to_string(joint) + ": vehicle " + std::to_string(v) + " (\"" + vehicle.name +
+                                    "\") has a wheel on it, which cannot be taken away");
+    }
 }
 
 VehicleState World::Interior::vehicle_state(std::size_t index) const {

@@ -105,6 +105,38 @@ TEST_CASE("a car does what its driver is told, and wakes for it") {
     REQUIRE_THROWS_AS(world.drive_by_route(0), std::invalid_argument);
 }
 
+TEST_CASE("a car drives on while joints come and go, and keeps those of its wheels") {
+    const auto swinging = [](float x) {
+        Body ball;
+        ball.shape = Sphere{0.2f};
+        ball.position = {x, 5, 0};
+        return ball;
+    };
+    Scene scene;  // the joint that goes comes before those of the wheels
+    scene.bodies = {swinging(-20), swinging(20)};
+    scene.joints.push_back(joint_at(scene, Ball{}, 0, the_world, {-19, 5, 0}));
+    Body ground;
+    ground.motion = Motion::fixed;
+    ground.shape = Plane{};
+    scene.bodies.push_back(ground);
+    add_car(scene, {});
+    World world(scene);
+    world.drive(0, {.throttle = 1});
+    world.step(30);
+    const float before = world.vehicle(0).speed;
+    REQUIRE_THROWS_AS(world.remove_joint(1), std::invalid_argument);
+    world.remove_joint(0);
+    REQUIRE_THROWS_AS(world.remove_joint(0), std::invalid_argument);  // a wheel's now
+    world.add_joint(world.joint_at(Ball{}, 1, the_world, {19, 5, 0}));
+    world.step(30);
+    REQUIRE(before > 0.5f);
+    REQUIRE(world.vehicle(0).speed > 1.7f * before);
+    world.drive(0, {.brake = 1});
+    world.step(120);
+    REQUIRE(std::abs(world.vehicle(0).speed) < 0.01f);
+    for (const JointState& joint : world.joints()) CHECK(joint.gap < 0.01f);
+}
+
 TEST_CASE("a car drives along its route by itself until it is taken over, and on when it is handed back") {
     Scene scene = one_car();
     scene.vehicles[0].route = {{{0, 0, 0}, 5}, {{0, 0, 10}, 5}, {{5, 0, 20}, 5}, {{5, 0, 24}, 2}};
