@@ -94,7 +94,8 @@ void main() {
     float lift = min(a.inverse_mass > 0.0 ? a.reach : 1e30, b.inverse_mass > 0.0 ? b.reach : 1e30);
     if (lift > 1e29) lift = 0.0;
 
-    float unit = frame.ray_down.w / 720.0, thin = max(0.8, 1.2 * unit), dot_radius = max(2.2, 3.4 * unit);
+    float unit = frame.ray_down.w / 720.0, pixel = pixel_at(a.anchor);
+    float dot_radius = clamp(0.4 * lift / pixel, 1.2, max(2.2, 3.4 * unit)), thin = min(max(0.8, 1.2 * unit), 0.6 * dot_radius);
     float alpha = hidden != 0u ? 0.3 : 1.0;
     out_color = vec4(color_of(joints[i].force, max(a.inverse_mass, b.inverse_mass)), alpha);
     uint piece = uint(gl_VertexIndex) / 6u;
@@ -105,7 +106,7 @@ void main() {
     if (piece == 3u && has_axis(i)) {
         vec3 x = turned(joints[i].frame_a, vec3(1, 0, 0));
         if (body_a != NONE) x = turned(poses[body_a].orientation, x);
-        float pixel = pixel_at(a.anchor), size = clamp(0.5 * lift, 3.0 * dot_radius * pixel, 8.0 * dot_radius * pixel);
+        float size = clamp(0.5 * lift, 3.0 * dot_radius * pixel, 8.0 * dot_radius * pixel);
         out_color = vec4(AXIS, alpha);
         draw_line(a.anchor - x * size, a.anchor + x * size, thin, lift, side);
     }
