@@ -114,6 +114,7 @@ public:
         tables.joint_count = static_cast<std::uint32_t>(joints_.size());
         joints_.emplace_back().b = 1;  // behind the last one that means something
         table(device, joints_table_, joints_);
+        joints_.pop_back();
         tables.joints = &joints_table_;
         if (options.marks || !pushes_.empty()) {
             tables.touch_count = static_cast<std::uint32_t>(touches_.size());
