@@ -307,6 +307,10 @@ void DeviceRunner::fetch_contacts() {
     if (planned_content_.convex) fetch_live(Table::pairs);  // whose hulls traffic_of counts
 }
 
+std::uint32_t DeviceRunner::joint_records() const {
+    return state_->has_joints() ? static_cast<std::uint32_t>(state_->joints.size()) : 0;
+}
+
 void DeviceRunner::fetch_joints() {
     if (state_->has_joints()) read(Table::joints, state_->raw(Table::joints));
 }

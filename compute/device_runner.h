@@ -51,6 +51,8 @@ public:
     const host::Buffer& slot_sides() const { return buffer(Table::slot_sides); }
     const host::Buffer& rests() const { return buffer(Table::rests); }
     const host::Buffer& bounds() const { return buffer(Table::bounds); }
+    const host::Buffer& joints() const { return buffer(Table::joints); }
+    std::uint32_t joint_records() const;  // of the table of joints
 
     // For the comparison with another runner: a step stage by stage, and what a stage wrote.
     void begin_step();

@@ -84,6 +84,8 @@ host::BodyTables tables_of(const State& state) {
     tables.slot_sides = state.slot_sides;
     tables.rests = state.rests;
     tables.bounds = state.bounds;
+    tables.joints = state.joints;
+    tables.joint_count = static_cast<std::uint32_t>(state.joints.size());
     return tables;
 }
 

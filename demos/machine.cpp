@@ -95,6 +95,8 @@ host::BodyTables tables_on_device(Runner& runner) {
     tables.slot_sides = &device.slot_sides();
     tables.rests = &device.rests();
     tables.bounds = &device.bounds();
+    tables.joints = &device.joints();
+    tables.joint_count = device.joint_records();
     return tables;
 }
 

@@ -59,7 +59,7 @@ struct PictureOptions {
     std::optional<std::pair<float, float>> color_range;
     bool legend = true, caption = true;
     bool logarithmic = false;
-    std::vector<std::string> show;  // besides the bodies: contacts, velocities, boxes, cells, sleep
+    std::vector<std::string> show;  // besides the bodies: contacts, velocities, joints, boxes, cells, sleep
 
     bool shows(const char* what) const { return std::find(show.begin(), show.end(), what) != show.end(); }
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }

@@ -174,11 +174,12 @@ void add_options(CLI::App& command, PictureOptions& options) {
         .add_option(
             "--show", options.show,
             "what else to draw, a list parted by commas: contacts (their points, and along the normal how hard they push), "
-            "velocities "
-            "(arrows, the way in 0.2 s), boxes (bounds over the next step), cells (of the broadphase's grid, where bodies are; "
-            "both from the first step on), "
-            "sleep (sleepers dull and blue)")
-        ->check(one_of({"contacts", "velocities", "boxes", "cells", "sleep"}))
+            "velocities (arrows, the way in 0.2 s), joints (that are not torn: from the bodies' middles to the anchors, and the "
+            "axis; blue without force, yellow at ten times the lighter body's weight, red at a hundred times), boxes (bounds "
+            "over the next step), cells (of the broadphase's grid, where bodies are; both from the first step on), sleep "
+            "(sleepers "
+            "dull and blue)")
+        ->check(one_of({"contacts", "velocities", "joints", "boxes", "cells", "sleep"}))
         ->delimiter(',')
         ->expected(1)
         ->take_all()

@@ -60,6 +60,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
     canvas.velocities = options.shows("velocities");
     canvas.boxes = options.shows("boxes");
     canvas.cells = options.shows("cells");
+    canvas.joints = options.shows("joints");
     canvas.sleep = options.shows("sleep");
     const physics::Parameters& fixed = world.state().fixed();
     canvas.cell = fixed.cell;
@@ -67,8 +68,10 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
     canvas.sleep_steps = fixed.sleep_steps == physics::NO_SLEEP ? 0 : fixed.sleep_steps;
     // What a body's weight gives it in a substep.
     const Settings& settings = world.settings();
-    const float weight = glm::length(world.scene().gravity) / (settings.rate * static_cast<float>(settings.substeps));
+    const float gravity = glm::length(world.scene().gravity);
+    const float weight = gravity / (settings.rate * static_cast<float>(settings.substeps));
     if (weight > 0) canvas.mark_push = weight;
+    if (gravity > 0) canvas.joint_pull = gravity;
     return canvas;
 }
 

@@ -50,10 +50,12 @@ struct BodyTables {
     TableView pushes;               // Impulse
     std::uint32_t touch_count = 0;  // records of both that mean something
     // Which contacts a body has: for ColorBy::contact_impulse and contacts.
-    TableView slot_ends;   // uint, where the slots of each body end; those of the next begin there
-    TableView slot_sides;  // uint, 2 * contact + side
-    TableView rests;       // uint (shaders/physics/rest.h), for ColorBy::rest and CanvasOptions::sleep
-    TableView bounds;      // Bounds, for CanvasOptions::boxes and cells
+    TableView slot_ends;            // uint, where the slots of each body end; those of the next begin there
+    TableView slot_sides;           // uint, 2 * contact + side
+    TableView rests;                // uint (shaders/physics/rest.h), for ColorBy::rest and CanvasOptions::sleep
+    TableView bounds;               // Bounds, for CanvasOptions::boxes and cells
+    TableView joints;               // Joint, for CanvasOptions::joints
+    std::uint32_t joint_count = 0;  // records of it
 };
 
 // Triangles, counterclockwise from outside, in a body's frame.
@@ -86,6 +88,8 @@ struct CanvasOptions {
     bool boxes = false;                     // the bodies' bounds
     bool cells = false;                     // of the broadphase's grid, in which bodies are
     float cell = 1;                         // width of the finest, m
+    bool joints = false;                    // those that hold: lines from bodies to their anchors, and the axes
+    float joint_pull = 9.81f;               // their colour tells the force on the lighter body, in units of this, m/s^2
     bool sleep = false;                     // sleepers are dull and blue
     std::uint32_t sleep_steps = 0;          // quiet steps after which a body sleeps; 0: none does
     float step_seconds = 1.0f / 60;         // a step's

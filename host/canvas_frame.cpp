@@ -142,6 +142,7 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.marks =
         vec4(options.marks ? 1.0f : 0.0f, options.mark_push, static_cast<float>(materials), options.sleep ? 1.0f : 0.0f);
     frame.rest = vec4(static_cast<float>(options.sleep_steps), options.step_seconds, options.cell, options.arrow_seconds);
+    frame.joints.x = options.joint_pull;
     frame.maps = vec4(sun_map.texel, sky_map.texel, 1.0f / SUN_MAP_SIZE, 1.0f / SKY_MAP_SIZE);
     return frame;
 }

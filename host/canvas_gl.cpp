@@ -78,7 +78,7 @@ void GlCanvas::Interior::set_state(const DrawState& state) const {
 void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Draw& draw = draws[i];
-        Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
+        Run items = scenery.items(draw.items, tables, quad_count);
         std::uint32_t corners = draw.corners;
         if (draw.items == Items::bodies) {
             const BodyRun& run = scenery.runs[draw.run];

@@ -18,6 +18,7 @@ const std::array<BindingInfo, BINDINGS>& binding_infos() {
         all[SLOT_SIDES] = {Source::bodies, &BodyTables::slot_sides, "slot sides"};
         all[RESTS] = {Source::bodies, &BodyTables::rests, "rests"};
         all[BOUNDS] = {Source::bodies, &BodyTables::bounds, "bounds"};
+        all[JOINTS] = {Source::bodies, &BodyTables::joints, "joints"};
         for (const Binding image : {SUN_MAP, SKY_MAP, GLYPHS, SCENE}) all[image] = {Source::image, nullptr, ""};
         return all;
     }();
@@ -38,6 +39,8 @@ bool reads(std::uint32_t binding, const CanvasOptions& options, ColorBy by) {
             return options.sleep || by == ColorBy::rest;
         case BOUNDS:
             return options.boxes || options.cells;
+        case JOINTS:
+            return options.joints;
         default:
             return true;
     }
@@ -99,6 +102,12 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 1});  // behind bodies
         mark.depth = Compare::greater_or_equal;
         draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 0});
+    }
+    if (options.joints) {
+        DrawState joint{Pass::picture, "joint.vert", "joint.frag", Cull::none, Compare::less, false, true};
+        draws.push_back({joint, Items::joints, Mesh::none, JOINT_CORNERS, 0, 1});  // behind bodies
+        joint.depth = Compare::greater_or_equal;
+        draws.push_back({joint, Items::joints, Mesh::none, JOINT_CORNERS, 0, 0});
     }
     const DrawState line{Pass::picture, "line.vert", "line.frag", Cull::none, Compare::greater_or_equal, false, true};
     const auto lines = [&](bool wanted, std::uint32_t kind, std::uint32_t run, std::uint32_t corners) {

@@ -33,9 +33,10 @@ enum Binding : std::uint32_t {
     SLOT_SIDES,
     RESTS,
     BOUNDS,
-    TINTS  // the colour of each body, written on the device
+    TINTS,  // the colour of each body, written on the device
+    JOINTS
 };
-constexpr std::uint32_t BINDINGS = TINTS + 1;
+constexpr std::uint32_t BINDINGS = JOINTS + 1;
 
 enum class Source {
     bodies,  // a member of BodyTables
@@ -66,7 +67,8 @@ enum class Compare { always, less, greater, greater_or_equal };  // a new depth 
 // none: corners come from gl_VertexIndex alone. Spheres and capsules from fine to coarse; discs are shadows of round bodies.
 enum class Mesh { none, sphere_0, sphere_1, sphere_2, sphere_3, capsule_0, capsule_1, capsule_2, box, disc, discs, solid };
 constexpr std::size_t MESHES = 12;
-enum class Items { one, planes, marks, quads, bodies };  // what there is an instance of for each; of bodies several in one
+// What there is an instance of for each; of bodies several in one.
+enum class Items { one, planes, marks, joints, quads, bodies };
 
 // Shaders and fixed state: a pipeline of Vulkan.
 struct DrawState {

@@ -115,12 +115,14 @@ std::array<DrawArguments, SEEN_RUNS> arguments_of(const Scenery& scenery, const 
     return arguments;
 }
 
-Run Scenery::items(Items kind, std::uint32_t marks, std::uint32_t quads) const {
+Run Scenery::items(Items kind, const BodyTables& tables, std::uint32_t quads) const {
     switch (kind) {
         case Items::planes:
             return {runs[RUN_PLANES].first, runs[RUN_PLANES].count};
         case Items::marks:
-            return {0, marks};
+            return {0, MARKS_OF_A_TOUCH * tables.touch_count};
+        case Items::joints:
+            return {0, tables.joint_count};
         case Items::quads:
             return {0, quads};
         case Items::one:

@@ -29,8 +29,8 @@ struct Scenery {
 
     explicit Scenery(const ShapeInstances& bodies);
     Run mesh(Mesh of) const { return meshes[static_cast<std::size_t>(of)]; }
-    // Instances of a draw of something else than bodies, with so many marks and quads.
-    Run items(Items kind, std::uint32_t marks, std::uint32_t quads) const;
+    // Instances of a draw of something else than bodies, with so many quads.
+    Run items(Items kind, const BodyTables& tables, std::uint32_t quads) const;
     std::uint32_t bodies() const { return runs[RUN_PLANES].first; }  // but planes
     std::uint32_t records = 1;                                       // of a table of bodies
 

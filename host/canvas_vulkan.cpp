@@ -82,7 +82,7 @@ void VulkanCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Draw& draw = draws[i];
-        const Run items = scenery.items(draw.items, MARKS_OF_A_TOUCH * tables.touch_count, quad_count);
+        const Run items = scenery.items(draw.items, tables, quad_count);
         const bool bodies = draw.items == Items::bodies;
         if (draw.state.pass != pass || (bodies ? scenery.bodies() : items.count) == 0) continue;
         vk.vkCmdPushConstants(commands, layout, VK_SHADER_STAGE_VERTEX_BIT, 0, sizeof draw.pushed, &draw.pushed);

@@ -54,6 +54,7 @@ struct Frame {
                            // tint sleepers
     vec4 rest;             // steps after which a body sleeps, 0 for never; of a step, s; grid's finest cell, m; length of an
                            // arrow for each m/s, s
+    vec4 joints;           // acceleration by which a joint's force on the lighter body is coloured, m/s^2; 0; 0; 0
     vec4 sides[4];         // of what is seen: unit normals inwards; w: the eye's distance from them, m
     vec4 materials[MOST_MATERIALS];  // friction, restitution, density in kg/m^3
     vec4 colors[MAP_ENTRIES];        // the colour map, linear light
@@ -119,6 +120,9 @@ RENDER_CONSTANT uint LINES_BOXES = 1u;
 RENDER_CONSTANT uint LINES_CELLS = 2u;
 RENDER_CONSTANT uint ARROW_CORNERS = 9u;
 RENDER_CONSTANT uint CUBE_CORNERS = 72u;  // twelve edges of two triangles
+
+// Of a joint: two triangles each for three lines, its axis and two dots.
+RENDER_CONSTANT uint JOINT_CORNERS = 36u;
 
 // One rectangle of the legend or the caption.
 RENDER_CONSTANT uint OVERLAY_PANEL = 0u;  // a rounded rectangle; extra: radius, pixels

@@ -4,6 +4,7 @@
 #define READS_BODIES
 #include "shaders/physics/grid.h"
 #include "shaders/render/batch.h"
+#include "shaders/render/lines.h"
 
 layout(std430, set = 0, binding = 19) readonly buffer BoundsTable {
     Bounds bounds[];
@@ -16,29 +17,6 @@ const vec3 VELOCITY = vec3(0.95, 0.95, 1.0);
 const vec3 BOX = vec3(1.0, 0.50, 0.05);
 const vec3 CELL = vec3(0.05, 0.62, 1.0);
 const float SLOWEST = 1e-3;  // m/s; what is slower gets no arrow
-const vec2 SIDES[6] = vec2[](vec2(0, -1), vec2(1, -1), vec2(1, 1), vec2(0, -1), vec2(1, 1), vec2(0, 1));
-
-float near_plane() {
-    return frame.ray_corner.w;
-}
-vec2 pixels_of(vec4 clip) {
-    return (clip.xy / clip.w * 0.5 + 0.5) * vec2(frame.ray_right.w, frame.ray_down.w);
-}
-float depth_of(vec4 clip) {
-    return clip.z / clip.w;
-}
-void place(vec2 pixel, float depth) {
-    gl_Position = vec4(pixel / vec2(frame.ray_right.w, frame.ray_down.w) * 2.0 - 1.0, clamp(depth, 0.0, 1.0), 1.0);
-}
-
-// What of a line lies before the eye. False: nothing.
-bool clip_line(inout vec4 from, inout vec4 to) {
-    float near = near_plane();
-    if (from.w < near && to.w < near) return false;
-    if (from.w < near) from = mix(to, from, (to.w - near) / (to.w - from.w));
-    if (to.w < near) to = mix(from, to, (from.w - near) / (from.w - to.w));
-    return true;
-}
 
 void draw_line(vec3 start, vec3 end, uint corner) {
     vec4 from = frame.view_projection * vec4(start, 1.0), to = frame.view_projection * vec4(end, 1.0);
@@ -94,10 +72,8 @@ void main() {
         out_half_width = max(0.6, 0.9 * unit);
         out_color = vec4(VELOCITY, 0.95);
         vec3 velocity = velocities[at.body].linear;
-        float reach = t.shape == SHAPE_BOX || t.shape >= SHAPE_CYLINDER ? length(t.size)
-                                                                        : t.size.x + (t.shape == SHAPE_CAPSULE ? t.size.y : 0.0);
         if ((t.motion & 3u) != MOTION_FIXED && length(velocity) > SLOWEST)
-            draw_arrow(poses[at.body].position - frame.eye.xyz, velocity, reach, at.corner);
+            draw_arrow(poses[at.body].position - frame.eye.xyz, velocity, reach_of(t), at.corner);
         return;
     }
     Bounds around = bounds[at.body];

@@ -77,6 +77,17 @@ public:
         bounds_.resize(traits_.size());
         bounds_.at(body) = {lower, level, upper, 0};
     }
+    // Between two bodies, NONE for the world, at anchors in their frames: a hinge about the joint's x axis.
+    physics::Joint& add_hinge(std::uint32_t a, vec3 anchor_a, std::uint32_t b, vec3 anchor_b) {
+        physics::Joint joint{};
+        joint.a = a;
+        joint.b = b;
+        joint.anchor_a = anchor_a;
+        joint.anchor_b = anchor_b;
+        joint.frame_a = joint.frame_b = {0, 0, 0, 1};
+        for (std::size_t k = 0; k < 6; ++k) joint.axes[k].mode = k == 3 ? 0 : scree::physics::AXIS_LOCKED;
+        return joints_.emplace_back(joint);
+    }
     void add_ground() { add(scree::physics::SHAPE_PLANE, {0, 1, 0}, vec3(0), vec3(0), 0); }
 
     std::unique_ptr<Canvas> canvas(const CanvasOptions& options) {
@@ -100,6 +111,11 @@ public:
         tables.slot_sides = &slot_sides_table_;
         tables.rests = &rests_table_;
         tables.bounds = &bounds_table_;
+        tables.joint_count = static_cast<std::uint32_t>(joints_.size());
+        joints_.emplace_back().b = 1;  // behind the last one that means something
+        table(device, joints_table_, joints_);
+        joints_.pop_back();
+        tables.joints = &joints_table_;
         if (options.marks || !pushes_.empty()) {
             tables.touch_count = static_cast<std::uint32_t>(touches_.size());
             touches_.emplace_back().count = 4;  // behind the last one that means something
@@ -133,7 +149,8 @@ private:
     std::vector<Impulse> pushes_;
     std::vector<std::uint32_t> slot_ends_, slot_sides_, rests_;
     std::vector<Bounds> bounds_;
-    Buffer slot_ends_table_, slot_sides_table_, rests_table_, bounds_table_;
+    std::vector<physics::Joint> joints_;
+    Buffer slot_ends_table_, slot_sides_table_, rests_table_, bounds_table_, joints_table_;
     Buffer traits_table_, poses_table_, velocities_table_, touches_table_, pushes_table_;
 };
 

@@ -222,6 +222,37 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
     CHECK(validated_device()->validation_messages().empty());
 }
 
+TEST_CASE("canvases: both show joints alike, from host memory and from the device", "[canvas][gl]") {
+    Scene scene = heap();
+    const JointKind kinds[] = {Ball{},      Hinge{},     Slider{}, Fixed{}, Distance{.least = 0, .greatest = 2},
+                               ConeTwist{}, SixDegrees{}};
+    for (std::size_t i = 3; i + 1 < scene.bodies.size(); i += 2) {
+        const std::size_t other = i % 5 == 0 ? the_world : i + 1;
+        scene.joints.push_back(joint_at(scene, kinds[i / 2 % 7], i, other, scene.bodies[i].position + vec3(0.3f), {0, 0, 1}));
+        scene.joints.back().broken = i > 50;
+    }
+    World world(scene, {}, 1);
+    world.step(10);
+    CanvasOptions options = options_of(GENERATE(1, 4), true, false);
+    const ShapeInstances instances = demos::instances_of(world.scene());
+    const View view;
+    const Image without = picture(*make_vulkan_canvas(validated_device(), instances, options), world, view);
+    options.joints = true;
+    const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
+    const Image with = picture(*vulkan, world, view);
+    CHECK(likeness(with, without).strayed > 0.01);
+    const Likeness both = likeness(with, picture(*gl, world, view));
+    CAPTURE(both.mean, both.strayed, both.misshapen);
+    CHECK(alike(both));
+    BodyTables tables = demos::tables_of(world.state());
+    Buffer joints(validated_device(), "joints", tables.joints.bytes.size());
+    joints.write(tables.joints.bytes.data(), joints.bytes());
+    tables.joints = &joints;
+    vulkan->set_tables(tables);
+    CHECK(vulkan->draw(view.camera, view.scale, view.caption, view.low, view.high).rgba == with.rgba);
+    CHECK(validated_device()->validation_messages().empty());
+}
+
 TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
     World world(heap(), {}, 1);
     const ShapeInstances instances = demos::instances_of(world.scene());
