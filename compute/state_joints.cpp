@@ -26,7 +26,7 @@ void State::rejoin(const Scene& scene, std::optional<std::size_t> without) {
         now.torque = was.torque;
         now.greatest_torque = was.greatest_torque;
     }
-    for (std::size_t v = 0; v < vehicles.size(); ++v) {
+    for (std::size_t v = 0; v < scene.vehicles.size(); ++v) {
         const std::vector<Wheel>& wheels = scene.vehicles[v].wheels;
         for (std::size_t k = 0; k < wheels.size(); ++k) vehicles[v].wheel[k].joint = joint_records[wheels[k].joint];
     }
