@@ -177,7 +177,7 @@ KindCosts measure_kinds(const std::vector<std::string>& names, std::size_t pairs
         progress.done(count + part + 1);
     }
     if (is_interrupted()) return {};
-    KindCosts result{candidates.front().device, {}};
+    KindCosts result{candidates.front().device, rounds * at_a_time, {}};
     const double boxes = median(candidates.front().ms);
     for (const Candidate& candidate : candidates) {
         const double ms = median(candidate.ms);

@@ -19,6 +19,7 @@ struct KindCost {
 
 struct KindCosts {
     std::string device;
+    int steps = 0;                // measured of each, a multiple of twenty
     std::vector<KindCost> costs;  // none when interrupted
 };
 

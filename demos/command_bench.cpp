@@ -79,8 +79,8 @@ int bench_kinds(const Options& options, const Machine& machine) {
         at_work([&] { return measure_kinds(options.names, options.pairs, options.bench.steps, machine, options.bench.quiet); });
     if (is_interrupted()) return interrupted;
     machine.require_valid();
-    fmt::print("narrowphase on {}, per pair of bodies that touch: medians of {} steps\n\n{}", measured.device,
-               options.bench.steps, table(kind_rows(measured.costs)));
+    fmt::print("narrowphase on {}, per pair of bodies that touch: medians of {} steps\n\n{}", measured.device, measured.steps,
+               table(kind_rows(measured.costs)));
     write_csv(options.csv, kind_rows(measured.costs));
     return done;
 }
@@ -131,7 +131,8 @@ void add_bench(CLI::App& program, int& status) {
         ->add_option_function<std::string>(
             "--pairs", [options](const std::string& count) { options->pairs = count_of(count); },
             "so many touching pairs of every two kinds of shapes, and what the narrowphase takes for one, in place of demos")
-        ->type_name("COUNT");
+        ->type_name("COUNT")
+        ->excludes("--bodies", "--warmup", "--settle", "--settled");
     command->add_flag("--sleep", options->sleeping, "bodies at rest may sleep (default: what is measured stays awake)");
     command->add_option("--csv", options->csv, "a file for the numbers; - is the standard output");
     add_options(*command, options->machine);

@@ -281,6 +281,28 @@ TEST_CASE("program: bench writes a table and CSV with a row for every stage", "[
     REQUIRE(says(bench.output, "% of copying"));
 }
 
+TEST_CASE("program: bench measures pairs of two kinds that touch, and refuses what it would leave out", "[program]") {
+    const Outcome bench =
+        run_scree("bench --pairs 60 hull-box sphere-sphere --steps 5 --backend cpu --threads 1 --quiet --csv -");
+    INFO(bench.errors);
+    REQUIRE(bench.status == 0);
+    REQUIRE(says(bench.output, "medians of 20 steps"));
+    for (const char* kinds : {"\nbox-box,60,", "\nbox-hull,60,", "\nsphere-sphere,60,"}) {
+        const std::size_t at = bench.output.find(kinds);
+        REQUIRE(at != std::string::npos);
+        const std::string row = bench.output.substr(at + std::string(kinds).size());
+        CHECK(std::stod(row) > 85);                           // per cent of the pairs touch: it is them that cost
+        CHECK(std::stod(row.substr(row.find(',') + 1)) > 0);  // ns
+    }
+    REQUIRE_FALSE(says(bench.output, "hull-hull"));
+    const Outcome unknown = run_scree("bench --pairs 60 hull-pudding");
+    REQUIRE(unknown.status == 2);
+    REQUIRE(says(unknown.errors, "hull-pudding"));
+    REQUIRE(says(unknown.errors, "cylinder"));
+    REQUIRE(run_scree("bench --pairs 60 --bodies 1k").status == 2);
+    REQUIRE(run_scree("bench --pairs 60 --settle 2").status == 2);
+}
+
 TEST_CASE("program: bench settles a pile once, keeps it, and measures it again from the file", "[program]") {
     const Place place;
     const std::string command =
