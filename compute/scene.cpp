@@ -2,7 +2,6 @@
 #include "compute/scene.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
@@ -10,6 +9,7 @@
 #include <utility>
 
 #include "compute/compound.h"
+#include "compute/examination.h"
 #include "compute/fracture.h"
 #include "compute/hull.h"
 #include "compute/mesh.h"
@@ -33,65 +33,6 @@ constexpr float largest_gravity = 1e4f;   // m/s^2
 constexpr float largest_friction = 100;
 constexpr float largest_damping = 1e4f;  // 1/s
 constexpr float largest_scale = 1e3f;
-
-std::string text_of(float value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-std::string plain(float limit) {
-    return limit >= 1 && limit < 1e7f ? std::to_string(static_cast<int>(limit)) : text_of(limit);
-}
-
-std::string out_of_range(float value, float low, float high, const char* unit) {
-    const std::string limits =
-        low == -high ? "within " + plain(high) + unit + " of 0" : "between " + plain(low) + " and " + plain(high) + unit;
-    return "must be " + limits + ", is " + text_of(value);
-}
-
-// One body under examination: where it is, and what it is called, for messages. Texts are made only when there is something to
-// say.
-class Examination {
-public:
-    Examination(std::size_t index, const Body& body, std::string inside = "")
-        : index_(index), body_(body), inside_(std::move(inside)) {}
-
-    // A part of it: keys are then those of the part.
-    Examination part(const std::string& inside) const { return {index_, body_, inside_ + inside}; }
-
-    [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-        throw SceneError(place() + key, reason + (body_.name.empty() ? "" : " (body \"" + body_.name + "\")"));
-    }
-    std::string place() const { return "/bodies/" + std::to_string(index_) + inside_; }
-    void between(const char* key, float value, float low, float high, const char* unit) const {
-        if (!(value >= low && value <= high)) refuse(key, out_of_range(value, low, high, unit));
-    }
-    void between(const char* key, vec3 value, float low, float high, const char* unit) const {
-        for (int i = 0; i < 3; ++i) {
-            if (value[i] >= low && value[i] <= high) continue;
-            refuse(key + ("/" + std::to_string(i)), out_of_range(value[i], low, high, unit));
-        }
-    }
-    // Divides by the length in double precision. What has unit length already, to rounding, stays: checking twice changes no bit.
-    template <class Vector>
-    void make_unit(const char* key, Vector& v, const char* meaning) const {
-        double squared = 0;
-        for (int i = 0; i < Vector::length(); ++i) {
-            if (!std::isfinite(v[i])) refuse(key + ("/" + std::to_string(i)), "must be finite, is " + text_of(v[i]));
-            squared += static_cast<double>(v[i]) * v[i];
-        }
-        if (squared < 1e-12) refuse(key, std::string("must not be of length 0: ") + meaning);
-        if (std::abs(squared - 1) <= 2.5e-7) return;
-        for (int i = 0; i < Vector::length(); ++i) v[i] = static_cast<float>(v[i] / std::sqrt(squared));
-    }
-
-private:
-    std::size_t index_;
-    const Body& body_;
-    std::string inside_;
-};
 
 void examine_simple(const Examination& body, SimpleShape& shape, Motion motion) {
     if (auto* sphere = std::get_if<Sphere>(&shape)) {
@@ -303,7 +244,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
     }
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].piece_of != no_body) continue;  // of a scene that was checked before
-        const Shift shift = examine(Examination(i, scene.bodies[i]), scene.bodies[i], hulls, notes);
+        const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], hulls, notes);
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
     check_joints(scene);

@@ -1,11 +1,12 @@
 // What a scene may say of its joints, and joints made where they are in the world.
 #include "compute/scene_joints.h"
 
-#include <charconv>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 #include <string>
 #include <utility>
+
+#include "compute/examination.h"
 
 namespace scree {
 
@@ -18,45 +19,6 @@ constexpr float largest_anchor = 1e6f;  // m
 constexpr float most_turn = 3.1415927f;
 constexpr float most_stiffness = 1e12f;
 constexpr float most_speed = 1e4f;
-
-std::string text_of(float value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-// One joint under examination, for messages.
-class Examination {
-public:
-    Examination(std::size_t index, const Joint& joint) : index_(index), joint_(joint) {}
-
-    [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-        throw SceneError("/joints/" + std::to_string(index_) + key,
-                         reason + (joint_.name.empty() ? "" : " (joint \"" + joint_.name + "\")"));
-    }
-    void between(const std::string& key, float value, float low, float high, const char* unit) const {
-        if (!(value >= low && value <= high))
-            refuse(key, "must be between " + text_of(low) + " and " + text_of(high) + unit + ", is " + text_of(value));
-    }
-    void anchor(const char* key, vec3 value) const {
-        for (int i = 0; i < 3; ++i) between(key + ("/" + std::to_string(i)), value[i], -largest_anchor, largest_anchor, " m");
-    }
-    void unit(const char* key, vec4& q) const {
-        double squared = 0;
-        for (int i = 0; i < 4; ++i) {
-            if (!std::isfinite(q[i])) refuse(key + ("/" + std::to_string(i)), "must be finite, is " + text_of(q[i]));
-            squared += static_cast<double>(q[i]) * q[i];
-        }
-        if (squared < 1e-12)
-            refuse(key, "must not be of length 0: a quaternion x, y, z, w turns the joint's axes; no turn is [0, 0, 0, 1]");
-        if (std::abs(squared - 1) > 2.5e-7) q = vec4(glm::dvec4(q) / std::sqrt(squared));
-    }
-
-private:
-    std::size_t index_;
-    const Joint& joint_;
-};
 
 void examine(const Examination& joint, const std::string& key, const Limits& limits, bool turns) {
     const float most = turns ? most_turn : unlimited;
@@ -123,10 +85,11 @@ void examine(const Examination& joint, Joint& j, const Scene& scene) {
         joint.refuse("/b", "body " + std::to_string(j.a) + " is joined to itself; name another, or leave it out for the world");
     if (!moves(j.a) && !moves(j.b))
         joint.refuse("", "joins two things that never move; at least one of a and b must be a dynamic body");
-    joint.anchor("/anchor_a", j.anchor_a);
-    joint.anchor("/anchor_b", j.anchor_b);
-    joint.unit("/frame_a", j.frame_a);
-    joint.unit("/frame_b", j.frame_b);
+    constexpr const char* turn = "a quaternion x, y, z, w turns the joint's axes; no turn is [0, 0, 0, 1]";
+    joint.between("/anchor_a", j.anchor_a, -largest_anchor, largest_anchor, " m");
+    joint.between("/anchor_b", j.anchor_b, -largest_anchor, largest_anchor, " m");
+    joint.make_unit("/frame_a", j.frame_a, turn);
+    joint.make_unit("/frame_b", j.frame_b, turn);
     joint.between("/break_force", j.break_force, 0, unlimited, " N");
     joint.between("/break_torque", j.break_torque, 0, unlimited, " N m");
     examine(joint, j.kind);
@@ -154,7 +117,7 @@ void check_joints(Scene& scene) {
     for (std::size_t i = 0; i < scene.joints.size(); ++i) check_joint(scene, i);
 }
 void check_joint(Scene& scene, std::size_t index) {
-    examine(Examination(index, scene.joints[index]), scene.joints[index], scene);
+    examine(Examination("joints", "joint", index, scene.joints[index].name), scene.joints[index], scene);
 }
 
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes) {

@@ -1,11 +1,11 @@
 // What a scene may say of its vehicles.
 #include "compute/scene_vehicles.h"
 
-#include <charconv>
 #include <cmath>
 #include <map>
 #include <string>
 
+#include "compute/examination.h"
 #include "compute/vehicles.h"
 
 namespace scree {
@@ -17,32 +17,6 @@ constexpr float most_power = 1e12f;    // W
 constexpr float most_speed = 1e3f;     // m/s
 constexpr float farthest = 1e6f;       // m, as of bodies
 constexpr float least_cosine = 0.99f;  // between two axles
-
-std::string text_of(float value) {
-    if (std::isnan(value)) return "NaN";
-    if (std::isinf(value)) return value > 0 ? "infinity" : "-infinity";
-    char text[32];
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
-}
-
-// One vehicle under examination, for messages.
-class Examination {
-public:
-    Examination(std::size_t index, const Vehicle& vehicle) : index_(index), vehicle_(vehicle) {}
-
-    [[noreturn]] void refuse(const std::string& key, const std::string& reason) const {
-        throw SceneError("/vehicles/" + std::to_string(index_) + key,
-                         reason + (vehicle_.name.empty() ? "" : " (vehicle \"" + vehicle_.name + "\")"));
-    }
-    void between(const std::string& key, float value, float low, float high, const char* unit) const {
-        if (!(value >= low && value <= high))
-            refuse(key, "must be between " + text_of(low) + " and " + text_of(high) + unit + ", is " + text_of(value));
-    }
-
-private:
-    std::size_t index_;
-    const Vehicle& vehicle_;
-};
 
 // Which vehicle has what, by its number.
 using Owners = std::map<std::size_t, std::size_t>;
@@ -113,7 +87,7 @@ void examine_route(const Examination& vehicle, const Vehicle& v) {
 }
 
 void examine(std::size_t index, const Vehicle& v, const Scene& scene, Owners& chassis, Owners& wheels) {
-    const Examination vehicle(index, v);
+    const Examination vehicle("vehicles", "vehicle", index, v.name);
     if (v.chassis >= scene.bodies.size())
         vehicle.refuse("/chassis", "there is no body " + std::to_string(v.chassis) + "; the scene has " +
                                        std::to_string(scene.bodies.size()));

@@ -61,7 +61,7 @@ TEST_CASE("a vehicle that cannot be is refused with its place and the reason") {
     refused("/wheels/0/brake", "is NaN", [](Vehicle& v, Scene&) { v.wheels[0].brake = std::nanf(""); });
     refused("/engine/power", "is infinity", [](Vehicle& v, Scene&) { v.engine.power = HUGE_VALF; });
     refused("/steering/angle", "between 0.01 and 1.2 rad", [](Vehicle& v, Scene&) { v.steering.angle = 0; });
-    refused("/controls/throttle", "between -1 and 1, is 2", [](Vehicle& v, Scene&) { v.controls.throttle = 2; });
+    refused("/controls/throttle", "within 1 of 0, is 2", [](Vehicle& v, Scene&) { v.controls.throttle = 2; });
     refused("/route", "at least 2 points", [](Vehicle& v, Scene&) { v.route = {{}}; });
     refused("/route/1/position", "lies on the way point before it", [](Vehicle& v, Scene&) { v.route = {{}, {}}; });
     refused("/route/1/speed", "between 0.1", [](Vehicle& v, Scene&) { v.route = {{}, {vec3(1), 0}}; });
