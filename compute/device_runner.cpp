@@ -36,6 +36,15 @@ Table other_parity(Table table) {
     }
 }
 
+// The parameters are a uniform block; with `texels` every table can be read as texels too (shaders/stages/read.glsl).
+std::vector<host::Access> accesses(bool texels) {
+    std::vector<host::Access> all(table_count);
+    all[static_cast<std::size_t>(Table::parameters)].uniform = true;
+    for (std::size_t i = 0; texels && i < table_count; ++i)
+        all[i].texel_bytes = static_cast<std::uint32_t>(std::min<std::size_t>(16, table_infos()[i].record_bytes));
+    return all;
+}
+
 std::size_t argument_offset(physics::uint row) {
     return offsetof(physics::Counts, arguments) + row * sizeof(physics::uvec4);
 }
@@ -92,8 +101,9 @@ host::Reach DeviceRunner::reach_needed() const {
     const bool bindable = std::all_of(buffers_.begin(), buffers_.end(), [&](const host::Buffer& buffer) {
         return buffer.bytes() <= device_->report().largest_binding;
     });
-    return bindable && table_count <= device_->limits().maxPerStageDescriptorStorageBuffers ? host::Reach::bound
-                                                                                            : host::Reach::far;
+    // The parameters are none of the storage buffers.
+    return bindable && table_count - 1 <= device_->limits().maxPerStageDescriptorStorageBuffers ? host::Reach::bound
+                                                                                                : host::Reach::far;
 }
 
 void DeviceRunner::make_plan(host::Reach reach) {
@@ -103,14 +113,14 @@ void DeviceRunner::make_plan(host::Reach reach) {
     clock_ = StageClock(plan_);
     if (!layout_ || layout_->reach() != reach) {
         pipelines_.clear();
-        layout_ =
-            std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t), reach);
+        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t),
+                                                      reach, accesses(device_->report().prefers_texels));
     }
     if (!counts_back_) counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
+    const std::string variant = std::string(reach == host::Reach::far ? ".far" : "") + (layout_->has_texels() ? ".texels" : "");
     for (const Stage& stage : plan_)
-        pipelines_.try_emplace(stage.name, layout_, stage.name.c_str(),
-                               shaders::find(reach == host::Reach::far ? stage.name + ".far" : stage.name),
-                               std::vector{threads_of_a_group});
+        pipelines_.try_emplace({stage.name, stage.content}, layout_, stage.name.c_str(), shaders::find(stage.name + variant),
+                               std::vector{threads_of_a_group, stage.content});
 }
 
 void DeviceRunner::make_buffers() {
@@ -149,7 +159,7 @@ void DeviceRunner::upload() {
 
 void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const {
     const physics::Parameters& p = state_->fixed();
-    recording.bind(pipelines_.at(stage.name), *tables_[parity]);
+    recording.bind(pipelines_.at({stage.name, stage.content}), *tables_[parity]);
     recording.push(&stage.pass, sizeof(stage.pass));
     const auto indirect = [&](physics::uint row) {
         recording.dispatch_indirect(buffers_[static_cast<std::size_t>(Table::counts)], argument_offset(row));

@@ -83,7 +83,7 @@ private:
     Content planned_content_;
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
-    std::map<std::string, host::Pipeline> pipelines_;  // by the name of the stage
+    std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
     std::vector<host::Buffer> buffers_;                // by binding; contacts and those before change places with the parity
     host::Buffer counts_back_;
     // Per parity: the table, the whole step, and (made when asked for) each stage alone.

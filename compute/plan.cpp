@@ -25,6 +25,11 @@ void add_joints(std::vector<Stage>& stages, Stage half, bool after) {
     stages.push_back(std::move(half));
 }
 
+std::uint32_t content_bits(const Content& content) {
+    return (content.bounces ? physics::CONTENT_BOUNCES : 0) | (content.rolls ? physics::CONTENT_ROLLS : 0) |
+           (content.round ? physics::CONTENT_ROUND : 0) | (content.vehicles ? physics::CONTENT_TYRES : 0);
+}
+
 const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_box",     "sphere_plane", "capsule_capsule",
                                   "capsule_box",   "capsule_plane",   "box_box",        "box_plane",    "plane_convex",
                                   "convex",        "sphere_triangle", "convex_triangle"};
@@ -46,9 +51,9 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
     s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
     s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}, 0, true, Length::entries});
-    s.push_back({"count_pairs", Over::bodies, count_pairs, {pair_starts, counts}});
+    s.push_back({joined ? "count_pairs_joined" : "count_pairs", Over::bodies, count_pairs, {pair_starts, counts}});
     scan(s, "pairs", Over::body_blocks, pair_starts, scan_pairs_spine, scan_pairs_offsets);
-    s.push_back({"fill_pairs", Over::bodies, fill_pairs, {}});
+    s.push_back({joined ? "fill_pairs_joined" : "fill_pairs", Over::bodies, fill_pairs, {}});
     s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});
     // narrowphase: who touches whom, and where
     s.push_back({"count_kinds", Over::spans, count_kinds, {contact_starts}, 0, true, Length::kinds});
@@ -86,16 +91,19 @@ std::vector<Stage> plan(int substeps, const Content& content) {
         s.push_back({"prepare_joints", Over::joint_blocks, prepare_joints, {Table::joints, slots}});
     }
     // the solver
+    const std::uint32_t bits = content_bits(content);
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t last = substep == substeps;
         s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}, substep == 1});
         s.push_back({"solve_contacts", Over::solved, solve_contacts, {impulses, slots}});
+        s.back().content = bits;
         if (joined) add_joints(s, {"solve_joints", Over::joint_blocks, solve_joints, {Table::joints, slots}}, /* after */ true);
         s.push_back({"move_bodies", Over::bodies, move_bodies, {poses, velocities, masses, loads}});
         if (breaking)
             s.push_back({"relax_contacts_felt", Over::solved, relax_contacts_felt, {impulses, slots}, last | (substep == 1 ? 2u : 0u)});
         else
             s.push_back({"relax_contacts", Over::solved, relax_contacts, {impulses, slots}, last});
+        s.back().content = bits;
         if (joined) add_joints(s, {"relax_joints", Over::joint_blocks, relax_joints, {Table::joints, slots}, last}, /* after */ false);
     }
     s.push_back({"end_step", Over::bodies, end_step, {velocities, rests, bounds, counts}});

@@ -41,6 +41,7 @@ struct Stage {
     std::uint32_t pass = 0;                 // told to the stage; for Over::kind which kind
     bool feeds_next = true;                 // a barrier follows
     std::optional<Length> as_long_as = {};  // what was written, if it is not what the table ends up with
+    std::uint32_t content = 0;              // the shader's CONTENT_* (shaders/stages/content.glsl), for one that asks
 };
 
 // The stages of one step. Both texts of a stage bear its name: shaders/stages/<name>.comp and a function in compute/reference/.

@@ -60,7 +60,10 @@ struct Content {
     bool joints = false;
     bool breaking = false;  // some body may break
     bool vehicles = false;
-    static Content everything() { return {true, true, true, true, true, true}; }
+    bool bounces = false;  // some contact may throw back what strikes it
+    bool rolls = false;    // some contact resists rolling
+    bool round = false;    // there are spheres or capsules
+    static Content everything() { return {true, true, true, true, true, true, true, true, true}; }
     bool operator==(const Content&) const = default;
 };
 

@@ -236,7 +236,11 @@ Content State::content() const {
     found.joints = has_joints();
     found.vehicles = fixed().vehicles != 0;
     found.breaking = has_fractures();
+    found.bounces = fixed().least_restitution > 0;
     for (const physics::Traits& row : traits) {
+        found.bounces |= row.restitution > 0;
+        found.rolls |= row.rolling_resistance > 0;
+        found.round |= row.shape == physics::SHAPE_SPHERE || row.shape == physics::SHAPE_CAPSULE;
         found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;

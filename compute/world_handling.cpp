@@ -123,7 +123,8 @@ void World::explode(vec3 centre, float radius, float speed) {
 }
 
 void World::Interior::retune(const Settings& changed) {
-    const bool replan = changed.substeps != settings.substeps;
+    const bool replan = changed.substeps != settings.substeps ||
+                        (changed.least_restitution > 0) != (settings.least_restitution > 0);  // Content::bounces
     if (replan) runner->fetch();
     settings = changed;
     state.tune(scene.gravity, settings);

@@ -144,6 +144,7 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     queue.queueFamilyIndex = in.family;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
+    if (options.without_texels) in.report.prefers_texels = false;
     if (options.largest_binding) in.report.largest_binding = std::min(in.report.largest_binding, options.largest_binding);
     VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
     addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;

@@ -22,6 +22,7 @@ struct DeviceReport {
     std::uint64_t memory_bytes = 0;     // the largest device-local heap
     std::uint64_t largest_binding = 0;  // maxStorageBufferRange, bytes
     bool has_addresses = false;         // shaders can find buffers by address: they may be longer than a binding
+    bool prefers_texels = false;        // reads records from texel buffers faster than from storage buffers, as lavapipe does
     // Which modes 32-bit floats can be asked for (host/spirv.h). None of them is a lack: + - * are correctly rounded without.
     bool can_preserve_denormals = false;
     bool can_preserve_specials = false;
@@ -39,6 +40,8 @@ struct DeviceOptions {
     bool staged = false;
     // Not 0: binds no more bytes than that at once, whatever the device could.
     std::uint64_t largest_binding = 0;
+    // Prefers storage buffers, as a GPU does.
+    bool without_texels = false;
     // What the window system asks of the instance (Display::extensions); not empty: the device can show pictures in a window.
     std::vector<const char*> window_extensions = {};
     // Receives each validation message, from any thread; they are collected in Device::validation_messages() too.

@@ -8,6 +8,7 @@ namespace {
 
 // A step is one table of buffers, bound once, or found by address. Lavapipe binds 32 a stage, most cards a million.
 constexpr std::uint32_t least_storage_buffers = 31;
+constexpr std::uint32_t texel_buffers = 32;
 // The widest workgroup of the shaders.
 constexpr std::uint32_t least_workgroup = 256;
 
@@ -63,6 +64,8 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     report.api_version = version_text(properties.apiVersion);
     report.is_processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     report.largest_binding = limits.maxStorageBufferRange;
+    report.prefers_texels = report.is_processor && limits.maxPerStageDescriptorSampledImages >= texel_buffers &&
+                            limits.maxPerStageResources >= least_storage_buffers + texel_buffers + 1;
     if (is_new_enough) {
         VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
         addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;

@@ -9,26 +9,43 @@
 
 namespace scree::host {
 
-TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach)
-    : device_(std::move(device)), buffers_(buffers), reach_(reach), push_bytes_(push_bytes) {
+namespace {
+
+VkDescriptorType type_of(const TableLayout& layout, std::uint32_t buffer) {
+    return layout.access(buffer).uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+VkFormat format_of(std::uint32_t texel_bytes) {
+    if (texel_bytes == 4) return VK_FORMAT_R32_UINT;
+    return texel_bytes == 8 ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
+}
+
+}  // namespace
+
+TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach,
+                         std::vector<Access> special)
+    : device_(std::move(device)), buffers_(buffers), reach_(reach), push_bytes_(push_bytes), special_(std::move(special)) {
     const VulkanFunctions& vk = device_->vk();
     const VkPhysicalDeviceLimits& limits = device_->limits();
     const bool far = reach == Reach::far;
     if (far && !device_->report().has_addresses)
         throw DeviceError(device_->report().name + " has no addresses of buffers (bufferDeviceAddress)");
-    if ((!far && buffers > limits.maxPerStageDescriptorStorageBuffers) || push_bytes > limits.maxPushConstantsSize) {
+    const auto uniform = static_cast<std::uint32_t>(
+        std::count_if(special_.begin(), special_.end(), [](const Access& access) { return access.uniform; }));
+    if ((!far && buffers - uniform > limits.maxPerStageDescriptorStorageBuffers) || push_bytes > limits.maxPushConstantsSize) {
         throw DeviceError("a table of " + std::to_string(buffers) + " buffers and " + std::to_string(push_bytes) +
                           " bytes of push constants is more than " + device_->report().name + " takes (" +
                           std::to_string(limits.maxPerStageDescriptorStorageBuffers) + ", " +
                           std::to_string(limits.maxPushConstantsSize) + ")");
     }
-    std::vector<VkDescriptorSetLayoutBinding> entries(far ? 1 : buffers);
-    for (std::uint32_t i = 0; i < entries.size(); ++i) {
-        entries[i].binding = i;
-        entries[i].descriptorType = far ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        entries[i].descriptorCount = 1;
-        entries[i].stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
-    }
+    std::vector<VkDescriptorSetLayoutBinding> entries;
+    const auto add = [&](std::uint32_t binding, VkDescriptorType type) {
+        entries.push_back({binding, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    };
+    if (far) add(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    for (std::uint32_t i = 0; !far && i < buffers; ++i) add(i, type_of(*this, i));
+    for (std::uint32_t i = 0; i < special_.size(); ++i)
+        if (special_[i].texel_bytes) add(buffers + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<std::uint32_t>(entries.size());
@@ -53,63 +70,113 @@ TableLayout::~TableLayout() {
     device_->vk().vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
 }
 
+bool TableLayout::has_texels() const {
+    return std::any_of(special_.begin(), special_.end(), [](const Access& access) { return access.texel_bytes != 0; });
+}
+
 Table::Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer*>& buffers) : layout_(std::move(layout)) {
     if (buffers.size() != layout_->buffers()) {
         throw std::invalid_argument("a table of " + std::to_string(layout_->buffers()) + " buffers was given " +
                                     std::to_string(buffers.size()));
     }
+    for (const Buffer* buffer : buffers)
+        if (buffer && layout_->reach() == Reach::bound)
+            require_bindable(*layout_->device(), buffer->name().c_str(), buffer->bytes());
+    try {
+        make_set();
+        fill(buffers);
+    } catch (...) {
+        release();
+        throw;
+    }
+}
+
+void Table::make_set() {
     const Device& device = *layout_->device();
     const VulkanFunctions& vk = device.vk();
-    const bool far = layout_->reach() == Reach::far;
-    for (const Buffer* buffer : buffers)
-        if (buffer && !far) require_bindable(device, buffer->name().c_str(), buffer->bytes());
-    const VkDescriptorPoolSize size{far ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
-                                    far ? 1 : std::max(1u, layout_->buffers())};
+    const std::uint32_t most = std::max(1u, layout_->buffers());
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, most},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, most},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, most}};
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
-    pool.poolSizeCount = 1;
-    pool.pPoolSizes = &size;
+    pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
+    pool.pPoolSizes = sizes;
     check(vk.vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_), "creating a descriptor pool");
+    device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "table");
     const VkDescriptorSetLayout set_layout = layout_->set_layout();
     VkDescriptorSetAllocateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
     info.descriptorPool = pool_;
     info.descriptorSetCount = 1;
     info.pSetLayouts = &set_layout;
-    const VkResult result = vk.vkAllocateDescriptorSets(device.handle(), &info, &set_);
-    if (result != VK_SUCCESS) vk.vkDestroyDescriptorPool(device.handle(), pool_, nullptr);
-    check(result, "creating a table");
-    device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "table");
+    check(vk.vkAllocateDescriptorSets(device.handle(), &info, &set_), "creating a table");
     device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "table");
+}
 
-    std::vector<const Buffer*> bound = buffers;
-    if (far) {
+void Table::view(std::uint32_t i, const Buffer& of) {
+    const Device& device = *layout_->device();
+    const std::uint32_t bytes = layout_->access(i).texel_bytes;
+    if (of.bytes() / bytes > device.limits().maxTexelBufferElements)
+        throw DeviceError("the buffer " + of.name() + " of " + std::to_string(of.bytes()) + " bytes has more texels than " +
+                          device.report().name + " reads, " + std::to_string(device.limits().maxTexelBufferElements));
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = of.handle();
+    info.format = format_of(bytes);
+    info.range = VK_WHOLE_SIZE;
+    check(device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &views_[i]), ("the texels of " + of.name()).c_str());
+    device.set_name(VK_OBJECT_TYPE_BUFFER_VIEW, views_[i], of.name());
+}
+
+void Table::fill(const std::vector<const Buffer*>& buffers) {
+    const Device& device = *layout_->device();
+    const auto is_there = [](const Buffer* buffer) { return buffer && *buffer; };  // else no shader reads its binding
+    std::vector<VkDescriptorBufferInfo> bound(layout_->buffers() + 1);
+    std::vector<VkWriteDescriptorSet> writes;
+    const auto write = [&](std::uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {
+        VkWriteDescriptorSet entry{};
+        entry.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        entry.dstSet = set_;
+        entry.dstBinding = binding;
+        entry.descriptorCount = 1;
+        entry.descriptorType = type;
+        return writes.emplace_back(entry);
+    };
+    const auto bind = [&](std::uint32_t binding, const Buffer& buffer, VkDescriptorType type) {
+        bound[binding] = {buffer.handle(), 0, buffer.bytes() > 0 ? buffer.bytes() : VK_WHOLE_SIZE};
+        write(binding, type).pBufferInfo = &bound[binding];
+    };
+    if (layout_->reach() == Reach::far) {
         std::vector<VkDeviceAddress> addresses;
         for (const Buffer* buffer : buffers) addresses.push_back(buffer ? buffer->address() : 0);
         addresses_ = Buffer(layout_->device(), "addresses", addresses.size() * sizeof(VkDeviceAddress), BufferUse::upload);
         addresses_.write(addresses.data(), addresses_.bytes());
-        bound = {&addresses_};
+        bind(0, addresses_, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    } else {
+        for (std::uint32_t i = 0; i < buffers.size(); ++i)
+            if (is_there(buffers[i])) bind(i, *buffers[i], type_of(*layout_, i));
     }
-    std::vector<VkDescriptorBufferInfo> entries(bound.size());
-    std::vector<VkWriteDescriptorSet> writes;
-    for (std::uint32_t i = 0; i < bound.size(); ++i) {
-        if (!bound[i] || !*bound[i]) continue;  // a binding that no shader reads
-        entries[i] = {bound[i]->handle(), 0, bound[i]->bytes() > 0 ? bound[i]->bytes() : VK_WHOLE_SIZE};
-        VkWriteDescriptorSet write{};
-        write.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
-        write.dstSet = set_;
-        write.dstBinding = i;
-        write.descriptorCount = 1;
-        write.descriptorType = size.type;
-        write.pBufferInfo = &entries[i];
-        writes.push_back(write);
+    views_.resize(buffers.size());
+    for (std::uint32_t i = 0; i < buffers.size(); ++i) {
+        if (!layout_->access(i).texel_bytes || !is_there(buffers[i])) continue;
+        view(i, *buffers[i]);
+        write(layout_->buffers() + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = &views_[i];
     }
-    vk.vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+    device.vk().vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+}
+
+void Table::release() {
+    if (!layout_) return;
+    const Device& device = *layout_->device();
+    for (const VkBufferView view : views_)
+        if (view) device.vk().vkDestroyBufferView(device.handle(), view, nullptr);
+    device.vk().vkDestroyDescriptorPool(device.handle(), pool_, nullptr);
 }
 
 Table::~Table() {
-    if (layout_) layout_->device()->vk().vkDestroyDescriptorPool(layout_->device()->handle(), pool_, nullptr);
+    release();
 }
 
 Table::Table(Table&& other) noexcept {
@@ -121,6 +188,7 @@ Table& Table::operator=(Table&& other) noexcept {
     std::swap(pool_, other.pool_);
     std::swap(set_, other.set_);
     std::swap(addresses_, other.addresses_);
+    std::swap(views_, other.views_);
     return *this;
 }
 

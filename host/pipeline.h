@@ -1,5 +1,6 @@
 // Compute pipelines over one table of storage buffers, the same table for every pipeline of a run: bound (set 0, binding i is
-// buffer i), or found by address (set 0, binding 0 is a uniform block of the buffers' addresses, 8 bytes each).
+// buffer i), or found by address (set 0, binding 0 is a uniform block of the buffers' addresses, 8 bytes each). Either way a
+// buffer can be read as texels besides (binding `buffers` + i).
 #pragma once
 
 #include <cstdint>
@@ -17,11 +18,18 @@ enum class Reach {
     far,  // by address: buffers may be more, and longer, than the device binds
 };
 
-// The layout that all pipelines of a run share: `buffers` storage buffers and `push_bytes` of push constants. Throws DeviceError
-// when the device takes fewer, or has no addresses and `reach` asks for them.
+// What is special about a buffer of a table.
+struct Access {
+    bool uniform = false;           // bound as a uniform block, which no pipeline writes
+    std::uint32_t texel_bytes = 0;  // 4, 8 or 16: also a texel buffer of so many bytes a texel, as uints; 0: not
+};
+
+// The layout that all pipelines of a run share: `buffers` storage buffers, the first ones as `special` says, and `push_bytes` of
+// push constants. Throws DeviceError when the device takes fewer, or has no addresses and `reach` asks for them.
 class TableLayout {
 public:
-    TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach = Reach::bound);
+    TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach = Reach::bound,
+                std::vector<Access> special = {});
     ~TableLayout();
     TableLayout(const TableLayout&) = delete;
     TableLayout& operator=(const TableLayout&) = delete;
@@ -32,6 +40,8 @@ public:
     std::uint32_t buffers() const { return buffers_; }
     Reach reach() const { return reach_; }
     std::uint32_t push_bytes() const { return push_bytes_; }
+    Access access(std::uint32_t buffer) const { return buffer < special_.size() ? special_[buffer] : Access{}; }
+    bool has_texels() const;
 
 private:
     std::shared_ptr<Device> device_;
@@ -40,10 +50,11 @@ private:
     std::uint32_t buffers_ = 0;
     Reach reach_ = Reach::bound;
     std::uint32_t push_bytes_ = 0;
+    std::vector<Access> special_;
 };
 
 // One filling of the table. Buffers are borrowed; each must stay alive while recordings that use the table run. Throws
-// DeviceError when one is longer than the device binds, if it is to be bound.
+// DeviceError when one is longer than the device binds, if it is to be bound, or has more texels than it reads.
 class Table {
 public:
     Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer*>& buffers);
@@ -53,10 +64,16 @@ public:
     VkDescriptorSet set() const { return set_; }
 
 private:
+    void make_set();
+    void fill(const std::vector<const Buffer*>& buffers);
+    void view(std::uint32_t buffer, const Buffer& of);
+    void release();
+
     std::shared_ptr<TableLayout> layout_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     Buffer addresses_;
+    std::vector<VkBufferView> views_;
 };
 
 class Pipeline {

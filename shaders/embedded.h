@@ -9,7 +9,8 @@
 namespace scree::shaders {
 
 // The SPIR-V of a shader: "count_pairs" for stages/count_pairs.comp or the variant of that name, "count_pairs.far" for the same
-// with tables found by their addresses, "body.vert" for render/body.vert. Empty if there is none of that name, and without
+// with tables found by their addresses, "count_pairs.texels" and "count_pairs.far.texels" for both with what is only read as
+// texels, "body.vert" for render/body.vert. Empty if there is none of that name, and without
 // SCREE_VULKAN.
 std::span<const std::uint32_t> find(std::string_view name);
 

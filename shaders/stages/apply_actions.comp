@@ -7,10 +7,10 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.actions || COUNTS.overflow != 0u) return;
+    if (i >= PARAMETERS.actions || COUNTED.overflow != 0u) return;
     Action action = actions.at[i];
-    if (is_absent(traits.at[action.body].motion)) return;
-    Mass mass = mass_in_world(traits.at[action.body], poses.at[action.body].orientation, 1.0f);
+    if (is_absent(READ(traits, action.body).motion)) return;
+    Mass mass = mass_in_world(READ(traits, action.body), READ(poses, action.body).orientation, 1.0f);
     if (PARAMETERS.redo == 0u) velocities.at[action.body] = kicked(velocities.at[action.body], action, mass, PARAMETERS);
     rests.at[action.body] = 0u;
     loads.at[action.body] = loaded(loads.at[action.body], action, mass);

@@ -13,7 +13,7 @@ void main() {
         slot_ends.at[i] = 0u;
     }
     if (i < PARAMETERS.bodies) {
-        loads.at[i] = gravity_load(traits.at[i], PARAMETERS);
+        loads.at[i] = gravity_load(READ(traits, i), PARAMETERS);
         if (PARAMETERS.wake_all != 0u) rests.at[i] = 0u;
     }
     if (i == 0u) COUNTS = emptied(COUNTS, PARAMETERS);

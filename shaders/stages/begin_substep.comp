@@ -13,17 +13,17 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
-    Traits body = traits.at[i];
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ(rests, i), PARAMETERS.sleep_steps)) return;
+    Traits body = READ(traits, i);
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
-    Velocity velocity = accelerated(velocities.at[i], sum.change, loads.at[i], body, PARAMETERS);
+    Velocity velocity = accelerated(READ(velocities, i), sum.change, READ(loads, i), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
-            velocity = pulled(velocity, poses.at[i], masses.at[i], PARAMETERS.grips[k], PARAMETERS);
+            velocity = pulled(velocity, READ(poses, i), READ(masses, i), PARAMETERS.grips[k], PARAMETERS);
     }
     velocities.at[i] = velocity;
-    float crowd = masses.at[i].split;
-    if (push.pass != 0u) crowd = drifted(crowd, sum.carrying, COUNTS.steps);
+    float crowd = READ(masses, i).split;
+    if (push.pass != 0u) crowd = drifted(crowd, sum.carrying, COUNTED.steps);
     masses.at[i].split = crowd_after(crowd, sum.carrying, sum.pressing);
 }

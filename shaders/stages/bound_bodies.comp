@@ -17,15 +17,15 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies) return;
-    Traits body = traits.at[i];
-    Pose pose = poses.at[i];
+    Traits body = READ(traits, i);
+    Pose pose = READ(poses, i);
     if (is_absent(body.motion)) {
         bounds.at[i] = no_bounds(pose);
         return;
     }
     uint owner = body_of(i);
-    Bounds around = bounds_of(body, pose, velocities.at[i], loads.at[owner], PARAMETERS);
-    if (will_be_fast(body, velocities.at[i], PARAMETERS)) note(COUNTS.fast, 1u);
+    Bounds around = bounds_of(body, pose, READ(velocities, i), READ(loads, owner), PARAMETERS);
+    if (will_be_fast(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
         masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
     } else {
@@ -34,8 +34,8 @@ void main() {
     atomicAdd(cells.at[around.bucket], 1u);
     bool listed = !is_large(body) && (around.level & NOWHERE) == 0u;
     if (listed) note(COUNTS.levels, 1u << around.level);
-    if (has_slept(rests.at[i], PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
-    if (stirs(motion_of(body), velocities.at[owner], rests.at[owner], PARAMETERS.sleep_steps)) {
+    if (has_slept(READ(rests, i), PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
+    if (stirs(motion_of(body), READ(velocities, owner), READ(rests, owner), PARAMETERS.sleep_steps)) {
         if (listed) note(COUNTS.levels_stirring, 1u << around.level);
         if (is_large(body)) note(COUNTS.large_stirring, 1u);
     } else {

@@ -7,7 +7,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.broken == 0u || !(loads.at[i].kept < 1.0f)) return;
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.broken == 0u || !(READ(loads, i).kept < 1.0f)) return;
     Fracturing fracturing = fracturing_of(Hulls(0u), traits.at[i].fracture);
     Pose pose = poses.at[i];
     Velocity velocity = velocities.at[i];

@@ -49,13 +49,13 @@
 #endif
 
 void main() {
-    uint i = thread() + COUNTS.kind_first[KIND];
-    if (i >= COUNTS.kind_first[KIND + 1]) return;
-    uint pair = binned.at[i];
-    uint a = pairs.at[pair].a, b = pairs.at[pair].b;
-    Traits ta = traits.at[a], tb = traits.at[b];
-    Pose pa = poses.at[a], pb = poses.at[b];
-    float margin = margin_of(ta, velocities.at[a], tb, velocities.at[b], PARAMETERS);
+    uint i = thread() + COUNTED.kind_first[KIND];
+    if (i >= COUNTED.kind_first[KIND + 1]) return;
+    uint pair = READ(binned, i);
+    uint a = READ(pairs, pair).a, b = READ(pairs, pair).b;
+    Traits ta = READ(traits, a), tb = READ(traits, b);
+    Pose pa = READ(poses, a), pb = READ(poses, b);
+    float margin = margin_of(ta, READ(velocities, a), tb, READ(velocities, b), PARAMETERS);
     // The law wants the simpler shape first.
     bool swap = ta.shape > tb.shape;
     Traits first_traits = swap ? tb : ta;
@@ -64,7 +64,7 @@ void main() {
     Pose second = swap ? pa : pb;
     Touch touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
-    if (a >= PARAMETERS.first_part) touch = from_body(touch, poses.at[a].position - poses.at[traits.at[a].owner].position);
+    if (a >= PARAMETERS.first_part) touch = from_body(touch, READ(poses, a).position - READ(poses, READ(traits, a).owner).position);
     manifolds.at[pair] = touch.manifold;
     touching.at[pair] = touch.count;
 }

@@ -7,11 +7,11 @@
 #include "shaders/stages/stage.glsl"
 
 void main() {
-    uint i = thread() + COUNTS.kind_first[KIND_KEPT];
-    if (i >= COUNTS.kind_first[KIND_KEPT + 1u]) return;
-    uint index = binned.at[i];
-    Pair pair = pairs.at[index];
-    Contact contact = contacts_before.at[pair.previous];
-    manifolds.at[index] = kept_manifold(contact, poses.at[body_of(pair.a)], poses.at[body_of(pair.b)]);
+    uint i = thread() + COUNTED.kind_first[KIND_KEPT];
+    if (i >= COUNTED.kind_first[KIND_KEPT + 1u]) return;
+    uint index = READ(binned, i);
+    Pair pair = READ(pairs, index);
+    Contact contact = READ(contacts_before, pair.previous);
+    manifolds.at[index] = kept_manifold(contact, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b)));
     touching.at[index] = contact.count;
 }

@@ -7,11 +7,11 @@
 #include "shaders/stages/stage.glsl"
 
 void main() {
-    uint i = thread() + COUNTS.kind_first[KIND_STILL];
-    if (i >= COUNTS.kind_first[KIND_STILL + 1u]) return;
-    uint index = binned.at[i];
-    uint previous = pairs.at[index].previous;
-    Contact contact = contacts_before.at[previous];
-    manifolds.at[index] = resting_manifold(contact, impulses_before.at[previous]);
+    uint i = thread() + COUNTED.kind_first[KIND_STILL];
+    if (i >= COUNTED.kind_first[KIND_STILL + 1u]) return;
+    uint index = READ(binned, i);
+    uint previous = READ(pairs, index).previous;
+    Contact contact = READ(contacts_before, previous);
+    manifolds.at[index] = resting_manifold(contact, READ(impulses_before, previous));
     touching.at[index] = contact.count;
 }

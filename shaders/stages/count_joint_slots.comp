@@ -7,12 +7,12 @@
 #include "shaders/stages/stage.glsl"
 
 bool is_gone(uint body) {
-    return body != NONE && is_absent(traits.at[body].motion);
+    return body != NONE && is_absent(READ(traits, body).motion);
 }
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u) return;
+    if (i >= PARAMETERS.joint_blocks || COUNTED.overflow != 0u) return;
     uint first = joints.at[i].first_of_block;
     for (uint j = first; j < first + joints.at[first].block_joints; ++j)
         if (is_gone(joints.at[j].a) || is_gone(joints.at[j].b)) joints.at[j].broken = 1u;
@@ -20,7 +20,7 @@ void main() {
     for (uint m = first; m < last; ++m) {
         uint body = joints.at[m].member;
         joints.at[m].slot = NONE;
-        if (any_stirs(COUNTS) && is_movable(traits.at[body].motion, rests.at[body], PARAMETERS.sleep_steps))
+        if (any_stirs(COUNTED) && is_movable(READ(traits, body).motion, READ(rests, body), PARAMETERS.sleep_steps))
             atomicAdd(slot_ends.at[body], 1u);
     }
 }

@@ -6,11 +6,11 @@
 
 void main() {
     uint i = thread();
-    uint spans = spans_of(COUNTS.pairs);
+    uint spans = spans_of(COUNTED.pairs);
     if (i >= spans) return;
     uint found[KINDS];
     for (uint k = 0u; k < KINDS; ++k) found[k] = 0u;
-    uint last = min((i + 1u) * SPAN, COUNTS.pairs);
-    for (uint pair = i * SPAN; pair < last; ++pair) ++found[pairs.at[pair].kind];
+    uint last = min((i + 1u) * SPAN, COUNTED.pairs);
+    for (uint pair = i * SPAN; pair < last; ++pair) ++found[READ(pairs, pair).kind];
     for (uint k = 0u; k < KINDS; ++k) contact_starts.at[k * spans + i] = found[k];
 }

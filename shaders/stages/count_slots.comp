@@ -8,10 +8,10 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
-    Pair pair = pairs.at[constraints.at[i].pair];
+    if (i >= COUNTED.contacts || !any_stirs(COUNTED)) return;
+    Pair pair = READ(pairs, READ(constraints, i).pair);
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     uint sleep_steps = PARAMETERS.sleep_steps;
-    if (is_movable(traits.at[of_a].motion, rests.at[of_a], sleep_steps)) atomicAdd(slot_ends.at[of_a], 1u);
-    if (is_movable(traits.at[of_b].motion, rests.at[of_b], sleep_steps)) atomicAdd(slot_ends.at[of_b], 1u);
+    if (is_movable(READ(traits, of_a).motion, READ(rests, of_a), sleep_steps)) atomicAdd(slot_ends.at[of_a], 1u);
+    if (is_movable(READ(traits, of_b).motion, READ(rests, of_b), sleep_steps)) atomicAdd(slot_ends.at[of_b], 1u);
 }

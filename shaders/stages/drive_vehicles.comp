@@ -10,25 +10,25 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.vehicles || COUNTS.overflow != 0u) return;
+    if (i >= PARAMETERS.vehicles || COUNTED.overflow != 0u) return;
     Handling v = vehicles.at[i].handling;
-    if (is_absent(traits.at[v.chassis].motion)) return;
+    if (is_absent(READ(traits, v.chassis).motion)) return;
     if (PARAMETERS.redo == 0u) {
         Hulls table;
         table.bound = 0u;
-        v = driven(v, table, poses.at[v.chassis], velocities.at[v.chassis], PARAMETERS);
+        v = driven(v, table, READ(poses, v.chassis), READ(velocities, v.chassis), PARAMETERS);
         vehicles.at[i].handling = v;
     }
     bool awake = is_under_way(v);
     if (awake) rests.at[v.chassis] = 0u;
-    vec3 axle = vehicle_axes(v, poses.at[v.chassis].orientation).x;
-    vec3 turning = velocities.at[v.chassis].angular;
+    vec3 axle = vehicle_axes(v, READ(poses, v.chassis).orientation).x;
+    vec3 turning = READ(velocities, v.chassis).angular;
     for (uint k = 0u; k < v.wheels; ++k) {
         VehicleWheel wheel = vehicles.at[i].wheel[k];
-        if (is_absent(traits.at[wheel.body].motion)) continue;
+        if (is_absent(READ(traits, wheel.body).motion)) continue;
         if (awake) rests.at[wheel.body] = 0u;
         if (PARAMETERS.redo != 0u) continue;
-        float spin = dot3(axle, velocities.at[wheel.body].angular - turning);
+        float spin = dot3(axle, READ(velocities, wheel.body).angular - turning);
         JointAxis motor = wheel_motor(joints.at[wheel.joint].axes[3], v, wheel, spin);
         joints.at[wheel.joint].axes[3] = motor;
         if (motor.mode == 0u) {

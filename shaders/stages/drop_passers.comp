@@ -7,7 +7,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs || (touching.at[i] & DOUBTFUL) == 0u) return;
-    bool struck = (bounds.at[body_of(pairs.at[i].a)].flight.struck | bounds.at[body_of(pairs.at[i].b)].flight.struck) != 0u;
+    if (i >= COUNTED.pairs || (touching.at[i] & DOUBTFUL) == 0u) return;
+    bool struck = (READ(bounds, body_of(READ(pairs, i).a)).flight.struck | READ(bounds, body_of(READ(pairs, i).b)).flight.struck) != 0u;
     touching.at[i] = struck ? touching.at[i] & ~DOUBTFUL : 0u;
 }

@@ -13,13 +13,13 @@
 
 void main() {
     uint i = thread();
-    if (COUNTS.overflow != 0u) return;
+    if (COUNTED.overflow != 0u) return;
     if (i == 0u) ++COUNTS.steps;
     if (i >= PARAMETERS.bodies || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
-    Traits body = traits.at[i];
+    Traits body = READ(traits, i);
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
-    Velocity velocity = velocities.at[i];
+    Velocity velocity = READ(velocities, i);
     velocity.linear = without_dust(velocity.linear + sum.change.linear);
     velocity.angular = without_dust(velocity.angular + sum.change.angular);
     float pace = pace_of(body, velocity, PARAMETERS);
@@ -30,8 +30,8 @@ void main() {
     }
     velocities.at[i] = velocity;
     Flight flight = bounds.at[i].flight;
-    if (!was_fast(body, flight, poses.at[i])) return;
-    bounds.at[i].flight = stopped_at(flight, seen_part(body, flight, poses.at[i], bounds.at[i]));
+    if (!was_fast(body, flight, READ(poses, i))) return;
+    bounds.at[i].flight = stopped_at(flight, seen_part(body, flight, READ(poses, i), bounds.at[i]));
     atomicOr(COUNTS.fast, 1u);
     atomicMax(COUNTS.arguments[WORK_FLIGHTS].x, COUNTS.arguments[WORK_PAIRS].x);
     atomicMax(COUNTS.arguments[WORK_FLIGHTS].w, COUNTS.arguments[WORK_PAIRS].w);

@@ -6,7 +6,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || bounds.at[i].bucket == NONE) return;
-    uint entry = atomicAdd(cells.at[bounds.at[i].bucket], 1u);
+    if (i >= PARAMETERS.bodies || READ(bounds, i).bucket == NONE) return;
+    uint entry = atomicAdd(cells.at[READ(bounds, i).bucket], 1u);
     cell_entries.at[entry].body = i;
 }

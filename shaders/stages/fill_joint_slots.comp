@@ -8,12 +8,12 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u || !any_stirs(COUNTS)) return;
+    if (i >= PARAMETERS.joint_blocks || COUNTED.overflow != 0u || !any_stirs(COUNTED)) return;
     uint first = joints.at[i].first_of_block;
     uint last = first + joints.at[first].block_members;
     for (uint m = first; m < last; ++m) {
         uint body = joints.at[m].member;
-        if (is_movable(traits.at[body].motion, rests.at[body], PARAMETERS.sleep_steps))
+        if (is_movable(READ(traits, body).motion, READ(rests, body), PARAMETERS.sleep_steps))
             slot_sides.at[atomicAdd(slot_ends.at[body], 1u)] = OF_JOINT | m;
     }
 }

@@ -1,3 +1,5 @@
+// variants: fill_pairs -DWITHOUT_JOINTS
+// variants: fill_pairs_joined -DWITH_JOINTS
 // Lists the bodies whose pairs each body owns, in the order in which it finds them.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -13,7 +15,7 @@ void found(uint other) {
 
 void main() {
     owner = thread();
-    if (owner >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
-    next = pair_starts.at[owner];
+    if (owner >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
+    next = READ(pair_starts, owner);
     look_around(owner);
 }

@@ -8,11 +8,11 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.contacts || !any_stirs(COUNTS)) return;
-    Pair pair = pairs.at[constraints.at[i].pair];
+    if (i >= COUNTED.contacts || !any_stirs(COUNTED)) return;
+    Pair pair = READ(pairs, READ(constraints, i).pair);
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    bool moves_a = is_movable(traits.at[of_a].motion, rests.at[of_a], PARAMETERS.sleep_steps);
-    bool moves_b = is_movable(traits.at[of_b].motion, rests.at[of_b], PARAMETERS.sleep_steps);
+    bool moves_a = is_movable(READ(traits, of_a).motion, READ(rests, of_a), PARAMETERS.sleep_steps);
+    bool moves_b = is_movable(READ(traits, of_b).motion, READ(rests, of_b), PARAMETERS.sleep_steps);
     if (moves_a) slot_sides.at[atomicAdd(slot_ends.at[of_a], 1u)] = 2u * i;
     if (moves_b) slot_sides.at[atomicAdd(slot_ends.at[of_b], 1u)] = 2u * i + 1u;
     if (!moves_a && !moves_b) return;

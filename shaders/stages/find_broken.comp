@@ -7,17 +7,17 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
     Traits body = traits.at[i];
     if (!may_break(body)) return;
     float blow = 0.0f;
-    uint last = slot_ends.at[i];
-    for (uint k = i == 0u ? 0u : slot_ends.at[i - 1u]; k < last; ++k)
-        if ((slot_sides.at[k] & OF_JOINT) == 0u)
-            blow = larger(blow, uintBitsToFloat(candidates.at[slot_sides.at[k] >> 1u].owner));
+    uint last = READ(slot_ends, i);
+    for (uint k = i == 0u ? 0u : READ(slot_ends, i - 1u); k < last; ++k)
+        if ((READ(slot_sides, k) & OF_JOINT) == 0u)
+            blow = larger(blow, uintBitsToFloat(READ(candidates, READ(slot_sides, k) >> 1u).owner));
     Fracturing fracturing = fracturing_of(Hulls(0u), body.fracture);
     float kept = kept_part(fracturing, blow, body);
-    traits.at[i].strain = strain_after(fracturing, blow, body, velocities.at[i]);
+    traits.at[i].strain = strain_after(fracturing, blow, body, READ(velocities, i));
     if (!(kept < 1.0f)) return;
     loads.at[i].kept = kept;
     atomicAdd(COUNTS.broken, 1u);

@@ -10,9 +10,9 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs) return;
+    if (i >= COUNTED.pairs) return;
     uint now = push.pass & 1u, next = now ^ 1u;
-    uint row_a = pairs.at[i].a, row_b = pairs.at[i].b;
+    uint row_a = READ(pairs, i).a, row_b = READ(pairs, i).b;
     uint a = body_of(row_a), b = body_of(row_b);
     uint bits_a = bounds.at[a].flight.stops[now], bits_b = bounds.at[b].flight.stops[now];
     float stop_a = uintBitsToFloat(bits_a), stop_b = uintBitsToFloat(bits_b);
@@ -22,19 +22,19 @@ void main() {
         atomicMin(bounds.at[b].flight.stops[next], bits_b);
         if (!(stop_a < 1.0f || stop_b < 1.0f)) return;
     }
-    Traits ta = traits.at[a], tb = traits.at[b];
-    Course ca = course_of(ta, bounds.at[a].flight.position, bounds.at[a].flight.orientation, poses.at[a], stop_a);
-    Course cb = course_of(tb, bounds.at[b].flight.position, bounds.at[b].flight.orientation, poses.at[b], stop_b);
+    Traits ta = READ(traits, a), tb = READ(traits, b);
+    Course ca = course_of(ta, bounds.at[a].flight.position, bounds.at[a].flight.orientation, READ(poses, a), stop_a);
+    Course cb = course_of(tb, bounds.at[b].flight.position, bounds.at[b].flight.orientation, READ(poses, b), stop_b);
     if (row_a != a) {
-        ta = traits.at[row_a];
+        ta = READ(traits, row_a);
         ca = course_of_part(ta, ca);
     }
     if (row_b != b) {
-        tb = traits.at[row_b];
+        tb = READ(traits, row_b);
         cb = course_of_part(tb, cb);
     }
     float fraction =
-        impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(touching.at[i], stop_a, stop_b), PARAMETERS), false, Hulls(0u))
+        impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(READ(touching, i), stop_a, stop_b), PARAMETERS), false, Hulls(0u))
             .fraction;
     if (stop_a <= 1.0f) atomicMin(bounds.at[a].flight.stops[next], floatBitsToUint(fraction));
     if (stop_b <= 1.0f) atomicMin(bounds.at[b].flight.stops[next], floatBitsToUint(fraction));

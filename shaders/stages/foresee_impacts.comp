@@ -10,17 +10,17 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs || touching.at[i] == 0u) return;
-    uint a = pairs.at[i].a, b = pairs.at[i].b;
+    if (i >= COUNTED.pairs || touching.at[i] == 0u) return;
+    uint a = READ(pairs, i).a, b = READ(pairs, i).b;
     uint of_a = body_of(a), of_b = body_of(b);
-    Traits ta = traits.at[a], tb = traits.at[b];
-    Velocity va = velocities.at[a], vb = velocities.at[b];
-    if (!will_be_fast(traits.at[of_a], velocities.at[of_a], PARAMETERS) &&
-        !will_be_fast(traits.at[of_b], velocities.at[of_b], PARAMETERS))
+    Traits ta = READ(traits, a), tb = READ(traits, b);
+    Velocity va = READ(velocities, a), vb = READ(velocities, b);
+    if (!will_be_fast(READ(traits, of_a), READ(velocities, of_a), PARAMETERS) &&
+        !will_be_fast(READ(traits, of_b), READ(velocities, of_b), PARAMETERS))
         return;
-    vec3 normal = manifolds.at[i].normal;
-    if (!is_near(manifolds.at[i], touching.at[i], PARAMETERS) &&
-        !will_meet(normal, ta, poses.at[a], va, loads.at[of_a], tb, poses.at[b], vb, loads.at[of_b], PARAMETERS, Hulls(0u))) {
+    vec3 normal = READ(manifolds, i).normal;
+    if (!is_near(READ(manifolds, i), touching.at[i], PARAMETERS) &&
+        !will_meet(normal, ta, READ(poses, a), va, READ(loads, of_a), tb, READ(poses, b), vb, READ(loads, of_b), PARAMETERS, Hulls(0u))) {
         touching.at[i] = touching.at[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
         atomicOr(bounds.at[of_a].flight.struck, 1u);

@@ -16,9 +16,9 @@ Gathered gather(uint body) {
     sum.carrying = 0.0f;
     sum.told = FOREVER;
     sum.pressing = 0.0f;
-    uint last = slot_ends.at[body];
-    for (uint k = body == 0u ? 0u : slot_ends.at[body - 1u]; k < last; ++k) {
-        Slot slot = slots.at[k];
+    uint last = READ(slot_ends, body);
+    for (uint k = body == 0u ? 0u : READ(slot_ends, body - 1u); k < last; ++k) {
+        Slot slot = READ(slots, k);
         sum.change.linear = sum.change.linear + slot.linear;
         sum.change.angular = sum.change.angular + slot.angular;
         sum.carrying = sum.carrying + slot.carries;

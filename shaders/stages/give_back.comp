@@ -8,18 +8,18 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.broken == 0u) return;
-    if (!is_movable(traits.at[i].motion, rests.at[i], PARAMETERS.sleep_steps)) return;
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.broken == 0u) return;
+    if (!is_movable(READ(traits, i).motion, READ(rests, i), PARAMETERS.sleep_steps)) return;
     Velocity velocity = velocities.at[i];
-    uint last = slot_ends.at[i];
-    for (uint k = i == 0u ? 0u : slot_ends.at[i - 1u]; k < last; ++k) {
-        if ((slot_sides.at[k] & OF_JOINT) != 0u) continue;
-        uint contact = slot_sides.at[k] >> 1u;
-        Constraint c = constraints.at[contact];
-        float kept = smaller(loads.at[c.a].kept, loads.at[c.b].kept);
-        float carried = uintBitsToFloat(candidates.at[contact].owner);
+    uint last = READ(slot_ends, i);
+    for (uint k = i == 0u ? 0u : READ(slot_ends, i - 1u); k < last; ++k) {
+        if ((READ(slot_sides, k) & OF_JOINT) != 0u) continue;
+        uint contact = READ(slot_sides, k) >> 1u;
+        Constraint c = READ(constraints, contact);
+        float kept = smaller(READ(loads, c.a).kept, READ(loads, c.b).kept);
+        float carried = uintBitsToFloat(READ(candidates, contact).owner);
         if (!(kept < 1.0f) || !(carried > 0.0f)) continue;
-        velocity = given_back(velocity, masses.at[i], c, impulses.at[contact], slot_sides.at[k] & 1u, carried * (1.0f - kept));
+        velocity = given_back(velocity, READ(masses, i), c, READ(impulses, contact), READ(slot_sides, k) & 1u, carried * (1.0f - kept));
     }
     velocities.at[i] = limited(velocity, PARAMETERS);
 }

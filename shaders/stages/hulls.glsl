@@ -6,7 +6,7 @@
 #include "shaders/stages/stage.glsl"
 
 uvec4 hull_record(Hulls table, uint place) {
-    return hulls.at[place];
+    return READ(hulls, place);
 }
 
 #endif

@@ -6,8 +6,8 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.pairs || touching.at[i] == 0u) return;
-    uint contact = contact_starts.at[i];
+    if (i >= COUNTED.pairs || READ(touching, i) == 0u) return;
+    uint contact = READ(contact_starts, i);
     constraints.at[contact].pair = i;
     constraints.at[contact].slot_a = NONE;
     constraints.at[contact].slot_b = NONE;

@@ -12,18 +12,18 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
-    Traits body = traits.at[i];
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ(rests, i), PARAMETERS.sleep_steps)) return;
+    Traits body = READ(traits, i);
     if (body.motion == MOTION_FIXED || is_part(body) || is_absent(body.motion)) return;
-    Velocity velocity = velocities.at[i];
+    Velocity velocity = READ(velocities, i);
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
         loads.at[i].blows = sum.carrying;
     }
-    Moved after = moved(poses.at[i], velocity, body, PARAMETERS.h);
+    Moved after = moved(READ(poses, i), velocity, body, PARAMETERS.h);
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
-    if (!turns_evenly(body)) masses.at[i] = mass_in_world(body, after.pose.orientation, masses.at[i].split);
+    if (!turns_evenly(body)) masses.at[i] = mass_in_world(body, after.pose.orientation, READ(masses, i).split);
 }

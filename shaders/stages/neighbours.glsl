@@ -5,11 +5,12 @@
 
 #include "shaders/physics/grid.h"
 
+#ifdef WITH_JOINTS
 // Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
 bool kept_apart(uint body, uint other) {
-    uint listed = traits.at[body].joints != NONE ? body : other;
+    uint listed = READ(traits, body).joints != NONE ? body : other;
     uint partner = listed == body ? other : body;
-    for (uint j = traits.at[listed].joints; j != NONE;) {
+    for (uint j = READ(traits, listed).joints; j != NONE;) {
         bool is_a = joints.at[j].a == listed;
         if ((is_a ? joints.at[j].b : joints.at[j].a) == partner && joints.at[j].broken == 0u &&
             (joints.at[j].flags & JOINT_COLLIDES) == 0u)
@@ -19,22 +20,25 @@ bool kept_apart(uint body, uint other) {
     return false;
 }
 void meets(uint body, uint other) {
-    if (PARAMETERS.joint_blocks == 0u || !kept_apart(body_of(body), body_of(other))) found(other);
+    if (!kept_apart(body_of(body), body_of(other))) found(other);
 }
+#else
+#define meets(body, other) found(other)
+#endif
 
 void look_through_large(uint body, Traits own, Bounds around) {
-    for (uint k = cells.at[PARAMETERS.buckets - 1u]; k < cells.at[PARAMETERS.buckets]; ++k) {
-        uint other = cell_entries.at[k].body;
-        CellEntry entry = cell_entries.at[k];
+    for (uint k = READ(cells, PARAMETERS.buckets - 1u); k < READ(cells, PARAMETERS.buckets); ++k) {
+        uint other = READ(cell_entries, k).body;
+        CellEntry entry = READ(cell_entries, k);
         if (!finds_large(body, around.level, is_large(own), other, entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
-        Traits theirs = traits.at[other];
+        Traits theirs = READ(traits, other);
         if (!can_touch(own, theirs)) continue;
         bool near = true;
         if (theirs.shape == SHAPE_PLANE)
-            near = reaches_plane(around.lower, around.upper, theirs.size, poses.at[other].position);
+            near = reaches_plane(around.lower, around.upper, theirs.size, READ(poses, other).position);
         else if (own.shape == SHAPE_PLANE)
-            near = reaches_plane(entry.lower, entry.upper, own.size, poses.at[body].position);
+            near = reaches_plane(entry.lower, entry.upper, own.size, READ(poses, body).position);
         if (near) meets(body, other);
     }
 }
@@ -43,38 +47,38 @@ void look_through_large(uint body, Traits own, Bounds around) {
 void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last_x, uint level) {
     uint low = bucket_of(from, level, PARAMETERS.buckets);
     uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
-    uint end = cells.at[PARAMETERS.buckets - 1u];
-    uint first = low == 0u ? 0u : cells.at[low - 1u];
-    uint entries = low <= high ? cells.at[high] - first : end - first + cells.at[high];
+    uint end = READ(cells, PARAMETERS.buckets - 1u);
+    uint first = low == 0u ? 0u : READ(cells, low - 1u);
+    uint entries = low <= high ? READ(cells, high) - first : end - first + READ(cells, high);
     for (uint k = 0u; k < entries; ++k) {
         uint place = first + k < end ? first + k : first + k - end;
-        CellEntry entry = cell_entries.at[place];
+        CellEntry entry = READ(cell_entries, place);
         if ((entry.level & ~STILL) != level || !finds(body, around.level, entry.body, entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
-        if (is_part(own) && entry.body >= PARAMETERS.first_part && traits.at[entry.body].owner == own.owner) continue;
-        if (motion_of(own) == MOTION_DYNAMIC || motion_of(traits.at[entry.body]) == MOTION_DYNAMIC) meets(body, entry.body);
+        if (is_part(own) && entry.body >= PARAMETERS.first_part && READ(traits, entry.body).owner == own.owner) continue;
+        if (motion_of(own) == MOTION_DYNAMIC || motion_of(READ(traits, entry.body)) == MOTION_DYNAMIC) meets(body, entry.body);
     }
 }
 
 void carry_over(uint body) {
-    uint last = first_contacts_before.at[body + 1u];
-    for (uint k = first_contacts_before.at[body]; k < last; ++k) {
-        uint a = contacts_before.at[k].a;
-        uint other = a == body ? contacts_before.at[k].b : a;
-        if ((bounds.at[other].level & STILL) != 0u) found(other);
+    uint last = READ(first_contacts_before, body + 1u);
+    for (uint k = READ(first_contacts_before, body); k < last; ++k) {
+        uint a = READ(contacts_before, k).a;
+        uint other = a == body ? READ(contacts_before, k).b : a;
+        if ((READ(bounds, other).level & STILL) != 0u) found(other);
     }
 }
 
 void look_around(uint body) {
-    Bounds around = bounds.at[body];
+    Bounds around = READ(bounds, body);
     if ((around.level & NOWHERE) != 0u) return;
     bool still = (around.level & STILL) != 0u;
     if (still) carry_over(body);
-    uint levels = levels_to_search(around.level, COUNTS);
-    if (still && levels == 0u && COUNTS.large_stirring == 0u) return;
-    Traits own = traits.at[body];
+    uint levels = levels_to_search(around.level, COUNTED);
+    if (still && levels == 0u && COUNTED.large_stirring == 0u) return;
+    Traits own = READ(traits, body);
     look_through_large(body, own, around);
     if (is_large(own)) return;
     for (uint level = 0u; level < LEVELS && (levels >> level) != 0u; ++level) {

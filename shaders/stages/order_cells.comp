@@ -11,11 +11,11 @@
 void main() {
     uint i = thread();
     if (i > PARAMETERS.buckets) return;
-    uint first = i == 0u ? 0u : cells.at[i - 1u];
-    uint last = cells.at[i];
+    uint first = i == 0u ? 0u : READ(cells, i - 1u);
+    uint last = READ(cells, i);
     sort_range(first, last - first);
     for (uint k = first; k < last; ++k) {
-        Bounds around = bounds.at[cell_entries.at[k].body];
+        Bounds around = READ(bounds, cell_entries.at[k].body);
         cell_entries.at[k].lower = around.lower;
         cell_entries.at[k].upper = around.upper;
         cell_entries.at[k].level = around.level;

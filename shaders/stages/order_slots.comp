@@ -10,12 +10,12 @@
 
 void main() {
     uint i = thread();
-    if (COUNTS.overflow != 0u) return;
-    if (i == 0u) first_contacts.at[PARAMETERS.bodies] = COUNTS.contacts;  // even of no bodies
+    if (COUNTED.overflow != 0u) return;
+    if (i == 0u) first_contacts.at[PARAMETERS.bodies] = COUNTED.contacts;  // even of no bodies
     if (i >= PARAMETERS.bodies) return;
-    first_contacts.at[i] = contact_starts.at[pair_starts.at[i]];
-    uint first = i == 0u ? 0u : slot_ends.at[i - 1u];
-    uint count = slot_ends.at[i] - first;
+    first_contacts.at[i] = READ(contact_starts, READ(pair_starts, i));
+    uint first = i == 0u ? 0u : READ(slot_ends, i - 1u);
+    uint count = READ(slot_ends, i) - first;
     sort_range(first, count);
     for (uint k = first; k < first + count; ++k) {
         uint side = slot_sides.at[k];

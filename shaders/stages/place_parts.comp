@@ -7,8 +7,8 @@
 
 void main() {
     uint i = thread();
-    if (i < PARAMETERS.first_part || i >= PARAMETERS.bodies || COUNTS.overflow != 0u) return;
-    Traits part = traits.at[i];
+    if (i < PARAMETERS.first_part || i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
+    Traits part = READ(traits, i);
     if (motion_of(part) == MOTION_FIXED) return;
     Pose owner = poses.at[part.owner];
     poses.at[i] = pose_of_part(place_in_body(part), turn_in_body(part), owner);

@@ -14,9 +14,9 @@
 
 // Between two bodies that sleep, or one that sleeps and one that never moves.
 void carry_over(uint i, uint pair_index, uint previous) {
-    Contact contact = aged(contacts_before.at[previous]);
-    Impulse impulse = continued(contact, impulses_before.at[previous]);
-    impulse.separation = separations_of(manifolds.at[pair_index]);
+    Contact contact = aged(READ(contacts_before, previous));
+    Impulse impulse = continued(contact, READ(impulses_before, previous));
+    impulse.separation = separations_of(READ(manifolds, pair_index));
     contacts.at[i] = contact;
     impulses.at[i] = impulse;
     constraints.at[i] = idle_constraint(contact);
@@ -26,34 +26,34 @@ void carry_over(uint i, uint pair_index, uint previous) {
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.contacts) return;
+    if (i >= COUNTED.contacts) return;
     uint pair_index = constraints.at[i].pair;
-    Pair pair = pairs.at[pair_index];
+    Pair pair = READ(pairs, pair_index);
     uint slot_a = constraints.at[i].slot_a, slot_b = constraints.at[i].slot_b;
     bool idle = slot_a == NONE && slot_b == NONE;
     if (idle && pair.kind == KIND_STILL) {
         carry_over(i, pair_index, pair.previous);
         return;
     }
-    Traits ta = traits.at[pair.a], tb = traits.at[pair.b];
+    Traits ta = READ(traits, pair.a), tb = READ(traits, pair.b);
     bool has_tyre = tyre_of(ta) != 0u || tyre_of(tb) != 0u;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    Contact contact = contact_of(pair, manifolds.at[pair_index], touching.at[pair_index], poses.at[of_a], poses.at[of_b]);
+    Contact contact = contact_of(pair, READ(manifolds, pair_index), READ(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
-        contact = aged(contacts_before.at[pair.previous]);
-        impulse = continued(contact, impulses_before.at[pair.previous]);
+        contact = aged(READ(contacts_before, pair.previous));
+        impulse = continued(contact, READ(impulses_before, pair.previous));
     } else if (pair.previous != NONE) {
-        Contact before = contacts_before.at[pair.previous];
+        Contact before = READ(contacts_before, pair.previous);
         uvec4 matches = matches_of(contact, before, match_radius(ta, tb));
         if (has_tyre) matches = matches_of_tyre(contact, before, tyre_of(ta) != 0u, smaller(thickness(ta), thickness(tb)));
-        impulse = inherited(contact, impulses_before.at[pair.previous], matches);
+        impulse = inherited(contact, READ(impulses_before, pair.previous), matches);
     }
-    impulse.separation = separations_of(manifolds.at[pair_index]);
+    impulse.separation = separations_of(READ(manifolds, pair_index));
     if (pair.previous != NONE) {
         bool one_sleeps =
             (slot_a == NONE && motion_of(ta) == MOTION_DYNAMIC) || (slot_b == NONE && motion_of(tb) == MOTION_DYNAMIC);
-        contact.load = load_of(one_sleeps, contacts_before.at[pair.previous], impulses_before.at[pair.previous]);
+        contact.load = load_of(one_sleeps, READ(contacts_before, pair.previous), READ(impulses_before, pair.previous));
     }
     if (!idle) impulse.pressed = pressing(impulse);
     contacts.at[i] = contact;
@@ -69,8 +69,8 @@ void main() {
     constraint.b = of_b;
     constraint.pair = pair_index;
     Couple now;
-    now.a = velocities.at[of_a];
-    now.b = velocities.at[of_b];
+    now.a = READ(velocities, of_a);
+    now.b = READ(velocities, of_b);
     if (has_tyre) {
         bool is_a = tyre_of(ta) != 0u;
         Hulls table;
@@ -80,8 +80,8 @@ void main() {
     }
     constraints.at[i] = constraint;
 
-    Mass ma = lent(masses.at[of_a], impulse, PARAMETERS);
-    Mass mb = lent(masses.at[of_b], impulse, PARAMETERS);
+    Mass ma = lent(READ(masses, of_a), impulse, PARAMETERS);
+    Mass mb = lent(READ(masses, of_b), impulse, PARAMETERS);
     float carrying = carries(constraint, impulse, now, PARAMETERS);
     Couple share = warm_start(constraint, impulse, shares_of(now, now, ma, mb), ma, mb);
     if (constraint.slot_a != NONE) slots.at[constraint.slot_a] = slot_of(share.a, carrying, impulse.pressed);

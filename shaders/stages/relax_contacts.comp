@@ -8,19 +8,20 @@
 
 #include "shaders/physics/block.h"
 #include "shaders/physics/rest.h"
+#include "shaders/stages/content.glsl"
 #include "shaders/stages/stage.glsl"
 
 void main() {
-    if (thread() >= COUNTS.solved) return;
-    uint i = binned.at[thread()];
-    Constraint c = constraints.at[i];
-    Impulse impulse = impulses.at[i];
-    Mass ma = shared_for(impulse, masses.at[c.a], loads.at[c.a], PARAMETERS);
-    Mass mb = shared_for(impulse, masses.at[c.b], loads.at[c.b], PARAMETERS);
+    if (thread() >= COUNTED.solved) return;
+    uint i = READ(binned, thread());
+    Constraint c = narrowed(READ(constraints, i));
+    Impulse impulse = narrowed(READ(impulses, i));
+    Mass ma = shared_for(impulse, READ(masses, c.a), READ(loads, c.a), PARAMETERS);
+    Mass mb = shared_for(impulse, READ(masses, c.b), READ(loads, c.b), PARAMETERS);
     Couple before;
-    before.a = velocities.at[c.a];
-    before.b = velocities.at[c.b];
-    vec3 pull = c.restitution > 0.0f ? pull_of(loads.at[c.a], loads.at[c.b]) : vec3(0.0f);
+    before.a = READ(velocities, c.a);
+    before.b = READ(velocities, c.b);
+    vec3 pull = c.restitution > 0.0f ? pull_of(READ(loads, c.a), READ(loads, c.b)) : vec3(0.0f);
     Solved after = relaxed(c, impulse, before, ma, mb, pull, PARAMETERS);
 #ifdef WITH_FRACTURES
     float carried = pressing(after.impulse);
@@ -29,14 +30,21 @@ void main() {
 #endif
     impulse = without_blows(after.impulse, c.count);
     impulse.pressed = pressing(impulse);
-    impulses.at[i] = impulse;
+    impulses.at[i].normal = impulse.normal;
+    impulses.at[i].separation = impulse.separation;
+    impulses.at[i].friction = impulse.friction;
+    impulses.at[i].twist = impulse.twist;
+    if (ROLLS) impulses.at[i].rolling = impulse.rolling;
+    impulses.at[i].slipped = impulse.slipped;
+    impulses.at[i].d = impulse.d;
+    impulses.at[i].pressed = impulse.pressed;
     Couple share = shares_of(before, after.couple, ma, mb);
     float told_a = impulse.pressed, told_b = impulse.pressed;
     if ((push.pass & 1u) == 0u) {
         share = warm_start(c, impulse, share, ma, mb);
     } else {
-        told_a = told_quiet(traits.at[c.a].motion, before.a, rests.at[c.a]);
-        told_b = told_quiet(traits.at[c.b].motion, before.b, rests.at[c.b]);
+        told_a = told_quiet(READ(traits, c.a).motion, before.a, READ(rests, c.a));
+        told_b = told_quiet(READ(traits, c.b).motion, before.b, READ(rests, c.b));
     }
     float carrying = carries(c, impulse, after.couple, PARAMETERS);
     if (c.slot_a != NONE) slots.at[c.slot_a] = slot_of(share.a, carrying, told_b);

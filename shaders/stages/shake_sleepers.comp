@@ -6,14 +6,14 @@
 #include "shaders/stages/stage.glsl"
 
 void shake(uint by, uint other) {
-    if (shakes(rests.at[by], push.pass) && traits.at[other].motion == MOTION_DYNAMIC)
+    if (shakes(rests.at[by], push.pass) && READ(traits, other).motion == MOTION_DYNAMIC)
         atomicOr(rests.at[other], shaking_bit(push.pass - 1u));
 }
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.contacts) return;
-    Pair pair = pairs.at[constraints.at[i].pair];
+    if (i >= COUNTED.contacts) return;
+    Pair pair = READ(pairs, READ(constraints, i).pair);
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     shake(of_a, of_b);
     shake(of_b, of_a);

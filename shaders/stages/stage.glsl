@@ -1,8 +1,9 @@
 // What every stage begins with: the tables of a step, and a workgroup whose size the host chooses. Item i of a table is
 // name.at[i].
 //
-// Each stage is compiled twice: for tables that are bound, and (NAME.far, with SCREE_FAR) for tables found by their addresses,
-// which may be longer and more than a device binds. On lavapipe the second takes twice as long.
+// Each stage is compiled for every way of reaching them: for tables that are bound, and (SCREE_FAR) for tables found by their
+// addresses, which may be longer and more than a device binds; and either with SCREE_TEXELS, where what a stage only reads comes
+// from texel buffers (read.glsl). NAME, NAME.far, NAME.texels and NAME.far.texels are the names of the four.
 #ifndef SCREE_STAGES_STAGE_GLSL
 #define SCREE_STAGES_STAGE_GLSL
 
@@ -22,12 +23,16 @@ SCREE_TABLES(SCREE_DECLARE)
 #define SCREE_POINT(index, name, block, record, length) block name;
 layout(std140, set = 0, binding = 0) uniform Addresses{SCREE_TABLES(SCREE_POINT)};
 #else
+layout(std140, set = 0, binding = 0) uniform ParametersTable {
+    Parameters at[1];
+}
+parameters;
 #define SCREE_DECLARE(index, name, block, record, length)   \
     layout(std430, set = 0, binding = index) buffer block { \
         record at[];                                        \
     }                                                       \
     name;
-SCREE_TABLES(SCREE_DECLARE)
+SCREE_CHANGING_TABLES(SCREE_DECLARE)
 #endif
 
 layout(push_constant) uniform Push {
@@ -36,11 +41,14 @@ layout(push_constant) uniform Push {
 push;
 
 #define PARAMETERS parameters.at[0]
-#define COUNTS counts.at[0]
+#define COUNTS counts.at[0]         // to be changed
+#define COUNTED READ(counts, 0u)    // to be read: all but the arguments
+
+#include "shaders/stages/read.glsl"
 
 // The body that a row belongs to.
 uint body_of(uint row) {
-    return row < PARAMETERS.first_part ? row : traits.at[row].owner;
+    return row < PARAMETERS.first_part ? row : READ(traits, row).owner;
 }
 
 uint thread() {

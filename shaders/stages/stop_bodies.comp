@@ -7,10 +7,10 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTS.overflow != 0u || COUNTS.fast == 0u) return;
-    float stop = stop_of(bounds.at[i].flight);
-    if (stop >= 1.0f || traits.at[i].joints != NONE) return;
-    Halted after = halted(bounds.at[i].flight, poses.at[i], velocities.at[i], loads.at[i], stop);
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.fast == 0u) return;
+    float stop = stop_of(READ(bounds, i).flight);
+    if (stop >= 1.0f || READ(traits, i).joints != NONE) return;
+    Halted after = halted(READ(bounds, i).flight, poses.at[i], velocities.at[i], READ(loads, i), stop);
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
 }

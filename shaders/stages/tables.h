@@ -5,8 +5,12 @@
 #define SCREE_STAGES_TABLES_H
 
 //   binding, name, block, record, length
-#define SCREE_TABLES(X)                                                                                                          \
-    X(0, parameters, ParametersTable, Parameters, one)                                                                           \
+#define SCREE_TABLES(X)                                \
+    X(0, parameters, ParametersTable, Parameters, one) \
+    SCREE_CHANGING_TABLES(X)
+
+// All but the parameters, which no stage writes.
+#define SCREE_CHANGING_TABLES(X)                                                                                                 \
     X(1, counts, CountsTable, Counts, one)                                                                                       \
     X(2, traits, TraitsTable, Traits, bodies)                                                                                    \
     X(3, poses, PosesTable, Pose, bodies)                                                                                        \

@@ -8,12 +8,12 @@
 #include "shaders/stages/stage.glsl"
 
 bool is_restless_body(uint body) {
-    return body != NONE && stirs_joined(traits.at[body].motion, velocities.at[body], rests.at[body]);
+    return body != NONE && stirs_joined(READ(traits, body).motion, READ(velocities, body), rests.at[body]);
 }
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u || COUNTS.sleepers == 0u || !any_stirs(COUNTS)) return;
+    if (i >= PARAMETERS.joint_blocks || COUNTED.overflow != 0u || COUNTED.sleepers == 0u || !any_stirs(COUNTED)) return;
     uint first = joints.at[i].first_of_block;
     uint joints_end = first + joints.at[first].block_joints;
     if (push.pass == 0u) {

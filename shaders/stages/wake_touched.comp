@@ -8,18 +8,18 @@
 #include "shaders/stages/stage.glsl"
 
 void raise(uint body, uint bits) {
-    if (bits != 0u && traits.at[body].motion == MOTION_DYNAMIC) atomicOr(rests.at[body], bits);
+    if (bits != 0u && READ(traits, body).motion == MOTION_DYNAMIC) atomicOr(rests.at[body], bits);
 }
 
 void main() {
     uint i = thread();
-    if (i >= COUNTS.contacts || COUNTS.sleepers == 0u || !any_stirs(COUNTS)) return;
-    uint index = constraints.at[i].pair;
-    Pair pair = pairs.at[index];
+    if (i >= COUNTED.contacts || COUNTED.sleepers == 0u || !any_stirs(COUNTED)) return;
+    uint index = READ(constraints, i).pair;
+    Pair pair = READ(pairs, index);
     if (pair.kind == KIND_STILL) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    float approach = approach_of(manifolds.at[index], touching.at[index], poses.at[of_b].position - poses.at[of_a].position,
-                                 velocities.at[of_a], velocities.at[of_b], PARAMETERS);
+    float approach = approach_of(READ(manifolds, index), READ(touching, index), READ(poses, of_b).position - READ(poses, of_a).position,
+                                 READ(velocities, of_a), READ(velocities, of_b), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
     bool a_sleeps = has_slept(rests.at[of_a], PARAMETERS.sleep_steps),
          b_sleeps = has_slept(rests.at[of_b], PARAMETERS.sleep_steps);
@@ -29,10 +29,10 @@ void main() {
         uint other = a_sleeps ? of_b : of_a;
         float now = 0.0f, then = 0.0f;
         if (pair.previous != NONE) {
-            now = pressing(impulses_before.at[pair.previous]);
-            then = contacts_before.at[pair.previous].load;
+            now = pressing(READ(impulses_before, pair.previous));
+            then = READ(contacts_before, pair.previous).load;
         }
-        woken = wakes(is_restless(traits.at[other].motion, rests.at[other]), approach, now, then, traits.at[sleeper], PARAMETERS);
+        woken = wakes(is_restless(READ(traits, other).motion, rests.at[other]), approach, now, then, READ(traits, sleeper), PARAMETERS);
     }
     raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
     raise(of_b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));
