@@ -21,8 +21,8 @@ bool movable(const State& state, std::uint32_t body) {
     return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
 }
 
-std::uint32_t taken(std::uint32_t& end) {
-    return std::atomic_ref(end).fetch_add(1, std::memory_order_relaxed);
+std::uint32_t taken(std::uint32_t& end, std::uint32_t places = 1) {
+    return std::atomic_ref(end).fetch_add(places, std::memory_order_relaxed);
 }
 
 physics::Couple velocities_of(const State& state, const physics::Constraint& c) {
@@ -63,15 +63,21 @@ void count_slots(State& state, const Threads& threads, std::uint32_t) {
 
 void fill_slots(State& state, const Threads& threads, std::uint32_t) {
     if (!physics::any_stirs(state.counted())) return;
-    threads.for_each(state.counted().contacts, [&](std::size_t i) {
-        const auto contact = static_cast<std::uint32_t>(i);
-        const physics::Pair& pair = state.pairs[state.constraints[i].pair];
-        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
-        if (movable(state, a)) state.slot_sides[taken(state.slot_ends[a])] = 2 * contact;
-        if (movable(state, b)) state.slot_sides[taken(state.slot_ends[b])] = 2 * contact + 1;
-        if (movable(state, a) || movable(state, b)) state.binned[taken(state.counted().solved)] = contact;
-    });
     physics::Counts& counts = state.counted();
+    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> solved;  // by one thread: all asking one counter for a place each took longer than the rest
+        solved.reserve(last - first);
+        for (auto contact = static_cast<std::uint32_t>(first); contact < last; ++contact) {
+            const physics::Pair& pair = state.pairs[state.constraints[contact].pair];
+            const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+            const bool moves_a = movable(state, a), moves_b = movable(state, b);
+            if (moves_a) state.slot_sides[taken(state.slot_ends[a])] = 2 * contact;
+            if (moves_b) state.slot_sides[taken(state.slot_ends[b])] = 2 * contact + 1;
+            if (moves_a || moves_b) solved.push_back(contact);
+        }
+        std::copy(solved.begin(), solved.end(),
+                  state.binned.begin() + taken(counts.solved, static_cast<std::uint32_t>(solved.size())));
+    });
     counts.arguments[physics::WORK_SOLVED].x = physics::work_for(counts.solved, state.fixed()).x;
 }
 
