@@ -27,7 +27,8 @@ void add_joints(std::vector<Stage>& stages, Stage half, bool after) {
 
 std::uint32_t content_bits(const Content& content) {
     return (content.bounces ? physics::CONTENT_BOUNCES : 0) | (content.rolls ? physics::CONTENT_ROLLS : 0) |
-           (content.round ? physics::CONTENT_ROUND : 0) | (content.vehicles ? physics::CONTENT_TYRES : 0);
+           (content.round ? physics::CONTENT_ROUND : 0) | (content.vehicles ? physics::CONTENT_TYRES : 0) |
+           (content.moving_parts ? physics::CONTENT_PARTS : 0);
 }
 
 const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_box",     "sphere_plane", "capsule_capsule",
@@ -40,6 +41,7 @@ const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_bo
 std::vector<Stage> plan(int substeps, const Content& content) {
     const bool convex = content.convex || content.triangles, joined = content.joints, breaking = content.breaking;
     using enum Table;
+    const std::uint32_t bits = content_bits(content);
     std::vector<Stage> s;
     // what pushes the bodies, where they will be
     s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, rests, counts}});
@@ -52,8 +54,10 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
     s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}, 0, true, Length::entries});
     s.push_back({joined ? "count_pairs_joined" : "count_pairs", Over::bodies, count_pairs, {pair_starts, counts}});
+    s.back().content = bits & physics::CONTENT_PARTS;
     scan(s, "pairs", Over::body_blocks, pair_starts, scan_pairs_spine, scan_pairs_offsets);
     s.push_back({joined ? "fill_pairs_joined" : "fill_pairs", Over::bodies, fill_pairs, {}});
+    s.back().content = bits & physics::CONTENT_PARTS;
     s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});
     // narrowphase: who touches whom, and where
     s.push_back({"count_kinds", Over::spans, count_kinds, {contact_starts}, 0, true, Length::kinds});
@@ -91,7 +95,6 @@ std::vector<Stage> plan(int substeps, const Content& content) {
         s.push_back({"prepare_joints", Over::joint_blocks, prepare_joints, {Table::joints, slots}});
     }
     // the solver
-    const std::uint32_t bits = content_bits(content);
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t last = substep == substeps;
         s.push_back({"begin_substep", Over::bodies, begin_substep, {velocities, masses}, substep == 1});

@@ -108,8 +108,8 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
         physics::ivec3 from = range.first;
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
-                if (!(overlap(around, other) & ((other.level & ~physics::STILL) == level))) continue;
-                if (!physics::finds(body, around.level, other.body, other.level)) continue;
+                if (!(overlap(around, other) & ((other.level & ~(physics::STILL | physics::MOVES)) == level))) continue;
+                if (!physics::finds(body, around.level, other.body, other.level & ~physics::MOVES)) continue;
                 const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
                 if (cell.y != from.y || cell.z != from.z) continue;  // of another row whose buckets happen to be the same
                 if (physics::can_touch(own, state.traits[other.body])) found(other.body);
@@ -164,7 +164,7 @@ void order_cells(State& state, const Threads& threads, std::uint32_t) {
         std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
         std::for_each(first, last, [&](physics::CellEntry& entry) {
             const physics::Bounds& around = state.bounds[entry.body];
-            entry = {around.lower, entry.body, around.upper, around.level};
+            entry = {around.lower, entry.body, around.upper, physics::level_of_entry(around.level, state.traits[entry.body])};
         });
     });
 }

@@ -138,6 +138,12 @@ LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
 // Set in the level of a body's bounds: it does not stir in this step (rest.h).
 CONSTANT uint STILL = 0x100u;
 
+// Set in the level of a cell's entry: the body is dynamic, or a part of one that is.
+CONSTANT uint MOVES = 0x200u;
+LAW uint level_of_entry(uint level, Traits traits) {
+    return motion_of(traits) == MOTION_DYNAMIC ? level | MOVES : level;
+}
+
 // A pair of grid bodies one of which stirs is listed once. What stirs finds what is still on its own level and on coarser ones;
 // what is still finds what stirs on coarser ones, because nobody looks into finer levels. Pairs of still bodies are not looked
 // for.

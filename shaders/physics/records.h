@@ -379,11 +379,12 @@ struct Parameters {  // the same for every thread of a step
     Grip grips[4];  // MOST_GRIPS
 };
 
-// What the contacts of a scene may have; a device's solver leaves out the rest.
+// What there may be in a scene; a device leaves out the rest.
 CONSTANT uint CONTENT_BOUNCES = 1u;  // restitution
 CONSTANT uint CONTENT_ROLLS = 2u;    // resistance to rolling
 CONSTANT uint CONTENT_ROUND = 4u;    // round bodies
 CONSTANT uint CONTENT_TYRES = 8u;
+CONSTANT uint CONTENT_PARTS = 16u;  // bodies of several parts that move
 
 CONSTANT uint KINDS = 15u;  // of pairs: thirteen of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind

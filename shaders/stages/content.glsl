@@ -1,5 +1,5 @@
-// What a contact of this scene cannot be: the driver leaves out what the laws would do for it. A software device runs through
-// both branches of every `if`; a GPU needs registers for both.
+// What cannot be in this scene: the driver leaves out what is said for it. A software device runs through both branches of every
+// `if`; a GPU needs registers for both.
 #ifndef SCREE_STAGES_CONTENT_GLSL
 #define SCREE_STAGES_CONTENT_GLSL
 
@@ -7,6 +7,7 @@
 
 layout(constant_id = 1) const uint CONTENT = 0xFFFFFFFFu;
 const bool BOUNCES = (CONTENT & CONTENT_BOUNCES) != 0u;
+const bool PARTS = (CONTENT & CONTENT_PARTS) != 0u;
 const bool ROLLS = (CONTENT & CONTENT_ROLLS) != 0u;
 
 // Only members that the laws compare are replaced: a zero in a sum would be folded away, and the sign of a zero with it.

@@ -4,6 +4,7 @@
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
 #include "shaders/physics/grid.h"
+#include "shaders/stages/content.glsl"
 
 #ifdef WITH_JOINTS
 // Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
@@ -53,12 +54,12 @@ void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last
     for (uint k = 0u; k < entries; ++k) {
         uint place = first + k < end ? first + k : first + k - end;
         CellEntry entry = READ(cell_entries, place);
-        if ((entry.level & ~STILL) != level || !finds(body, around.level, entry.body, entry.level)) continue;
+        if ((entry.level & ~(STILL | MOVES)) != level || !finds(body, around.level, entry.body, entry.level & ~MOVES)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
-        if (is_part(own) && entry.body >= PARAMETERS.first_part && READ(traits, entry.body).owner == own.owner) continue;
-        if (motion_of(own) == MOTION_DYNAMIC || motion_of(READ(traits, entry.body)) == MOTION_DYNAMIC) meets(body, entry.body);
+        if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(traits, entry.body).owner == own.owner) continue;
+        if (motion_of(own) == MOTION_DYNAMIC || (entry.level & MOVES) != 0u) meets(body, entry.body);
     }
 }
 

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/grid.h"
 #include "shaders/stages/stage.glsl"
 
 #define SORT_GET(i) cell_entries.at[i].body
@@ -15,9 +16,10 @@ void main() {
     uint last = READ(cells, i);
     sort_range(first, last - first);
     for (uint k = first; k < last; ++k) {
-        Bounds around = READ(bounds, cell_entries.at[k].body);
+        uint body = cell_entries.at[k].body;
+        Bounds around = READ(bounds, body);
         cell_entries.at[k].lower = around.lower;
         cell_entries.at[k].upper = around.upper;
-        cell_entries.at[k].level = around.level;
+        cell_entries.at[k].level = level_of_entry(around.level, READ(traits, body));
     }
 }
