@@ -169,6 +169,8 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
             recording.dispatch(1);
             break;
         case Over::actions:
+            recording.dispatch(physics::work_for(state_->action_room, p).x);
+            break;
         case Over::bodies:
             recording.dispatch(std::max(1u, physics::work_for(p.bodies, p).x));
             break;

@@ -145,8 +145,8 @@ State::State(const Scene& scene, const Settings& settings, std::uint32_t group_s
     p.bodies = rows;
     p.first_part = n;
     p.buckets = buckets_for(rows);
-    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 4 * (n + moving);
-    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + 2 * (n + moving);
+    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving);
+    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2;
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
     allocate();
@@ -210,6 +210,8 @@ std::size_t State::allocated(Length length) const {
             return std::max<std::size_t>(1, vehicles.size());
         case Length::hulls:
             return std::max<std::size_t>(1, hulls.size());
+        case Length::actions:
+            return action_room;
     }
     return 0;
 }
@@ -269,7 +271,7 @@ void State::grow() {
         constexpr std::uint64_t most = 1u << 31;
         if (need > most)
             throw std::length_error("more than 2,147,483,648 pairs of bodies overlap: they must not all lie in one place");
-        return static_cast<std::uint32_t>(std::min(need + need / 2, most));
+        return static_cast<std::uint32_t>(std::min(need + need / 4, most));
     };
     if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_room(c.required_pairs);
     if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);

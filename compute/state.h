@@ -33,7 +33,8 @@ enum class Length {
     slots,
     hulls,
     joints,
-    vehicles
+    vehicles,
+    actions
 };
 
 enum class Table : std::uint32_t {
@@ -130,6 +131,7 @@ struct State {
     }
 
     int substeps = 1;
+    std::uint32_t action_room = 64;            // bodies that the user may act upon in one step; grows
     std::vector<std::uint32_t> joint_records;  // of each joint of the scene
 
     // The plain loops' own, no table: the first partners of each body as they were counted, so that they need not be sought again

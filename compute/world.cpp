@@ -2,6 +2,7 @@
 #include "compute/world.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -57,10 +58,18 @@ physics::Action& World::Interior::action_on(std::size_t body, vec3 value, vec3 s
     return action;
 }
 
+void World::Interior::make_room_for_actions() {
+    runner->fetch();
+    state.action_room = std::bit_ceil(static_cast<std::uint32_t>(actions.size()));
+    state.make(Table::actions);
+    runner->attach(state);
+}
+
 void World::Interior::step() {
     if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
     broken = true;
     take_up_grips();
+    if (actions.size() > state.action_room) make_room_for_actions();
     physics::Parameters& parameters = state.fixed();
     parameters.actions = 0;
     for (const auto& [body, action] : actions) state.actions[parameters.actions++] = bounded(action);

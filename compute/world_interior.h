@@ -34,6 +34,7 @@ struct World::Interior {
 
     Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r);
     void step();
+    void make_room_for_actions();
     void require_body(std::size_t body) const;
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;

@@ -17,7 +17,7 @@
     X(4, velocities, VelocitiesTable, Velocity, bodies)                                                                          \
     X(5, masses, MassesTable, Mass, bodies)                                                                                      \
     X(6, loads, LoadsTable, Load, bodies)                                                                                        \
-    X(7, actions, ActionsTable, Action, bodies)                                                                                  \
+    X(7, actions, ActionsTable, Action, actions)                                                                                 \
     X(8, bounds, BoundsTable, Bounds, bodies)                                                                                    \
     X(9, cells, CellsTable, uint, buckets) /* counted, scanned, and after filling the end of each bucket's entries */            \
     X(10, cell_entries, CellEntriesTable, CellEntry, bodies)                                                                     \
