@@ -1,6 +1,8 @@
 // Walks the plan on a Vulkan device.
 #include "compute/device_runner.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -118,9 +120,20 @@ void DeviceRunner::make_plan(host::Reach reach) {
     }
     if (!counts_back_) counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
     const std::string variant = std::string(reach == host::Reach::far ? ".far" : "") + (layout_->has_texels() ? ".texels" : "");
+    // Drivers take up to a tenth of a second for each, on one core.
+    std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
     for (const Stage& stage : plan_)
-        pipelines_.try_emplace({stage.name, stage.content}, layout_, stage.name.c_str(), shaders::find(stage.name + variant),
-                               std::vector{threads_of_a_group, stage.content});
+        if (!pipelines_.contains({stage.name, stage.content}) &&
+            std::none_of(missing.begin(), missing.end(), [&](const auto& other) {
+                return other.first->name == stage.name && other.first->content == stage.content;
+            }))
+            missing.emplace_back(&stage, std::nullopt);
+    tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+        const Stage& stage = *missing[i].first;
+        missing[i].second.emplace(layout_, stage.name.c_str(), shaders::find(stage.name + variant),
+                                  std::vector{threads_of_a_group, stage.content});
+    });
+    for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->content}, std::move(*pipeline));
 }
 
 void DeviceRunner::make_buffers() {
