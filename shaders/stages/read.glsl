@@ -5,6 +5,8 @@
 #ifndef SCREE_STAGES_READ_GLSL
 #define SCREE_STAGES_READ_GLSL
 
+#include "shaders/physics/arithmetic.h"
+
 #ifndef SCREE_TEXELS
 #define READ(table, i) table.at[i]
 #else
@@ -30,17 +32,17 @@ Traits traits_in(usamplerBuffer texels, uint i) {
     vec4 material = floats_at(texels, 5u * i + 2u);
     uvec4 motion = texelFetch(texels, int(5u * i + 3u));
     uvec4 relations = texelFetch(texels, int(5u * i + 4u));
-    return Traits(size.xyz, floatBitsToUint(size.w), inertia.xyz, inertia.w, material.x, material.y, material.z, material.w,
+    return Traits(xyz(size), floatBitsToUint(size.w), xyz(inertia), inertia.w, material.x, material.y, material.z, material.w,
                   uintBitsToFloat(motion.x), uintBitsToFloat(motion.y), motion.z, motion.w, relations.x, relations.y, relations.z,
                   relations.w);
 }
 Pose pose_in(usamplerBuffer texels, uint i) {
     vec4 position = floats_at(texels, 2u * i);
-    return Pose(position.xyz, position.w, floats_at(texels, 2u * i + 1u));
+    return Pose(xyz(position), position.w, floats_at(texels, 2u * i + 1u));
 }
 Velocity velocity_in(usamplerBuffer texels, uint i) {
     vec4 linear = floats_at(texels, 2u * i), angular = floats_at(texels, 2u * i + 1u);
-    return Velocity(linear.xyz, linear.w, angular.xyz, angular.w);
+    return Velocity(xyz(linear), linear.w, xyz(angular), angular.w);
 }
 Mass mass_in(usamplerBuffer texels, uint i) {
     vec4 first = floats_at(texels, 2u * i), second = floats_at(texels, 2u * i + 1u);
@@ -48,18 +50,18 @@ Mass mass_in(usamplerBuffer texels, uint i) {
 }
 Load load_in(usamplerBuffer texels, uint i) {
     vec4 linear = floats_at(texels, 2u * i), angular = floats_at(texels, 2u * i + 1u);
-    return Load(linear.xyz, linear.w, angular.xyz, angular.w);
+    return Load(xyz(linear), linear.w, xyz(angular), angular.w);
 }
 Bounds bounds_in(usamplerBuffer texels, uint i) {
     vec4 lower = floats_at(texels, 5u * i), upper = floats_at(texels, 5u * i + 1u);
     vec4 position = floats_at(texels, 5u * i + 2u), orientation = floats_at(texels, 5u * i + 3u);
     uvec4 stops = texelFetch(texels, int(5u * i + 4u));
-    return Bounds(lower.xyz, floatBitsToUint(lower.w), upper.xyz, floatBitsToUint(upper.w),
-                  Flight(position.xyz, position.w, orientation, uint[2](stops.x, stops.y), stops.z, stops.w));
+    return Bounds(xyz(lower), floatBitsToUint(lower.w), xyz(upper), floatBitsToUint(upper.w),
+                  Flight(xyz(position), position.w, orientation, uint[2](stops.x, stops.y), stops.z, stops.w));
 }
 CellEntry cell_entry_in(usamplerBuffer texels, uint i) {
     vec4 lower = floats_at(texels, 2u * i), upper = floats_at(texels, 2u * i + 1u);
-    return CellEntry(lower.xyz, floatBitsToUint(lower.w), upper.xyz, floatBitsToUint(upper.w));
+    return CellEntry(xyz(lower), floatBitsToUint(lower.w), xyz(upper), floatBitsToUint(upper.w));
 }
 Candidate candidate_in(usamplerBuffer texels, uint i) {
     uvec4 both = texelFetch(texels, int(i));
@@ -71,36 +73,36 @@ Pair pair_in(usamplerBuffer texels, uint i) {
 }
 Manifold manifold_in(usamplerBuffer texels, uint i) {
     vec4 normal = floats_at(texels, 5u * i);
-    return Manifold(normal.xyz, floatBitsToUint(normal.w),
+    return Manifold(xyz(normal), floatBitsToUint(normal.w),
                     vec4[4](floats_at(texels, 5u * i + 1u), floats_at(texels, 5u * i + 2u), floats_at(texels, 5u * i + 3u),
                             floats_at(texels, 5u * i + 4u)));
 }
 Contact contact_in(usamplerBuffer texels, uint i) {
     uvec4 sides = texelFetch(texels, int(9u * i));
     vec4 normal = floats_at(texels, 9u * i + 1u), d = floats_at(texels, 9u * i + 2u);
-    return Contact(sides.x, sides.y, sides.z, sides.w, normal.xyz, floatBitsToUint(normal.w), d.xyz, d.w,
+    return Contact(sides.x, sides.y, sides.z, sides.w, xyz(normal), floatBitsToUint(normal.w), xyz(d), d.w,
                    vec4[4](floats_at(texels, 9u * i + 3u), floats_at(texels, 9u * i + 4u), floats_at(texels, 9u * i + 5u),
                            floats_at(texels, 9u * i + 6u)),
                    floats_at(texels, 9u * i + 7u), floats_at(texels, 9u * i + 8u));
 }
 Impulse impulse_in(usamplerBuffer texels, uint i) {
     vec4 friction = floats_at(texels, 6u * i + 3u), rolling = floats_at(texels, 6u * i + 4u), d = floats_at(texels, 6u * i + 5u);
-    return Impulse(floats_at(texels, 6u * i), floats_at(texels, 6u * i + 1u), floats_at(texels, 6u * i + 2u), friction.xyz,
-                   friction.w, rolling.xyz, rolling.w, d.xyz, d.w);
+    return Impulse(floats_at(texels, 6u * i), floats_at(texels, 6u * i + 1u), floats_at(texels, 6u * i + 2u), xyz(friction),
+                   friction.w, xyz(rolling), rolling.w, xyz(d), d.w);
 }
 Constraint constraint_in(usamplerBuffer texels, uint i) {
     uvec4 sides = texelFetch(texels, int(9u * i)), last = texelFetch(texels, int(9u * i + 8u));
     vec4 normal = floats_at(texels, 9u * i + 1u), centre = floats_at(texels, 9u * i + 6u);
     uvec4 pair = texelFetch(texels, int(9u * i + 7u));
-    return Constraint(sides.x, sides.y, sides.z, sides.w, normal.xyz, normal.w,
+    return Constraint(sides.x, sides.y, sides.z, sides.w, xyz(normal), normal.w,
                       vec4[4](floats_at(texels, 9u * i + 2u), floats_at(texels, 9u * i + 3u), floats_at(texels, 9u * i + 4u),
                               floats_at(texels, 9u * i + 5u)),
-                      centre.xyz, centre.w, uintBitsToFloat(pair.x), uintBitsToFloat(pair.y), pair.z, pair.w,
+                      xyz(centre), centre.w, uintBitsToFloat(pair.x), uintBitsToFloat(pair.y), pair.z, pair.w,
                       uintBitsToFloat(last.x), uintBitsToFloat(last.y), last.z, uintBitsToFloat(last.w));
 }
 Slot slot_in(usamplerBuffer texels, uint i) {
     vec4 linear = floats_at(texels, 2u * i), angular = floats_at(texels, 2u * i + 1u);
-    return Slot(linear.xyz, linear.w, angular.xyz, angular.w);
+    return Slot(xyz(linear), linear.w, xyz(angular), angular.w);
 }
 Counts counts_in(usamplerBuffer texels, uint i) {
     uvec4 a = texelFetch(texels, 0), b = texelFetch(texels, 1), c = texelFetch(texels, 2), d = texelFetch(texels, 7);

@@ -17,10 +17,11 @@ namespace {
 
 struct Watched {
     std::shared_ptr<host::Device> device;
-    explicit Watched(std::uint64_t largest_binding = 0) {
+    explicit Watched(std::uint64_t largest_binding = 0, bool without_texels = false) {
         host::DeviceOptions options;
         options.validation = true;
         options.largest_binding = largest_binding;
+        options.without_texels = without_texels;
         device = host::Device::open(options);
     }
     ~Watched() {
@@ -54,9 +55,10 @@ std::uint32_t contacts_walked(const Scene& scene, const Watched& watched, int st
 TEST_CASE("tables longer than a binding are found by address, from the start or once they have grown, with the same bits") {
     Settings small;
     small.pairs_at_first = small.contacts_at_first = 8;
+    const bool without_texels = GENERATE(false, true);
     for (const std::uint64_t largest_binding : {1024u, 65536u}) {
-        CAPTURE(largest_binding);
-        const Watched watched(largest_binding);
+        CAPTURE(largest_binding, without_texels);
+        const Watched watched(largest_binding, without_texels);
         Lockstep lockstep(tests::packed(300), small, watched.device, 1);
         REQUIRE(lockstep.device().reach() == (largest_binding == 1024 ? host::Reach::far : host::Reach::bound));
         for (int step = 0; step < 10; ++step) {
@@ -65,6 +67,11 @@ TEST_CASE("tables longer than a binding are found by address, from the start or 
         }
         REQUIRE(lockstep.device().reach() == host::Reach::far);
     }
+}
+
+TEST_CASE("every stage gives the same bits on both processors where tables are not read as texels") {
+    const Watched watched(0, /* without_texels */ true);
+    REQUIRE(contacts_walked(tests::packed(300), watched, 10) > 300);
 }
 
 TEST_CASE("every stage gives the same bits on both processors, whatever the number of bodies") {
