@@ -1,6 +1,7 @@
 // scree run: simulates a demo or a scene file, with pictures and a report, and holds it to its promise.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
