@@ -1,6 +1,7 @@
 // scree bench: what a step costs, stage by stage, for several numbers of bodies; as a table and as CSV.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 
 #include "demos/bench.h"

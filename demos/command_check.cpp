@@ -1,6 +1,8 @@
 // scree check: the stability suite. Every demo runs as long as its promise takes, and is held to it.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "demos/commands.h"
 #include "demos/failure.h"
 #include "demos/interrupt.h"

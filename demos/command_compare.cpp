@@ -1,6 +1,8 @@
 // scree compare: processor and GPU in lockstep; the common hash, or the first stage that differs.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "compute/lockstep.h"
 #include "demos/commands.h"
 #include "demos/failure.h"

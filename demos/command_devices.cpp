@@ -1,6 +1,8 @@
 // scree devices: the Vulkan devices, and what each lacks.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "demos/commands.h"
 #include "demos/table.h"
 #include "host/device.h"

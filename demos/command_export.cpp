@@ -1,6 +1,8 @@
 // scree export: a demo's scene as a file, or the schema of such files.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "demos/commands.h"
 #include "demos/failure.h"
 #include "demos/subject.h"

@@ -1,6 +1,8 @@
 // scree list: the demos and the trials, a line each.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
+
 #include "demos/commands.h"
 #include "demos/demos.h"
 #include "demos/table.h"

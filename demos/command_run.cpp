@@ -1,6 +1,7 @@
 // scree run: simulates a demo or a scene file, with pictures and a report, and holds it to its promise.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -208,6 +209,32 @@ int run(const Options& options) {
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
     if (pictures) report.canvas = pictures->canvas();
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
+}
+
+template <class Value>
+void agree(const CLI::App& command, const char* option, const Value& named, const Value& recorded, const std::string& path) {
+    if (command.count(option) == 0 || named == recorded) return;
+    throw UsageError(
+        fmt::format("{}: the recording {} says {}, the command line {}; leave the option out", option, path, recorded, named));
+}
+
+// The options with which the input was recorded, and its steps unless the user says how many. What else the user named on the
+// command line (the scene, --bodies, --seed and so on) must agree: throws UsageError.
+SceneOptions with_input(const CLI::App& command, SceneOptions options, const Input& input, const std::string& path) {
+    agree(command, "scene", options.name, input.scene, path);
+    agree(command, "--bodies", options.bodies, input.bodies, path);
+    agree(command, "--seed", options.seed, input.seed, path);
+    agree(command, "--rate", options.rate, input.rate, path);
+    agree(command, "--substeps", options.substeps, input.substeps, path);
+    agree(command, "--no-sleep", options.sleeping, input.sleeping, path);
+    options.name = input.scene;
+    options.bodies = input.bodies;
+    options.seed = input.seed;
+    options.rate = input.rate;
+    options.substeps = input.substeps;
+    options.sleeping = input.sleeping;
+    if (!options.steps && !options.seconds) options.steps = static_cast<int>(std::max<std::uint64_t>(1, input.steps));
+    return options;
 }
 
 int run(const CLI::App& command, Options options) {

@@ -1,6 +1,7 @@
 // scree view: a demo or a scene file in a window, to be taken hold of.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdio>
 #include <nlohmann/json.hpp>

@@ -1,4 +1,6 @@
 // The command that needs a window, in a build without one: it says so.
+#include <CLI/CLI.hpp>
+
 #include "demos/commands.h"
 #include "demos/failure.h"
 

@@ -1,7 +1,9 @@
 // The commands of the program, one file each. A command sets `status` to how the program ends, or throws.
 #pragma once
 
-#include <CLI/CLI.hpp>
+namespace CLI {
+class App;
+}
 
 namespace scree::demos {
 

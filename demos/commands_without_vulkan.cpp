@@ -1,4 +1,6 @@
 // The commands that need Vulkan, in a build without it: they say so.
+#include <CLI/CLI.hpp>
+
 #include "demos/commands.h"
 #include "demos/failure.h"
 

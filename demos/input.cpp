@@ -55,32 +55,4 @@ Script replay(Input input, std::string path, Script first) {
     };
 }
 
-namespace {
-
-template <class Value>
-void agree(const CLI::App& command, const char* option, const Value& named, const Value& recorded, const std::string& path) {
-    if (command.count(option) == 0 || named == recorded) return;
-    throw UsageError(
-        fmt::format("{}: the recording {} says {}, the command line {}; leave the option out", option, path, recorded, named));
-}
-
-}  // namespace
-
-SceneOptions with_input(const CLI::App& command, SceneOptions options, const Input& input, const std::string& path) {
-    agree(command, "scene", options.name, input.scene, path);
-    agree(command, "--bodies", options.bodies, input.bodies, path);
-    agree(command, "--seed", options.seed, input.seed, path);
-    agree(command, "--rate", options.rate, input.rate, path);
-    agree(command, "--substeps", options.substeps, input.substeps, path);
-    agree(command, "--no-sleep", options.sleeping, input.sleeping, path);
-    options.name = input.scene;
-    options.bodies = input.bodies;
-    options.seed = input.seed;
-    options.rate = input.rate;
-    options.substeps = input.substeps;
-    options.sleeping = input.sleeping;
-    if (!options.steps && !options.seconds) options.steps = static_cast<int>(std::max<std::uint64_t>(1, input.steps));
-    return options;
-}
-
 }  // namespace scree::demos

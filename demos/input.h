@@ -65,8 +65,4 @@ Script replay(Input input, std::string path, Script first);
 // What a session of these options records before anything was done.
 Input begun(const SceneOptions& options, std::uint64_t start_hash);
 
-// The options with which the input was recorded, and its steps unless the user says how many. What else the user named on the
-// command line (the scene, --bodies, --seed and so on) must agree: throws UsageError.
-SceneOptions with_input(const CLI::App& command, SceneOptions options, const Input& input, const std::string& path);
-
 }  // namespace scree::demos

@@ -1,6 +1,7 @@
 // The program scree: reads the command line, runs a command, and turns what went wrong into one message and an exit status.
 #include <fcntl.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <new>
 #include <system_error>

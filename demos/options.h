@@ -1,7 +1,6 @@
 // What the user may ask of a simulation, and how words of the command line become values.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +11,10 @@
 #include <vector>
 
 #include "compute/settings.h"
+
+namespace CLI {
+class App;
+}
 
 namespace scree::demos {
 

@@ -1,6 +1,7 @@
 // The options of pictures.
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <map>

@@ -1,11 +1,15 @@
 // Words of the command line as values, with messages that say what is wrong with them.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstddef>
 #include <glm/glm.hpp>
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace CLI {
+class Validator;
+}
 
 namespace scree::demos {
 
