@@ -1,9 +1,9 @@
-// A build tool: turns a compiled shader into a C++ array, with NoContraction on all its float arithmetic.
-//     scree_embed_shader [--forbid-inexact] IN.spv OUT.cpp NAMESPACE SYMBOL SOURCE
+// A build tool: makes a compiled shader ready to be embedded, with NoContraction on all its float arithmetic.
+//     scree_embed_shader [--forbid-inexact] IN.spv OUT SOURCE
 #include <cstring>
 #include <exception>
 #include <iostream>
-#include <sstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,26 +22,15 @@ std::vector<std::uint32_t> read_words(const std::string& path) {
     return words;
 }
 
-std::string as_cpp(const std::vector<std::uint32_t>& words, const std::string& space, const std::string& symbol,
-                   const std::string& source) {
-    std::ostringstream out;
-    out << "// Made from " << source << " when the project is built.\n#include <cstddef>\n#include <cstdint>\n\nnamespace "
-        << space << " {\n"
-        << "extern const std::uint32_t " << symbol << "[];\nextern const std::size_t " << symbol << "_size;\n"
-        << "const std::size_t " << symbol << "_size = " << words.size() << ";\nconst std::uint32_t " << symbol << "[] = {";
-    for (std::size_t i = 0; i < words.size(); ++i) out << (i % 12 == 0 ? "\n" : "") << words[i] << "u,";
-    out << "\n};\n}\n";
-    return out.str();
-}
-
 int embed(const std::vector<std::string>& arguments, bool forbid_inexact) {
     const std::vector<std::uint32_t> words = read_words(arguments[0]);
     const std::vector<std::string> inexact = forbid_inexact ? inexact_instructions(words) : std::vector<std::string>{};
     for (const std::string& instruction : inexact) {
-        std::cerr << arguments[4] << ": " << instruction << ": its result differs between devices; spell it with + - *\n";
+        std::cerr << arguments[2] << ": " << instruction << ": its result differs between devices; spell it with + - *\n";
     }
     if (!inexact.empty()) return 1;
-    write_atomically(arguments[1], as_cpp(without_lines(without_contraction(words)), arguments[2], arguments[3], arguments[4]));
+    const std::vector<std::uint32_t> ready = without_lines(without_contraction(words));
+    write_atomically(arguments[1], std::as_bytes(std::span(ready)));
     return 0;
 }
 
@@ -51,14 +40,14 @@ int main(int count, char** values) {
     std::vector<std::string> arguments(values + 1, values + count);
     const bool forbid_inexact = !arguments.empty() && arguments.front() == "--forbid-inexact";
     if (forbid_inexact) arguments.erase(arguments.begin());
-    if (arguments.size() != 5) {
-        std::cerr << "usage: scree_embed_shader [--forbid-inexact] IN.spv OUT.cpp NAMESPACE SYMBOL SOURCE\n";
+    if (arguments.size() != 3) {
+        std::cerr << "usage: scree_embed_shader [--forbid-inexact] IN.spv OUT SOURCE\n";
         return 2;
     }
     try {
         return embed(arguments, forbid_inexact);
     } catch (const std::exception& error) {
-        std::cerr << arguments[4] << ": " << error.what() << "\n";
+        std::cerr << arguments[2] << ": " << error.what() << "\n";
         return 1;
     }
 }
