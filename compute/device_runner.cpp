@@ -15,7 +15,11 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t threads_of_a_group = 128;
+// A software device runs every group of a dispatch to its end, whether its threads have items or not: smaller ones waste less in
+// a small world, and share it out among the cores.
+std::uint32_t threads_of_a_group(const host::Device& device) {
+    return device.report().is_processor ? 64 : 128;
+}
 
 // contacts <-> contacts_before and so on in the second parity.
 Table other_parity(Table table) {
@@ -78,7 +82,7 @@ std::string DeviceRunner::device() const {
     return device_->report().name;
 }
 std::uint32_t DeviceRunner::group_size() const {
-    return threads_of_a_group;
+    return threads_of_a_group(*device_);
 }
 
 const host::Buffer& DeviceRunner::buffer(Table table) const {
@@ -96,7 +100,7 @@ void DeviceRunner::attach(State& state) {
     if (!layout_ || layout_->reach() != reach || planned_substeps_ != state.substeps || planned_content_ != state.content())
         make_plan(reach);
     upload();
-    record();
+    bind_tables();
 }
 
 host::Reach DeviceRunner::reach_needed() const {
@@ -131,7 +135,7 @@ void DeviceRunner::make_plan(host::Reach reach) {
     tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
         const Stage& stage = *missing[i].first;
         missing[i].second.emplace(layout_, stage.name.c_str(), shaders::find(stage.name + variant),
-                                  std::vector{threads_of_a_group, stage.content});
+                                  std::vector{group_size(), stage.content});
     });
     for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->content}, std::move(*pipeline));
 }
@@ -232,28 +236,33 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
     }
 }
 
-void DeviceRunner::record() {
-    const host::Buffer& counts = buffers_[static_cast<std::size_t>(Table::counts)];
+void DeviceRunner::bind_tables() {
     for (std::size_t parity = 0; parity < 2; ++parity) {
         std::vector<const host::Buffer*> bound;
         for (std::size_t i = 0; i < table_count; ++i)
             bound.push_back(
                 &buffers_[static_cast<std::size_t>(parity ? other_parity(static_cast<Table>(i)) : static_cast<Table>(i))]);
         alone_[parity].clear();
-        steps_[parity].reset();
+        steps_[parity] = {};
         tables_[parity] = std::make_unique<host::Table>(layout_, bound);
-        auto recording = std::make_unique<host::Recording>(device_, static_cast<std::uint32_t>(plan_.size()) + 1);
-        recording->timestamp();
-        for (const Stage& stage : plan_) {
-            record_stage(*recording, stage, parity);
-            if (stage.feeds_next) recording->barrier();
-            recording->timestamp();
-        }
-        recording->copy(counts, counts_back_, sizeof(physics::Counts));
-        recording->barrier();
-        recording->end();
-        steps_[parity] = std::move(recording);
     }
+}
+
+const host::Recording& DeviceRunner::whole_step() {
+    std::unique_ptr<host::Recording>& step = steps_[parity_][timed_ ? 1 : 0];
+    if (step) return *step;
+    auto recording = std::make_unique<host::Recording>(device_, timed_ ? static_cast<std::uint32_t>(plan_.size()) + 1 : 0);
+    if (timed_) recording->timestamp();
+    for (const Stage& stage : plan_) {
+        record_stage(*recording, stage, parity_);
+        if (stage.feeds_next) recording->barrier();
+        if (timed_) recording->timestamp();
+    }
+    recording->copy(buffers_[static_cast<std::size_t>(Table::counts)], counts_back_, sizeof(physics::Counts));
+    recording->barrier();
+    recording->end();
+    step = std::move(recording);
+    return *step;
 }
 
 void DeviceRunner::send_inputs() {
@@ -272,12 +281,15 @@ void DeviceRunner::begin_step() {
 
 bool DeviceRunner::step() {
     begin_step();
-    device_->submit_and_wait({steps_[parity_]->handle()});
+    const host::Recording& recording = whole_step();
+    device_->submit_and_wait({recording.handle()});
     counts_back_.read(&state_->counted(), sizeof(physics::Counts));
-    clock_.begin_step();
-    const std::vector<double> seconds = steps_[parity_]->timestamp_seconds();
-    for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
-    clock_.end_step();
+    if (timed_) {
+        clock_.begin_step();
+        const std::vector<double> seconds = recording.timestamp_seconds();
+        for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
+        clock_.end_step();
+    }
     return state_->counted().overflow == 0;
 }
 

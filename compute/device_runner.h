@@ -37,6 +37,7 @@ public:
     void fetch_vehicles() override;
     void send_vehicle(std::size_t index) override;
     void fetch() override;
+    void time_stages(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
@@ -71,7 +72,8 @@ private:
     void make_plan(host::Reach reach);
     void make_buffers();
     void upload();
-    void record();
+    void bind_tables();
+    const host::Recording& whole_step();
     void record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const;
     void send_inputs();
     void fetch_live(Table table);
@@ -84,13 +86,14 @@ private:
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
     std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
-    std::vector<host::Buffer> buffers_;                // by binding; contacts and those before change places with the parity
+    std::vector<host::Buffer> buffers_;  // by binding; contacts and those before change places with the parity
     host::Buffer counts_back_;
-    // Per parity: the table, the whole step, and (made when asked for) each stage alone.
+    // Per parity: the table, and (made when asked for) the whole step, without and with times, and each stage alone.
     std::array<std::unique_ptr<host::Table>, 2> tables_;
-    std::array<std::unique_ptr<host::Recording>, 2> steps_;
+    std::array<std::array<std::unique_ptr<host::Recording>, 2>, 2> steps_;
     std::array<std::vector<std::unique_ptr<host::Recording>>, 2> alone_;
     std::size_t parity_ = 0;
+    bool timed_ = false;
     physics::Parameters sent_{};
 };
 

@@ -76,11 +76,14 @@ Samples sample(World& world, const std::string& what, const BenchOptions& option
     const int steps = options.warmup + options.steps;
     Progress progress(what, steps, "steps", options.quiet);
     for (int i = 0; i < steps && !is_interrupted(); ++i) {
+        // Times of stages take time. A single step has to tell both.
+        const bool counts = i >= options.warmup, timed = counts && (steps - i) % 2 == 1;
+        world.time_stages(timed);
         const auto start = std::chrono::steady_clock::now();
         world.step();
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-        if (i >= options.warmup) {
-            samples.step_ms.push_back(taken.count());
+        if (counts && (!timed || options.steps == 1)) samples.step_ms.push_back(taken.count());
+        if (timed) {
             for (const auto& [stage, ms] : world.last_stage_times()) samples.stage_ms[stage].push_back(ms);
         }
         progress.done(i + 1);
