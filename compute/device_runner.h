@@ -60,6 +60,8 @@ public:
     void run_stage(std::size_t index);
     void read(Table table, std::span<std::byte> bytes) const;
     void write(Table table, std::span<const std::byte> bytes);
+    // Whether stages run as one because the world is small.
+    bool is_fused() const { return recorded_.size() < plan_.size(); }
     // Whether the tables are bound or, too long or too many for this device, found by address.
     host::Reach reach() const { return layout_->reach(); }
     // Fills with 0xCD every table that the step now begun must not read before it has written it.
@@ -70,17 +72,23 @@ private:
     host::Buffer& buffer(Table table);
     host::Reach reach_needed() const;
     void make_plan(host::Reach reach);
+    void fuse();
+    bool is_one_subgroup() const;
+    std::uint32_t fused_group_size() const;
+    std::vector<std::uint32_t> constants_of(const Stage& stage) const;  // for its specialisation
+    void make_pipelines(const std::vector<Stage>& stages);
     void make_buffers();
     void upload();
     void bind_tables();
     const host::Recording& whole_step();
-    void record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const;
+    void record_stage(host::Recording& recording, const Stage& stage) const;
     void send_inputs();
     void fetch_live(Table table);
 
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
+    std::vector<Stage> recorded_;  // the plan, in a small world with stages fused
     int planned_substeps_ = 0;
     Content planned_content_;
     StageClock clock_;

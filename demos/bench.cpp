@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 
+#include "compute/fusing.h"
 #include "compute/scene_json.h"
 #include "compute/traffic.h"
 #include "demos/failure.h"
@@ -112,10 +113,14 @@ Measurement measure(const SceneOptions& scene, const BenchOptions& options, cons
         result.step = {"step", cost_of(samples.step_ms)};
         result.p95 = spread.p95;
         result.min = spread.min;
-        for (const Traffic& traffic : traffic_of(world.state())) {
-            const auto found = samples.stage_ms.find(traffic.stage);
+        std::map<std::string, double> bytes;
+        for (const Traffic& traffic : traffic_of(world.state())) bytes[traffic.stage] = traffic.read + traffic.written;
+        for (const auto& [stage, ms] : world.last_stage_times()) {
+            const auto found = samples.stage_ms.find(stage);
             const Cost cost = found == samples.stage_ms.end() ? Cost{} : cost_of(found->second);
-            result.stages.push_back({traffic.stage, cost, traffic.read + traffic.written});
+            double moved = 0;
+            for (const std::string& part : parts_of(stage)) moved += bytes[part];
+            result.stages.push_back({stage, cost, moved});
             result.step.bytes += result.stages.back().bytes;
         }
         result.buffer_bytes = world.buffer_bytes();
