@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 
+#include "compute/fusing.h"
 #include "shaders/embedded.h"
 #include "shaders/physics/counts.h"
 
@@ -15,7 +16,11 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t threads_of_a_group = 128;
+// A software device runs every group of a dispatch to its end, whether its threads have items or not: smaller ones waste less in
+// a small world, and share it out among the cores.
+std::uint32_t threads_of_a_group(const host::Device& device) {
+    return device.report().is_processor ? 64 : 128;
+}
 
 // contacts <-> contacts_before and so on in the second parity.
 Table other_parity(Table table) {
@@ -42,6 +47,9 @@ Table other_parity(Table table) {
 std::vector<host::Access> accesses(bool texels) {
     std::vector<host::Access> all(table_count);
     all[static_cast<std::size_t>(Table::parameters)].uniform = true;
+    using enum Table;
+    for (const Table table : {poses, velocities, masses, loads, impulses, slots})  // shaders/stages/read_now.glsl
+        all[static_cast<std::size_t>(table)].changing = texels;
     for (std::size_t i = 0; texels && i < table_count; ++i)
         all[i].texel_bytes = static_cast<std::uint32_t>(std::min<std::size_t>(16, table_infos()[i].record_bytes));
     return all;
@@ -78,7 +86,7 @@ std::string DeviceRunner::device() const {
     return device_->report().name;
 }
 std::uint32_t DeviceRunner::group_size() const {
-    return threads_of_a_group;
+    return threads_of_a_group(*device_);
 }
 
 const host::Buffer& DeviceRunner::buffer(Table table) const {
@@ -95,8 +103,9 @@ void DeviceRunner::attach(State& state) {
     const host::Reach reach = reach_needed();
     if (!layout_ || layout_->reach() != reach || planned_substeps_ != state.substeps || planned_content_ != state.content())
         make_plan(reach);
+    fuse();
     upload();
-    record();
+    bind_tables();
 }
 
 host::Reach DeviceRunner::reach_needed() const {
@@ -112,17 +121,33 @@ void DeviceRunner::make_plan(host::Reach reach) {
     planned_substeps_ = state_->substeps;
     planned_content_ = state_->content();
     plan_ = plan(planned_substeps_, planned_content_);
-    clock_ = StageClock(plan_);
     if (!layout_ || layout_->reach() != reach) {
         pipelines_.clear();
         layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t),
                                                       reach, accesses(device_->report().prefers_texels));
     }
     if (!counts_back_) counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
-    const std::string variant = std::string(reach == host::Reach::far ? ".far" : "") + (layout_->has_texels() ? ".texels" : "");
+}
+
+// shaders/stages/fused.glsl says why.
+bool DeviceRunner::is_one_subgroup() const {
+    return device_->report().is_processor && device_->report().subgroup > 0;
+}
+std::uint32_t DeviceRunner::fused_group_size() const {
+    return is_one_subgroup() ? device_->report().subgroup : group_size();
+}
+
+std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const {
+    if (stage.reference) return {group_size(), stage.content};
+    return {fused_group_size(), stage.content, is_one_subgroup() ? 1u : 0u};
+}
+
+void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
+    const std::string variant =
+        std::string(layout_->reach() == host::Reach::far ? ".far" : "") + (layout_->has_texels() ? ".texels" : "");
     // Drivers take up to a tenth of a second for each, on one core.
     std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
-    for (const Stage& stage : plan_)
+    for (const Stage& stage : stages)
         if (!pipelines_.contains({stage.name, stage.content}) &&
             std::none_of(missing.begin(), missing.end(), [&](const auto& other) {
                 return other.first->name == stage.name && other.first->content == stage.content;
@@ -130,10 +155,19 @@ void DeviceRunner::make_plan(host::Reach reach) {
             missing.emplace_back(&stage, std::nullopt);
     tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
         const Stage& stage = *missing[i].first;
-        missing[i].second.emplace(layout_, stage.name.c_str(), shaders::find(stage.name + variant),
-                                  std::vector{threads_of_a_group, stage.content});
+        missing[i].second.emplace(layout_, stage.name.c_str(), shaders::find(stage.name + variant), constants_of(stage));
     });
     for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->content}, std::move(*pipeline));
+}
+
+// A world that has grown may be small no more.
+void DeviceRunner::fuse() {
+    std::vector<Stage> recorded = fused(plan_, state_->fixed(), fused_group_size());
+    const bool as_before = std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),
+                                      [](const Stage& a, const Stage& b) { return a.name == b.name; });
+    recorded_ = std::move(recorded);
+    if (!as_before) clock_ = StageClock(recorded_);
+    make_pipelines(recorded_);
 }
 
 void DeviceRunner::make_buffers() {
@@ -170,9 +204,9 @@ void DeviceRunner::upload() {
         if (!state_->raw(table).empty()) send(table);
 }
 
-void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const {
+void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage) const {
     const physics::Parameters& p = state_->fixed();
-    recording.bind(pipelines_.at({stage.name, stage.content}), *tables_[parity]);
+    recording.bind(pipelines_.at({stage.name, stage.content}), *tables_[parity_]);
     recording.push(&stage.pass, sizeof(stage.pass));
     const auto indirect = [&](physics::uint row) {
         recording.dispatch_indirect(buffers_[static_cast<std::size_t>(Table::counts)], argument_offset(row));
@@ -232,28 +266,33 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage, 
     }
 }
 
-void DeviceRunner::record() {
-    const host::Buffer& counts = buffers_[static_cast<std::size_t>(Table::counts)];
+void DeviceRunner::bind_tables() {
     for (std::size_t parity = 0; parity < 2; ++parity) {
         std::vector<const host::Buffer*> bound;
         for (std::size_t i = 0; i < table_count; ++i)
             bound.push_back(
                 &buffers_[static_cast<std::size_t>(parity ? other_parity(static_cast<Table>(i)) : static_cast<Table>(i))]);
         alone_[parity].clear();
-        steps_[parity].reset();
+        steps_[parity] = {};
         tables_[parity] = std::make_unique<host::Table>(layout_, bound);
-        auto recording = std::make_unique<host::Recording>(device_, static_cast<std::uint32_t>(plan_.size()) + 1);
-        recording->timestamp();
-        for (const Stage& stage : plan_) {
-            record_stage(*recording, stage, parity);
-            if (stage.feeds_next) recording->barrier();
-            recording->timestamp();
-        }
-        recording->copy(counts, counts_back_, sizeof(physics::Counts));
-        recording->barrier();
-        recording->end();
-        steps_[parity] = std::move(recording);
     }
+}
+
+const host::Recording& DeviceRunner::whole_step() {
+    std::unique_ptr<host::Recording>& step = steps_[parity_][timed_ ? 1 : 0];
+    if (step) return *step;
+    auto recording = std::make_unique<host::Recording>(device_, timed_ ? static_cast<std::uint32_t>(recorded_.size()) + 1 : 0);
+    if (timed_) recording->timestamp();
+    for (const Stage& stage : recorded_) {
+        record_stage(*recording, stage);
+        if (stage.feeds_next) recording->barrier();
+        if (timed_) recording->timestamp();
+    }
+    recording->copy(buffers_[static_cast<std::size_t>(Table::counts)], counts_back_, sizeof(physics::Counts));
+    recording->barrier();
+    recording->end();
+    step = std::move(recording);
+    return *step;
 }
 
 void DeviceRunner::send_inputs() {
@@ -272,21 +311,25 @@ void DeviceRunner::begin_step() {
 
 bool DeviceRunner::step() {
     begin_step();
-    device_->submit_and_wait({steps_[parity_]->handle()});
+    const host::Recording& recording = whole_step();
+    device_->submit_and_wait({recording.handle()});
     counts_back_.read(&state_->counted(), sizeof(physics::Counts));
-    clock_.begin_step();
-    const std::vector<double> seconds = steps_[parity_]->timestamp_seconds();
-    for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
-    clock_.end_step();
+    if (timed_) {
+        clock_.begin_step();
+        const std::vector<double> seconds = recording.timestamp_seconds();
+        for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
+        clock_.end_step();
+    }
     return state_->counted().overflow == 0;
 }
 
 void DeviceRunner::run_stage(std::size_t index) {
     std::vector<std::unique_ptr<host::Recording>>& alone = alone_[parity_];
     if (alone.empty()) {
+        make_pipelines(plan_);
         for (const Stage& stage : plan_) {
             auto recording = std::make_unique<host::Recording>(device_, 0);
-            record_stage(*recording, stage, parity_);
+            record_stage(*recording, stage);
             recording->barrier();
             recording->end();
             alone.push_back(std::move(recording));

@@ -37,6 +37,7 @@ public:
     void fetch_vehicles() override;
     void send_vehicle(std::size_t index) override;
     void fetch() override;
+    void time_stages(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
@@ -59,6 +60,8 @@ public:
     void run_stage(std::size_t index);
     void read(Table table, std::span<std::byte> bytes) const;
     void write(Table table, std::span<const std::byte> bytes);
+    // Whether stages run as one because the world is small.
+    bool is_fused() const { return recorded_.size() < plan_.size(); }
     // Whether the tables are bound or, too long or too many for this device, found by address.
     host::Reach reach() const { return layout_->reach(); }
     // Fills with 0xCD every table that the step now begun must not read before it has written it.
@@ -69,28 +72,36 @@ private:
     host::Buffer& buffer(Table table);
     host::Reach reach_needed() const;
     void make_plan(host::Reach reach);
+    void fuse();
+    bool is_one_subgroup() const;
+    std::uint32_t fused_group_size() const;
+    std::vector<std::uint32_t> constants_of(const Stage& stage) const;  // for its specialisation
+    void make_pipelines(const std::vector<Stage>& stages);
     void make_buffers();
     void upload();
-    void record();
-    void record_stage(host::Recording& recording, const Stage& stage, std::size_t parity) const;
+    void bind_tables();
+    const host::Recording& whole_step();
+    void record_stage(host::Recording& recording, const Stage& stage) const;
     void send_inputs();
     void fetch_live(Table table);
 
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
+    std::vector<Stage> recorded_;  // the plan, in a small world with stages fused
     int planned_substeps_ = 0;
     Content planned_content_;
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
     std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
-    std::vector<host::Buffer> buffers_;                // by binding; contacts and those before change places with the parity
+    std::vector<host::Buffer> buffers_;  // by binding; contacts and those before change places with the parity
     host::Buffer counts_back_;
-    // Per parity: the table, the whole step, and (made when asked for) each stage alone.
+    // Per parity: the table, and (made when asked for) the whole step, without and with times, and each stage alone.
     std::array<std::unique_ptr<host::Table>, 2> tables_;
-    std::array<std::unique_ptr<host::Recording>, 2> steps_;
+    std::array<std::array<std::unique_ptr<host::Recording>, 2>, 2> steps_;
     std::array<std::vector<std::unique_ptr<host::Recording>>, 2> alone_;
     std::size_t parity_ = 0;
+    bool timed_ = false;
     physics::Parameters sent_{};
 };
 

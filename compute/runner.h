@@ -38,9 +38,12 @@ public:
     virtual void fetch_vehicles() = 0;                 // all of them
     virtual void send_vehicle(std::size_t index) = 0;  // what it is told, which was changed in the attached state
     virtual void fetch() = 0;
-    virtual StageTimes stage_times() const = 0;       // means over the steps since the runner was first attached, or
+    // Whether the steps to come are timed stage by stage. At first none is: on a software device a mark between two stages of a
+    // small world takes longer than the stages. On the CPU it costs nothing, and all are.
+    virtual void time_stages(bool /* on */) {}
+    virtual StageTimes stage_times() const = 0;       // means over the timed steps since the runner was first attached, or
                                                       // the substeps changed
-    virtual StageTimes last_stage_times() const = 0;  // of the last step alone
+    virtual StageTimes last_stage_times() const = 0;  // of the last timed step alone
 };
 
 // On the CPU, in `threads` threads (0: one per core). No bit depends on how many.

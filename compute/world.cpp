@@ -253,6 +253,9 @@ std::uint64_t World::buffer_growths() const {
 std::size_t World::buffer_bytes() const {
     return interior_->state.bytes();
 }
+void World::time_stages(bool on) {
+    interior_->runner->time_stages(on);
+}
 StageTimes World::stage_times() const {
     return interior_->runner->stage_times();
 }

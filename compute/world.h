@@ -194,9 +194,12 @@ public:
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
 
     std::uint64_t buffer_growths() const;
-    std::size_t buffer_bytes() const;     // at present, all tables together
-    StageTimes stage_times() const;       // milliseconds per step, mean so far
-    StageTimes last_stage_times() const;  // the same of the last step alone
+    std::size_t buffer_bytes() const;  // at present, all tables together
+    // Whether the steps to come are timed stage by stage. At first they are not on a Vulkan device, where that takes time of its
+    // own: 10 us a stage on lavapipe.
+    void time_stages(bool on);
+    StageTimes stage_times() const;       // milliseconds per step, mean of those timed so far
+    StageTimes last_stage_times() const;  // the same of the last timed step alone
 
 private:
     struct Interior;

@@ -10,6 +10,7 @@
 #include <map>
 #include <numeric>
 
+#include "compute/fusing.h"
 #include "compute/scene_json.h"
 #include "compute/traffic.h"
 #include "demos/failure.h"
@@ -76,11 +77,14 @@ Samples sample(World& world, const std::string& what, const BenchOptions& option
     const int steps = options.warmup + options.steps;
     Progress progress(what, steps, "steps", options.quiet);
     for (int i = 0; i < steps && !is_interrupted(); ++i) {
+        // Times of stages take time. A single step has to tell both.
+        const bool counts = i >= options.warmup, timed = counts && (steps - i) % 2 == 1;
+        world.time_stages(timed);
         const auto start = std::chrono::steady_clock::now();
         world.step();
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-        if (i >= options.warmup) {
-            samples.step_ms.push_back(taken.count());
+        if (counts && (!timed || options.steps == 1)) samples.step_ms.push_back(taken.count());
+        if (timed) {
             for (const auto& [stage, ms] : world.last_stage_times()) samples.stage_ms[stage].push_back(ms);
         }
         progress.done(i + 1);
@@ -109,10 +113,14 @@ Measurement measure(const SceneOptions& scene, const BenchOptions& options, cons
         result.step = {"step", cost_of(samples.step_ms)};
         result.p95 = spread.p95;
         result.min = spread.min;
-        for (const Traffic& traffic : traffic_of(world.state())) {
-            const auto found = samples.stage_ms.find(traffic.stage);
+        std::map<std::string, double> bytes;
+        for (const Traffic& traffic : traffic_of(world.state())) bytes[traffic.stage] = traffic.read + traffic.written;
+        for (const auto& [stage, ms] : world.last_stage_times()) {
+            const auto found = samples.stage_ms.find(stage);
             const Cost cost = found == samples.stage_ms.end() ? Cost{} : cost_of(found->second);
-            result.stages.push_back({traffic.stage, cost, traffic.read + traffic.written});
+            double moved = 0;
+            for (const std::string& part : parts_of(stage)) moved += bytes[part];
+            result.stages.push_back({stage, cost, moved});
             result.step.bytes += result.stages.back().bytes;
         }
         result.buffer_bytes = world.buffer_bytes();

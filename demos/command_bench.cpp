@@ -64,8 +64,11 @@ std::vector<SceneOptions> scenes_of(const Options& options) {
 void print(const Options& options, const std::vector<Measurement>& all) {
     const Measurement& first = all.front();
     const std::string settled = options.bench.settle > 0 ? fmt::format(" {:g} s of settling and", options.bench.settle) : "";
-    fmt::print("on {} ({}): medians and quartiles of {} steps after{} {} more; copying moves {:.1f} GB/s\n\n{}\n", first.backend,
-               first.device, options.bench.steps, settled, options.bench.warmup, first.copy_speed / 1e9, table(overview(all)));
+    fmt::print(
+        "on {} ({}): medians and quartiles of {} steps, in turn whole and stage by stage, after{} {} more; copying moves {:.1f} "
+        "GB/s\n\n{}\n",
+        first.backend, first.device, options.bench.steps, settled, options.bench.warmup, first.copy_speed / 1e9,
+        table(overview(all)));
     for (const Measurement& m : all) fmt::print("{}, {} bodies\n{}\n", m.name, m.statistics.bodies, table(stage_rows(m)));
     print_spread(all);
 }
@@ -139,10 +142,13 @@ void add_bench(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     command->add_flag("--quiet,-q", options->bench.quiet, "no progress");
     command->footer(
-        "A stage's time is the GPU's between two timestamps, or the wall clock on the processor. What it moves is an estimate: "
-        "every\n"
-        "record that it reads or writes, once. GB/s is that in its time, and the last column sets it beside copying on the same\n"
-        "device in the same run, read and written bytes together: a buffer to another, or memcpy in all threads. Above 100% the\n"
+        "A stage's time is the GPU's between two timestamps, or the wall clock on the processor. Timestamps take time of their\n"
+        "own, 10 us each on lavapipe: the step is timed in every other step, without them, and there the stages of a small "
+        "world\n"
+        "add up to more. What a stage moves is an estimate: every record that it reads or writes, once. GB/s is that in its "
+        "time,\n"
+        "and the last column sets it beside copying on the same device in the same run, read and written bytes together: a\n"
+        "buffer to another, or memcpy in all threads. Above 100% the\n"
         "tables lie in a cache. All bodies stay awake; a settled pile is measured with\n"
         "  scree bench pile mix --bodies 1k,4k,16k --settle 12 --csv piles.csv\n"
         "and demos/plot piles.csv draws the cost against the number of bodies.");

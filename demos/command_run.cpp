@@ -76,6 +76,9 @@ void hold_to_promise(const Subject& subject, const World& world, std::optional<R
     recorder.reset();
 }
 
+// Times of stages take time, up to a third of a small step on lavapipe.
+constexpr int steps_a_timed_one = 16;
+
 // False if the user wished to end.
 bool simulate(const Options& options, const Subject& subject, World& world, Pictures* pictures, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds);
@@ -85,6 +88,7 @@ bool simulate(const Options& options, const Subject& subject, World& world, Pict
     if (pictures) pictures->after_step();
     for (int i = 0; i < steps; ++i) {
         if (is_interrupted()) return false;
+        world.time_stages(!options.report.empty() && (i % steps_a_timed_one == steps_a_timed_one / 2 || i + 1 == steps));
         step_timed(subject, world, recorder ? &*recorder : nullptr, report);
         hold_to_promise(subject, world, recorder, report);
         if (pictures) pictures->after_step();

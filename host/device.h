@@ -19,6 +19,7 @@ struct DeviceReport {
     std::string driver;                 // name and version
     std::string api_version;            // "1.3.230"
     bool is_processor = false;          // a software device such as lavapipe
+    std::uint32_t subgroup = 0;         // threads that run as one
     std::uint64_t memory_bytes = 0;     // the largest device-local heap
     std::uint64_t largest_binding = 0;  // maxStorageBufferRange, bytes
     bool has_addresses = false;         // shaders can find buffers by address: they may be longer than a binding

@@ -8,7 +8,7 @@ namespace {
 
 // A step is one table of buffers, bound once, or found by address. Lavapipe binds 32 a stage, most cards a million.
 constexpr std::uint32_t least_storage_buffers = 31;
-constexpr std::uint32_t texel_buffers = 32;
+constexpr std::uint32_t texel_buffers = 32, changing_texel_buffers = 6;
 // The widest workgroup of the shaders.
 constexpr std::uint32_t least_workgroup = 256;
 
@@ -44,10 +44,13 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     VkPhysicalDeviceDriverProperties driver{};
     driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
     driver.pNext = &floats;
+    VkPhysicalDeviceSubgroupProperties subgroups{};
+    subgroups.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SUBGROUP_PROPERTIES;
+    floats.pNext = &subgroups;
     VkPhysicalDeviceProperties2 all{};
     all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     vk.vkGetPhysicalDeviceProperties(physical, &all.properties);
-    // Both structures came with 1.2.
+    // The youngest of these structures came with 1.2.
     const bool is_new_enough = all.properties.apiVersion >= VK_API_VERSION_1_2;
     if (is_new_enough) {
         all.pNext = &driver;
@@ -63,9 +66,11 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
         is_new_enough ? std::string(driver.driverName) + " " + driver.driverInfo : version_text(properties.driverVersion);
     report.api_version = version_text(properties.apiVersion);
     report.is_processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+    report.subgroup = subgroups.subgroupSize;
     report.largest_binding = limits.maxStorageBufferRange;
     report.prefers_texels = report.is_processor && limits.maxPerStageDescriptorSampledImages >= texel_buffers &&
-                            limits.maxPerStageResources >= least_storage_buffers + texel_buffers + 1;
+                            limits.maxPerStageDescriptorStorageImages >= changing_texel_buffers &&
+                            limits.maxPerStageResources >= least_storage_buffers + texel_buffers + changing_texel_buffers + 1;
     if (is_new_enough) {
         VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
         addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;

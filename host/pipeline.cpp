@@ -46,6 +46,8 @@ TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, 
     for (std::uint32_t i = 0; !far && i < buffers; ++i) add(i, type_of(*this, i));
     for (std::uint32_t i = 0; i < special_.size(); ++i)
         if (special_[i].texel_bytes) add(buffers + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
+    for (std::uint32_t i = 0; i < special_.size(); ++i)
+        if (special_[i].changing) add(2 * buffers + i, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER);
     VkDescriptorSetLayoutCreateInfo set_info{};
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<std::uint32_t>(entries.size());
@@ -97,7 +99,8 @@ void Table::make_set() {
     const std::uint32_t most = std::max(1u, layout_->buffers());
     const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, most},
                                           {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, most},
-                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, most}};
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, most},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, most}};
     VkDescriptorPoolCreateInfo pool{};
     pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
     pool.maxSets = 1;
@@ -163,6 +166,8 @@ void Table::fill(const std::vector<const Buffer*>& buffers) {
         if (!layout_->access(i).texel_bytes || !is_there(buffers[i])) continue;
         view(i, *buffers[i]);
         write(layout_->buffers() + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = &views_[i];
+        if (layout_->access(i).changing)
+            write(2 * layout_->buffers() + i, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER).pTexelBufferView = &views_[i];
     }
     device.vk().vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }

@@ -1,6 +1,6 @@
 // Compute pipelines over one table of storage buffers, the same table for every pipeline of a run: bound (set 0, binding i is
 // buffer i), or found by address (set 0, binding 0 is a uniform block of the buffers' addresses, 8 bytes each). Either way a
-// buffer can be read as texels besides (binding `buffers` + i).
+// buffer can be read as texels besides (binding `buffers` + i), and as texels that other threads write (binding 2 `buffers` + i).
 #pragma once
 
 #include <cstdint>
@@ -22,6 +22,7 @@ enum class Reach {
 struct Access {
     bool uniform = false;           // bound as a uniform block, which no pipeline writes
     std::uint32_t texel_bytes = 0;  // 4, 8 or 16: also a texel buffer of so many bytes a texel, as uints; 0: not
+    bool changing = false;          // also a storage texel buffer of texels like these
 };
 
 // The layout that all pipelines of a run share: `buffers` storage buffers, the first ones as `special` says, and `push_bytes` of

@@ -56,8 +56,13 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
     return counts;
 }
 
-// At the start of a step, and with overflow still set: nothing to do for anyone.
+// At the start of a step, and with overflow still set: nothing to do for anyone. A scan has its total to say.
+LAW uvec4 empty_work(uint row, Parameters parameters) {
+    return row == WORK_KIND_BLOCKS || row == WORK_PAIR_BLOCKS ? scan_work_for(0u, parameters) : work_for(0u, parameters);
+}
 LAW Counts emptied(Counts counts, Parameters parameters) {
+    counts.pairs = 0u;
+    counts.contacts = 0u;
     counts.levels = 0u;
     counts.levels_stirring = 0u;
     counts.large_stirring = 0u;
@@ -67,9 +72,8 @@ LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.fast = 0u;
     counts.broken = 0u;
     for (uint k = 0u; k < KINDS + 1u; ++k) counts.kind_first[k] = 0u;
-    for (uint k = 0u; k < WORKS; ++k) counts.arguments[k] = work_for(0u, parameters);
-    counts = with_pairs(counts, 0u, parameters);
-    return with_contacts(counts, 0u, parameters);
+    for (uint k = 0u; k < WORKS; ++k) counts.arguments[k] = empty_work(k, parameters);
+    return counts;
 }
 
 // Whether any body may move in this step: if not, nobody wakes and no contact is solved.

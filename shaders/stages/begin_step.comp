@@ -16,5 +16,19 @@ void main() {
         loads.at[i] = gravity_load(READ(traits, i), PARAMETERS);
         if (PARAMETERS.wake_all != 0u) rests.at[i] = 0u;
     }
-    if (i == 0u) COUNTS = emptied(COUNTS, PARAMETERS);
+    // Rows one by one, by different threads: a software device goes through what a single thread does for every vector of them.
+    Counts empty = emptied(COUNTS, PARAMETERS);
+    if (i < KINDS + 1u) COUNTS.kind_first[i] = 0u;
+    if (i < WORKS) COUNTS.arguments[i] = empty_work(i, PARAMETERS);
+    if (i > 0u) return;
+    COUNTS.pairs = empty.pairs;
+    COUNTS.contacts = empty.contacts;
+    COUNTS.levels = empty.levels;
+    COUNTS.levels_stirring = empty.levels_stirring;
+    COUNTS.large_stirring = empty.large_stirring;
+    COUNTS.sleepers = empty.sleepers;
+    COUNTS.solved = empty.solved;
+    COUNTS.pairs_coarse = empty.pairs_coarse;
+    COUNTS.fast = empty.fast;
+    COUNTS.broken = empty.broken;
 }

@@ -134,35 +134,50 @@ uvec4 record_in(usamplerBuffer texels, uint i) {
     return texelFetch(texels, int(i));
 }
 
-#define SCREE_READ(table, record, reader)  \
-    record read_##table(uint i) {          \
-        return reader(table##_texels, i);  \
+#define SCREE_READ(table, record, reader) \
+    record read_##table(uint i) {         \
+        return reader(table##_texels, i); \
     }
-SCREE_READ(counts, Counts, counts_in)
+// What the threads of a fused stage write for each other.
+#ifdef SCREE_FUSED_SOLVER
+#define SCREE_READ_OF_SOLVER(table, record, reader)
+#include "shaders/stages/read_now.glsl"
+#else
+#define SCREE_READ_OF_SOLVER SCREE_READ
+#endif
+#ifdef SCREE_FUSED_LISTS
+#define SCREE_READ_OF_LISTS(table, record, reader) \
+    record read_##table(uint i) {                  \
+        return table.at[i];                        \
+    }
+#else
+#define SCREE_READ_OF_LISTS SCREE_READ
+#endif
+SCREE_READ_OF_LISTS(counts, Counts, counts_in)
 SCREE_READ(traits, Traits, traits_in)
-SCREE_READ(poses, Pose, pose_in)
-SCREE_READ(velocities, Velocity, velocity_in)
-SCREE_READ(masses, Mass, mass_in)
-SCREE_READ(loads, Load, load_in)
+SCREE_READ_OF_SOLVER(poses, Pose, pose_in)
+SCREE_READ_OF_SOLVER(velocities, Velocity, velocity_in)
+SCREE_READ_OF_SOLVER(masses, Mass, mass_in)
+SCREE_READ_OF_SOLVER(loads, Load, load_in)
 SCREE_READ(bounds, Bounds, bounds_in)
-SCREE_READ(cells, uint, uint_in)
+SCREE_READ_OF_LISTS(cells, uint, uint_in)
 SCREE_READ(cell_entries, CellEntry, cell_entry_in)
-SCREE_READ(pair_starts, uint, uint_in)
+SCREE_READ_OF_LISTS(pair_starts, uint, uint_in)
 SCREE_READ(pairs, Pair, pair_in)
-SCREE_READ(binned, uint, uint_in)
+SCREE_READ_OF_LISTS(binned, uint, uint_in)
 SCREE_READ(manifolds, Manifold, manifold_in)
-SCREE_READ(touching, uint, uint_in)
-SCREE_READ(contact_starts, uint, uint_in)
+SCREE_READ_OF_LISTS(touching, uint, uint_in)
+SCREE_READ_OF_LISTS(contact_starts, uint, uint_in)
 SCREE_READ(contacts_before, Contact, contact_in)
-SCREE_READ(impulses, Impulse, impulse_in)
+SCREE_READ_OF_SOLVER(impulses, Impulse, impulse_in)
 SCREE_READ(impulses_before, Impulse, impulse_in)
 SCREE_READ(first_contacts_before, uint, uint_in)
-SCREE_READ(slot_ends, uint, uint_in)
-SCREE_READ(slot_sides, uint, uint_in)
-SCREE_READ(constraints, Constraint, constraint_in)
-SCREE_READ(slots, Slot, slot_in)
+SCREE_READ_OF_LISTS(slot_ends, uint, uint_in)
+SCREE_READ_OF_LISTS(slot_sides, uint, uint_in)
+SCREE_READ_OF_LISTS(constraints, Constraint, constraint_in)
+SCREE_READ_OF_SOLVER(slots, Slot, slot_in)
 SCREE_READ(candidates, Candidate, candidate_in)
-SCREE_READ(rests, uint, uint_in)
+SCREE_READ_OF_LISTS(rests, uint, uint_in)
 SCREE_READ(hulls, uvec4, record_in)
 #endif
 

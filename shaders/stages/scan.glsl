@@ -35,20 +35,52 @@
 #define SCAN_TOTAL(total)
 #endif
 
+#ifndef SCREE_FUSED
+#define end_part() barrier()
+#endif
+
 shared uint partial[256];
 
 // Sum of the values of the workgroup's threads before this one. Every thread calls it.
 uint sum_before(uint value) {
     uint t = gl_LocalInvocationID.x;
     partial[t] = value;
-    barrier();
+    end_part();
     for (uint d = 1u; d < gl_WorkGroupSize.x; d <<= 1) {
         uint other = t >= d ? partial[t - d] : 0u;
-        barrier();
+        end_part();
         partial[t] += other;
-        barrier();
+        end_part();
     }
     return partial[t] - value;
 }
+
+#ifdef SCREE_FUSED
+// The whole of a short list, by one workgroup.
+void scan_whole() {
+    uint items = SCAN_ITEMS_OF;
+    uint total = 0u;
+    for (uint begin = 0u; begin <= items; begin += gl_WorkGroupSize.x << SCAN_SHIFT) {
+        uint first = begin + (gl_LocalInvocationID.x << SCAN_SHIFT);
+        uint values[SCAN_ITEMS];
+        uint sum = 0u;
+        for (uint k = 0u; k < SCAN_ITEMS; ++k) {
+            values[k] = first + k < items ? SCAN_READ(first + k) : 0u;
+            sum += values[k];
+        }
+        uint running = total + sum_before(sum);
+        for (uint k = 0u; k < SCAN_ITEMS; ++k) {
+            if (first + k <= items) SCAN_WRITE(first + k, running);
+            running += values[k];
+        }
+        end_part();
+        total += partial[gl_WorkGroupSize.x - 1u];
+        end_part();
+    }
+    if (gl_LocalInvocationID.x == 0u) {
+        SCAN_TOTAL(total);
+    }
+}
+#endif
 
 #endif

@@ -13,11 +13,18 @@
 
 layout(local_size_x_id = 0) in;
 
+// A stage that is several in turn (SCREE_FUSED) is one workgroup, whose threads read what the others wrote before a barrier.
+#ifdef SCREE_FUSED
+#define SCREE_SHARED coherent
+#else
+#define SCREE_SHARED
+#endif
+
 #ifdef SCREE_FAR
 #extension GL_EXT_buffer_reference : require
-#define SCREE_DECLARE(index, name, block, record, length)                        \
-    layout(std430, buffer_reference, buffer_reference_align = 16) buffer block { \
-        record at[];                                                             \
+#define SCREE_DECLARE(index, name, block, record, length)                                     \
+    layout(std430, buffer_reference, buffer_reference_align = 16) SCREE_SHARED buffer block { \
+        record at[];                                                                          \
     };
 SCREE_TABLES(SCREE_DECLARE)
 #define SCREE_POINT(index, name, block, record, length) block name;
@@ -27,10 +34,10 @@ layout(std140, set = 0, binding = 0) uniform ParametersTable {
     Parameters at[1];
 }
 parameters;
-#define SCREE_DECLARE(index, name, block, record, length)   \
-    layout(std430, set = 0, binding = index) buffer block { \
-        record at[];                                        \
-    }                                                       \
+#define SCREE_DECLARE(index, name, block, record, length)                \
+    layout(std430, set = 0, binding = index) SCREE_SHARED buffer block { \
+        record at[];                                                     \
+    }                                                                    \
     name;
 SCREE_CHANGING_TABLES(SCREE_DECLARE)
 #endif
@@ -41,8 +48,8 @@ layout(push_constant) uniform Push {
 push;
 
 #define PARAMETERS parameters.at[0]
-#define COUNTS counts.at[0]         // to be changed
-#define COUNTED READ(counts, 0u)    // to be read: all but the arguments
+#define COUNTS counts.at[0]       // to be changed
+#define COUNTED READ(counts, 0u)  // to be read: all but the arguments
 
 #include "shaders/stages/read.glsl"
 

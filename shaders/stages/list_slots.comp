@@ -1,0 +1,21 @@
+// count_slots, scan_slots, fill_slots and order_slots in one.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#define SCREE_FUSED_LISTS
+#include "shaders/stages/fused.glsl"
+#include "shaders/stages/slots.glsl"
+
+#define SCAN_SLOTS
+#include "shaders/stages/scan.glsl"
+
+void main() {
+    uint bodies = PARAMETERS.bodies, contacts = COUNTED.contacts;
+    FOR_EACH(i, contacts) count_slots_of(i);
+    end_part();
+    scan_whole();
+    end_part();
+    FOR_EACH(i, contacts) fill_slots_of(i);
+    end_part();
+    FOR_EACH(i, max(bodies, 1u)) order_slots_of(i);
+}

@@ -1,0 +1,27 @@
+// variants: substeps -DWITHOUT_FRACTURES
+// variants: substeps_felt -DWITH_FRACTURES
+// Some of a step's substeps, as push.pass says: how many went before, how many these are, how many there are in all. In each
+// begin_substep, solve_contacts, move_bodies and relax_contacts in turn.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#define SCREE_FUSED_SOLVER
+#include "shaders/stages/fused.glsl"
+#include "shaders/stages/pass_bodies.glsl"
+#include "shaders/stages/pass_contacts.glsl"
+
+void main() {
+    uint bodies = PARAMETERS.bodies, contacts = COUNTED.solved;
+    uint before = push.pass & 0xFFu, count = push.pass >> 8 & 0xFFu, whole = push.pass >> 16;
+    for (uint substep = before + 1u; substep <= before + count; ++substep) {
+        uint pass = (substep == whole ? LAST_SUBSTEP : 0u) | (substep == 1u ? FIRST_SUBSTEP : 0u);
+        FOR_EACH(i, bodies) begin_body(i, substep == 1u);
+        end_part();
+        FOR_EACH(i, contacts) solve_contact(i);
+        end_part();
+        FOR_EACH(i, bodies) move_body(i);
+        end_part();
+        FOR_EACH(i, contacts) relax_contact(i, pass);
+        end_part();
+    }
+}
