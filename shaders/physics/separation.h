@@ -183,7 +183,7 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
     Separation s = separation_by_faces(a, b, d, hulls);
     float room = PUSH_ROOM * smaller(a.scale, b.scale);
     bool known = s.over_face;
-    for (uint k = 0u; k < SIDE_AXES + PUSH_ROUNDS; ++k) {
+    for (uint k = has_side(a) || has_side(b) ? 0u : SIDE_AXES; k < SIDE_AXES + PUSH_ROUNDS; ++k) {
         if (s.distance - radii >= enough || (known && k >= SIDE_AXES)) break;
         bool apart = s.distance >= room;
         vec3 normal = s.normal;
