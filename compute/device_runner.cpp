@@ -126,7 +126,8 @@ void DeviceRunner::make_plan(host::Reach reach) {
         layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t),
                                                       reach, accesses(device_->report().prefers_texels));
     }
-    if (!counts_back_) counts_back_ = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
+    for (host::Buffer& back : counts_back_)
+        if (!back) back = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
 }
 
 // shaders/stages/fused.glsl says why.
@@ -288,7 +289,7 @@ const host::Recording& DeviceRunner::whole_step() {
         if (stage.feeds_next) recording->barrier();
         if (timed_) recording->timestamp();
     }
-    recording->copy(buffers_[static_cast<std::size_t>(Table::counts)], counts_back_, sizeof(physics::Counts));
+    recording->copy(buffers_[static_cast<std::size_t>(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
     recording->barrier();
     recording->end();
     step = std::move(recording);
@@ -311,16 +312,39 @@ void DeviceRunner::begin_step() {
 
 bool DeviceRunner::step() {
     begin_step();
-    const host::Recording& recording = whole_step();
-    device_->submit_and_wait({recording.handle()});
-    counts_back_.read(&state_->counted(), sizeof(physics::Counts));
+    device_->submit_and_wait({whole_step().handle()});
+    return finished(parity_);
+}
+
+bool DeviceRunner::finished(std::size_t parity) {
+    std::memcpy(&state_->counted(), counts_back_[parity].mapped(), sizeof(physics::Counts));
     if (timed_) {
         clock_.begin_step();
-        const std::vector<double> seconds = recording.timestamp_seconds();
+        const std::vector<double> seconds = steps_[parity][1]->timestamp_seconds();
         for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
         clock_.end_step();
     }
     return state_->counted().overflow == 0;
+}
+
+int DeviceRunner::steps(int count) {
+    std::array<std::optional<host::Submission>, 2> under_way;  // by parity
+    int submitted = 0;
+    for (int done = 0; done < count; ++done) {
+        while (submitted < count && submitted < done + 2) {
+            begin_step();
+            under_way[parity_].emplace(*device_, std::vector{whole_step().handle()});
+            ++submitted;
+        }
+        const std::size_t parity = submitted == done + 2 ? parity_ ^ 1 : parity_;
+        under_way[parity]->wait();
+        if (finished(parity)) continue;
+        // The step behind it has found the overflow and left everything as it was.
+        for (std::optional<host::Submission>& step : under_way) step.reset();
+        parity_ = parity;
+        return done;
+    }
+    return count;
 }
 
 void DeviceRunner::run_stage(std::size_t index) {

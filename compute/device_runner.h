@@ -29,6 +29,7 @@ public:
     bool in_place() const override { return false; }
     void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
     bool step() override;
+    int steps(int count) override;
     void fetch_body(std::size_t index) override;
     void fetch_bodies() override;
     void fetch_contacts() override;
@@ -81,6 +82,7 @@ private:
     void upload();
     void bind_tables();
     const host::Recording& whole_step();
+    bool finished(std::size_t parity);  // a step: whether every list had room
     void record_stage(host::Recording& recording, const Stage& stage) const;
     void send_inputs();
     void fetch_live(Table table);
@@ -94,8 +96,8 @@ private:
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
     std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
-    std::vector<host::Buffer> buffers_;  // by binding; contacts and those before change places with the parity
-    host::Buffer counts_back_;
+    std::vector<host::Buffer> buffers_;        // by binding; contacts and those before change places with the parity
+    std::array<host::Buffer, 2> counts_back_;  // per parity
     // Per parity: the table, and (made when asked for) the whole step, without and with times, and each stage alone.
     std::array<std::unique_ptr<host::Table>, 2> tables_;
     std::array<std::array<std::unique_ptr<host::Recording>, 2>, 2> steps_;

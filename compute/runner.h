@@ -28,6 +28,13 @@ public:
     // Runs one step with the state's parameters and actions. False: a list would have outgrown its buffer; the bodies are as
     // before, and State::counts says what is needed.
     virtual bool step() = 0;
+    // Up to `count` steps one after the other, with the same parameters and no actions, and how many were run: the next is the
+    // first of which step() would say false. A device has two of them at a time, and waits for no word from the host.
+    virtual int steps(int count) {
+        int done = 0;
+        while (done < count && step()) ++done;
+        return done;
+    }
     // Brings back into the attached state: counts, poses, velocities and rests; the contacts of the last step (after the former);
     // every table.
     virtual void fetch_body(std::size_t index) = 0;  // pose, velocity and rest of one

@@ -65,6 +65,14 @@ void World::Interior::make_room_for_actions() {
     runner->attach(state);
 }
 
+void World::Interior::make_room_for_lists() {
+    runner->fetch();
+    state.grow();
+    ++growths;
+    state.fixed().redo = 1;
+    runner->attach(state);
+}
+
 void World::Interior::step() {
     if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
     broken = true;
@@ -75,16 +83,26 @@ void World::Interior::step() {
     for (const auto& [body, action] : actions) state.actions[parameters.actions++] = bounded(action);
     actions.clear();
     parameters.redo = 0;
-    while (!runner->step()) {
-        runner->fetch();
-        state.grow();
-        ++growths;
-        state.fixed().redo = 1;
-        runner->attach(state);
-    }
-    parameters.wake_all = 0;
+    while (!runner->step()) make_room_for_lists();
+    state.fixed().wake_all = 0;
     ++steps;
     broken = false;
+}
+
+int World::Interior::steps_alone(int count) {
+    if (std::any_of(grips.begin(), grips.end(), [](const auto& grip) { return grip.has_value(); })) return 0;
+    broken = true;
+    state.fixed().actions = 0;
+    state.fixed().redo = 0;
+    int done = runner->steps(count);
+    if (done < count) {
+        do make_room_for_lists();
+        while (!runner->step());
+        ++done;
+    }
+    steps += static_cast<std::uint64_t>(done);
+    broken = false;
+    return done;
 }
 
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
@@ -96,7 +114,11 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::step(int count) {
-    for (int i = 0; i < count; ++i) interior_->step();
+    while (count > 0) {
+        interior_->step();
+        --count;
+        if (count > 0) count -= interior_->steps_alone(count);
+    }
 }
 
 std::uint64_t World::steps() const {

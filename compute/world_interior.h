@@ -34,7 +34,9 @@ struct World::Interior {
 
     Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r);
     void step();
+    int steps_alone(int count);  // up to so many in which the user asks for nothing; 0 while a grip is held
     void make_room_for_actions();
+    void make_room_for_lists();  // and the step shall be done again
     void require_body(std::size_t body) const;
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;

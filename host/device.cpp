@@ -245,16 +245,29 @@ VkResult Device::present(const VkPresentInfoKHR& info) {
 }
 
 void Device::submit_and_wait(const std::vector<VkCommandBuffer>& commands) {
-    const VulkanFunctions& vk = interior_->vk;
+    Submission(*this, commands).wait();
+}
+
+Submission::Submission(Device& device, const std::vector<VkCommandBuffer>& commands) : device_(device) {
     VkFenceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    VkFence fence = VK_NULL_HANDLE;
-    check(vk.vkCreateFence(interior_->device, &info, nullptr, &fence), "creating a fence");
-    const auto destroy = [&](VkFence f) { vk.vkDestroyFence(interior_->device, f, nullptr); };
-    const std::unique_ptr<std::remove_pointer_t<VkFence>, decltype(destroy)> owner(fence, destroy);
-    submit(commands, fence);
-    check(vk.vkWaitForFences(interior_->device, 1, &fence, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+    check(device.vk().vkCreateFence(device.handle(), &info, nullptr, &fence_), "creating a fence");
+    try {
+        device.submit(commands, fence_);
+    } catch (...) {
+        device.vk().vkDestroyFence(device.handle(), fence_, nullptr);
+        throw;
+    }
+}
+
+void Submission::wait() {
+    check(device_.vk().vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
           "waiting for the device");
+}
+
+Submission::~Submission() {
+    device_.vk().vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    device_.vk().vkDestroyFence(device_.handle(), fence_, nullptr);
 }
 
 void Device::wait_idle() const {

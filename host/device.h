@@ -96,6 +96,20 @@ private:
     std::unique_ptr<Interior> interior_;
 };
 
+// Command buffers on their way through the queue.
+class Submission {
+public:
+    Submission(Device& device, const std::vector<VkCommandBuffer>& commands);
+    ~Submission();  // waits
+    Submission(const Submission&) = delete;
+    Submission& operator=(const Submission&) = delete;
+    void wait();  // until the device has done with them
+
+private:
+    Device& device_;
+    VkFence fence_ = VK_NULL_HANDLE;
+};
+
 // Throws DeviceError("what: VK_ERROR_...") unless the result is VK_SUCCESS.
 void check(VkResult result, const char* what);
 

@@ -64,7 +64,8 @@ void main() {
     Pose second = swap ? pa : pb;
     Touch touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
-    if (a >= PARAMETERS.first_part) touch = from_body(touch, READ(poses, a).position - READ(poses, READ(traits, a).owner).position);
+    if (a >= PARAMETERS.first_part)
+        touch = from_body(touch, READ(poses, a).position - READ(poses, READ(traits, a).owner).position);
     manifolds.at[pair] = touch.manifold;
     touching.at[pair] = touch.count;
 }

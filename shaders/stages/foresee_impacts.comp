@@ -20,7 +20,8 @@ void main() {
         return;
     vec3 normal = READ(manifolds, i).normal;
     if (!is_near(READ(manifolds, i), touching.at[i], PARAMETERS) &&
-        !will_meet(normal, ta, READ(poses, a), va, READ(loads, of_a), tb, READ(poses, b), vb, READ(loads, of_b), PARAMETERS, Hulls(0u))) {
+        !will_meet(normal, ta, READ(poses, a), va, READ(loads, of_a), tb, READ(poses, b), vb, READ(loads, of_b), PARAMETERS,
+                   Hulls(0u))) {
         touching.at[i] = touching.at[i] | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
         atomicOr(bounds.at[of_a].flight.struck, 1u);

@@ -19,7 +19,8 @@ void main() {
         float kept = smaller(READ(loads, c.a).kept, READ(loads, c.b).kept);
         float carried = uintBitsToFloat(READ(candidates, contact).owner);
         if (!(kept < 1.0f) || !(carried > 0.0f)) continue;
-        velocity = given_back(velocity, READ(masses, i), c, READ(impulses, contact), READ(slot_sides, k) & 1u, carried * (1.0f - kept));
+        velocity =
+            given_back(velocity, READ(masses, i), c, READ(impulses, contact), READ(slot_sides, k) & 1u, carried * (1.0f - kept));
     }
     velocities.at[i] = limited(velocity, PARAMETERS);
 }

@@ -38,7 +38,8 @@ void main() {
     Traits ta = READ(traits, pair.a), tb = READ(traits, pair.b);
     bool has_tyre = tyre_of(ta) != 0u || tyre_of(tb) != 0u;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    Contact contact = contact_of(pair, READ(manifolds, pair_index), READ(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
+    Contact contact =
+        contact_of(pair, READ(manifolds, pair_index), READ(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
         contact = aged(READ(contacts_before, pair.previous));

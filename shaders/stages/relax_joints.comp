@@ -42,7 +42,8 @@ float told_by_block() {
         if (!holds(j)) continue;
         for (uint side = 0u; side < 2u; ++side) {
             uint body = side == 0u ? joints.at[j].a : joints.at[j].b;
-            if (body != NONE) told = smaller(told, told_quiet(READ(traits, body).motion, READ(velocities, body), READ(rests, body)));
+            if (body != NONE)
+                told = smaller(told, told_quiet(READ(traits, body).motion, READ(velocities, body), READ(rests, body)));
         }
     }
     return told;

@@ -35,6 +35,7 @@ void main() {
         uint sleeper = body_of(own_still ? i : other);
         if (!has_slept(rests.at[sleeper], PARAMETERS.sleep_steps)) continue;
         if (owner_touches(i, other) || owner_touches(other, i)) continue;
-        if (load_changed(0.0f, READ(contacts_before, k).load, READ(traits, sleeper), PARAMETERS)) atomicOr(rests.at[sleeper], WOKEN);
+        if (load_changed(0.0f, READ(contacts_before, k).load, READ(traits, sleeper), PARAMETERS))
+            atomicOr(rests.at[sleeper], WOKEN);
     }
 }

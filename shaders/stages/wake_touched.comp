@@ -18,8 +18,9 @@ void main() {
     Pair pair = READ(pairs, index);
     if (pair.kind == KIND_STILL) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    float approach = approach_of(READ(manifolds, index), READ(touching, index), READ(poses, of_b).position - READ(poses, of_a).position,
-                                 READ(velocities, of_a), READ(velocities, of_b), PARAMETERS);
+    float approach =
+        approach_of(READ(manifolds, index), READ(touching, index), READ(poses, of_b).position - READ(poses, of_a).position,
+                    READ(velocities, of_a), READ(velocities, of_b), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
     bool a_sleeps = has_slept(rests.at[of_a], PARAMETERS.sleep_steps),
          b_sleeps = has_slept(rests.at[of_b], PARAMETERS.sleep_steps);
@@ -32,7 +33,8 @@ void main() {
             now = pressing(READ(impulses_before, pair.previous));
             then = READ(contacts_before, pair.previous).load;
         }
-        woken = wakes(is_restless(READ(traits, other).motion, rests.at[other]), approach, now, then, READ(traits, sleeper), PARAMETERS);
+        woken = wakes(is_restless(READ(traits, other).motion, rests.at[other]), approach, now, then, READ(traits, sleeper),
+                      PARAMETERS);
     }
     raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
     raise(of_b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));
