@@ -189,7 +189,9 @@ TEST_CASE("what flies past close by is not pushed, and does not push") {
 }
 
 TEST_CASE("where nothing is fast, nothing is done for it") {
-    State state(checked(tests::packed(60)), {}, 64, true);
+    Settings roomy;
+    roomy.pairs_at_first = roomy.contacts_at_first = 1000;
+    State state(checked(tests::packed(60)), roomy, 64, true);
     const auto runner = make_reference_runner(1);
     runner->attach(state);
     for (int step = 0; step < 60; ++step) {
