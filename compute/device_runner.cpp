@@ -101,7 +101,8 @@ void DeviceRunner::attach(State& state) {
     state_ = &state;
     make_buffers();
     const host::Reach reach = reach_needed();
-    if (!layout_ || layout_->reach() != reach || planned_substeps_ != state.substeps || planned_content_ != state.content())
+    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() || planned_substeps_ != state.substeps ||
+        planned_content_ != state.content())
         make_plan(reach);
     fuse();
     upload();
@@ -117,14 +118,22 @@ host::Reach DeviceRunner::reach_needed() const {
                                                                                                 : host::Reach::far;
 }
 
+bool DeviceRunner::reads_texels() const {
+    const std::uint32_t most = device_->limits().maxTexelBufferElements;
+    const auto all = accesses(true);
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (buffers_[i].bytes() / all[i].texel_bytes > most) return false;
+    return device_->report().prefers_texels;
+}
+
 void DeviceRunner::make_plan(host::Reach reach) {
     planned_substeps_ = state_->substeps;
     planned_content_ = state_->content();
     plan_ = plan(planned_substeps_, planned_content_);
-    if (!layout_ || layout_->reach() != reach) {
+    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels()) {
         pipelines_.clear();
         layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t),
-                                                      reach, accesses(device_->report().prefers_texels));
+                                                      reach, accesses(reads_texels()));
     }
     for (host::Buffer& back : counts_back_)
         if (!back) back = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
@@ -165,7 +174,7 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
 void DeviceRunner::fuse() {
     std::vector<Stage> recorded = fused(plan_, state_->fixed(), fused_group_size());
     const bool as_before = std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),
-                                      [](const Stage& a, const Stage& b) { return a.name == b.name; });
+                                      [](const Stage& a, const Stage& b) { return a.name == b.name && a.pass == b.pass; });
     recorded_ = std::move(recorded);
     if (!as_before) clock_ = StageClock(recorded_);
     make_pipelines(recorded_);
@@ -327,24 +336,24 @@ bool DeviceRunner::finished(std::size_t parity) {
     return state_->counted().overflow == 0;
 }
 
-int DeviceRunner::steps(int count) {
+bool DeviceRunner::steps(int count, std::uint64_t& done) {
     std::array<std::optional<host::Submission>, 2> under_way;  // by parity
     int submitted = 0;
-    for (int done = 0; done < count; ++done) {
-        while (submitted < count && submitted < done + 2) {
+    for (int waited = 0; waited < count; ++waited, ++done) {
+        while (submitted < count && submitted < waited + 2) {
             begin_step();
             under_way[parity_].emplace(*device_, std::vector{whole_step().handle()});
             ++submitted;
         }
-        const std::size_t parity = submitted == done + 2 ? parity_ ^ 1 : parity_;
+        const std::size_t parity = submitted == waited + 2 ? parity_ ^ 1 : parity_;
         under_way[parity]->wait();
         if (finished(parity)) continue;
         // The step behind it has found the overflow and left everything as it was.
         for (std::optional<host::Submission>& step : under_way) step.reset();
         parity_ = parity;
-        return done;
+        return false;
     }
-    return count;
+    return true;
 }
 
 void DeviceRunner::run_stage(std::size_t index) {

@@ -29,7 +29,7 @@ public:
     bool in_place() const override { return false; }
     void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
     bool step() override;
-    int steps(int count) override;
+    bool steps(int count, std::uint64_t& done) override;
     void fetch_body(std::size_t index) override;
     void fetch_bodies() override;
     void fetch_contacts() override;
@@ -72,6 +72,7 @@ private:
     const host::Buffer& buffer(Table table) const;
     host::Buffer& buffer(Table table);
     host::Reach reach_needed() const;
+    bool reads_texels() const;
     void make_plan(host::Reach reach);
     void fuse();
     bool is_one_subgroup() const;

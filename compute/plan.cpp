@@ -27,7 +27,7 @@ void add_joints(std::vector<Stage>& stages, Stage half, bool after) {
 
 std::uint32_t content_bits(const Content& content) {
     return (content.bounces ? physics::CONTENT_BOUNCES : 0) | (content.rolls ? physics::CONTENT_ROLLS : 0) |
-           (content.round ? physics::CONTENT_ROUND : 0) | (content.vehicles ? physics::CONTENT_TYRES : 0) |
+           (content.round ? physics::CONTENT_ROUND : 0) | (content.tyres ? physics::CONTENT_TYRES : 0) |
            (content.moving_parts ? physics::CONTENT_PARTS : 0);
 }
 

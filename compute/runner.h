@@ -28,12 +28,12 @@ public:
     // Runs one step with the state's parameters and actions. False: a list would have outgrown its buffer; the bodies are as
     // before, and State::counts says what is needed.
     virtual bool step() = 0;
-    // Up to `count` steps one after the other, with the same parameters and no actions, and how many were run: the next is the
-    // first of which step() would say false. A device has two of them at a time, and waits for no word from the host.
-    virtual int steps(int count) {
-        int done = 0;
-        while (done < count && step()) ++done;
-        return done;
+    // `count` steps one after the other, with the same parameters and no actions; adds one to `done` after each. False: the next
+    // is the first of which step() says so. A device has two of them at a time, and waits for no word from the host.
+    virtual bool steps(int count, std::uint64_t& done) {
+        for (int i = 0; i < count; ++i, ++done)
+            if (!step()) return false;
+        return true;
     }
     // Brings back into the attached state: counts, poses, velocities and rests; the contacts of the last step (after the former);
     // every table.
@@ -48,8 +48,8 @@ public:
     // Whether the steps to come are timed stage by stage. At first none is: on a software device a mark between two stages of a
     // small world takes longer than the stages. On the CPU it costs nothing, and all are.
     virtual void time_stages(bool /* on */) {}
-    virtual StageTimes stage_times() const = 0;       // means over the timed steps since the runner was first attached, or
-                                                      // the substeps changed
+    virtual StageTimes stage_times() const = 0;       // means over the timed steps since the stages changed: with the substeps,
+                                                      // or when a small world grew
     virtual StageTimes last_stage_times() const = 0;  // of the last timed step alone
 };
 

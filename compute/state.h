@@ -64,7 +64,8 @@ struct Content {
     bool bounces = false;  // some contact may throw back what strikes it
     bool rolls = false;    // some contact resists rolling
     bool round = false;    // there are spheres or capsules
-    static Content everything() { return {true, true, true, true, true, true, true, true, true}; }
+    bool tyres = false;    // with a vehicle or without
+    static Content everything() { return {true, true, true, true, true, true, true, true, true, true}; }
     bool operator==(const Content&) const = default;
 };
 

@@ -10,6 +10,7 @@
 #include "shaders/physics/grid.h"
 #include "shaders/physics/parts.h"
 #include "shaders/physics/triangle.h"
+#include "shaders/physics/tyre.h"
 
 namespace scree {
 
@@ -240,6 +241,7 @@ Content State::content() const {
     for (const physics::Traits& row : traits) {
         found.bounces |= row.restitution > 0;
         found.rolls |= row.rolling_resistance > 0;
+        found.tyres |= physics::tyre_of(row) != 0;
         found.round |= row.shape == physics::SHAPE_SPHERE || row.shape == physics::SHAPE_CAPSULE;
         found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;

@@ -94,15 +94,15 @@ int World::Interior::steps_alone(int count) {
     broken = true;
     state.fixed().actions = 0;
     state.fixed().redo = 0;
-    int done = runner->steps(count);
-    if (done < count) {
+    const std::uint64_t before = steps;
+    const bool all = runner->steps(count, steps);
+    if (!all) {
         do make_room_for_lists();
         while (!runner->step());
-        ++done;
+        ++steps;
     }
-    steps += static_cast<std::uint64_t>(done);
     broken = false;
-    return done;
+    return static_cast<int>(steps - before);
 }
 
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)

@@ -157,9 +157,10 @@ public:
     void explode(vec3 centre, float radius, float speed);
 
     // From the next step on; they wake everybody. They throw for what a scene or Settings would not take.
-    void set_gravity(vec3 gravity);                 // m/s^2
-    void set_friction_factor(float factor);         // on the friction of every pair, 0 to 10
-    void set_least_restitution(float restitution);  // of every pair, 0 to 1
+    void set_gravity(vec3 gravity);          // m/s^2
+    void set_friction_factor(float factor);  // on the friction of every pair, 0 to 10
+    // Of every pair, 0 to 1. Where nothing else bounces, beginning or ending to do so reads everything back and sends it once.
+    void set_least_restitution(float restitution);
     // From the next step on. It reads everything back and sends it again once.
     void set_substeps(int substeps);  // 1 to 64
 

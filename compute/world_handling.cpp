@@ -123,8 +123,13 @@ void World::explode(vec3 centre, float radius, float speed) {
 }
 
 void World::Interior::retune(const Settings& changed) {
-    const bool replan = changed.substeps != settings.substeps ||
-                        (changed.least_restitution > 0) != (settings.least_restitution > 0);  // Content::bounces
+    bool replan = changed.substeps != settings.substeps;
+    if ((changed.least_restitution > 0) != (settings.least_restitution > 0)) {
+        Content content = state.content();
+        state.fixed().least_restitution = changed.least_restitution;
+        replan = replan || state.content() != content;
+        state.fixed().least_restitution = settings.least_restitution;
+    }
     if (replan) runner->fetch();
     settings = changed;
     state.tune(scene.gravity, settings);

@@ -76,14 +76,15 @@ Samples sample(World& world, const std::string& what, const BenchOptions& option
     Samples samples;
     const int steps = options.warmup + options.steps;
     Progress progress(what, steps, "steps", options.quiet);
+    // On a device times of stages take time. A single step has to tell both.
+    const bool in_turn = world.runner().backend() != "cpu";
     for (int i = 0; i < steps && !is_interrupted(); ++i) {
-        // Times of stages take time. A single step has to tell both.
-        const bool counts = i >= options.warmup, timed = counts && (steps - i) % 2 == 1;
+        const bool counts = i >= options.warmup, timed = counts && (!in_turn || (steps - i) % 2 == 1);
         world.time_stages(timed);
         const auto start = std::chrono::steady_clock::now();
         world.step();
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-        if (counts && (!timed || options.steps == 1)) samples.step_ms.push_back(taken.count());
+        if (counts && (!timed || !in_turn || options.steps == 1)) samples.step_ms.push_back(taken.count());
         if (timed) {
             for (const auto& [stage, ms] : world.last_stage_times()) samples.stage_ms[stage].push_back(ms);
         }

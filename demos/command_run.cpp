@@ -53,8 +53,10 @@ void require_writable(const Options& options) {
     require_writable_file("--save", options.save);
 }
 
-// Where nobody looks at every step so many are asked for at once: a device then need not wait for the host between them.
+// Where nobody looks at every step, so many short ones are asked for at once: a device then need not wait for the host between
+// them. In the report each of them took as long as all on average.
 constexpr int most_at_once = 8;  // divides the place of a timed step
+constexpr double longest_waiting_ms = 10;
 
 double steps_alone(World& world, const Script& before_step, int count) {
     if (before_step) before_step(world);
@@ -95,8 +97,10 @@ bool simulate(const Options& options, const Subject& subject, World& world, Pict
         const bool timed = reports && (done % steps_a_timed_one == steps_a_timed_one / 2 || done + 1 == steps);
         world.time_stages(timed);
         const bool watched = timed || recorder || pictures || subject.before_step || done < 2;
+        const bool waits =
+            world.runner().backend() != "cpu" && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
         const int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
-        const int count = watched ? 1 : unwatched;
+        const int count = watched || !waits ? 1 : unwatched;
         steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
         done += count;
         hold_to_promise(subject, world, recorder, report);

@@ -170,6 +170,7 @@ void order_cells(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void count_pairs(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
     std::atomic_ref coarse(state.counted().pairs_coarse);
     state.partners.resize(state.fixed().bodies);
     threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {

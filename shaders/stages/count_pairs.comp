@@ -14,7 +14,7 @@ void found(uint other) {
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies) return;
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
     look_around(i);
     pair_starts.at[i] = pairs_found;
     if (pairs_found > 0u) atomicAdd(COUNTS.pairs_coarse, (pairs_found + 255u) >> 8);

@@ -110,7 +110,8 @@ TEST_CASE("program: a second Ctrl-C leaves nothing half written", "[program]") {
     REQUIRE(std::system(("mkfifo '" + at + "/pipe'").c_str()) == 0);
     const Outcome outcome = run_scree(
         "run dominoes --backend cpu --seconds 10000 --size 320x180 --video '" + at + "/clip.mp4' --raw '" + at + "/pipe' --quiet",
-        "PATH='" + at + "':\"$PATH\"; export PATH; sleep 60 <>'" + at + "/pipe' >/dev/null 2>&1 & echo $$ >'" + at + "/pid'; exec");
+        "PATH='" + at + "':\"$PATH\"; export PATH; sleep 60 <>'" + at + "/pipe' >/dev/null 2>&1 & echo $$ >'" + at +
+            "/pid'; exec");
     interrupter.join();
     INFO(outcome.errors);
     REQUIRE(outcome.status == 130);

@@ -1,6 +1,9 @@
 // No list drops an entry: whatever room the buffers begin with, the step is the same to the last bit.
 #include <catch2/catch.hpp>
+#include <memory>
+#include <new>
 
+#include "compute/reference_runner.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 
@@ -38,4 +41,49 @@ TEST_CASE("an impulse is applied once, also when its step had to be done again")
     }
     REQUIRE(cramped.buffer_growths() > 0);
     REQUIRE(cramped.state_hash() == roomy.state_hash());
+}
+
+namespace {
+
+// Has no memory for a second room.
+class Poor : public ReferenceRunner {
+public:
+    Poor() : ReferenceRunner(1) {}
+    void attach(State& state) override {
+        if (attached_++ > 0) throw std::bad_alloc();
+        ReferenceRunner::attach(state);
+    }
+
+private:
+    int attached_ = 0;
+};
+
+}  // namespace
+
+TEST_CASE("steps that were done before memory ended are counted, asked for one by one or at once") {
+    Settings tiny;
+    tiny.contacts_at_first = 200;
+    World one(tests::heap(150), tiny, std::make_unique<Poor>()), at_once(tests::heap(150), tiny, std::make_unique<Poor>());
+    REQUIRE_THROWS_AS(
+        [&] {
+            for (int i = 0; i < 1000; ++i) one.step();
+        }(),
+        std::bad_alloc);
+    REQUIRE_THROWS_AS(at_once.step(1000), std::bad_alloc);
+    REQUIRE(one.steps() > 2);
+    REQUIRE(at_once.steps() == one.steps());
+    REQUIRE(at_once.state_hash() == one.state_hash());
+}
+
+TEST_CASE("more bodies are acted upon in a step than there was room for") {
+    World world(tests::heap(150), {}, 1), same(tests::heap(150), {}, 1);
+    world.step(2);
+    same.step(2);
+    for (std::size_t i = 1; i <= 100; ++i) world.apply_impulse(i, vec3(0, 1, 0));
+    world.step();
+    same.step();
+    for (std::size_t i = 1; i <= 100; ++i) {
+        CAPTURE(i);
+        REQUIRE(world.body(i).velocity.y > same.body(i).velocity.y);
+    }
 }
