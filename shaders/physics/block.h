@@ -165,8 +165,7 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
     if (!none(bounces)) impulse.approach = choose(bounces, approaches(c, impulse, v, a, b, pull, parameters), impulse.approach);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
-    int sweep = 0;
-    do {
+    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         bool swept = uint(sweep) < sweeps;
         normal = choose(swept, 0.0f, normal);
         for (int k = 0; k < 4; ++k) {
@@ -189,8 +188,7 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
         }
-        ++sweep;
-    } while (!none(uint(sweep) < sweeps));
+    }
     Solved result;
     result.impulse = impulse;
     result.couple = v;
@@ -216,8 +214,7 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3
     c = at_present(c, impulse.d);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
-    int sweep = 0;
-    do {
+    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         bool swept = uint(sweep) < sweeps;
         normal = choose(swept, 0.0f, normal);
         for (int k = 0; k < 4; ++k) {
@@ -238,8 +235,7 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
         }
-        ++sweep;
-    } while (!none(uint(sweep) < sweeps));
+    }
     Solved result;
     result.impulse = impulse;
     result.couple = v;
