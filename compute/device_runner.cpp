@@ -206,7 +206,7 @@ void DeviceRunner::upload() {
     using enum Table;
     parity_ = 0;
     const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles}) send(table);
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles, ids}) send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
     for (const Table table :
@@ -381,8 +381,9 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts,   traits, poses,   velocities,      rests,           hulls,
-                          joints,     vehicles, masses, actions, contacts_before, impulses_before, first_contacts_before};
+    const auto lasting = {parameters, counts,  traits,          poses,           velocities,
+                          rests,      hulls,   joints,          vehicles,        ids,
+                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;

@@ -52,6 +52,7 @@ public:
     const host::Buffer& slot_ends() const { return buffer(Table::slot_ends); }
     const host::Buffer& slot_sides() const { return buffer(Table::slot_sides); }
     const host::Buffer& rests() const { return buffer(Table::rests); }
+    const host::Buffer& ids() const { return buffer(Table::ids); }
     const host::Buffer& bounds() const { return buffer(Table::bounds); }
     const host::Buffer& joints() const { return buffer(Table::joints); }
     std::uint32_t joint_records() const;  // of the table of joints

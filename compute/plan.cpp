@@ -28,7 +28,7 @@ void add_joints(std::vector<Stage>& stages, Stage half, bool after) {
 std::uint32_t content_bits(const Content& content) {
     return (content.bounces ? physics::CONTENT_BOUNCES : 0) | (content.rolls ? physics::CONTENT_ROLLS : 0) |
            (content.round ? physics::CONTENT_ROUND : 0) | (content.tyres ? physics::CONTENT_TYRES : 0) |
-           (content.moving_parts ? physics::CONTENT_PARTS : 0);
+           (content.moving_parts ? physics::CONTENT_PARTS : 0) | (content.reordered ? physics::CONTENT_REORDERED : 0);
 }
 
 const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_box",     "sphere_plane", "capsule_capsule",
@@ -54,11 +54,12 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
     s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}, 0, true, Length::entries});
     s.push_back({joined ? "count_pairs_joined" : "count_pairs", Over::bodies, count_pairs, {pair_starts, counts}});
-    s.back().content = bits & physics::CONTENT_PARTS;
+    s.back().content = bits & (physics::CONTENT_PARTS | physics::CONTENT_REORDERED);
     scan(s, "pairs", Over::body_blocks, pair_starts, scan_pairs_spine, scan_pairs_offsets);
     s.push_back({joined ? "fill_pairs_joined" : "fill_pairs", Over::bodies, fill_pairs, {}});
-    s.back().content = bits & physics::CONTENT_PARTS;
+    s.back().content = bits & (physics::CONTENT_PARTS | physics::CONTENT_REORDERED);
     s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});
+    s.back().content = bits & physics::CONTENT_REORDERED;
     // narrowphase: who touches whom, and where
     s.push_back({"count_kinds", Over::spans, count_kinds, {contact_starts}, 0, true, Length::kinds});
     scan(s, "kinds", Over::kind_blocks, contact_starts, scan_nothing, scan_kinds_offsets);
@@ -74,6 +75,7 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     // contacts: who touches
     scan(s, "contacts", Over::pair_blocks, contact_starts, scan_contacts_spine, scan_contacts_offsets);
     s.push_back({"list_contacts", Over::pairs, list_contacts, {}});
+    s.back().content = bits & physics::CONTENT_REORDERED;
     // whom this wakes
     s.push_back({"wake_touched", Over::contacts, wake_touched, {}, 0, /* feeds_next */ false});
     s.push_back({"wake_deserted", Over::bodies, wake_deserted, {rests, counts}});
@@ -88,6 +90,7 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     s.push_back({"fill_slots", Over::contacts, fill_slots, {slot_ends, counts}});
     if (joined) s.push_back({"fill_joint_slots", Over::joint_blocks, fill_joint_slots, {slot_ends}});
     s.push_back({"order_slots", Over::bodies, order_slots, {slot_sides, first_contacts}});
+    s.back().content = bits & physics::CONTENT_REORDERED;
     if (joined) s.back().writes.push_back(Table::joints);
     s.push_back({"prepare_contacts", Over::contacts, prepare_contacts, {contacts, constraints, impulses, slots}});
     if (joined) {

@@ -253,8 +253,9 @@ void State::make(Table table) {
 
 void State::allocate() {
     using enum Table;
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints, vehicles})
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints, vehicles, ids})
         make(table);
+    number_rows();
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }

@@ -61,11 +61,12 @@ struct Content {
     bool joints = false;
     bool breaking = false;  // some body may break
     bool vehicles = false;
-    bool bounces = false;  // some contact may throw back what strikes it
-    bool rolls = false;    // some contact resists rolling
-    bool round = false;    // there are spheres or capsules
-    bool tyres = false;    // with a vehicle or without
-    static Content everything() { return {true, true, true, true, true, true, true, true, true, true}; }
+    bool bounces = false;    // some contact may throw back what strikes it
+    bool rolls = false;      // some contact resists rolling
+    bool round = false;      // there are spheres or capsules
+    bool tyres = false;      // with a vehicle or without
+    bool reordered = false;  // rows are in another order than ids
+    static Content everything() { return {true, true, true, true, true, true, true, true, true, true, true}; }
     bool operator==(const Content&) const = default;
 };
 
@@ -97,6 +98,22 @@ struct State {
     void add(const Body& body);
     // The joints are the scene's: those that were here, but for the one at `without`, and then others. The same holds.
     void rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
+
+    // Puts bodies into other rows, rows[id] being the new one of each; without any, each into that of its id. Rows of parts stay,
+    // and those of pieces must (their bodies know them). All that lasts from step to step goes with its body, and no bit of what
+    // follows changes; what is left of the last step beside it is of no use any more. Everything that lasts must be here, and the
+    // runner be attached again.
+    void reorder(const std::vector<std::uint32_t>& rows = {});
+    bool reordered() const {
+        return !rows_.empty();
+    }
+    // Where a body of the scene is, and which body, or part, is there.
+    std::uint32_t row_of(std::size_t id) const {
+        return id < rows_.size() ? rows_[id] : static_cast<std::uint32_t>(id);
+    }
+    std::uint32_t id_of(std::uint32_t row) const {
+        return rows_.empty() ? row : ids[row];
+    }
 
     // Items of a table as allocated, and those that mean something at present.
     std::size_t allocated(Length length) const;
@@ -145,6 +162,8 @@ private:
     static physics::Velocity start_velocity_of(const Body& body);
     static std::uint32_t buckets_for(std::uint32_t bodies);
     void allocate();
+    void number_rows();
+    std::vector<std::uint32_t> rows_;  // by id; empty: every body is in the row of its id
     physics::Traits traits_of(const Body& body, std::uint32_t index);
     physics::Traits form_of(const SimpleShape& shape);
     physics::Traits form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);

@@ -7,6 +7,7 @@
 namespace scree {
 
 void State::rejoin(const Scene& scene, std::optional<std::size_t> without) {
+    reorder();
     std::vector<physics::Joint> before;
     for (const std::uint32_t record : joint_records) before.push_back(joints[record]);
     if (without) before.erase(before.begin() + static_cast<std::ptrdiff_t>(*without));

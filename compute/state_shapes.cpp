@@ -237,6 +237,7 @@ Content State::content() const {
     found.joints = has_joints();
     found.vehicles = fixed().vehicles != 0;
     found.breaking = has_fractures();
+    found.reordered = reordered();
     found.bounces = fixed().least_restitution > 0;
     for (const physics::Traits& row : traits) {
         found.bounces |= row.restitution > 0;
@@ -251,6 +252,7 @@ Content State::content() const {
 }
 
 void State::add(const Body& body) {
+    reorder();
     physics::Parameters& p = fixed();
     const std::uint32_t n = p.first_part;
     const auto make_room = [n](auto& table, const auto& record) {

@@ -16,9 +16,9 @@ namespace {
 
 using glm::dvec3;
 
-bool finite(const State& state, std::size_t i) {
-    const physics::Pose& pose = state.poses[i];
-    const physics::Velocity& velocity = state.velocities[i];
+bool finite(const State& state, std::size_t row) {
+    const physics::Pose& pose = state.poses[row];
+    const physics::Velocity& velocity = state.velocities[row];
     float sum = 0;  // NaN and infinity survive being multiplied by zero
     for (const float x : {pose.position.x, pose.position.y, pose.position.z, pose.orientation.x, pose.orientation.y,
                           pose.orientation.z, pose.orientation.w, velocity.linear.x, velocity.linear.y, velocity.linear.z,
@@ -34,8 +34,9 @@ dvec3 angular_momentum(const MassProperties& mass, vec4 q, dvec3 angular) {
 
 void add_motion(const Scene& scene, const State& state, std::size_t i, Statistics& s, dvec3& momentum, dvec3& spin) {
     const MassProperties mass = mass_properties(scene.bodies[i].shape, scene.bodies[i].density);
-    const dvec3 x(state.poses[i].position), v(state.velocities[i].linear), w(state.velocities[i].angular);
-    const dvec3 own_spin = angular_momentum(mass, state.poses[i].orientation, w);
+    const std::uint32_t row = state.row_of(i);
+    const dvec3 x(state.poses[row].position), v(state.velocities[row].linear), w(state.velocities[row].angular);
+    const dvec3 own_spin = angular_momentum(mass, state.poses[row].orientation, w);
     const double m = mass.mass;
     momentum += m * v;
     spin += m * glm::cross(x, v) + own_spin;
@@ -84,18 +85,19 @@ Statistics statistics_of(const Scene& scene, const State& state) {
     for (const Body& body : scene.bodies)
         if (const auto* plane = std::get_if<Plane>(&body.shape)) planes.push_back(plane);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        s.broken += state.traits[i].motion == physics::MOTION_BROKEN;
-        if (physics::is_absent(state.traits[i].motion)) continue;
+        const std::uint32_t row = state.row_of(i);
+        s.broken += state.traits[row].motion == physics::MOTION_BROKEN;
+        if (physics::is_absent(state.traits[row].motion)) continue;
         ++s.bodies;
         s.pieces += scene.bodies[i].piece_of != no_body;
-        if (!finite(state, i)) {
+        if (!finite(state, row)) {
             ++s.not_finite;
             continue;
         }
         if (scene.bodies[i].motion != Motion::dynamic) continue;
-        s.asleep += physics::is_asleep(state.rests[i], state.fixed().sleep_steps);
+        s.asleep += physics::is_asleep(state.rests[row], state.fixed().sleep_steps);
         add_motion(scene, state, i, s, momentum, spin);
-        const vec3 centre = state.poses[i].position;
+        const vec3 centre = state.poses[row].position;
         s.below_ground += std::any_of(planes.begin(), planes.end(), [&](const Plane* plane) {
             return glm::dot(dvec3(plane->normal), dvec3(centre)) < plane->offset;
         });
@@ -114,16 +116,17 @@ std::uint64_t hash_of(const State& state) {
     const std::size_t bodies = state.fixed().first_part;  // parts are where their bodies are
     std::vector<float> values(floats * bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
-        float* row = values.data() + floats * i;
-        std::memcpy(row, &state.poses[i].position, 12);
-        std::memcpy(row + 3, &state.poses[i].orientation, 16);
-        std::memcpy(row + 7, &state.velocities[i].linear, 12);
-        std::memcpy(row + 10, &state.velocities[i].angular, 12);
+        float* body = values.data() + floats * i;
+        const std::uint32_t row = state.row_of(i);
+        std::memcpy(body, &state.poses[row].position, 12);
+        std::memcpy(body + 3, &state.poses[row].orientation, 16);
+        std::memcpy(body + 7, &state.velocities[row].linear, 12);
+        std::memcpy(body + 10, &state.velocities[row].angular, 12);
     }
     const std::uint64_t hash = XXH64(values.data(), values.size() * sizeof(float), 0);
     if (!state.has_fractures()) return hash;
     std::vector<physics::uint> there;  // and who is there at all
-    for (const physics::Traits& body : state.traits) there.push_back(body.motion);
+    for (std::size_t i = 0; i < state.traits.size(); ++i) there.push_back(state.traits[state.row_of(i)].motion);
     return XXH64(there.data(), there.size() * sizeof(physics::uint), hash);
 }
 

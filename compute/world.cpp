@@ -39,6 +39,7 @@ bool finite(vec3 v) {
 
 World::Interior::Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r)
     : scene(std::move(s)), settings(t), runner(std::move(r)), state(scene, settings, runner->group_size(), runner->in_place()) {
+    begin_in_order();
     runner->attach(state);
 }
 
@@ -53,9 +54,7 @@ physics::Action& World::Interior::action_on(std::size_t body, vec3 value, vec3 s
     const Motion motion = scene.bodies[body].motion;
     if (motion == Motion::fixed || (motion == Motion::kinematic && !kinematic_too))
         throw std::invalid_argument("body " + std::to_string(body) + " is not dynamic");
-    physics::Action& action = actions[body];
-    action.body = static_cast<physics::uint>(body);
-    return action;
+    return actions[body];
 }
 
 void World::Interior::make_room_for_actions() {
@@ -76,11 +75,15 @@ void World::Interior::make_room_for_lists() {
 void World::Interior::step() {
     if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
     broken = true;
+    keep_order();
     take_up_grips();
     if (actions.size() > state.action_room) make_room_for_actions();
     physics::Parameters& parameters = state.fixed();
     parameters.actions = 0;
-    for (const auto& [body, action] : actions) state.actions[parameters.actions++] = bounded(action);
+    for (const auto& [body, action] : actions) {
+        physics::Action& told = state.actions[parameters.actions++] = bounded(action);
+        told.body = state.row_of(body);
+    }
     actions.clear();
     parameters.redo = 0;
     while (!runner->step()) make_room_for_lists();
@@ -172,12 +175,13 @@ void World::wake_all() {
     interior_->state.fixed().wake_all = 1;
 }
 BodyState World::Interior::body_state(std::size_t i) const {
-    return {state.poses[i].position,
-            state.poses[i].orientation,
-            state.velocities[i].linear,
-            state.velocities[i].angular,
-            physics::is_asleep(state.rests[i], state.fixed().sleep_steps),
-            !physics::is_absent(state.traits[i].motion)};
+    const std::uint32_t row = state.row_of(i);
+    return {state.poses[row].position,
+            state.poses[row].orientation,
+            state.velocities[row].linear,
+            state.velocities[row].angular,
+            physics::is_asleep(state.rests[row], state.fixed().sleep_steps),
+            !physics::is_absent(state.traits[row].motion)};
 }
 
 std::vector<BodyState> World::bodies() const {
@@ -228,7 +232,7 @@ Scene World::snapshot() const {
 
 BodyState World::body(std::size_t index) const {
     interior_->require_body(index);
-    interior_->runner->fetch_body(index);
+    interior_->runner->fetch_body(interior_->state.row_of(index));
     return interior_->body_state(index);
 }
 
@@ -240,7 +244,7 @@ std::vector<Touching> World::touching(std::size_t body) const {
     std::vector<Touching> found;
     for (std::size_t i = 0; i < state.counted().contacts; ++i) {
         const physics::Contact& contact = state.contacts[i];
-        const std::size_t a = state.body_of(contact.a), b = state.body_of(contact.b);
+        const std::size_t a = state.id_of(state.body_of(contact.a)), b = state.id_of(state.body_of(contact.b));
         if (a != body && b != body) continue;
         const physics::vec4 pushes = state.impulses[i].normal;
         const float force = (pushes.x + pushes.y + pushes.z + pushes.w) * state.fixed().inverse_h;

@@ -178,6 +178,12 @@ public:
     // std::out_of_range for the bodies, SceneError for an axis without a length.
     Joint joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis = vec3(1, 0, 0)) const;
 
+    // Before the next step: bodies that are near each other are put side by side in memory, however few they are. Where there are
+    // thousands it happens by itself (Settings::reordering). It reads everything back and sends it again once.
+    void reorder();
+    std::uint64_t reorderings() const;           // so far; after each one bodies are in other rows of state()
+    std::size_t row_of(std::size_t body) const;  // in the tables of state(), and of a device; throws std::out_of_range
+
     // Read back from wherever the world is.
     BodyState body(std::size_t index) const;                 // throws std::out_of_range
     std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts

@@ -79,7 +79,8 @@ void World::Interior::take_up_grips() {
     for (const std::optional<Held>& grip : grips) {
         if (!grip) continue;
         action_on(grip->body, vec3(0), vec3(0));  // wakes it
-        parameters.grips[parameters.held++] = record_of(grip->body, grip->anchor, grip->target, grip->spring, parameters.h);
+        parameters.grips[parameters.held++] =
+            record_of(state.row_of(grip->body), grip->anchor, grip->target, grip->spring, parameters.h);
     }
 }
 

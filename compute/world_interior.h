@@ -2,12 +2,14 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "compute/scene_joints.h"
 #include "compute/state.h"
@@ -30,11 +32,18 @@ struct World::Interior {
     std::array<std::optional<Held>, most_grips> grips;
     std::uint64_t steps = 0;
     std::uint64_t growths = 0;
+    bool reorder_now = false;  // asked for
+    std::uint64_t reorderings = 0;
+    double seconds_to_look = 0;  // after the bodies' order in memory, the last time
+    std::optional<std::chrono::steady_clock::time_point> looked;
     bool broken = false;  // left true by a step that ended in an exception: the tables may be half grown
 
     Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r);
     void step();
     int steps_alone(int count);  // up to so many in which the user asks for nothing; 0 while a grip is held
+    bool keeps_order() const;    // of the bodies in memory
+    void begin_in_order();
+    void keep_order();  // between two steps
     void make_room_for_actions();
     void make_room_for_lists();  // and the step shall be done again
     void require_body(std::size_t body) const;

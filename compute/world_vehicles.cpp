@@ -108,7 +108,7 @@ void World::put_upright(std::size_t vehicle) {
     in.runner->fetch();
     const Vehicle& v = in.scene.vehicles[vehicle];
     const vec4 frame = in.state.vehicles[vehicle].handling.frame;
-    const physics::Pose before = in.state.poses[v.chassis];
+    const physics::Pose before = in.state.poses[in.state.row_of(v.chassis)];
     const float pull = glm::length(in.scene.gravity);
     const vec3 up = pull > 1e-6f ? -in.scene.gravity / pull : vec3(0, 1, 0);
     const vec4 now = physics::compose(before.orientation, frame);
@@ -124,9 +124,10 @@ void World::put_upright(std::size_t vehicle) {
     const Body& first = in.scene.bodies[v.chassis];
     const vec3 place = before.position + up * lift_of_a_righted_vehicle;
     const auto put = [&](std::size_t body, vec3 position, vec4 orientation) {
-        in.state.poses[body] = {position, 0, orientation};
-        in.state.velocities[body] = {};
-        in.state.rests[body] = 0;
+        const std::uint32_t row = in.state.row_of(body);
+        in.state.poses[row] = {position, 0, orientation};
+        in.state.velocities[row] = {};
+        in.state.rests[row] = 0;
     };
     put(v.chassis, place, upright);
     for (const Wheel& wheel : v.wheels) {

@@ -56,12 +56,14 @@ private:
 
 }  // namespace
 
-host::ShapeInstances instances_of(const Scene& scene) {
+host::ShapeInstances instances_of(const World& world) {
+    const Scene& scene = world.scene();
     Instances instances;
     auto part = static_cast<std::uint32_t>(scene.bodies.size());  // the row of the next; as State has them
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Shape& shape = scene.bodies[i].shape;
-        if (const std::optional<SimpleShape> simple = simple_shape(shape)) instances.add(i, *simple);
+        if (const std::optional<SimpleShape> simple = simple_shape(shape))
+            instances.add(static_cast<std::uint32_t>(world.row_of(i)), *simple);
         if (const auto* compound = std::get_if<Compound>(&shape))
             for (const Part& one : compound->parts) instances.add(part++, one.shape);
         if (const MeshForm* form = mesh_form_of(shape)) {
@@ -84,6 +86,7 @@ host::BodyTables tables_of(const State& state) {
     tables.slot_sides = state.slot_sides;
     tables.rests = state.rests;
     tables.bounds = state.bounds;
+    tables.ids = state.ids;
     tables.joints = state.joints;
     tables.joint_count = static_cast<std::uint32_t>(state.joints.size());
     return tables;
@@ -118,7 +121,7 @@ Drawing::Drawing(const std::string& canvas, const Machine& machine, World& world
 }
 
 std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
-    const host::ShapeInstances instances = instances_of(world_.scene());
+    const host::ShapeInstances instances = instances_of(world_);
     try {
         if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
         return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);
@@ -128,10 +131,11 @@ std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
 }
 
 void Drawing::update() {
-    if (!canvas_ || bodies_ != world_.scene().bodies.size()) {
+    if (!canvas_ || bodies_ != world_.scene().bodies.size() || reorderings_ != world_.reorderings()) {
         canvas_.reset();
         canvas_ = make_canvas();
         bodies_ = world_.scene().bodies.size();
+        reorderings_ = world_.reorderings();
     }
     const host::BodyTables tables = from_device_ ? tables_on_device(world_.runner()) : tables_of(world_.state());
     contacts_ = tables.touch_count;
@@ -143,7 +147,8 @@ std::uint32_t Drawing::contacts() const {
 }
 
 vec3 Drawing::position_of(std::size_t body) const {
-    return from_device_ ? position_on_device(world_.runner(), body) : world_.state().poses.at(body).position;
+    const std::size_t row = world_.row_of(body);
+    return from_device_ ? position_on_device(world_.runner(), row) : world_.state().poses[row].position;
 }
 
 }  // namespace scree::demos

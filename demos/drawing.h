@@ -13,7 +13,7 @@
 namespace scree::demos {
 
 // Which bodies have which shape.
-host::ShapeInstances instances_of(const Scene& scene);
+host::ShapeInstances instances_of(const World& world);
 // What a canvas draws from where a world is simulated on the processor.
 host::BodyTables tables_of(const State& state);
 
@@ -37,7 +37,8 @@ private:
     std::string word_;
     Machine machine_;
     host::CanvasOptions options_;
-    std::size_t bodies_ = 0;  // that the canvas knows
+    std::size_t bodies_ = 0;  // that the canvas knows, and where
+    std::uint64_t reorderings_ = 0;
     std::unique_ptr<host::Canvas> canvas_;
     bool from_device_ = false;  // draws from the very tables that the device works on
     std::uint32_t contacts_ = 0;

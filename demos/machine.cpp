@@ -95,14 +95,15 @@ host::BodyTables tables_on_device(Runner& runner) {
     tables.slot_sides = &device.slot_sides();
     tables.rests = &device.rests();
     tables.bounds = &device.bounds();
+    tables.ids = &device.ids();
     tables.joints = &device.joints();
     tables.joint_count = device.joint_records();
     return tables;
 }
 
-vec3 position_on_device(Runner& runner, std::size_t body) {
+vec3 position_on_device(Runner& runner, std::size_t row) {
     physics::Pose pose{};
-    dynamic_cast<DeviceRunner&>(runner).poses().read(&pose, sizeof pose, body * sizeof pose);
+    dynamic_cast<DeviceRunner&>(runner).poses().read(&pose, sizeof pose, row * sizeof pose);
     return pose.position;
 }
 

@@ -42,6 +42,6 @@ std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const h
 
 // What a machine with a device keeps there.
 host::BodyTables tables_on_device(Runner& runner);
-vec3 position_on_device(Runner& runner, std::size_t body);
+vec3 position_on_device(Runner& runner, std::size_t row);
 
 }  // namespace scree::demos

@@ -54,6 +54,7 @@ struct BodyTables {
     TableView slot_sides;           // uint, 2 * contact + side
     TableView rests;                // uint (shaders/physics/rest.h), for ColorBy::rest and CanvasOptions::sleep
     TableView bounds;               // Bounds, for CanvasOptions::boxes and cells
+    TableView ids;                  // uint, which body is in each row, for ColorBy::body
     TableView joints;               // Joint, for CanvasOptions::joints
     std::uint32_t joint_count = 0;  // records of it
 };

@@ -19,6 +19,7 @@ const std::array<BindingInfo, BINDINGS>& binding_infos() {
         all[RESTS] = {Source::bodies, &BodyTables::rests, "rests"};
         all[BOUNDS] = {Source::bodies, &BodyTables::bounds, "bounds"};
         all[JOINTS] = {Source::bodies, &BodyTables::joints, "joints"};
+        all[IDS] = {Source::bodies, &BodyTables::ids, "ids"};
         for (const Binding image : {SUN_MAP, SKY_MAP, GLYPHS, SCENE}) all[image] = {Source::image, nullptr, ""};
         return all;
     }();
@@ -41,6 +42,8 @@ bool reads(std::uint32_t binding, const CanvasOptions& options, ColorBy by) {
             return options.boxes || options.cells;
         case JOINTS:
             return options.joints;
+        case IDS:
+            return by == ColorBy::body;
         default:
             return true;
     }

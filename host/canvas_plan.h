@@ -34,9 +34,10 @@ enum Binding : std::uint32_t {
     RESTS,
     BOUNDS,
     TINTS,  // the colour of each body, written on the device
-    JOINTS
+    JOINTS,
+    IDS
 };
-constexpr std::uint32_t BINDINGS = JOINTS + 1;
+constexpr std::uint32_t BINDINGS = IDS + 1;
 
 enum class Source {
     bodies,  // a member of BodyTables

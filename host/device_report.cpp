@@ -7,8 +7,8 @@ namespace scree::host {
 namespace {
 
 // A step is one table of buffers, bound once, or found by address. Lavapipe binds 32 a stage, most cards a million.
-constexpr std::uint32_t least_storage_buffers = 31;
-constexpr std::uint32_t texel_buffers = 32, changing_texel_buffers = 6;
+constexpr std::uint32_t least_storage_buffers = 32;
+constexpr std::uint32_t texel_buffers = 33, changing_texel_buffers = 6;
 // The widest workgroup of the shaders.
 constexpr std::uint32_t least_workgroup = 256;
 

@@ -88,6 +88,7 @@ template <typename Found>
 void for_each_partner(const State& state, std::uint32_t body, const Found& list) {
     const physics::Parameters& p = state.fixed();
     const physics::Traits& own = state.traits[body];
+    const std::uint32_t id = state.id_of(body);
     const bool joined = state.has_joints();
     const auto found = [&](std::uint32_t other) {
         if (!joined || !kept_apart(state, state.body_of(body), state.body_of(other))) list(other);
@@ -97,7 +98,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
     for_each_carried_over(state, body, found);
     if (still(state, body) && !physics::any_stirs(state.counted())) return;
     for (const physics::CellEntry& other : bucket(state, p.buckets)) {
-        if (!physics::finds_large(body, around.level, physics::is_large(own), other.body, other.level)) continue;
+        if (!physics::finds_large(id, around.level, physics::is_large(own), state.id_of(other.body), other.level)) continue;
         if (physics::can_touch(own, state.traits[other.body]) && near_large(state, body, other)) found(other.body);
     }
     if (physics::is_large(own)) return;
@@ -109,7 +110,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
                 if (!(overlap(around, other) & ((other.level & ~(physics::STILL | physics::MOVES)) == level))) continue;
-                if (!physics::finds(body, around.level, other.body, other.level & ~physics::MOVES)) continue;
+                if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
                 const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
                 if (cell.y != from.y || cell.z != from.z) continue;  // of another row whose buckets happen to be the same
                 if (physics::can_touch(own, state.traits[other.body])) found(other.body);
@@ -123,15 +124,17 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
 std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint32_t other) {
     const auto first = state.contacts_before.begin() + state.first_contacts_before[owner];
     const auto last = state.contacts_before.begin() + state.first_contacts_before[owner + 1];
-    const auto partner = [owner](const physics::Contact& contact) { return contact.a == owner ? contact.b : contact.a; };
+    const auto partner = [&](const physics::Contact& contact) { return state.id_of(contact.a == owner ? contact.b : contact.a); };
+    const std::uint32_t id = state.id_of(other);
     const auto found = std::lower_bound(
-        first, last, other, [&](const physics::Contact& contact, std::uint32_t body) { return partner(contact) < body; });
-    return found != last && partner(*found) == other ? static_cast<std::uint32_t>(found - state.contacts_before.begin())
-                                                     : physics::NONE;
+        first, last, id, [&](const physics::Contact& contact, std::uint32_t one) { return partner(contact) < one; });
+    return found != last && partner(*found) == id ? static_cast<std::uint32_t>(found - state.contacts_before.begin())
+                                                  : physics::NONE;
 }
 
 physics::Pair matched(const State& state, const physics::Candidate& candidate) {
-    physics::Pair pair{std::min(candidate.owner, candidate.other), std::max(candidate.owner, candidate.other), 0, physics::NONE};
+    physics::Pair pair{candidate.owner, candidate.other, 0, physics::NONE};
+    if (state.id_of(pair.b) < state.id_of(pair.a)) std::swap(pair.a, pair.b);
     pair.previous = contact_before(state, pair.a, pair.b);
     if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
     if (still(state, pair.a) && still(state, pair.b)) {
@@ -207,7 +210,7 @@ void match_pairs(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const auto first = state.candidates.begin() + state.pair_starts[i];
         const auto last = state.candidates.begin() + state.pair_starts[i + 1];
-        std::sort(first, last, [](const auto& x, const auto& y) { return x.other < y.other; });
+        std::sort(first, last, [&](const auto& x, const auto& y) { return state.id_of(x.other) < state.id_of(y.other); });
         std::transform(first, last, state.pairs.begin() + state.pair_starts[i],
                        [&](const physics::Candidate& candidate) { return matched(state, candidate); });
     });

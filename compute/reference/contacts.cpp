@@ -49,6 +49,11 @@ void list_contacts(State& state, const Threads& threads, std::uint32_t) {
         physics::Constraint& c = state.constraints[state.contact_starts[i]];
         c.pair = static_cast<std::uint32_t>(i);
         c.slot_a = c.slot_b = physics::NONE;
+        if (!state.reordered()) return;
+        // Until it is prepared, who owns it: order_slots asks.
+        const physics::Pair& pair = state.pairs[i];
+        const bool is_a = state.pair_starts[pair.a] <= i && i < state.pair_starts[pair.a + 1];
+        c.a = state.id_of(is_a ? pair.a : pair.b);
     });
 }
 
@@ -88,7 +93,16 @@ void order_slots(State& state, const Threads& threads, std::uint32_t) {
         state.first_contacts[i] = state.contact_starts[state.pair_starts[i]];
         const std::uint32_t first = i == 0 ? 0 : state.slot_ends[i - 1];
         const std::uint32_t last = state.slot_ends[i];
-        std::sort(state.slot_sides.begin() + first, state.slot_sides.begin() + last);
+        // By the id of the contact's owner, then by contact, and joints behind them: so that the body's sum has one order.
+        const auto key = [&](std::uint32_t side) {
+            const bool of_joint = (side & physics::OF_JOINT) != 0;
+            return std::pair(of_joint ? physics::NONE : state.constraints[side / 2].a, side);
+        };
+        const auto sides = state.slot_sides.begin();
+        if (state.reordered())
+            std::sort(sides + first, sides + last, [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+        else
+            std::sort(sides + first, sides + last);
         for (std::uint32_t slot = first; slot < last; ++slot) {
             const std::uint32_t side = state.slot_sides[slot];
             if (side & physics::OF_JOINT) {

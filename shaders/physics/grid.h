@@ -130,7 +130,8 @@ LAW bool reaches_plane(vec3 lower, vec3 upper, vec3 normal, vec3 point) {
     return dot3(corner - point, normal) <= 0.0f;
 }
 
-// A pair of grid bodies is listed once: by the one on the finer level, on the same level by the one with the lower id.
+// A pair of grid bodies is listed once: by the one on the finer level, on the same level by the one with the lower id. Where
+// bodies lie in memory decides nothing here, so that it may change: `body` and `other` are ids.
 LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
     return level < other_level || (level == other_level && body < other);
 }

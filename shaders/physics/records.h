@@ -384,7 +384,8 @@ CONSTANT uint CONTENT_BOUNCES = 1u;  // restitution
 CONSTANT uint CONTENT_ROLLS = 2u;    // resistance to rolling
 CONSTANT uint CONTENT_ROUND = 4u;    // round bodies
 CONSTANT uint CONTENT_TYRES = 8u;
-CONSTANT uint CONTENT_PARTS = 16u;  // bodies of several parts that move
+CONSTANT uint CONTENT_PARTS = 16u;      // bodies of several parts that move
+CONSTANT uint CONTENT_REORDERED = 32u;  // bodies whose rows are in another order than their ids
 
 CONSTANT uint KINDS = 15u;  // of pairs: thirteen of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind

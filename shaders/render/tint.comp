@@ -29,6 +29,9 @@ layout(std430, set = 0, binding = 17) readonly buffer SlotSideTable {
 layout(std430, set = 0, binding = 18) readonly buffer RestTable {
     uint rests[];
 };
+layout(std430, set = 0, binding = 22) readonly buffer IdTable {
+    uint ids[];
+};
 
 bool sleeps(uint body) {
     uint steps = uint(frame.rest.x);
@@ -71,8 +74,8 @@ float quantity(uint by, uint body) {
 }
 
 // Colours that tell bodies apart: hues a golden ratio apart, all about as light.
-vec3 name_color(uint body) {
-    float hue = fract(float(body % 4096u) * 0.61803399);
+vec3 name_color(uint id) {
+    float hue = fract(float(id % 4096u) * 0.61803399);
     vec3 c = 0.5 + 0.5 * cos(6.2831853 * (hue + vec3(0.0, 0.33, 0.67)));
     return mix(vec3(0.10), vec3(0.75), c * c);
 }
@@ -108,7 +111,7 @@ vec4 full_color(uint body) {
     if (motion == MOTION_KINEMATIC) return vec4(KINEMATIC, 0.0);
     uint by = uint(frame.scale.w);
     if (by == COLOR_BY_NOTHING) return vec4(PLAIN, 0.0);
-    if (by == COLOR_BY_BODY) return vec4(name_color(body), 0.0);
+    if (by == COLOR_BY_BODY) return vec4(name_color(ids[body]), 0.0);
     if (by == COLOR_BY_MATERIAL) return vec4(name_color(material_of(body)), 0.0);
     float q = quantity(by, body);
     float x = frame.scale.z > 0.5 ? log(max(q, 1e-30)) : q;

@@ -9,6 +9,7 @@ layout(constant_id = 1) const uint CONTENT = 0xFFFFFFFFu;
 const bool BOUNCES = (CONTENT & CONTENT_BOUNCES) != 0u;
 const bool PARTS = (CONTENT & CONTENT_PARTS) != 0u;
 const bool ROLLS = (CONTENT & CONTENT_ROLLS) != 0u;
+const bool REORDERED = (CONTENT & CONTENT_REORDERED) != 0u;
 
 // Only members that the laws compare are replaced: a zero in a sum would be folded away, and the sign of a zero with it.
 Constraint narrowed(Constraint c) {

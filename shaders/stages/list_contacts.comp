@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/ids.glsl"
 
 void main() {
     uint i = thread();
@@ -11,4 +11,9 @@ void main() {
     constraints.at[contact].pair = i;
     constraints.at[contact].slot_a = NONE;
     constraints.at[contact].slot_b = NONE;
+    if (!REORDERED) return;
+    // Until it is prepared, who owns it: order_slots asks.
+    Pair pair = READ(pairs, i);
+    bool is_a = READ(pair_starts, pair.a) <= i && i < READ(pair_starts, pair.a + 1u);
+    constraints.at[contact].a = id_of(is_a ? pair.a : pair.b);
 }

@@ -1,13 +1,15 @@
-// Puts each body's pairs in the order of the other body, finds their contacts in the last step and says which kernel they need.
+// Puts each body's pairs in the order of the other body's id, finds their contacts in the last step and says which kernel they
+// need.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/grid.h"
 #include "shaders/physics/persistence.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/ids.glsl"
 
-// The contacts that a body owned are in the order of the other body.
+// The contacts that a body owned are in the order of the other body's id.
 uint contact_before(uint owner, uint other) {
+    uint id = id_of(other);
     uint low = READ(first_contacts_before, owner);
     uint high = READ(first_contacts_before, owner + 1u);
     while (low < high) {
@@ -15,7 +17,7 @@ uint contact_before(uint owner, uint other) {
         uint a = READ(contacts_before, middle).a;
         uint partner = a == owner ? READ(contacts_before, middle).b : a;
         if (partner == other) return middle;
-        if (partner < other)
+        if (id_of(partner) < id)
             low = middle + 1u;
         else
             high = middle;
@@ -29,9 +31,10 @@ void main() {
     Candidate candidate = READ(candidates, i);
     uint place = READ(pair_starts, candidate.owner);
     uint last = READ(pair_starts, candidate.owner + 1u);
+    uint own = id_of(candidate.owner), id = id_of(candidate.other);
     for (uint k = place; k < last; ++k)
-        if (READ(candidates, k).other < candidate.other) ++place;
-    Pair pair = Pair(min(candidate.owner, candidate.other), max(candidate.owner, candidate.other), 0u, NONE);
+        if (id_of(READ(candidates, k).other) < id) ++place;
+    Pair pair = Pair(own < id ? candidate.owner : candidate.other, own < id ? candidate.other : candidate.owner, 0u, NONE);
     // Bodies change level with their speed, and then the other one owns the pair.
     pair.previous = contact_before(pair.a, pair.b);
     if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);

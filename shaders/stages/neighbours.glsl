@@ -4,7 +4,7 @@
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
 #include "shaders/physics/grid.h"
-#include "shaders/stages/content.glsl"
+#include "shaders/stages/ids.glsl"
 
 #ifdef WITH_JOINTS
 // Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
@@ -31,7 +31,7 @@ void look_through_large(uint body, Traits own, Bounds around) {
     for (uint k = READ(cells, PARAMETERS.buckets - 1u); k < READ(cells, PARAMETERS.buckets); ++k) {
         uint other = READ(cell_entries, k).body;
         CellEntry entry = READ(cell_entries, k);
-        if (!finds_large(body, around.level, is_large(own), other, entry.level)) continue;
+        if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         Traits theirs = READ(traits, other);
         if (!can_touch(own, theirs)) continue;
@@ -50,12 +50,14 @@ void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last
     uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
     uint end = READ(cells, PARAMETERS.buckets - 1u);
     uint first = low == 0u ? 0u : READ(cells, low - 1u);
+    uint id = id_of(body);
     uint entries = low <= high ? READ(cells, high) - first : end - first + READ(cells, high);
     for (uint k = 0u; k < entries; ++k) {
         uint place = first + k < end ? first + k : first + k - end;
         CellEntry entry = READ(cell_entries, place);
-        if ((entry.level & ~(STILL | MOVES)) != level || !finds(body, around.level, entry.body, entry.level & ~MOVES)) continue;
+        if ((entry.level & ~(STILL | MOVES)) != level) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
+        if (!finds(id, around.level, id_of(entry.body), entry.level & ~MOVES)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
         if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(traits, entry.body).owner == own.owner) continue;

@@ -1,4 +1,4 @@
-// Sorts each body's slots by contact, so that its sum has one order; and says where the contacts it owns begin.
+// Sorts each body's slots, so that its sum has one order; and says where the contacts it owns begin.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -179,6 +179,7 @@ SCREE_READ_OF_SOLVER(slots, Slot, slot_in)
 SCREE_READ(candidates, Candidate, candidate_in)
 SCREE_READ_OF_LISTS(rests, uint, uint_in)
 SCREE_READ(hulls, uvec4, record_in)
+SCREE_READ(ids, uint, uint_in)
 #endif
 
 #endif

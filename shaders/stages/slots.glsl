@@ -3,7 +3,7 @@
 #define SCREE_STAGES_SLOTS_GLSL
 
 #include "shaders/physics/rest.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/ids.glsl"
 
 bool can_be_moved(uint body) {
     return is_movable(READ(traits, body).motion, READ(rests, body), PARAMETERS.sleep_steps);
@@ -34,11 +34,20 @@ void fill_slots_of(uint contact) {
     if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVED].x, group + 1u);
 }
 
+// By the id of the contact's owner, then by contact, and joints behind them: so that the body's sum has one order.
+bool comes_before(uint side, uint other) {
+    if (!REORDERED) return side < other;
+    uint owner = NONE, other_owner = NONE;
+    if ((side & OF_JOINT) == 0u) owner = constraints.at[side >> 1].a;
+    if ((other & OF_JOINT) == 0u) other_owner = constraints.at[other >> 1].a;
+    return owner < other_owner || (owner == other_owner && side < other);
+}
 #define SORT_GET(i) slot_sides.at[i]
 #define SORT_SET(i, value) slot_sides.at[i] = value
+#define SORT_BEFORE(x, y) comes_before(x, y)
 #include "shaders/stages/sort.glsl"
 
-// By contact, so that the body's sum has one order; also says where the contacts it owns begin.
+// Also says where the contacts that the body owns begin.
 void order_slots_of(uint body) {
     if (COUNTED.overflow != 0u) return;
     if (body == 0u) first_contacts.at[PARAMETERS.bodies] = COUNTED.contacts;  // even of no bodies

@@ -1,14 +1,19 @@
-// Sorts a short range by one thread: SORT_GET(i) and SORT_SET(i, value), which the stage defines, read and write a uint.
+// Sorts a short range by one thread: SORT_GET(i) and SORT_SET(i, value), which the stage defines, read and write a uint;
+// SORT_BEFORE(x, y) says whether x comes before y, the smaller one if the stage does not define it.
 //
 // Few items: insertion. Thousands (a plate that carries a heap, a world in one cell): heap sort, which no arrangement slows down.
 #ifndef SCREE_STAGES_SORT_GLSL
 #define SCREE_STAGES_SORT_GLSL
 
+#ifndef SORT_BEFORE
+#define SORT_BEFORE(x, y) ((x) < (y))
+#endif
+
 void sink(uint first, uint root, uint count) {
     uint value = SORT_GET(first + root);
     for (uint child = 2u * root + 1u; child < count; child = 2u * root + 1u) {
-        if (child + 1u < count && SORT_GET(first + child + 1u) > SORT_GET(first + child)) ++child;
-        if (SORT_GET(first + child) <= value) break;
+        if (child + 1u < count && SORT_BEFORE(SORT_GET(first + child), SORT_GET(first + child + 1u))) ++child;
+        if (!SORT_BEFORE(value, SORT_GET(first + child))) break;
         SORT_SET(first + root, SORT_GET(first + child));
         root = child;
     }
@@ -20,7 +25,7 @@ void sort_range(uint first, uint count) {
         for (uint k = first + 1u; k < first + count; ++k) {
             uint value = SORT_GET(k);
             uint hole = k;
-            for (; hole > first && SORT_GET(hole - 1u) > value; --hole) SORT_SET(hole, SORT_GET(hole - 1u));
+            for (; hole > first && SORT_BEFORE(value, SORT_GET(hole - 1u)); --hole) SORT_SET(hole, SORT_GET(hole - 1u));
             SORT_SET(hole, value);
         }
         return;

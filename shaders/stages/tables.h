@@ -41,6 +41,7 @@
     X(28, rests, RestsTable, uint, bodies)                    /* how long each body has been quiet, and what woke it: rest.h */  \
     X(29, hulls, HullsTable, uvec4, hulls)                    /* the convex hulls that there are, in the form of hulls.h */      \
     X(30, joints, JointsTable, Joint, joints)                                                                                    \
-    X(31, vehicles, VehiclesTable, Vehicle, vehicles)
+    X(31, vehicles, VehiclesTable, Vehicle, vehicles)                                                                            \
+    X(32, ids, IdsTable, uint, bodies) /* which of the scene's bodies, or which part, is in each row */
 
 #endif

@@ -150,7 +150,7 @@ TEST_CASE("canvases: both draw the same picture of the same state", "[canvas][gl
     CAPTURE(samples, shadows, marks);
     World world(heap(), {}, 1);
     const CanvasOptions options = options_of(samples, shadows, marks);
-    const ShapeInstances instances = demos::instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world);
     const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
     for (const int steps : {0, 25}) {
         world.step(steps);
@@ -168,7 +168,7 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
     World world(heap(), {}, 1);
     world.step(10);
     const CanvasOptions options = options_of(1, true, false);
-    const ShapeInstances instances = demos::instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world);
     const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
     const auto require_alike = [&](const View& view) {
         const Likeness both = likeness(picture(*vulkan, world, view), picture(*gl, world, view));
@@ -203,7 +203,7 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
     CanvasOptions options = options_of(1, true, false);
     options.sleep_steps = 12;  // so that some seem to sleep soon
     options.cell = world.state().fixed().cell;
-    const ShapeInstances instances = demos::instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world);
     const View view;
     const auto plain = make_vulkan_canvas(validated_device(), instances, options);
     for (bool CanvasOptions::*what :
@@ -234,7 +234,7 @@ TEST_CASE("canvases: both show joints alike, from host memory and from the devic
     World world(scene, {}, 1);
     world.step(10);
     CanvasOptions options = options_of(GENERATE(1, 4), true, false);
-    const ShapeInstances instances = demos::instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world);
     const View view;
     const Image without = picture(*make_vulkan_canvas(validated_device(), instances, options), world, view);
     options.joints = true;
@@ -255,7 +255,7 @@ TEST_CASE("canvases: both show joints alike, from host memory and from the devic
 
 TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
     World world(heap(), {}, 1);
-    const ShapeInstances instances = demos::instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world);
     const View view;
     const auto canvas = make_gl_canvas(instances, options_of(1, true, false));
     const Image image = picture(*canvas, world, view);
@@ -270,7 +270,7 @@ TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a sha
 TEST_CASE("canvases: tables in host memory and on the device give the same pixels", "[canvas]") {
     World world(heap(), {}, 1);
     world.step(20);
-    const ShapeInstances instances = demos::instances_of(world.scene());
+    const ShapeInstances instances = demos::instances_of(world);
     const auto canvas = make_vulkan_canvas(validated_device(), instances, options_of(1, true, true));
     const Image from_memory = picture(*canvas, world, {});
     BodyTables tables = demos::tables_of(world.state());

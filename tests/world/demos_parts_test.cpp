@@ -51,7 +51,7 @@ TEST_CASE("a compound is picked through each of its parts and between them is no
 
 TEST_CASE("each part is drawn from its row of the tables, and those who have none are not") {
     const World world(three_bodies(), {}, 1);
-    const host::ShapeInstances drawn = demos::instances_of(world.scene());
+    const host::ShapeInstances drawn = demos::instances_of(world);
     REQUIRE(drawn.spheres == std::vector<std::uint32_t>{8, 9, 2});  // rows 4 to 7 are the triangles
     REQUIRE(drawn.boxes == std::vector<std::uint32_t>{10});
     REQUIRE(drawn.solids == std::vector<std::uint32_t>{4, 11});
