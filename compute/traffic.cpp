@@ -58,10 +58,8 @@ Accesses scan_offsets(Table from, Table to, Amount amount) { return {{{from, amo
 std::map<std::string, Accesses> all_accesses() {
     using enum Table;
     using A = Amount;
-    const Accesses neighbours{{{bounds, A::bodies, 1}, {traits, A::bodies}, {cells, A::buckets}, {cell_entries, A::bodies}}, {{pair_starts, A::bodies}}};
-    Accesses listed = neighbours;
-    listed.reads.push_back({pair_starts, A::bodies});
-    listed.writes = {{candidates, A::pairs}};
+    const Accesses neighbours{{{bounds, A::bodies, 1}, {traits, A::bodies}, {cells, A::buckets}, {cell_entries, A::bodies}}, {{pair_starts, A::bodies}, {pairs, A::bodies, 2}}};
+    const Accesses listed{{{pair_starts, A::bodies}, {pairs, A::bodies, 2}}, {{candidates, A::pairs}}};  // few seek again
     const Accesses collision{{{binned, A::binned}, {pairs, A::binned}, {traits, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
                              {{manifolds, A::binned}, {touching, A::binned}}};
     Accesses solid = collision;

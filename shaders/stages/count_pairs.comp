@@ -4,10 +4,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/notes.glsl"
 
 uint pairs_found = 0u;
+Notes notes = Notes(uvec4(0u), uvec4(0u), uvec4(0u));
 void found(uint other) {
+    note(notes, pairs_found, other);
     ++pairs_found;
 }
 #include "shaders/stages/neighbours.glsl"
@@ -16,6 +18,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
     look_around(i);
+    keep(notes, i);
     pair_starts.at[i] = pairs_found;
     if (pairs_found > 0u) atomicAdd(COUNTS.pairs_coarse, (pairs_found + 255u) >> 8);
 }

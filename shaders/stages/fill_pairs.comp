@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/notes.glsl"
 
 uint owner;
 uint next;
@@ -17,5 +17,16 @@ void main() {
     owner = thread();
     if (owner >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
     next = READ(pair_starts, owner);
-    look_around(owner);
+    uint count = READ(pair_starts, owner + 1u) - next;
+    if (count > NOTED || !has_notes(owner)) {
+        look_around(owner);
+        return;
+    }
+    for (uint k = 0u; k < count; k += 4u) {
+        Pair four = READ(pairs, 3u * owner + (k >> 2));
+        found(four.a);
+        if (k + 1u < count) found(four.b);
+        if (k + 2u < count) found(four.kind);
+        if (k + 3u < count) found(four.previous);
+    }
 }
