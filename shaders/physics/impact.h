@@ -106,8 +106,9 @@ struct Impact {
     float fraction;  // of the step; NEVER if they do not meet
 };
 // Where the two must be stopped: as they come to touch, if they then overlap. Those that touch from the start have contacts, and
-// are stopped only where one is driven into the other. Out of rounds, they are stopped as far as they are known to be free.
-// `until_touch`: as they come to touch, whatever follows.
+// are stopped only where one is driven into the other. That holds for all that the step before has stopped as they came to touch:
+// stopped there again and again, a hull that tips fast over its edge hung in the air for seconds. Out of rounds, they are stopped
+// as far as they are known to be free. `until_touch`: as they come to touch, whatever follows.
 LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bool until_touch, Hulls hulls) {
     Impact impact;
     impact.normal = vec3(0.0f);
@@ -118,7 +119,7 @@ LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bo
     bool met = false;
     for (uint k = 0u; k < IMPACT_ROUNDS; ++k) {
         Gap gap = gap_between(ta, pose_on(a, t), tb, pose_on(b, t), hulls);
-        bool touched = k == 0u && gap.distance <= limits.touch;
+        bool touched = k == 0u && gap.distance <= aim + tolerance;
         if (touched) {
             met = true;
             aim = smaller(-limits.depth, gap.distance - limits.slop);

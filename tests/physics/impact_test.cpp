@@ -130,6 +130,31 @@ TEST_CASE("no ways of random bodies through each other are missed, and none is s
     REQUIRE(late < 0.03 * met);
 }
 
+TEST_CASE("what was stopped is not stopped at the same place in the next step") {
+    tests::Noise noise(6);
+    const Traits kinds[] = {ball, traits_of(SHAPE_CAPSULE, vec3(0.05f, 0.2f, 0)), traits_of(SHAPE_BOX, vec3(0.2f, 0.02f, 0.1f))};
+    int met = 0;
+    for (int i = 0; i < 3000; ++i) {
+        const bool falls = i % 2 == 1;
+        const Traits &a = kinds[i % 3], &b = falls ? ground : kinds[i / 3 % 3];
+        const auto some = [&] { return pose_at(noise.vector() * 1.0f, unit_quaternion(vec4(noise.vector(), 1.1f))); };
+        const auto above = [&](Pose pose) { return pose_at(pose.position + vec3(0, falls ? 2 : 0, 0), pose.orientation); };
+        const Course ca = from_to(a, above(some()), some());
+        const Course cb = falls ? still(ground, pose_at(vec3(0))) : from_to(b, some(), some());
+        const float first = meet(a, ca, b, cb).fraction;
+        if (first >= 1) continue;
+        ++met;
+        const auto on = [&](const Traits& traits, const Course& course) {
+            const Pose at = pose_on(course, first);
+            return from_to(traits, at, pose_at(at.position + course.way, unit_quaternion(at.orientation + course.turn)));
+        };
+        CAPTURE(i, first);
+        for (const uint hold : {UNHELD, HELD, FORSAKEN})
+            REQUIRE(impact_of(a, on(a, ca), b, on(b, cb), limits_of(a, b, hold, parameters()), false, Hulls{}).fraction > 0);
+    }
+    REQUIRE(met > 300);
+}
+
 TEST_CASE("what is driven out of the bounds of its neighbours' search is stopped where it leaves them") {
     REQUIRE(part_within(1, 0, 2) == 1);
     REQUIRE(part_within(-1, 0.25f, 2) == Approx(0.25f));

@@ -158,6 +158,29 @@ TEST_CASE("plates two millimetres thick fall on the ground and on each other and
     REQUIRE(world.statistics().max_speed < 0.5);
 }
 
+TEST_CASE("what tips fast over an edge that is about to touch falls on its side and hangs nowhere") {
+    const vec3 half(0.3f, 0.15f, 0.2f);
+    Hull hull;
+    for (int k = 0; k < 8; ++k) hull.points.push_back(half * vec3(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1));
+    const vec4 lean(0, 0, std::sin(0.125f), std::cos(0.125f));
+    const vec3 edge = physics::rotate(lean, vec3(-half.x, -half.y, 0));
+    for (const float spin : {16.0f, 20.0f, 24.0f}) {
+        for (const float gap : {0.0019f, 0.00205f, 0.0021f, 0.00215f, 0.0023f, 0.003f}) {
+            Scene scene;
+            scene.bodies = {fixed(Plane{}), body_of(hull, {0, gap - edge.y, 0})};
+            Body& body = scene.bodies[1];
+            body.orientation = lean;
+            body.angular_velocity = {0, 0, -spin};
+            body.velocity = -glm::cross(body.angular_velocity, edge);
+            World world(scene, {}, 1);
+            world.step(30);
+            CAPTURE(spin, gap);
+            CHECK(world.body(1).position.y == Approx(half.y).margin(0.01f));
+            CHECK(glm::length(world.body(1).angular_velocity) < 1);
+        }
+    }
+}
+
 TEST_CASE("what flies past close by is not pushed, and does not push") {
     for (const float speed : {10.0f, 40.0f, 100.0f, 300.0f}) {
         for (int phase = 0; phase < 24; ++phase) {
