@@ -6,9 +6,6 @@
 namespace scree::host {
 namespace {
 
-// A step is one table of buffers, bound once, or found by address. Lavapipe binds 32 a stage, most cards a million.
-constexpr std::uint32_t least_storage_buffers = 32;
-constexpr std::uint32_t texel_buffers = 33, changing_texel_buffers = 6;
 // The widest workgroup of the shaders.
 constexpr std::uint32_t least_workgroup = 256;
 
@@ -68,9 +65,10 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     report.is_processor = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
     report.subgroup = subgroups.subgroupSize;
     report.largest_binding = limits.maxStorageBufferRange;
-    report.prefers_texels = report.is_processor && limits.maxPerStageDescriptorSampledImages >= texel_buffers &&
-                            limits.maxPerStageDescriptorStorageImages >= changing_texel_buffers &&
-                            limits.maxPerStageResources >= least_storage_buffers + texel_buffers + changing_texel_buffers + 1;
+    report.prefers_texels =
+        report.is_processor && limits.maxPerStageDescriptorSampledImages >= tables_of_a_step.texels &&
+        limits.maxPerStageDescriptorStorageImages >= tables_of_a_step.changing_texels &&
+        limits.maxPerStageResources >= tables_of_a_step.storage + tables_of_a_step.texels + tables_of_a_step.changing_texels + 1;
     if (is_new_enough) {
         VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
         addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
@@ -93,10 +91,11 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     if (!is_new_enough) report.lacks.push_back("Vulkan 1.2 (it has " + report.api_version + "): a newer driver may bring it");
     if (find_queue_family(vk, physical, nullptr) < 0) report.lacks.push_back("a queue with graphics and compute");
     if (!report.has_addresses) {
-        require(report.lacks, limits.maxPerStageDescriptorStorageBuffers, least_storage_buffers,
+        require(report.lacks, limits.maxPerStageDescriptorStorageBuffers, tables_of_a_step.storage,
                 "storage buffers per shader stage");
-        require(report.lacks, limits.maxDescriptorSetStorageBuffers, least_storage_buffers, "storage buffers per descriptor set");
-        require(report.lacks, limits.maxPerStageResources, least_storage_buffers, "resources per shader stage");
+        require(report.lacks, limits.maxDescriptorSetStorageBuffers, tables_of_a_step.storage,
+                "storage buffers per descriptor set");
+        require(report.lacks, limits.maxPerStageResources, tables_of_a_step.storage, "resources per shader stage");
     }
     require(report.lacks, limits.maxComputeWorkGroupInvocations, least_workgroup, "threads per workgroup");
     require(report.lacks, limits.maxComputeWorkGroupSize[0], least_workgroup, "threads per workgroup in x");
