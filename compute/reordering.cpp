@@ -7,6 +7,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <numeric>
 #include <utility>
 
@@ -98,11 +100,13 @@ void State::reorder(const std::vector<std::uint32_t>& rows) {
         from[row] = row_of(id);
         to[row_of(id)] = row;
     }
+    std::vector<std::byte> scratch(n * sizeof(physics::Traits));  // for all: new memory takes longer than what is done to it
     const auto take = [&](auto& table) {
         if (table.size() < all) return;  // it is not here
-        auto moved = table;
-        for_each(n, [&](std::size_t row) { moved[row] = table[from[row]]; });
-        table = std::move(moved);
+        constexpr std::size_t bytes = sizeof table[0];
+        static_assert(bytes <= sizeof(physics::Traits));
+        for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
+        for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
     };
     take(traits);
     take(poses);
