@@ -146,6 +146,12 @@ TEST_CASE("sleepers sleep on, and wake alike, when they are moved in memory") {
     REQUIRE(world.statistics().asleep == plain.statistics().asleep);
 }
 
+TEST_CASE("a world asked for many steps at once puts its bodies in order between them") {
+    World world(tests::swarm(5000, 0), {}, 1);
+    for (int i = 0; i < 20 && world.reorderings() == 0; ++i) world.step(100);
+    REQUIRE(world.reorderings() > 0);
+}
+
 TEST_CASE("statistics and what touches a body are told alike, to the last bit and in one order") {
     Settings awake;
     awake.sleeping = false;
