@@ -63,7 +63,8 @@ void DeviceRunner::fetch_bodies() {
 
 void DeviceRunner::fetch_contacts() {
     for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
-    if (planned_content_.convex) fetch_live(Table::pairs);  // whose hulls traffic_of counts
+    if (planned_content_.reordered) fetch_live(Table::first_contacts);  // contacts_by_id
+    if (planned_content_.convex) fetch_live(Table::pairs);              // whose hulls traffic_of counts
 }
 
 std::uint32_t DeviceRunner::joint_records() const {

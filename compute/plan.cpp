@@ -79,6 +79,7 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     // whom this wakes
     s.push_back({"wake_touched", Over::contacts, wake_touched, {}, 0, /* feeds_next */ false});
     s.push_back({"wake_deserted", Over::bodies, wake_deserted, {rests, counts}});
+    s.back().content = bits & physics::CONTENT_REORDERED;
     for (std::uint32_t wakes = 0; joined && wakes < 2; ++wakes)
         s.push_back({"wake_joined", Over::joint_blocks, wake_joined, {Table::joints, rests}, wakes});
     for (std::uint32_t depth = physics::DEEPEST; depth > 1; --depth)

@@ -84,47 +84,47 @@ double stride_in_space(const Scene& scene, const State& state, const std::vector
     return sum / static_cast<double>(ids.size() - 1);
 }
 
+std::vector<std::uint32_t> contacts_by_id(const State& state) {
+    const std::uint32_t contacts = state.counted().contacts;
+    std::vector<std::uint32_t> order;
+    order.reserve(contacts);
+    if (!state.reordered()) {
+        order.resize(contacts);
+        std::iota(order.begin(), order.end(), 0u);
+        return order;
+    }
+    for (std::uint32_t id = 0; id < state.fixed().bodies; ++id) {
+        const std::uint32_t row = state.row_of(id);
+        for (std::uint32_t k = state.first_contacts[row]; k < std::min(contacts, state.first_contacts[row + 1]); ++k)
+            order.push_back(k);
+    }
+    return order;
+}
+
 void State::number_rows() {
     std::iota(ids.begin(), ids.end(), 0u);
     for (std::uint32_t id = 0; id < rows_.size(); ++id) ids[rows_[id]] = id;
 }
 
 void State::reorder(const std::vector<std::uint32_t>& rows) {
-    if (rows.empty() && rows_.empty()) return;
     const std::uint32_t n = fixed().first_part, all = fixed().bodies;
     std::vector<std::uint32_t> from(all), to(all);  // rows
     std::iota(from.begin(), from.end(), 0u);
     std::iota(to.begin(), to.end(), 0u);
     for (std::uint32_t id = 0; id < n; ++id) {
-        const std::uint32_t row = rows.empty() ? id : rows[id];
-        from[row] = row_of(id);
-        to[row_of(id)] = row;
+        from[rows[id]] = row_of(id);
+        to[row_of(id)] = rows[id];
     }
-    std::vector<std::byte> scratch(n * sizeof(physics::Traits));  // for all: new memory takes longer than what is done to it
-    const auto take = [&](auto& table) {
-        if (table.size() < all) return;  // it is not here
-        constexpr std::size_t bytes = sizeof table[0];
-        static_assert(bytes <= sizeof(physics::Traits));
-        for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
-        for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
-    };
-    take(traits);
-    take(poses);
-    take(velocities);
-    take(rests);
-    take(masses);
+    // All that wants memory first: whoever runs out of it finds every body where it was.
+    std::vector<std::uint32_t> by_id = rows;
+    std::vector<std::byte> scratch(n *
+                                   sizeof(physics::Traits));  // for each table: new memory takes longer than what is done to it
     const auto follow = [&](physics::uint& row) {
         if (row < n) row = to[row];
     };
-    for (physics::Traits& row : traits) follow(row.owner);
-    for (physics::Joint& joint : joints)
-        for (physics::uint* row : {&joint.a, &joint.b, &joint.member}) follow(*row);
-    for (physics::Vehicle& vehicle : vehicles) {
-        follow(vehicle.handling.chassis);
-        for (physics::VehicleWheel& wheel : vehicle.wheel) follow(wheel.body);
-    }
     // Contacts are listed by the row of their owner, and its own in the order of ids.
-    if (contacts.size() >= counted().contacts && first_contacts.size() > all) {
+    const bool with_contacts = contacts.size() >= counted().contacts && first_contacts.size() > all;
+    if (with_contacts) {
         contacts_before.resize(contacts.size());
         impulses_before.resize(impulses.size());
         first_contacts_before.resize(first_contacts.size());
@@ -141,9 +141,28 @@ void State::reorder(const std::vector<std::uint32_t>& rows) {
                 impulses_before[place] = impulses[k];
             }
         });
-        turn_over();
     }
-    rows_ = rows;
+    const auto take = [&](auto& table) {
+        if (table.size() < all) return;  // it is not here
+        constexpr std::size_t bytes = sizeof table[0];
+        static_assert(bytes <= sizeof(physics::Traits));
+        for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
+        for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
+    };
+    take(traits);
+    take(poses);
+    take(velocities);
+    take(rests);
+    take(masses);
+    for (physics::Traits& row : traits) follow(row.owner);
+    for (physics::Joint& joint : joints)
+        for (physics::uint* row : {&joint.a, &joint.b, &joint.member}) follow(*row);
+    for (physics::Vehicle& vehicle : vehicles) {
+        follow(vehicle.handling.chassis);
+        for (physics::VehicleWheel& wheel : vehicle.wheel) follow(wheel.body);
+    }
+    if (with_contacts) turn_over();
+    rows_.swap(by_id);
     number_rows();
 }
 

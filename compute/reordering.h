@@ -22,4 +22,8 @@ std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state)
 // far. With `rows` in place of those of the state, if there are any.
 double stride_in_space(const Scene& scene, const State& state, const std::vector<std::uint32_t>& rows = {});
 
+// The contacts of the last step in the order that they have where every body is in the row of its id: for whatever is listed or
+// summed over all of them.
+std::vector<std::uint32_t> contacts_by_id(const State& state);
+
 }  // namespace scree

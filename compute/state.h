@@ -99,11 +99,11 @@ struct State {
     // The joints are the scene's: those that were here, but for the one at `without`, and then others. The same holds.
     void rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
 
-    // Puts bodies into other rows, rows[id] being the new one of each; without any, each into that of its id. Rows of parts stay,
-    // and those of pieces must (their bodies know them). All that lasts from step to step goes with its body, and no bit of what
-    // follows changes; what is left of the last step beside it is of no use any more. Everything that lasts must be here, and the
-    // runner be attached again.
-    void reorder(const std::vector<std::uint32_t>& rows = {});
+    // Puts bodies into other rows, rows[id] being the new one of each. Rows of parts stay, and those of pieces must (their bodies
+    // know them). All that lasts from step to step goes with its body, and no bit of what follows changes; what is left of the
+    // last step beside it is of no use any more. Everything that lasts must be here, and the runner be attached again. Where
+    // memory ends, nothing has changed.
+    void reorder(const std::vector<std::uint32_t>& rows);
     bool reordered() const {
         return !rows_.empty();
     }

@@ -7,12 +7,19 @@
 namespace scree {
 
 void State::rejoin(const Scene& scene, std::optional<std::size_t> without) {
-    reorder();
     std::vector<physics::Joint> before;
     for (const std::uint32_t record : joint_records) before.push_back(joints[record]);
     if (without) before.erase(before.begin() + static_cast<std::ptrdiff_t>(*without));
-    for (physics::Traits& row : traits) row.joints = physics::NONE;
-    JointTables made = joint_tables(scene, traits);
+    std::vector<physics::Traits> by_id;
+    for (std::size_t id = 0; id < fixed().first_part; ++id) {
+        by_id.push_back(traits[row_of(id)]);
+        by_id.back().joints = physics::NONE;
+    }
+    JointTables made = joint_tables(scene, by_id);
+    for (std::size_t id = 0; id < by_id.size(); ++id) traits[row_of(id)].joints = by_id[id].joints;
+    for (physics::Joint& record : made.records)
+        for (physics::uint* body : {&record.a, &record.b, &record.member})
+            if (*body != physics::NONE) *body = row_of(*body);
     joints = std::move(made.records);
     joint_records = std::move(made.record_of);
     fixed().joint_blocks = made.blocks;

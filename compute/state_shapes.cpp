@@ -252,9 +252,9 @@ Content State::content() const {
 }
 
 void State::add(const Body& body) {
-    reorder();
     physics::Parameters& p = fixed();
     const std::uint32_t n = p.first_part;
+    if (reordered()) rows_.push_back(n);
     const auto make_room = [n](auto& table, const auto& record) {
         if (table.size() >= n) table.insert(table.begin() + n, record);
     };

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 
+#include "compute/reordering.h"
 #include "shaders/physics/rest.h"
 
 namespace scree {
@@ -50,7 +51,7 @@ void add_contacts(const State& state, Statistics& s) {
     std::size_t inside = 0;
     double depth = 0;
     s.manifolds = state.counted().contacts;
-    for (std::size_t i = 0; i < s.manifolds; ++i) {
+    for (const std::uint32_t i : contacts_by_id(state)) {
         // The points of a body that flew past its partner in the last step hang in the air.
         if (state.impulses[i].slipped > state.constraints[i].leave) continue;
         const physics::uint count = state.contacts[i].count;

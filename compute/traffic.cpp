@@ -194,7 +194,8 @@ struct Step {
 
     void count_hulls(const State& state) {
         std::vector<std::set<physics::uint>> places(physics::KINDS);
-        const std::size_t looked = state.content().convex ? pairs : 0;
+        const bool listed = state.counted().overflow == 0;  // else the table of pairs holds notes (shaders/stages/notes.glsl)
+        const std::size_t looked = listed && state.content().convex ? pairs : 0;
         for (std::size_t i = 0; i < looked; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})
                 if (state.traits[body].shape == physics::SHAPE_HULL || state.traits[body].shape == physics::SHAPE_TRIANGLE)

@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "compute/fracture.h"
+#include "compute/reordering.h"
 #include "compute/statistics.h"
 #include "compute/world_interior.h"
 #include "shaders/physics/rest.h"
@@ -117,10 +118,11 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::step(int count) {
+    constexpr int most_alone = 64;  // the bodies' order in memory is looked after between them
     while (count > 0) {
         interior_->step();
         --count;
-        if (count > 0) count -= interior_->steps_alone(count);
+        if (count > 0) count -= interior_->steps_alone(std::min(count, most_alone));
     }
 }
 
@@ -242,7 +244,7 @@ std::vector<Touching> World::touching(std::size_t body) const {
     interior_->runner->fetch_contacts();
     const State& state = interior_->state;
     std::vector<Touching> found;
-    for (std::size_t i = 0; i < state.counted().contacts; ++i) {
+    for (const std::uint32_t i : contacts_by_id(state)) {
         const physics::Contact& contact = state.contacts[i];
         const std::size_t a = state.id_of(state.body_of(contact.a)), b = state.id_of(state.body_of(contact.b));
         if (a != body && b != body) continue;

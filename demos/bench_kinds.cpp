@@ -91,7 +91,7 @@ std::vector<bool> touching(const World& world, std::size_t pairs) {
     const State& state = world.state();
     for (std::size_t i = 0; i < state.counted().contacts; ++i) {
         const physics::Contact& contact = state.contacts[i];
-        if (contact.count > 0) found[state.body_of(contact.a) / 2] = true;
+        if (contact.count > 0) found[state.id_of(state.body_of(contact.a)) / 2] = true;
     }
     return found;
 }

@@ -155,14 +155,14 @@ struct Candidate {
     uint other;
 };
 struct Pair {
-    uint a, b;      // bodies or parts, a < b
+    uint a, b;      // rows of bodies or parts, the lower id first
     uint kind;      // KIND_*
     uint previous;  // its contact in the last step, or NONE
 };
 
 // ---- contacts: what lasts from step to step
 struct Contact {
-    uint a, b;       // bodies or parts, a < b. All that follows speaks of the bodies that parts belong to
+    uint a, b;       // rows of bodies or parts, the lower id first. All that follows speaks of the bodies that parts belong to
     uint count;      // points, 1 to 4
     uint features;   // as in Manifold
     vec3 normal;     // unit, world, from A to B, when the contact was made

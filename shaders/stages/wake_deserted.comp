@@ -5,17 +5,18 @@
 #include "shaders/physics/counts.h"
 #include "shaders/physics/grid.h"
 #include "shaders/physics/rest.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/ids.glsl"
 
-// Pairs of an owner are in the order of the other body.
+// Pairs of an owner are in the order of the other body's id.
 bool owner_touches(uint owner, uint other) {
+    uint id = id_of(other);
     uint low = READ(pair_starts, owner);
     uint high = READ(pair_starts, owner + 1u);
     while (low < high) {
         uint middle = (low + high) >> 1;
         uint partner = READ(pairs, middle).a == owner ? READ(pairs, middle).b : READ(pairs, middle).a;
         if (partner == other) return READ(touching, middle) != 0u;
-        if (partner < other)
+        if (id_of(partner) < id)
             low = middle + 1u;
         else
             high = middle;

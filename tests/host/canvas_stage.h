@@ -4,6 +4,7 @@
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <memory>
+#include <numeric>
 #include <vector>
 
 #include "host/buffer.h"
@@ -103,14 +104,18 @@ public:
         slot_sides_.resize(slot_sides_.size() + 1);
         rests_.resize(traits_.size());
         bounds_.resize(traits_.size());
+        ids_.resize(traits_.size());
+        std::iota(ids_.begin(), ids_.end(), 0u);
         table(device, slot_ends_table_, slot_ends_);
         table(device, slot_sides_table_, slot_sides_);
         table(device, rests_table_, rests_);
         table(device, bounds_table_, bounds_);
+        table(device, ids_table_, ids_);
         tables.slot_ends = &slot_ends_table_;
         tables.slot_sides = &slot_sides_table_;
         tables.rests = &rests_table_;
         tables.bounds = &bounds_table_;
+        tables.ids = &ids_table_;
         tables.joint_count = static_cast<std::uint32_t>(joints_.size());
         joints_.emplace_back().b = 1;  // behind the last one that means something
         table(device, joints_table_, joints_);
@@ -147,10 +152,10 @@ private:
     ShapeInstances shapes_;
     std::vector<Contact> touches_;
     std::vector<Impulse> pushes_;
-    std::vector<std::uint32_t> slot_ends_, slot_sides_, rests_;
+    std::vector<std::uint32_t> slot_ends_, slot_sides_, rests_, ids_;
     std::vector<Bounds> bounds_;
     std::vector<physics::Joint> joints_;
-    Buffer slot_ends_table_, slot_sides_table_, rests_table_, bounds_table_, joints_table_;
+    Buffer slot_ends_table_, slot_sides_table_, rests_table_, bounds_table_, ids_table_, joints_table_;
     Buffer traits_table_, poses_table_, velocities_table_, touches_table_, pushes_table_;
 };
 

@@ -33,11 +33,13 @@ std::vector<std::uint32_t> shuffled(const Scene& scene, std::mt19937& chance) {
     return rows;
 }
 
-void check_shuffled(const Scene& given, std::shared_ptr<host::Device> device, int steps) {
+// Says how many slept at once.
+std::size_t check_shuffled(const Scene& given, std::shared_ptr<host::Device> device, int steps, const Settings& settings = {}) {
     const Scene scene = checked(given);
-    World plain(scene, {}, 1);
-    Lockstep shaken(scene, {}, device, 1);
+    World plain(scene, settings, 1);
+    Lockstep shaken(scene, settings, device, 1);
     std::mt19937 chance(3);
+    std::size_t asleep = 0;
     for (int i = 0; i < steps; ++i) {
         if (i % 4 == 1) {
             const std::vector<std::uint32_t> rows = shuffled(scene, chance);
@@ -50,8 +52,10 @@ void check_shuffled(const Scene& given, std::shared_ptr<host::Device> device, in
         REQUIRE(result.equal);
         plain.step();
         REQUIRE(result.hash == plain.state_hash());
+        asleep = std::max(asleep, plain.statistics().asleep);
     }
     for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+    return asleep;
 }
 
 }  // namespace
@@ -70,6 +74,21 @@ TEST_CASE("demos whose bodies change rows every few steps give the same bits on 
         demos::DemoOptions options;
         options.bodies = demo->takes_bodies ? 40 : 0;
         check_shuffled(demos::build(*demo, options).scene, device, 12);
+    }
+}
+
+TEST_CASE("sleepers that change rows are struck and deserted with the same bits on both processors") {
+    Settings light;
+    light.sleep_time = 0.08f;
+    light.sleep_speed = 0.2f;
+    for (const int bodies : {60, 300}) {
+        Scene scene = tests::packed(bodies);
+        Body ball;
+        ball.shape = Sphere{0.8f};
+        ball.position = vec3(0, 4, 0);
+        ball.velocity = vec3(2, -5, 1);
+        scene.bodies.push_back(ball);
+        REQUIRE(check_shuffled(scene, watched(), 50, light) > 0);
     }
 }
 
