@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdio>
 #include <cstring>
 
 #include "compute/fusing.h"
@@ -62,22 +61,6 @@ std::vector<host::Access> accesses(bool texels) {
 
 std::size_t argument_offset(physics::uint row) {
     return offsetof(physics::Counts, arguments) + row * sizeof(physics::uvec4);
-}
-
-std::string what_would_fit(const State& state, const host::DeviceReport& device) {
-    // A body brings its parts and the pieces that it may break into: all have rows.
-    const auto pieces = static_cast<std::size_t>(std::count_if(
-        state.traits.begin(), state.traits.end(), [](const physics::Traits& t) { return t.motion == physics::MOTION_UNBORN; }));
-    const std::size_t parts = state.fixed().bodies - state.fixed().first_part;
-    const auto bodies = static_cast<double>(state.fixed().first_part - pieces);
-    const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
-    std::string with;
-    if (pieces > 0) with += ", with the " + std::to_string(pieces) + " pieces that they may break into,";
-    if (parts > 0) with += ", with their " + std::to_string(parts) + " parts,";
-    char text[160];
-    std::snprintf(text, sizeof text, " take %.3g GB, %s has %.3g: about %.2g bodies like these would fit", needed / 1e9,
-                  device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
-    return "All tables of the " + std::to_string(state.fixed().first_part - pieces) + " bodies" + with + text;
 }
 
 }  // namespace
@@ -183,28 +166,6 @@ void DeviceRunner::fuse() {
     recorded_ = std::move(recorded);
     if (!as_before) clock_ = StageClock(recorded_);
     make_pipelines(recorded_);
-}
-
-void DeviceRunner::make_buffers() {
-    const std::uint32_t most_groups = device_->limits().maxComputeWorkGroupCount[0];
-    const physics::Parameters& p = state_->fixed();
-    if (std::max({p.pair_capacity, p.buckets, p.contact_capacity}) / p.group_size >= most_groups)
-        throw host::DeviceError("the scene needs lists of " + std::to_string(std::max(p.pair_capacity, p.buckets)) +
-                                " items, but this device runs at most " +
-                                std::to_string(std::uint64_t{most_groups} * p.group_size) +
-                                " threads at once: use fewer bodies, or --backend cpu");
-    buffers_.resize(table_count);
-    for (std::size_t i = 0; i < table_count; ++i) {
-        const TableInfo& info = table_infos()[i];
-        const std::size_t bytes = state_->allocated(info.length) * info.record_bytes;
-        if (buffers_[i].bytes() == bytes) continue;
-        buffers_[i] = {};  // its memory first, then the new one's
-        try {
-            buffers_[i] = host::Buffer(device_, info.name, bytes);
-        } catch (const host::DeviceError& error) {
-            throw host::DeviceError(std::string(error.what()) + ". " + what_would_fit(*state_, device_->report()));
-        }
-    }
 }
 
 void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage) const {

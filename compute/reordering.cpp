@@ -1,8 +1,6 @@
 // Orders bodies along a Morton curve, and moves them in the tables.
 #include "compute/reordering.h"
 
-#include <tbb/blocked_range.h>
-#include <tbb/parallel_for.h>
 #include <tbb/parallel_sort.h>
 
 #include <algorithm>
@@ -12,16 +10,11 @@
 #include <numeric>
 #include <utility>
 
+#include "compute/threads.h"
+
 namespace scree {
 
 namespace {
-
-template <typename Work>
-void for_each(std::size_t n, const Work& work) {
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, 4096), [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i < range.end(); ++i) work(i);
-    });
-}
 
 bool may_move(const Body& body) {
     return body.piece_of == no_body;  // the body that it is a piece of knows its row
@@ -54,7 +47,7 @@ std::uint64_t place_on_curve(vec3 position, float inverse_cell) {
 std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state) {
     const std::size_t n = scene.bodies.size();
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order(n);
-    for_each(n, [&](std::size_t id) {
+    Threads().for_each(n, [&](std::size_t id) {
         order[id] = {place_on_curve(state.poses[state.row_of(id)].position, state.fixed().inverse_cell),
                      static_cast<std::uint32_t>(id)};
     });
@@ -117,8 +110,9 @@ void State::reorder(const std::vector<std::uint32_t>& rows) {
     }
     // All that wants memory first: whoever runs out of it finds every body where it was.
     std::vector<std::uint32_t> by_id = rows;
-    std::vector<std::byte> scratch(n *
-                                   sizeof(physics::Traits));  // for each table: new memory takes longer than what is done to it
+    // One for every table: new memory takes longer than what is done to it.
+    std::vector<std::byte> scratch(n * sizeof(physics::Traits));
+    const Threads threads;
     const auto follow = [&](physics::uint& row) {
         if (row < n) row = to[row];
     };
@@ -132,7 +126,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows) {
         for (std::uint32_t row = 0; row < all; ++row)
             first_contacts_before[row + 1] =
                 first_contacts_before[row] + first_contacts[from[row] + 1] - first_contacts[from[row]];
-        for_each(all, [&](std::size_t row) {
+        threads.for_each(all, [&](std::size_t row) {
             std::uint32_t place = first_contacts_before[row];
             for (std::uint32_t k = first_contacts[from[row]]; k < first_contacts[from[row] + 1]; ++k, ++place) {
                 contacts_before[place] = contacts[k];
@@ -146,8 +140,8 @@ void State::reorder(const std::vector<std::uint32_t>& rows) {
         if (table.size() < all) return;  // it is not here
         constexpr std::size_t bytes = sizeof table[0];
         static_assert(bytes <= sizeof(physics::Traits));
-        for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
-        for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
+        threads.for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
+        threads.for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
     };
     take(traits);
     take(poses);

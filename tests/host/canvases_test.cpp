@@ -253,6 +253,24 @@ TEST_CASE("canvases: both show joints alike, from host memory and from the devic
     CHECK(validated_device()->validation_messages().empty());
 }
 
+TEST_CASE("canvases: bodies in another order in memory look as they did, told apart by their colours too", "[canvas][gl]") {
+    World plain(heap(), {}, 1), moved(heap(), {}, 1);
+    moved.reorder();
+    plain.step(10);
+    moved.step(10);
+    REQUIRE(moved.reorderings() == 1);
+    const ShapeInstances before = demos::instances_of(plain), after = demos::instances_of(moved);
+    const CanvasOptions options = options_of(1, true, false);
+    for (const ColorBy by : {ColorBy::body, ColorBy::momentum}) {
+        View view;
+        view.scale.by = by;
+        CHECK(picture(*make_gl_canvas(after, options), moved, view).rgba ==
+              picture(*make_gl_canvas(before, options), plain, view).rgba);
+        CHECK(picture(*make_vulkan_canvas(validated_device(), after, options), moved, view).rgba ==
+              picture(*make_vulkan_canvas(validated_device(), before, options), plain, view).rgba);
+    }
+}
+
 TEST_CASE("canvases: the comparison sees a body moved by a few pixels, and a shadow that is not there", "[canvas][gl]") {
     World world(heap(), {}, 1);
     const ShapeInstances instances = demos::instances_of(world);
