@@ -31,9 +31,9 @@ std::uint32_t content_bits(const Content& content) {
            (content.moving_parts ? physics::CONTENT_PARTS : 0) | (content.reordered ? physics::CONTENT_REORDERED : 0);
 }
 
-const char* const kind_names[] = {"sphere_sphere", "sphere_capsule",  "sphere_box",     "sphere_plane", "capsule_capsule",
-                                  "capsule_box",   "capsule_plane",   "box_box",        "box_plane",    "plane_convex",
-                                  "convex",        "sphere_triangle", "convex_triangle"};
+const char* const kind_names[] = {"sphere_sphere", "sphere_capsule", "sphere_box",      "sphere_plane",   "capsule_capsule",
+                                  "capsule_box",   "capsule_plane",  "box_box",         "box_plane",      "plane_convex",
+                                  "convex",        "hull_hull",      "sphere_triangle", "convex_triangle"};
 
 }  // namespace
 
@@ -66,8 +66,10 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     s.back().as_long_as = Length::kinds;
     s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
     const std::uint32_t kinds = content.triangles ? physics::KIND_KEPT : convex ? physics::KIND_SPHERE_TRIANGLE : physics::KIND_PLANE_CONVEX;
-    for (std::uint32_t kind = 0; kind < kinds; ++kind)
+    for (std::uint32_t kind = 0; kind < kinds; ++kind) {
+        if (kind == physics::KIND_HULL_HULL && !content.hulls) continue;
         s.push_back({std::string("collide_") + kind_names[kind], Over::kind, collide, {}, kind, /* feeds_next */ false});
+    }
     s.push_back({"collide_kept", Over::kind, collide_kept, {}, physics::KIND_KEPT, /* feeds_next */ false});
     s.push_back({"collide_still", Over::kind, collide_still, {manifolds, touching}, physics::KIND_STILL});
     s.push_back({convex ? "foresee_impacts_convex" : "foresee_impacts", Over::flights, foresee_impacts, {touching, bounds}});

@@ -56,6 +56,7 @@ const std::array<TableInfo, table_count>& table_infos();  // by binding
 // What of the stages a scene needs.
 struct Content {
     bool convex = false;        // some body is a cylinder, cone or hull
+    bool hulls = false;         // some body is a hull
     bool triangles = false;     // there are meshes or height fields
     bool moving_parts = false;  // there are compounds, or meshes, that move
     bool joints = false;
@@ -66,7 +67,7 @@ struct Content {
     bool round = false;      // there are spheres or capsules
     bool tyres = false;      // with a vehicle or without
     bool reordered = false;  // rows are in another order than ids
-    static Content everything() { return {true, true, true, true, true, true, true, true, true, true, true}; }
+    static Content everything() { return {true, true, true, true, true, true, true, true, true, true, true, true}; }
     bool operator==(const Content&) const = default;
 };
 

@@ -5,6 +5,7 @@
 
 #include "compute/fracture.h"
 #include "compute/hull.h"
+#include "compute/hull_cells.h"
 #include "compute/mesh.h"
 #include "compute/state.h"
 #include "shaders/physics/grid.h"
@@ -40,23 +41,13 @@ physics::uvec4 record_of(vec3 v, float w) {
     return {std::bit_cast<physics::uint>(v.x), std::bit_cast<physics::uint>(v.y), std::bit_cast<physics::uint>(v.z),
             std::bit_cast<physics::uint>(w)};
 }
-// Fours of numbers, each number in a record of its own; filled up with the last.
-void add_fours(std::vector<physics::uvec4>& records, const std::vector<vec4>& all, int numbers) {
-    for (std::size_t first = 0; first < all.size(); first += 4) {
-        for (int number = 0; number < numbers; ++number) {
-            physics::uvec4& record = records.emplace_back(0);
-            for (std::size_t k = 0; k < 4; ++k)
-                record[static_cast<int>(k)] = std::bit_cast<physics::uint>(all[std::min(first + k, all.size() - 1)][number]);
-        }
-    }
-}
 // In the form of shaders/physics/triangle.h.
 std::vector<physics::uvec4> triangle_records(const MeshForm::Triangle& triangle) {
     float way = glm::length(triangle.corners[0]);
     for (const vec3& corner : triangle.corners) way = std::min(way, glm::length(corner));
-    std::vector<physics::uvec4> records{{3, 1, std::bit_cast<physics::uint>(-way), 0}};
-    add_fours(records, {vec4(triangle.corners[0], 0), vec4(triangle.corners[1], 0), vec4(triangle.corners[2], 0)}, 3);
-    add_fours(records, {vec4(triangle.normal, triangle.distance)}, 4);
+    std::vector<physics::uvec4> records{{3, 1, 0, std::bit_cast<physics::uint>(-way)}};
+    for (const vec3& corner : triangle.corners) records.push_back(record_of(corner, 0));
+    records.push_back(record_of(triangle.normal, triangle.distance));
     records.emplace_back(0, 3, 0, 0);
     records.emplace_back(0x020100, 0, 0, 0);
     for (const vec3& limit : triangle.limits) records.push_back(record_of(limit, 0));
@@ -65,21 +56,21 @@ std::vector<physics::uvec4> triangle_records(const MeshForm::Triangle& triangle)
 // In the form of shaders/physics/hulls.h.
 std::vector<physics::uvec4> hull_records(const Hull& hull) {
     const HullForm& form = *hull.form;
-    std::vector<vec4> vertices, planes;
-    for (const glm::dvec3& v : form.vertices) vertices.emplace_back(v, 0);
+    const HullCells cells = hull_cells(form);
     double inner = form.faces.front().distance;
-    for (const HullForm::Face& face : form.faces) {
-        planes.emplace_back(face.normal, face.distance);
-        inner = std::min(inner, face.distance);
-    }
+    for (const HullForm::Face& face : form.faces) inner = std::min(inner, face.distance);
     std::vector<physics::uvec4> records{
-        {vertices.size(), planes.size(), std::bit_cast<physics::uint>(static_cast<float>(inner)), 0}};
-    add_fours(records, vertices, 3);
-    add_fours(records, planes, 4);
+        {form.vertices.size(), form.faces.size(), cells.across, std::bit_cast<physics::uint>(static_cast<float>(inner))}};
+    for (const glm::dvec3& v : form.vertices) records.push_back(record_of(v, 0));
+    for (const HullForm::Face& face : form.faces) records.push_back(record_of(face.normal, static_cast<float>(face.distance)));
     std::vector<std::uint32_t> corners;
     for (const HullForm::Face& face : form.faces) {
         records.emplace_back(corners.size(), face.corners.size(), 0, 0);
         corners.insert(corners.end(), face.corners.begin(), face.corners.end());
+    }
+    for (const HullCells::Cell& cell : cells.cells) {
+        records.push_back(cell.vertices);
+        records.push_back(cell.faces);
     }
     for (std::size_t k = 0; k < corners.size(); ++k) {
         if (k % 16 == 0) records.emplace_back(0);
@@ -244,6 +235,7 @@ Content State::content() const {
         found.rolls |= row.rolling_resistance > 0;
         found.tyres |= physics::tyre_of(row) != 0;
         found.round |= row.shape == physics::SHAPE_SPHERE || row.shape == physics::SHAPE_CAPSULE;
+        found.hulls |= row.shape == physics::SHAPE_HULL;
         found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;

@@ -29,7 +29,7 @@ constexpr std::array<Law, 9> laws{physics::collide_sphere_sphere, physics::colli
                                   physics::collide_capsule_plane, physics::collide_box_box,         physics::collide_box_plane};
 
 using ConvexLaw = physics::Touch (*)(physics::Traits, physics::Pose, physics::Traits, physics::Pose, float, physics::Hulls);
-constexpr std::array<ConvexLaw, 4> laws_of_convex{physics::collide_plane_convex, physics::collide_convex,
+constexpr std::array<ConvexLaw, 5> laws_of_convex{physics::collide_plane_convex, physics::collide_convex, physics::collide_convex,
                                                   physics::collide_sphere_triangle, physics::collide_convex_triangle};
 
 std::span<const physics::Pair> span_of(const State& state, std::size_t span) {

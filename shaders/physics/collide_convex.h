@@ -44,28 +44,26 @@ LAW Feature facing(Solid solid, vec3 direction, Hulls hulls) {
     float within = 1.0e-3f * solid.scale;
     uint best = 0u;
     float most = -2.0f;
-    uint faces = faces_of(solid, hulls);
-    vec3 local = in_body(solid.axes, direction);
-    for (uint k = 0u; k < faces; ++k) {
-        if (solid.shape == SHAPE_HULL && (k & 3u) == 0u &&
-            largest_of(along(hull_planes_at(hulls, solid.hull, k >> 2u), local)) < most - 1.0e-5f) {
-            k += 3u;
-            continue;
-        }
-        vec4 plane = plane_of(solid, k, hulls);
+    Faces faces = faces_towards(solid, in_body(solid.axes, direction), hulls);
+    uint k = 0u;
+    while (k < faces.count) {
+        uint face = face_at(faces, k);
+        vec4 plane = plane_of(solid, face, hulls);
         vec3 normal = vec3(plane.x, plane.y, plane.z);
         float towards = dot3(normal, direction);
         if (towards > most && dot3(normal, corner) > plane.w - within) {
             most = towards;
-            best = k;
+            best = face;
+        }
+        ++k;
+        if (k == faces.count && !faces.all && most <= faces.beyond) {
+            faces = all_faces(solid);
+            k = 0u;
         }
     }
     return face_as_feature(solid, best, direction, hulls);
 }
 
-LAW uint corners_of(Solid solid, Hulls hulls) {
-    return solid.shape == SHAPE_BOX ? 8u : hull_vertices(hulls, solid.hull);
-}
 LAW vec3 corner_at(Solid solid, uint k, Hulls hulls) {
     vec3 local = solid.size;
     if (solid.shape == SHAPE_BOX) {
@@ -84,9 +82,9 @@ LAW Feature edge_facing(Solid solid, vec3 direction, Hulls hulls) {
     if (solid.shape == SHAPE_HULL || solid.shape == SHAPE_BOX) {
         vec3 other = end;
         float flattest = LIES_ALONG_SQUARED;
-        uint corners = corners_of(solid, hulls);
-        for (uint k = 0u; k < corners; ++k) {
-            vec3 way = corner_at(solid, k, hulls) - end;
+        Corners corners = corners_towards(solid, in_body(solid.axes, direction), hulls);
+        for (uint k = 0u; k < corners.count; ++k) {
+            vec3 way = corner_at(solid, corner_in(corners, k), hulls) - end;
             float squared = dot3(way, way);
             if (squared < 1.0e-8f * solid.scale * solid.scale) continue;
             float fall = dot3(way, direction);
@@ -173,7 +171,7 @@ LAW Touch touch_of_face(Solid own, Solid other, vec3 d, uint face, float slop, f
 }
 
 LAW Touch collide_convex(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float margin, Hulls hulls) {
-    Solid a = solid_of(ta, pose_a.orientation), b = solid_of(tb, pose_b.orientation);
+    Solid a = solid_of(ta, pose_a.orientation, hulls), b = solid_of(tb, pose_b.orientation, hulls);
     vec3 d = pose_b.position - pose_a.position;
     Separation s = separation_of(a, b, d, margin, hulls);
     if (s.distance >= margin) return no_touch();
@@ -181,8 +179,16 @@ LAW Touch collide_convex(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float m
     bool of_b = s.by_face_b > s.by_face_a + 0.1f * slop;
     float by_face = of_b ? s.by_face_b : s.by_face_a;
     if (by_face >= s.distance - slop) {
-        Touch touch =
-            of_b ? touch_of_face(b, a, -d, s.face_b, slop, margin, hulls) : touch_of_face(a, b, d, s.face_a, slop, margin, hulls);
+        Solid own = a, other = b;
+        vec3 between = d;
+        uint face = s.face_a;
+        if (of_b) {
+            own = b;
+            other = a;
+            between = -d;
+            face = s.face_b;
+        }
+        Touch touch = touch_of_face(own, other, between, face, slop, margin, hulls);
         if (of_b) touch = flipped(touch, -d);
         // Where they do not lie over each other as deep as the face's plane says, an edge serves.
         if (touch.count > 0u && deepest_of(touch) <= by_face + slop) return touch;
@@ -192,7 +198,7 @@ LAW Touch collide_convex(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float m
 
 // The plane first. All corners of a polyhedron count, whichever face looks down.
 LAW Touch collide_plane_convex(Traits tp, Pose plane, Traits tb, Pose pose, float margin, Hulls hulls) {
-    Solid b = solid_of(tb, pose.orientation);
+    Solid b = solid_of(tb, pose.orientation, hulls);
     vec3 normal = tp.size;
     float height = dot3(normal, pose.position - plane.position);
     vec3 lowest = support_of(b, -normal, hulls);
@@ -205,7 +211,7 @@ LAW Touch collide_plane_convex(Traits tp, Pose plane, Traits tb, Pose pose, floa
     }
     Feature no_sides = down;
     no_sides.points = 0u;
-    uint corners = b.shape == SHAPE_HULL ? hull_vertices(hulls, b.hull) : 0u;
+    uint corners = b.shape == SHAPE_HULL ? b.head.vertices : 0u;
     Touch touch = touch_over(ground, b, no_sides, b, down, corners, lowest - lowest, ceiling, 0.1f * (FACE_PREFERENCE * b.scale),
                              margin, hulls);
     touch = flipped(touch, plane.position - pose.position);

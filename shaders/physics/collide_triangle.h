@@ -14,7 +14,7 @@ CONSTANT float UNDER_SEAM = 0.05f;
 
 // The sphere first. By the point of the triangle that is nearest to its centre.
 LAW Touch collide_sphere_triangle(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float margin, Hulls hulls) {
-    Solid triangle = solid_of(tb, pose_b.orientation);
+    Solid triangle = solid_of(tb, pose_b.orientation, hulls);
     float radius = ta.size.x;
     vec3 centre = pose_a.position - pose_b.position;
     vec4 plane = plane_of(triangle, 0u, hulls);
@@ -39,7 +39,7 @@ LAW Touch collide_sphere_triangle(Traits ta, Pose pose_a, Traits tb, Pose pose_b
 // Any other convex body first. Face on face, edge or corner, else edge on edge, as between convex bodies; but a normal that the
 // triangle's edges refuse is turned to its face, and holds what lies over that.
 LAW Touch collide_convex_triangle(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float margin, Hulls hulls) {
-    Solid own = solid_of(tb, pose_b.orientation), other = solid_of(ta, pose_a.orientation);
+    Solid own = solid_of(tb, pose_b.orientation, hulls), other = solid_of(ta, pose_a.orientation, hulls);
     vec3 d = pose_a.position - pose_b.position;
     vec4 plane = plane_of(own, 0u, hulls);
     vec3 face = vec3(plane.x, plane.y, plane.z);

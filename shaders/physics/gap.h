@@ -67,16 +67,16 @@ LAW Gap gap_of_touch(Touch touch) {
 
 #ifndef WITHOUT_CONVEX
 // Of a cylinder, cone, hull or triangle (the second) and any other shape. What lies behind a triangle is far away from it.
-LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
+LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
     Gap gap;
-    Solid of_b = solid_of(b, pose_b.orientation);
+    Solid of_b = solid_of(b, pose_b.orientation, hulls);
     vec3 d = pose_b.position - pose_a.position;
     if (a.shape == SHAPE_PLANE) {
         gap.normal = a.size;
         gap.distance = dot3(a.size, d + support_of(of_b, -a.size, hulls));
         return gap;
     }
-    Solid of_a = solid_of(a, pose_a.orientation);
+    Solid of_a = solid_of(a, pose_a.orientation, hulls);
     if (b.shape == SHAPE_TRIANGLE) {
         vec4 plane = plane_of(of_b, 0u, hulls);
         vec3 face = vec3(plane.x, plane.y, plane.z);
@@ -86,7 +86,7 @@ LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls)
             return gap;
         }
     }
-    Separation s = separation_of(of_a, of_b, d, 1.0e30f, hulls);
+    Separation s = separation_of(of_a, of_b, d, enough, hulls);
     gap.normal = s.normal;
     gap.distance = s.distance;
     return gap;
@@ -94,9 +94,9 @@ LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls)
 #endif
 
 // The simpler shape first, as the laws of touching want it.
-LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
+LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
 #ifndef WITHOUT_CONVEX
-    if (b.shape >= SHAPE_CYLINDER) return gap_of_convex(a, pose_a, b, pose_b, hulls);
+    if (b.shape >= SHAPE_CYLINDER) return gap_of_convex(a, pose_a, b, pose_b, enough, hulls);
 #endif
     float any = 1.0e30f;
     if (a.shape == SHAPE_SPHERE) {
@@ -113,7 +113,8 @@ LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) 
     if (b.shape == SHAPE_BOX) return gap_of_boxes(a, pose_a, b, pose_b);
     return gap_of_touch(collide_box_plane(a, pose_a, b, pose_b, any));
 }
-LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
+// Of what is at least `enough` (m) apart, an axis and a gap along it of so much are enough.
+LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
     bool swap = a.shape > b.shape;
     Traits first = a, second = b;
     Pose first_pose = pose_a, second_pose = pose_b;
@@ -123,7 +124,7 @@ LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b, Hulls hulls) {
         first_pose = pose_b;
         second_pose = pose_a;
     }
-    Gap gap = gap_in_order(first, first_pose, second, second_pose, hulls);
+    Gap gap = gap_in_order(first, first_pose, second, second_pose, enough, hulls);
     if (swap) gap.normal = -gap.normal;
     return gap;
 }

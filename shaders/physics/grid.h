@@ -172,17 +172,20 @@ LAW bool can_touch(Traits a, Traits b) {
 }
 
 // The first four shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); with the others all have
-// one law, but for planes and triangles. KIND_KEPT is a contact that is kept, KIND_STILL one between two bodies that do not stir.
+// one law, but for planes and triangles; what two hulls need of it is a kind of its own. KIND_KEPT is a contact that is kept,
+// KIND_STILL one between two bodies that do not stir.
 CONSTANT uint KIND_PLANE_CONVEX = 9u;
 CONSTANT uint KIND_CONVEX = 10u;
-CONSTANT uint KIND_SPHERE_TRIANGLE = 11u;
-CONSTANT uint KIND_CONVEX_TRIANGLE = 12u;
-CONSTANT uint KIND_KEPT = 13u;
-CONSTANT uint KIND_STILL = 14u;
+CONSTANT uint KIND_HULL_HULL = 11u;
+CONSTANT uint KIND_SPHERE_TRIANGLE = 12u;
+CONSTANT uint KIND_CONVEX_TRIANGLE = 13u;
+CONSTANT uint KIND_KEPT = 14u;
+CONSTANT uint KIND_STILL = 15u;
 LAW uint kind_of(uint shape_a, uint shape_b) {
     uint low = shape_a < shape_b ? shape_a : shape_b;
     uint high = shape_a < shape_b ? shape_b : shape_a;
     if (high == SHAPE_TRIANGLE) return low == SHAPE_SPHERE ? KIND_SPHERE_TRIANGLE : KIND_CONVEX_TRIANGLE;
+    if (low == SHAPE_HULL) return KIND_HULL_HULL;
     if (high >= SHAPE_CYLINDER) return low == SHAPE_PLANE ? KIND_PLANE_CONVEX : KIND_CONVEX;
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }

@@ -1,19 +1,25 @@
 // Convex hulls in the one table that all bodies of such a shape look into, each at its place; equal hulls lie there once.
 //
-// From a hull's place on: one record (vertices, faces as uints, inner radius in m, -); the vertices, four in three records (four
-// x, four y, four z, in m); the faces, four in four records (the x, y and z of their unit normals outward, and their distances
-// from the centre, m); a record a face (its first corner in the list, how many, -, -), as uints; and the list of corners, sixteen
-// bytes a record, each the number of a vertex, counter-clockwise seen from outside. Fours are filled up with their last one.
-// Everything is from the centre of mass, along the principal axes of inertia.
+// From a hull's place on: one record (vertices, faces and cells as uints, inner radius in m); a record a vertex (m); a record a
+// face (its unit normal outward, and its distance from the centre, m); another a face (its first corner in the list, how many, -,
+// -), as uints; two records a cell; and the list of corners, sixteen bytes a record, each the number of a vertex,
+// counter-clockwise seen from outside. Everything is from the centre of mass, along the principal axes of inertia.
+//
+// A hull of many corners knows by the cell into which a direction falls (cell_of) which of its vertices may reach farthest that
+// way, and which of its faces may look that way: sixteen bytes each. The vertices: how many, and their numbers; none (0) where
+// more than fifteen may. The faces: how many, how much the others look that way at most (cosine_of), and the numbers. (A cube map
+// of a polytope's normal fan; compute/hull_cells.h.)
 #ifndef SCREE_PHYSICS_HULLS_H
 #define SCREE_PHYSICS_HULLS_H
 
-#include "shaders/physics/four.h"
+#include "shaders/physics/arithmetic.h"
 #include "shaders/physics/records.h"
 
 LAWS_BEGIN
 
-CONSTANT uint MOST_CORNERS = 64u;  // of a hull; a corner's number fits a byte
+CONSTANT uint MOST_CORNERS = 64u;     // of a hull; a corner's number fits a byte
+CONSTANT uint LISTED_VERTICES = 15u;  // of a cell, at most
+CONSTANT uint LISTED_FACES = 14u;
 
 // What a law is given to look into the table: in C++ a pointer, on a device nothing, because there the table is bound.
 #ifdef __cplusplus
@@ -37,79 +43,88 @@ LAW vec3 point_in(uvec4 record) {
     return vec3(uintBitsToFloat(record.x), uintBitsToFloat(record.y), uintBitsToFloat(record.z));
 }
 
-LAW uint hull_vertices(Hulls hulls, uint hull) {
-    return hull_record(hulls, hull).x;
-}
-LAW uint hull_faces(Hulls hulls, uint hull) {
-    return hull_record(hulls, hull).y;
-}
-// Of the largest ball around the centre that lies inside, m; of what does not hold its centre the way to it at most, negative. In
-// any direction the hull reaches at least so far.
-LAW float hull_inner_radius(Hulls hulls, uint hull) {
-    return uintBitsToFloat(hull_record(hulls, hull).z);
-}
-// Four vertices, or the planes of four faces.
-struct Four {
-    Floats4 x;
-    Floats4 y;
-    Floats4 z;
-    Floats4 off;  // of planes: from the centre, m
+// The numbers that a hull begins with.
+struct HullHead {
+    uint vertices;
+    uint faces;
+    uint across;  // so many cells along each edge of the cube; 0: it has none
+    float inner;  // of the largest ball around the centre that lies inside, m; of what does not hold its centre the way to it at
+                  // most, negative: in any direction the hull reaches at least so far
 };
-LAW Floats4 along(Four four, vec3 direction) {
-    return (four.x * direction.x + four.y * direction.y) + four.z * direction.z;
-}
-LAW uint fours_of(uint count) {
-    return (count + 3u) >> 2u;
-}
-LAW Four four_at(Hulls hulls, uint place) {
-    Four four;
-    four.x = floats_in(hull_record(hulls, place));
-    four.y = floats_in(hull_record(hulls, place + 1u));
-    four.z = floats_in(hull_record(hulls, place + 2u));
-    four.off = four.x;
-    return four;
-}
-LAW Four hull_vertices_at(Hulls hulls, uint hull, uint group) {
-    return four_at(hulls, hull + 1u + 3u * group);
+LAW HullHead hull_head(Hulls hulls, uint hull) {
+    uvec4 record = hull_record(hulls, hull);
+    HullHead head;
+    head.vertices = record.x;
+    head.faces = record.y;
+    head.across = record.z;
+    head.inner = uintBitsToFloat(record.w);
+    return head;
 }
 LAW vec3 hull_vertex(Hulls hulls, uint hull, uint k) {
-    Four four = hull_vertices_at(hulls, hull, k >> 2u);
-    return vec3(one_of(four.x, k & 3u), one_of(four.y, k & 3u), one_of(four.z, k & 3u));
-}
-LAW uint hull_first_plane(Hulls hulls, uint hull) {
-    return hull + 1u + 3u * fours_of(hull_vertices(hulls, hull));
-}
-LAW Four hull_planes_at(Hulls hulls, uint hull, uint group) {
-    uint place = hull_first_plane(hulls, hull) + 4u * group;
-    Four four = four_at(hulls, place);
-    four.off = floats_in(hull_record(hulls, place + 3u));
-    return four;
+    return point_in(hull_record(hulls, hull + 1u + k));
 }
 // xyz: outward, unit; w: distance of the face from the centre, m.
-LAW vec4 hull_plane(Hulls hulls, uint hull, uint face) {
-    Four four = hull_planes_at(hulls, hull, face >> 2u);
-    uint k = face & 3u;
-    return vec4(one_of(four.x, k), one_of(four.y, k), one_of(four.z, k), one_of(four.off, k));
+LAW vec4 hull_plane(Hulls hulls, uint hull, HullHead head, uint face) {
+    uvec4 record = hull_record(hulls, hull + 1u + head.vertices + face);
+    vec3 normal = point_in(record);
+    return vec4(normal.x, normal.y, normal.z, uintBitsToFloat(record.w));
 }
-LAW uint hull_first_list(Hulls hulls, uint hull) {
-    return hull_first_plane(hulls, hull) + 4u * fours_of(hull_faces(hulls, hull));
+LAW uvec4 hull_face(Hulls hulls, uint hull, HullHead head, uint face) {
+    return hull_record(hulls, hull + 1u + head.vertices + head.faces + face);
 }
-LAW uint hull_face_corners(Hulls hulls, uint hull, uint face) {
-    return hull_record(hulls, hull_first_list(hulls, hull) + face).y;
+LAW uint hull_first_cell(uint hull, HullHead head) {
+    return hull + 1u + head.vertices + 2u * head.faces;
 }
-LAW vec3 hull_corner(Hulls hulls, uint hull, uint face, uint k) {
-    uint lists = hull_first_list(hulls, hull);
-    uint place = hull_record(hulls, lists + face).x + k;
-    uvec4 sixteen = hull_record(hulls, lists + hull_faces(hulls, hull) + (place >> 4u));
-    uint quarter = (place >> 2u) & 3u;
+LAW uint cells_of(uint across) {
+    return 6u * across * across;
+}
+LAW uint byte_of(uvec4 sixteen, uint k) {
+    uint quarter = (k >> 2u) & 3u;
     uint word = quarter == 0u ? sixteen.x : (quarter == 1u ? sixteen.y : (quarter == 2u ? sixteen.z : sixteen.w));
-    return hull_vertex(hulls, hull, (word >> (8u * (place & 3u))) & 0xFFu);
+    return (word >> (8u * (k & 3u))) & 0xFFu;
+}
+// Corner `place` of the list.
+LAW vec3 hull_corner(Hulls hulls, uint hull, HullHead head, uint place) {
+    uint list = hull_first_cell(hull, head) + 2u * cells_of(head.across);
+    return hull_vertex(hulls, hull, byte_of(hull_record(hulls, list + (place >> 4u)), place));
 }
 // Records of a hull, those of its list of corners included.
 LAW uint hull_records(Hulls hulls, uint hull) {
-    uint end = hull_first_list(hulls, hull) + hull_faces(hulls, hull);
-    uvec4 last = hull_record(hulls, end - 1u);
-    return (end - hull) + ((last.x + last.y + 15u) >> 4u);
+    HullHead head = hull_head(hulls, hull);
+    uvec4 last = hull_face(hulls, hull, head, head.faces - 1u);
+    return (hull_first_cell(hull, head) + 2u * cells_of(head.across) - hull) + ((last.x + last.y + 15u) >> 4u);
+}
+
+// Where a number in -most..most lies among four equal parts of that.
+LAW uint quarter_of(float x, float most) {
+    float half_way = 0.5f * most;
+    return (x >= -half_way ? 1u : 0u) + (x >= 0.0f ? 1u : 0u) + (x >= half_way ? 1u : 0u);
+}
+// The cell of a direction (of any length but 0): the cube's side 2k is the one down axis k, 2k + 1 the one up; on it `across` (2
+// or 4) rows along the next axis (x, y, z, x, ...) and in each row as many cells along the one after that.
+LAW uint cell_of(vec3 direction, uint across) {
+    float x = abs(direction.x), y = abs(direction.y), z = abs(direction.z);
+    uint side = 0u;
+    float ahead = direction.x, row = direction.y, column = direction.z;
+    if (y > x && y >= z) {
+        side = 2u;
+        ahead = direction.y;
+        row = direction.z;
+        column = direction.x;
+    } else if (z > x) {
+        side = 4u;
+        ahead = direction.z;
+        row = direction.x;
+        column = direction.y;
+    }
+    if (ahead > 0.0f) side = side + 1u;
+    uint coarser = across == 4u ? 0u : 1u;
+    float most = abs(ahead);
+    return (side * across + (quarter_of(row, most) >> coarser)) * across + (quarter_of(column, most) >> coarser);
+}
+// What a byte says of a cosine: at least 0, at most 1/126 too much.
+LAW float cosine_of(uint byte) {
+    return float(byte) * 0.0079366f - 1.0f;
 }
 
 LAWS_END

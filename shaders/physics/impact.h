@@ -118,7 +118,12 @@ LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bo
     float tolerance = 0.1f * limits.touch;
     bool met = false;
     for (uint k = 0u; k < IMPACT_ROUNDS; ++k) {
-        Gap gap = gap_between(ta, pose_on(a, t), tb, pose_on(b, t), hulls);
+        bool both = t < a.until && t < b.until;
+        float leg = both ? smaller(a.until, b.until) : larger(a.until, b.until);
+        // What cannot close in this leg need not be known better.
+        float fastest = a.most + b.most + length3(both ? b.way - a.way : (t < a.until ? a.way : b.way));
+        float enough = aim + (tolerance + limits.slop) + positive(leg - t) * fastest;
+        Gap gap = gap_between(ta, pose_on(a, t), tb, pose_on(b, t), enough, hulls);
         bool touched = k == 0u && gap.distance <= aim + tolerance;
         if (touched) {
             met = true;
@@ -139,8 +144,6 @@ LAW Impact impact_of(Traits ta, Course a, Traits tb, Course b, Limits limits, bo
             }
             return impact;
         }
-        bool both = t < a.until && t < b.until;
-        float leg = both ? smaller(a.until, b.until) : larger(a.until, b.until);
         float closing = arc_along(a, gap.normal) + arc_along(b, gap.normal);
         if (!both && t >= a.until) closing = arc_along(b, gap.normal);
         if (!both && t >= b.until) closing = arc_along(a, gap.normal);

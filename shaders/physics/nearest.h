@@ -48,36 +48,78 @@ LAW Simplex nearest_on_segment(vec3 a, vec3 b) {
 LAW Simplex nearest_on_triangle(vec3 a, vec3 b, vec3 c) {
     vec3 ab = b - a, ac = c - a;
     float d1 = -dot3(ab, a), d2 = -dot3(ac, a);
-    if (d1 <= 0.0f && d2 <= 0.0f) return simplex_of(a, 1u, a, a, a);
     float d3 = -dot3(ab, b), d4 = -dot3(ac, b);
-    if (d3 >= 0.0f && d4 <= d3) return simplex_of(b, 1u, b, b, b);
     float d5 = -dot3(ab, c), d6 = -dot3(ac, c);
-    if (d6 >= 0.0f && d5 <= d6) return simplex_of(c, 1u, c, c, c);
-    if (d1 * d4 - d3 * d2 <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) return nearest_on_segment(a, b);
-    if (d5 * d2 - d1 * d6 <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) return nearest_on_segment(a, c);
-    if (d3 * d6 - d5 * d4 <= 0.0f && d4 >= d3 && d5 >= d6) return nearest_on_segment(b, c);
     vec3 normal = cross3(ab, ac);
     float squared = dot3(normal, normal);
-    if (squared < 1.0e-24f) return nearest_on_segment(a, b);
-    return simplex_of(normal * (dot3(normal, a) * reciprocal(squared)), 3u, a, b, c);
+    // Which corner or side; a corner as a side of no length, so that only one site asks for the nearest point of a side.
+    vec3 p = a, q = b;
+    if (d1 <= 0.0f && d2 <= 0.0f) {
+        q = a;
+    } else if (d3 >= 0.0f && d4 <= d3) {
+        p = b;
+    } else if (d6 >= 0.0f && d5 <= d6) {
+        p = c;
+        q = c;
+    } else if (d1 * d4 - d3 * d2 <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
+        q = b;
+    } else if (d5 * d2 - d1 * d6 <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
+        q = c;
+    } else if (d3 * d6 - d5 * d4 <= 0.0f && d4 >= d3 && d5 >= d6) {
+        p = b;
+        q = c;
+    } else if (squared >= 1.0e-24f) {
+        return simplex_of(normal * (dot3(normal, a) * reciprocal(squared)), 3u, a, b, c);
+    }
+    return nearest_on_segment(p, q);
 }
 
-// With one more point. Of four, 0 lies outside of what they span, so the nearest point lies on one of the three new faces.
+// What of the points a, b, c and p, seen from 0, has the point nearest to 0, if it has p in it (it has where p brings the points
+// nearer): p, a side, or a face that has 0 before it. By the Voronoi regions around p, all from the products of the ways to the
+// other points (points that are missing are equal to others, and lie beyond nothing).
 LAW Simplex with_corner(Simplex s, vec3 p) {
     if (s.count == 0u) return simplex_of(p, 1u, p, p, p);
-    if (s.count == 1u) return nearest_on_segment(s.a, p);
-    Simplex best = s;
-    float least = 1.0e30f;
-    uint faces = s.count == 2u ? 1u : 3u;
-    for (uint k = 0u; k < faces; ++k) {  // a, b; a, c; b, c
-        Simplex face = nearest_on_triangle(k == 2u ? s.b : s.a, k == 0u ? s.b : s.c, p);
-        float squared = dot3(face.nearest, face.nearest);
-        if (squared < least) {
-            least = squared;
-            best = face;
-        }
+    vec3 ea = s.a - p, eb = s.b - p, ec = s.c - p;
+    float aa = dot3(ea, ea), bb = dot3(eb, eb), cc = dot3(ec, ec);
+    float ab = dot3(ea, eb), ac = dot3(ea, ec), bc = dot3(eb, ec);
+    float pa = -dot3(p, ea), pb = -dot3(p, eb), pc = -dot3(p, ec);
+    // How far 0 lies beyond the side from p to the first, the way of the second.
+    float a_to_b = aa * pb - ab * pa, b_to_a = bb * pa - ab * pb;
+    float a_to_c = aa * pc - ac * pa, c_to_a = cc * pa - ac * pc;
+    float b_to_c = bb * pc - bc * pb, c_to_b = cc * pb - bc * pc;
+    vec3 n_ab = cross3(ea, eb), n_ac = cross3(ea, ec), n_bc = cross3(eb, ec);
+    float volume = dot3(n_ab, ec);
+    bool no_fourth = s.count < 3u;
+    bool over_ab = a_to_b > 0.0f && b_to_a > 0.0f && (aa * bb - ab * ab) - (a_to_b + b_to_a) > 0.0f;
+    bool over_ac = a_to_c > 0.0f && c_to_a > 0.0f && (aa * cc - ac * ac) - (a_to_c + c_to_a) > 0.0f;
+    bool over_bc = b_to_c > 0.0f && c_to_b > 0.0f && (bb * cc - bc * bc) - (b_to_c + c_to_b) > 0.0f;
+    bool before_ab = no_fourth || (dot3(n_ab, p) >= 0.0f) == (volume >= 0.0f);
+    bool before_ac = (dot3(n_ac, p) <= 0.0f) == (volume >= 0.0f);
+    bool before_bc = (dot3(n_bc, p) >= 0.0f) == (volume >= 0.0f);
+    vec3 normal = n_ab, first = s.a, second = s.b;
+    bool face = over_ab && before_ab;
+    if (!face && over_ac && before_ac) {
+        face = true;
+        normal = n_ac;
+        second = s.c;
     }
-    return best;
+    if (!face && over_bc && before_bc) {
+        face = true;
+        normal = n_bc;
+        first = s.b;
+        second = s.c;
+    }
+    float squared = dot3(normal, normal);
+    if (face && squared >= 1.0e-24f) return simplex_of(normal * (dot3(normal, p) * reciprocal(squared)), 3u, first, second, p);
+    first = p;
+    if (pa > 0.0f && a_to_b <= 0.0f && a_to_c <= 0.0f) {
+        first = s.a;
+    } else if (pb > 0.0f && b_to_a <= 0.0f && b_to_c <= 0.0f) {
+        first = s.b;
+    } else if (pc > 0.0f && c_to_a <= 0.0f && c_to_b <= 0.0f) {
+        first = s.c;
+    }
+    return nearest_on_segment(first, p);
 }
 
 // The point of B less the point of A that reach farthest against each other along a direction from A to B; d: B's centre less
@@ -90,16 +132,21 @@ LAW vec3 difference_along(Solid a, Solid b, vec3 d, vec3 direction, Hulls hulls)
 // any short way.
 LAW Simplex way_between(Solid a, Solid b, vec3 d, vec3 start, Hulls hulls) {
     Simplex simplex = simplex_of(start, 0u, start, start, start);
-    for (uint k = 0u; k < NEAREST_ROUNDS; ++k) {
+    bool nearer = true;
+    for (uint k = 0u; k < NEAREST_ROUNDS && nearer; ++k) {
         vec3 way = simplex.nearest;
         float squared = dot3(way, way);
-        if (squared < 1.0e-20f) break;
-        vec3 corner = difference_along(a, b, d, way, hulls);
-        bool first = simplex.count == 0u;
-        if (!first && squared - dot3(way, corner) <= NEAREST_PROGRESS * squared) break;
-        Simplex next = with_corner(simplex, corner);
-        if (!first && dot3(next.nearest, next.nearest) >= squared) break;
-        simplex = next;
+        nearer = squared >= 1.0e-20f;
+        if (nearer) {
+            bool first = simplex.count == 0u;
+            vec3 corner = difference_along(a, b, d, way, hulls);
+            nearer = first || squared - dot3(way, corner) > NEAREST_PROGRESS * squared;
+            if (nearer) {
+                Simplex next = with_corner(simplex, corner);
+                nearer = first || dot3(next.nearest, next.nearest) < squared;
+                if (nearer) simplex = next;
+            }
+        }
     }
     return simplex;
 }

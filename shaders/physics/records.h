@@ -387,7 +387,7 @@ CONSTANT uint CONTENT_TYRES = 8u;
 CONSTANT uint CONTENT_PARTS = 16u;      // bodies of several parts that move
 CONSTANT uint CONTENT_REORDERED = 32u;  // bodies whose rows are in another order than their ids
 
-CONSTANT uint KINDS = 15u;  // of pairs: thirteen of shapes, those whose contact is kept, and those at rest
+CONSTANT uint KINDS = 16u;  // of pairs: fourteen of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind
 CONSTANT uint SPAN_SHIFT = 4u;
 CONSTANT uint SCAN_ITEMS = 8u;  // items that one thread of a scan adds up
@@ -400,10 +400,10 @@ CONSTANT uint WORK_KIND_BLOCKS = 2u;
 CONSTANT uint WORK_PAIR_BLOCKS = 3u;
 CONSTANT uint WORK_CONTACTS = 4u;
 CONSTANT uint WORK_KIND = 5u;  // and the KINDS - 1 rows after it
-CONSTANT uint WORK_SOLVED = 20u;
-CONSTANT uint WORK_SHAKEN = 21u;
-CONSTANT uint WORK_FLIGHTS = 22u;  // all pairs if some body is fast, else none
-CONSTANT uint WORKS = 23u;
+CONSTANT uint WORK_SOLVED = 21u;
+CONSTANT uint WORK_SHAKEN = 22u;
+CONSTANT uint WORK_FLIGHTS = 23u;  // all pairs if some body is fast, else none
+CONSTANT uint WORKS = 24u;
 CONSTANT uint OVERFLOW_PAIRS = 1u;
 CONSTANT uint OVERFLOW_CONTACTS = 2u;
 
@@ -418,11 +418,11 @@ struct Counts {  // what the device counts in a step
     uint large_stirring;   // 1: some large body stirs
     uint sleepers;         // 1: some body is asleep as the step begins
     uint solved;           // contacts that move somebody: those of the solver
-    uint kind_first[16];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint kind_first[20];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
     uint fast;             // 1: some body will be fast in this step
     uint broken;           // bodies that break in this step
     uint pad0, pad1;
-    uvec4 arguments[23];  // per WORK_*: workgroups x, y, z, and threads
+    uvec4 arguments[24];  // per WORK_*: workgroups x, y, z, and threads
 };
 
 // Not there at present: it touches nothing and is seen nowhere, only its row is kept.

@@ -26,8 +26,8 @@ struct Separation {
     uint face_a;     // the best face of A, of B
     uint face_b;
     float by_face_a;  // its separation, m; -1e30 without faces
-    float by_face_b;
-    bool over_face;  // the better of the two faces has what reaches farthest towards it over itself
+    float by_face_b;  // -1e30 also where it is no more than A's
+    bool over_face;   // the better of the two faces has what reaches farthest towards it over itself
 };
 
 // Axes that belong to the side of a cylinder or a cone: straight towards the other one's middle.
@@ -39,31 +39,31 @@ LAW bool has_side(Solid solid) {
     return solid.shape == SHAPE_CYLINDER || solid.shape == SHAPE_CONE || solid.shape == SHAPE_CAPSULE;
 }
 
-// At most so far apart is the body `other` from the faces of `own`, four at once from a first of four on (one, of what is no
-// polyhedron with a list); `between` from the centre of `own` to that of `other`, in the world and in the frame of `own`.
-LAW Floats4 bounds_of_faces(Solid own, uint face, vec3 between, vec3 local, float inner, Hulls hulls) {
-    if (own.shape == SHAPE_HULL) {
-        Four planes = hull_planes_at(hulls, own.hull, face >> 2u);
-        return (along(planes, local) - planes.off) - four_floats(inner);
-    }
-    vec4 plane = plane_of(own, face, hulls);
-    return four_floats((dot3(vec3(plane.x, plane.y, plane.z), between) - plane.w) - inner);
+// A hull's planes are looked at in its own frame, others' in the world's: the plane of a face, a vector to go with it, and how
+// high a point lies over it.
+LAW vec4 plane_as_listed(Solid own, uint face, Hulls hulls) {
+    if (own.shape == SHAPE_HULL) return hull_plane(hulls, own.hull, own.head, face);
+    return plane_of(own, face, hulls);
 }
-// The face that looks most towards the other body, as far as it reaches.
-LAW uint promising_face(Solid own, vec3 between, vec3 local, Hulls hulls) {
-    uint faces = faces_of(own, hulls), stride = own.shape == SHAPE_HULL ? 4u : 1u;
+LAW vec3 as_listed(Solid own, vec3 v) {
+    return own.shape == SHAPE_HULL ? in_body(own.axes, v) : v;
+}
+LAW float height_over(vec4 plane, vec3 point) {
+    return dot3(vec3(plane.x, plane.y, plane.z), point) - plane.w;
+}
+// Of some faces that over which the point lies highest.
+LAW uint highest_over(Solid own, Faces faces, vec3 point, Hulls hulls) {
     uint found = 0u;
-    Floats4 best = four_floats(-1.0e30f);
-    for (uint face = 0u; face < faces; face += stride) {
-        Floats4 bounds = bounds_of_faces(own, face, between, local, own.radius, hulls);
-        if (largest_of(bounds) <= largest_of(best)) continue;
-        best = bounds;
-        found = face;
+    float best = -1.0e30f;
+    for (uint k = 0u; k < faces.count; ++k) {
+        uint face = face_at(faces, k);
+        float height = height_over(plane_as_listed(own, face, hulls), point);
+        if (height > best) {
+            best = height;
+            found = face;
+        }
     }
-    float most = largest_of(best);
-    for (uint k = 0u; k + 1u < stride; ++k)
-        if (one_of(best, k) == most) return found + k;
-    return found + stride - 1u;
+    return found;
 }
 
 // Whether a point, seen from the body's centre, lies over a face: then nothing near that face's axis parts the bodies farther.
@@ -77,12 +77,13 @@ LAW bool lies_over(Solid own, uint face, vec3 point, Hulls hulls) {
     Feature sides = face_as_feature(own, face, normal, hulls);
     if (sides.stride > 1u) return false;
     vec3 from = corner_of(own, sides, sides.points - 1u, hulls);
-    for (uint k = 0u; k < sides.points; ++k) {
+    bool over = true;
+    for (uint k = 0u; k < sides.points && over; ++k) {
         vec3 to = corner_of(own, sides, k, hulls);
-        if (dot3(cross3(to - from, point - from), normal) < 0.0f) return false;
+        over = dot3(cross3(to - from, point - from), normal) >= 0.0f;
         from = to;
     }
-    return true;
+    return over;
 }
 // The same of a triangle of points of the difference of the two bodies.
 LAW bool lies_over_triangle(Simplex s, vec3 point) {
@@ -94,20 +95,17 @@ LAW bool lies_over_triangle(Simplex s, vec3 point) {
     return first > 0.0f && second > 0.0f && third > 0.0f;
 }
 
-// From a face on the first of a four that promises no less than `best`; as many as there are when none does.
-LAW uint next_promising(Solid own, uint from, vec3 between, vec3 local, float inner, float best, Hulls hulls) {
-    uint faces = faces_of(own, hulls), stride = own.shape == SHAPE_HULL ? 4u : 1u;
-    uint face = from;
-    while (face < faces && largest_of(bounds_of_faces(own, face, between, local, inner, hulls)) < best) face += stride;
-    return face;
-}
-
 // The laws below look at both bodies in one loop instead of twice in a row: every support that is asked for in another place is
 // another copy of its code on a device, and drivers took minutes to compile a dozen of them.
 //
-// A face's support is asked for only if the face may be the best one: of each body that which promises most first, then every one
-// that promises no less than the best so far has. Of equals the first counts.
-LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, Hulls hulls) {
+// And the loops of faces and of the way between are left at their head alone: where some threads left one in the middle of a
+// round, lavapipe has been seen to give them values of the rounds that the others went on with.
+//
+// A face's support is asked for only if the face may be the best one: of each body first that over which the other's centre lies
+// highest; then those over which that centre lies high enough, seeing how far the other reaches in any direction, and no lower
+// the corner that is lowest over the best face so far. Of equals the first counts. The second body's are only looked at so far
+// as they may be better than the first's best.
+LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, float enough, Hulls hulls) {
     Separation s;
     s.normal = unit3(d, a.axes.y);
     s.distance = -1.0e30f;
@@ -116,6 +114,7 @@ LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, Hulls hulls) {
     s.by_face_a = -1.0e30f;
     s.by_face_b = -1.0e30f;
     s.over_face = false;
+    vec3 over_best = d;
     for (uint side = 0u; side < 2u; ++side) {
         Solid own = a;
         Solid other = b;
@@ -125,45 +124,67 @@ LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, Hulls hulls) {
             other = a;
             between = -d;
         }
-        uint faces = faces_of(own, hulls);
-        if (faces == 0u) continue;
-        vec3 local = in_body(own.axes, between);
-        float inner = inner_radius(other, hulls);
-        uint best_face = promising_face(own, between, local, hulls);
-        float best = -1.0e30f;
+        if (own.head.faces == 0u || s.distance >= enough) continue;
+        vec3 middle = as_listed(own, between), lowest = middle;
+        Faces faces = faces_towards(own, middle, hulls);
+        uint first = highest_over(own, faces, middle, hulls);
+        uint best_face = first;
+        float best = s.distance;
         vec3 over = between, axis = between;
-        uint face = best_face;
-        bool first = true;
-        while (face < faces) {
-            vec4 plane = plane_of(own, face, hulls);
-            vec3 normal = vec3(plane.x, plane.y, plane.z);
-            if (first || (dot3(normal, between) - plane.w) - inner >= best) {
+        uint face = first, next = 0u;
+        bool better = false;
+        bool more = height_over(plane_as_listed(own, face, hulls), middle) - other.head.inner >= best, left = true;
+        while (left) {
+            if (more) {
+                vec4 plane = plane_of(own, face, hulls);
+                vec3 normal = vec3(plane.x, plane.y, plane.z);
                 vec3 corner = between + support_of(other, -normal, hulls);
                 float separation = dot3(normal, corner) - plane.w;
-                if (separation > best || (separation == best && face < best_face)) {
+                if (separation > best || (better && separation == best && face < best_face)) {
+                    better = true;
                     best = separation;
                     best_face = face;
                     over = corner;
                     axis = normal;
+                    lowest = as_listed(own, corner);
                 }
             }
-            uint next = first ? 0u : face + 1u;
-            first = false;
-            bool within = own.shape == SHAPE_HULL && (next & 3u) != 0u;
-            face = within ? next : next_promising(own, next, between, local, inner, best, hulls);
+            more = false;
+            left = best < enough;
+            while (left && !more) {
+                if (next < faces.count) {
+                    face = face_at(faces, next);
+                    vec4 listed = plane_as_listed(own, face, hulls);
+                    more = face != first && height_over(listed, middle) - other.head.inner >= best &&
+                           (!better || height_over(listed, lowest) >= best);
+                    ++next;
+                } else {
+                    // What the cell does not list counts only where it could be better than all that it does.
+                    left = !faces.all && (length3(between) * faces.beyond - own.head.inner) - other.head.inner >= best;
+                    if (left) {
+                        faces = all_faces(own);
+                        next = 0u;
+                    }
+                }
+            }
+        }
+        if (better) {
+            s.distance = best;
+            s.normal = side == 0u ? axis : -axis;
+            over_best = over;
         }
         if (side == 0u) {
             s.face_a = best_face;
             s.by_face_a = best;
         } else {
             s.face_b = best_face;
-            s.by_face_b = best;
+            s.by_face_b = better ? best : -1.0e30f;
         }
-        if (best > s.distance) {
-            s.distance = best;
-            s.normal = side == 0u ? axis : -axis;
-            s.over_face = lies_over(own, best_face, over, hulls);
-        }
+    }
+    if (s.by_face_a > -1.0e30f || s.by_face_b > -1.0e30f) {
+        Solid own = a;
+        if (s.by_face_b > s.by_face_a) own = b;
+        s.over_face = lies_over(own, s.by_face_b > s.by_face_a ? s.face_b : s.face_a, over_best, hulls);
     }
     return s;
 }
@@ -180,11 +201,11 @@ LAW vec3 side_axis_between(Solid a, Solid b, vec3 d, uint k) {
 // Stops early where the two are known to be `enough` apart.
 LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls) {
     float radii = a.radius + b.radius;
-    Separation s = separation_by_faces(a, b, d, hulls);
+    Separation s = separation_by_faces(a, b, d, enough + radii, hulls);
     float room = PUSH_ROOM * smaller(a.scale, b.scale);
-    bool known = s.over_face;
+    bool known = s.over_face, converged = false;
     for (uint k = has_side(a) || has_side(b) ? 0u : SIDE_AXES; k < SIDE_AXES + PUSH_ROUNDS; ++k) {
-        if (s.distance - radii >= enough || (known && k >= SIDE_AXES)) break;
+        if (converged || s.distance - radii >= enough || (known && k >= SIDE_AXES)) break;
         bool apart = s.distance >= room;
         vec3 normal = s.normal;
         if (k < SIDE_AXES) {
@@ -203,7 +224,7 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
             s.normal = normal;
             if (k < SIDE_AXES) known = false;
         }
-        if (k >= SIDE_AXES && (apart || gain < 1.0e-5f * room)) break;
+        converged = k >= SIDE_AXES && (apart || gain < 1.0e-5f * room);
     }
     s.distance = s.distance - radii;
     s.by_face_a = s.by_face_a - radii;

@@ -11,8 +11,8 @@
 
 LAWS_BEGIN
 
-CONSTANT uint TRIANGLE_RECORDS = 13u;
-CONSTANT uint FIRST_LIMIT = 10u;  // where the edges' records begin
+CONSTANT uint TRIANGLE_RECORDS = 10u;
+CONSTANT uint FIRST_LIMIT = 7u;  // where the edges' records begin
 
 // Of a body's least half width: so far its centre may lie behind a triangle and be pushed out in front. More, and what lies on
 // one side of a thin wall is drawn to the other; 0, and what is pressed in to its middle falls through.

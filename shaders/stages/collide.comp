@@ -9,8 +9,9 @@
 // variants: collide_box_plane -DKIND=8 -DCOLLIDE=collide_box_plane
 // variants: collide_plane_convex -DKIND=9 -DCOLLIDE=collide_plane_convex -DWITH_HULLS
 // variants: collide_convex -DKIND=10 -DCOLLIDE=collide_convex -DWITH_HULLS
-// variants: collide_sphere_triangle -DKIND=11 -DCOLLIDE=collide_sphere_triangle -DWITH_HULLS
-// variants: collide_convex_triangle -DKIND=12 -DCOLLIDE=collide_convex_triangle -DWITH_HULLS
+// variants: collide_hull_hull -DKIND=11 -DCOLLIDE=collide_convex -DWITH_HULLS -DONLY_HULLS
+// variants: collide_sphere_triangle -DKIND=12 -DCOLLIDE=collide_sphere_triangle -DWITH_HULLS
+// variants: collide_convex_triangle -DKIND=13 -DCOLLIDE=collide_convex_triangle -DWITH_HULLS
 // Finds where the pairs of one kind touch.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -33,7 +34,7 @@
 #include "shaders/physics/collide_box_box.h"
 #elif KIND == 8
 #include "shaders/physics/collide_box_plane.h"
-#elif KIND == 9 || KIND == 10
+#elif KIND <= 11
 #include "shaders/physics/collide_convex.h"
 #else
 #include "shaders/physics/collide_triangle.h"

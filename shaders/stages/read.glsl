@@ -105,7 +105,7 @@ Slot slot_in(usamplerBuffer texels, uint i) {
     return Slot(xyz(linear), linear.w, xyz(angular), angular.w);
 }
 Counts counts_in(usamplerBuffer texels, uint i) {
-    uvec4 a = texelFetch(texels, 0), b = texelFetch(texels, 1), c = texelFetch(texels, 2), d = texelFetch(texels, 7);
+    uvec4 a = texelFetch(texels, 0), b = texelFetch(texels, 1), c = texelFetch(texels, 2), d = texelFetch(texels, 8);
     Counts counts;
     counts.pairs = a.x;
     counts.contacts = a.y;
@@ -119,7 +119,7 @@ Counts counts_in(usamplerBuffer texels, uint i) {
     counts.large_stirring = c.y;
     counts.sleepers = c.z;
     counts.solved = c.w;
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < 5; ++k) {
         uvec4 four = texelFetch(texels, 3 + k);
         counts.kind_first[4 * k] = four.x;
         counts.kind_first[4 * k + 1] = four.y;

@@ -118,8 +118,8 @@ TEST_CASE("the separation of convex bodies is that of the best of all directions
         int off = 0;
         for (int k = 0; k < 40; ++k) {
             const Pair pair = any_pair(kind_a, kind_b, chance);
-            const physics::Solid a = physics::solid_of(pair.state.traits[0], pair.a.orientation);
-            const physics::Solid b = physics::solid_of(pair.state.traits[1], pair.b.orientation);
+            const physics::Solid a = physics::solid_of(pair.state.traits[0], pair.a.orientation, pair.state.hull_table());
+            const physics::Solid b = physics::solid_of(pair.state.traits[1], pair.b.orientation, pair.state.hull_table());
             const physics::Separation s =
                 physics::separation_of(a, b, pair.b.position - pair.a.position, 1e30f, pair.state.hull_table());
             const double truth = std::max(largest_separation(pair.a, pair.b), separation(pair.a, pair.b, dvec3(s.normal)));

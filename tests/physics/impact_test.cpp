@@ -112,7 +112,7 @@ TEST_CASE("no ways of random bodies through each other are missed, and none is s
         const Traits &a = kinds[i % 3], &b = kinds[i / 3 % 3];
         const auto some = [&] { return pose_at(noise.vector() * 1.0f, unit_quaternion(vec4(noise.vector(), 1.1f))); };
         const Pose starts[2] = {some(), some()}, ends[2] = {some(), some()};
-        if (gap_between(a, starts[0], b, starts[1], Hulls{}).distance < 2 * touch) continue;
+        if (gap_between(a, starts[0], b, starts[1], 1e30f, Hulls{}).distance < 2 * touch) continue;
         const Course ca = from_to(a, starts[0], ends[0]), cb = from_to(b, starts[1], ends[1]);
         const float fraction = meet(a, ca, b, cb).fraction;
         met += fraction < 1;
@@ -120,7 +120,7 @@ TEST_CASE("no ways of random bodies through each other are missed, and none is s
         const float last = smaller(fraction, 1.0f);
         for (int k = 0; k <= 200; ++k) {
             const float t = last * static_cast<float>(k) / 200;
-            least = smaller(least, gap_between(a, pose_on(ca, t), b, pose_on(cb, t), Hulls{}).distance);
+            least = smaller(least, gap_between(a, pose_on(ca, t), b, pose_on(cb, t), 1e30f, Hulls{}).distance);
         }
         CAPTURE(i, fraction);
         REQUIRE(least > -1.1f * limits_of(a, b, UNHELD, parameters()).slop);
