@@ -104,7 +104,7 @@ LAW bool lies_over_triangle(Simplex s, vec3 point) {
 // A face's support is asked for only if the face may be the best one: of each body first that over which the other's centre lies
 // highest; then those over which that centre lies high enough, seeing how far the other reaches in any direction, and no lower
 // the corner that is lowest over the best face so far. Of equals the first counts. The second body's are only looked at so far
-// as they may be better than the first's best.
+// as they may be better than the first's best, and no more is asked once the two are known to be `enough` (m) apart.
 LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, float enough, Hulls hulls) {
     Separation s;
     s.normal = unit3(d, a.axes.y);
