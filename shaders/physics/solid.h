@@ -111,7 +111,9 @@ LAW Corners corners_towards(Solid solid, vec3 local, Hulls hulls) {
 LAW uint corner_in(Corners corners, uint k) {
     return corners.all ? k : byte_of(corners.list, k + 1u);
 }
-// The first of a hull's vertices that reach farthest in a direction, in the hull's frame.
+// The first of a hull's vertices that reach farthest in a direction, in the hull's frame. That cells list few matters twice:
+// lavapipe ends a shader's loops after 65,535 rounds in all, without a word, and two hulls of 30 corners that spin beside each
+// other came to more when each asked all of its corners one by one.
 LAW vec3 farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
     Corners corners = corners_towards(solid, local, hulls);
     vec3 farthest = local;
