@@ -1,4 +1,4 @@
-// Runners: who walks the plan of a step. The plan (compute/plan.h) is the same for all; the choice lies outside the step.
+// Runners: who walks the plan of a step. The plan (compute/step/plan.h) is the same for all; the choice lies outside the step.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace scree {
 
-struct State;  // compute/state.h
+struct State;  // compute/step/state.h
 
 using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
 

@@ -38,7 +38,7 @@ struct Cone {             // along the body's y axis, the apex up; its centre of
     float radius = 0.3f;  // of the base, m
     float height = 0.6f;  // m
 };
-struct HullForm;                             // compute/hull.h
+struct HullForm;                             // compute/scene/hull.h
 struct Hull {                                // the convex hull of points
     std::vector<vec3> points;                // m, at least 4, not in a plane; inner and repeated ones do not matter
     std::shared_ptr<const HullForm> form{};  // made when the scene is checked
@@ -54,7 +54,7 @@ struct Part {  // of a compound
 struct Compound {             // several shapes on one body, which moves as one
     std::vector<Part> parts;  // at least one; no planes. Where two overlap, the mass of both counts
 };
-struct MeshForm;  // compute/mesh.h
+struct MeshForm;  // compute/scene/mesh.h
 // Triangles, solid behind their faces; for fixed and kinematic bodies. What comes from behind passes through.
 struct Mesh {
     std::vector<vec3> vertices;              // m, in the body's frame
@@ -76,7 +76,7 @@ using Shape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull, Co
 std::optional<SimpleShape> simple_shape(const Shape& shape);
 Shape whole_shape(const SimpleShape& shape);
 
-// Rubber: a wheel's friction with slip (shaders/physics/tyre.h). The friction of a Body is that at the best slip.
+// Rubber: a wheel's friction with slip (shaders/physics/extra/tyre.h). The friction of a Body is that at the best slip.
 struct Tyre {
     float best_slip = 0.1f;  // at which it holds best, 0.01 to 0.9; sideways the tangent of the slip angle
     float sliding = 0.75f;   // part of the friction that is left when it slides, 0 to 1
@@ -96,10 +96,10 @@ enum class Cutting {
     boxes,      // a box into boxes
     splinters,  // the same across the thinnest of a body's extents, right through it, and finer towards its middle: panes
 };
-struct Cut;  // compute/fracture.h
+struct Cut;  // compute/scene/fracture.h
 // How a dynamic body comes apart, and what breaks it. It breaks at the end of the step in which one contact has carried more than
-// the threshold (shaders/physics/fracture.h says exactly what counts, and what becomes of the blow); its pieces go on from there.
-// One of the two thresholds is positive.
+// the threshold (shaders/physics/extra/fracture.h says exactly what counts, and what becomes of the blow); its pieces go on from
+// there. One of the two thresholds is positive.
 struct Fracture {
     float impulse = 0;   // N s, normal, of one contact in this step and the one before; a load of F at rest counts 2 F / rate
     float momentum = 0;  // N s, of the body itself as the step begins, when something stops a tenth of it
@@ -211,7 +211,7 @@ struct Joint {
 // A chassis and wheels, each a body held to it by a joint from the chassis (a) to the wheel (b), whose x axis is the axle and
 // points to the left, and whose y axis points up: a Hinge, or SixDegrees whose twist is free, with a spring along y for a
 // suspension, and whose swing_y has equal limits if the wheel is steered. The step drives these joints' motors.
-// compute/cars.h makes such bodies and joints.
+// compute/vehicle_presets.h makes such bodies and joints.
 struct Controls {
     float throttle = 0;    // -1 to 1, < 0: backwards
     float brake = 0;       // 0 to 1. A wheel that is braked is not driven

@@ -8,8 +8,8 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 
-#include "compute/reordering.h"
-#include "shaders/physics/rest.h"
+#include "compute/step/memory_order.h"
+#include "shaders/physics/extra/sleep.h"
 
 namespace scree {
 

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "compute/state.h"
+#include "compute/step/state.h"
 #include "compute/world.h"
 
 namespace scree {

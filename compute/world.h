@@ -95,7 +95,7 @@ struct Statistics {
 class World {
 public:
     // Checks and copies the scene (throws SceneError; std::invalid_argument for settings out of range). `runner` says where to
-    // simulate: make_reference_runner (compute/runner.h) or make_device_runner (compute/device_runner.h).
+    // simulate: make_reference_runner (compute/runner.h) or make_device_runner (compute/device/device_runner.h).
     World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     // On the CPU, with `threads` threads (0: one per core).
     explicit World(const Scene& scene, const Settings& settings = {}, int threads = 0);
@@ -197,7 +197,7 @@ public:
     // its last bit is gone.
     Scene snapshot() const;
     Statistics statistics() const;
-    const State& state() const;        // every table of a step (compute/state.h), with bodies and contacts as they are now
+    const State& state() const;        // every table of a step (compute/step/state.h), with bodies and contacts as they are now
     std::uint64_t state_hash() const;  // XXH64 over position, orientation, velocity, angular velocity in id order
 
     std::uint64_t buffer_growths() const;

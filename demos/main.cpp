@@ -6,10 +6,10 @@
 #include <new>
 #include <system_error>
 
-#include "demos/commands.h"
-#include "demos/failure.h"
-#include "demos/interrupt.h"
-#include "demos/message.h"
+#include "demos/program/commands.h"
+#include "demos/program/console.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/interrupt.h"
 
 namespace {
 

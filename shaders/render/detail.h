@@ -2,7 +2,7 @@
 #ifndef SCREE_RENDER_DETAIL_H
 #define SCREE_RENDER_DETAIL_H
 
-#include "shaders/physics/records.h"
+#include "shaders/physics/base/records.h"
 #include "shaders/render/frame.h"
 
 layout(local_size_x = 128) in;  // DETAIL_GROUP

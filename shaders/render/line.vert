@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
-#include "shaders/physics/grid.h"
+#include "shaders/physics/collide/grid.h"
 #include "shaders/render/batch.h"
 #include "shaders/render/lines.h"
 

@@ -2,7 +2,7 @@
 #ifndef SCREE_RENDER_SCENE_H
 #define SCREE_RENDER_SCENE_H
 
-#include "shaders/physics/records.h"
+#include "shaders/physics/base/records.h"
 #include "shaders/render/frame.h"
 
 layout(std430, set = 0, binding = 4) readonly buffer FrameBlock {

@@ -3,11 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define SCREE_FUSED_LISTS
-#include "shaders/stages/fused.glsl"
-#include "shaders/stages/kinds.glsl"
+#include "shaders/stages/lib/fused.glsl"
+#include "shaders/stages/lib/pair_types.glsl"
 
 #define SCAN_KINDS
-#include "shaders/stages/scan.glsl"
+#include "shaders/stages/lib/scan.glsl"
 
 void main() {
     uint spans = spans_of(COUNTED.pairs);

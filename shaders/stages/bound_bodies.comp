@@ -3,10 +3,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/grid.h"
-#include "shaders/physics/motion.h"
-#include "shaders/physics/rest.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/motion.h"
+#include "shaders/stages/lib/stage.glsl"
 
 // Most bodies have nothing new to say, and an atomic that all ask for is slow.
 #define note(mask, bits)                                     \

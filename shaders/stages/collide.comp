@@ -17,35 +17,35 @@
 #extension GL_GOOGLE_include_directive : require
 
 #if KIND == 0
-#include "shaders/physics/collide_sphere_sphere.h"
+#include "shaders/physics/collide/collide_sphere_sphere.h"
 #elif KIND == 1
-#include "shaders/physics/collide_sphere_capsule.h"
+#include "shaders/physics/collide/collide_sphere_capsule.h"
 #elif KIND == 2
-#include "shaders/physics/collide_sphere_box.h"
+#include "shaders/physics/collide/collide_sphere_box.h"
 #elif KIND == 3
-#include "shaders/physics/collide_sphere_plane.h"
+#include "shaders/physics/collide/collide_sphere_plane.h"
 #elif KIND == 4
-#include "shaders/physics/collide_capsule_capsule.h"
+#include "shaders/physics/collide/collide_capsule_capsule.h"
 #elif KIND == 5
-#include "shaders/physics/collide_capsule_box.h"
+#include "shaders/physics/collide/collide_capsule_box.h"
 #elif KIND == 6
-#include "shaders/physics/collide_capsule_plane.h"
+#include "shaders/physics/collide/collide_capsule_plane.h"
 #elif KIND == 7
-#include "shaders/physics/collide_box_box.h"
+#include "shaders/physics/collide/collide_box_box.h"
 #elif KIND == 8
-#include "shaders/physics/collide_box_plane.h"
+#include "shaders/physics/collide/collide_box_plane.h"
 #elif KIND <= 11
-#include "shaders/physics/collide_convex.h"
+#include "shaders/physics/collide/collide_convex.h"
 #else
-#include "shaders/physics/collide_triangle.h"
+#include "shaders/physics/collide/collide_triangle.h"
 #endif
-#include "shaders/physics/grid.h"
-#include "shaders/physics/touch.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/collide/manifold.h"
 #ifdef WITH_HULLS
-#include "shaders/stages/hulls.glsl"
+#include "shaders/stages/lib/shape_data.glsl"
 #define AND_HULLS , Hulls(0u)
 #else
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/lib/stage.glsl"
 #define AND_HULLS
 #endif
 

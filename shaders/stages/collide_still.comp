@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/grid.h"
-#include "shaders/physics/persistence.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/persistence.h"
+#include "shaders/stages/lib/stage.glsl"
 
 void main() {
     uint i = thread() + COUNTED.kind_first[KIND_STILL];

@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/notes.glsl"
+#include "shaders/stages/lib/partner_cache.glsl"
 
 uint pairs_found = 0u;
 Notes notes = Notes(uvec4(0u), uvec4(0u), uvec4(0u));
@@ -12,7 +12,7 @@ void found(uint other) {
     note(notes, pairs_found, other);
     ++pairs_found;
 }
-#include "shaders/stages/neighbours.glsl"
+#include "shaders/stages/lib/neighbours.glsl"
 
 void main() {
     uint i = thread();

@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/vehicle.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/extra/vehicle.h"
+#include "shaders/stages/lib/stage.glsl"
 
 // after the tables that it looks into
-#include "shaders/stages/hulls.glsl"
+#include "shaders/stages/lib/shape_data.glsl"
 
 void main() {
     uint i = thread();

@@ -3,13 +3,13 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/flight.h"
-#include "shaders/physics/motion.h"
-#include "shaders/physics/rest.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/solve/motion.h"
+#include "shaders/stages/lib/stage.glsl"
 
 // after the tables that it sums
-#include "shaders/stages/gather.glsl"
+#include "shaders/stages/lib/gather.glsl"
 
 void main() {
     uint i = thread();

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/stage.glsl"
+#include "shaders/stages/lib/stage.glsl"
 
 void main() {
     uint i = thread();

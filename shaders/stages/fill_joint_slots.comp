@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/counts.h"
-#include "shaders/physics/rest.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/stages/lib/stage.glsl"
 
 void main() {
     uint i = thread();

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/kinds.glsl"
+#include "shaders/stages/lib/pair_types.glsl"
 
 void main() {
     list_kinds_of(thread());

@@ -4,14 +4,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/notes.glsl"
+#include "shaders/stages/lib/partner_cache.glsl"
 
 uint owner;
 uint next;
 void found(uint other) {
     candidates.at[next++] = Candidate(owner, other);
 }
-#include "shaders/stages/neighbours.glsl"
+#include "shaders/stages/lib/neighbours.glsl"
 
 void main() {
     owner = thread();

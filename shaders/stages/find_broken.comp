@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/fracture.h"
-#include "shaders/stages/hulls.glsl"
+#include "shaders/physics/extra/fracture.h"
+#include "shaders/stages/lib/shape_data.glsl"
 
 void main() {
     uint i = thread();

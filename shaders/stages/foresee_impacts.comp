@@ -5,8 +5,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/impact.h"
-#include "shaders/stages/hulls.glsl"
+#include "shaders/physics/extra/time_of_impact.h"
+#include "shaders/stages/lib/shape_data.glsl"
 
 void main() {
     uint i = thread();

@@ -2,9 +2,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/fracture.h"
-#include "shaders/physics/rest.h"
-#include "shaders/stages/hulls.glsl"
+#include "shaders/physics/extra/fracture.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/stages/lib/shape_data.glsl"
 
 void main() {
     uint i = thread();

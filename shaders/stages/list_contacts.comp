@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/ids.glsl"
+#include "shaders/stages/lib/ids.glsl"
 
 void main() {
     uint i = thread();

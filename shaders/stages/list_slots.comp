@@ -3,11 +3,11 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define SCREE_FUSED_LISTS
-#include "shaders/stages/fused.glsl"
-#include "shaders/stages/slots.glsl"
+#include "shaders/stages/lib/fused.glsl"
+#include "shaders/stages/lib/slots.glsl"
 
 #define SCAN_SLOTS
-#include "shaders/stages/scan.glsl"
+#include "shaders/stages/lib/scan.glsl"
 
 void main() {
     uint bodies = PARAMETERS.bodies, contacts = COUNTED.contacts;

@@ -3,9 +3,9 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/grid.h"
-#include "shaders/physics/persistence.h"
-#include "shaders/stages/ids.glsl"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/persistence.h"
+#include "shaders/stages/lib/ids.glsl"
 
 // The contacts that a body owned are in the order of the other body's id.
 uint contact_before(uint owner, uint other) {

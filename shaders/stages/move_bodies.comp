@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/pass_bodies.glsl"
+#include "shaders/stages/lib/pass_bodies.glsl"
 
 void main() {
     move_body(thread());

@@ -2,12 +2,12 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/grid.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/stages/lib/stage.glsl"
 
 #define SORT_GET(i) cell_entries.at[i].body
 #define SORT_SET(i, value) cell_entries.at[i].body = value
-#include "shaders/stages/sort.glsl"
+#include "shaders/stages/lib/sort.glsl"
 
 void main() {
     uint i = thread();

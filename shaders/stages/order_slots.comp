@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/slots.glsl"
+#include "shaders/stages/lib/slots.glsl"
 
 void main() {
     order_slots_of(thread());

@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/parts.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/collide/compound.h"
+#include "shaders/stages/lib/stage.glsl"
 
 void main() {
     uint i = thread();

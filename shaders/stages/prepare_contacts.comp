@@ -2,15 +2,15 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/block.h"
-#include "shaders/physics/grid.h"
-#include "shaders/physics/persistence.h"
-#include "shaders/physics/rest.h"
-#include "shaders/physics/tyre.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/persistence.h"
+#include "shaders/stages/lib/stage.glsl"
 
 // after the tables that it looks into
-#include "shaders/stages/hulls.glsl"
+#include "shaders/stages/lib/shape_data.glsl"
 
 // Between two bodies that sleep, or one that sleeps and one that never moves.
 void carry_over(uint i, uint pair_index, uint previous) {

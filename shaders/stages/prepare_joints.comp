@@ -2,11 +2,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/block.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/stages/lib/stage.glsl"
 
 // after the tables that it works on
-#include "shaders/stages/joints.glsl"
+#include "shaders/stages/lib/joints.glsl"
 
 void main() {
     if (!enter_block(thread())) return;

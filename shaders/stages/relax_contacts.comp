@@ -4,7 +4,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/pass_contacts.glsl"
+#include "shaders/stages/lib/pass_contacts.glsl"
 
 void main() {
     relax_contact(thread(), push.pass);

@@ -3,11 +3,11 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/block.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/stages/lib/stage.glsl"
 
 // after the tables that it works on
-#include "shaders/stages/joints.glsl"
+#include "shaders/stages/lib/joints.glsl"
 
 void take_stock(uint j) {
     for (uint k = 0u; k < 6u; ++k) {

@@ -7,7 +7,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/scan.glsl"
+#include "shaders/stages/lib/scan.glsl"
 
 void main() {
     uint items = SCAN_ITEMS_OF;

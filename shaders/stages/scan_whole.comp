@@ -7,8 +7,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define SCREE_FUSED_LISTS
-#include "shaders/stages/fused.glsl"
-#include "shaders/stages/scan.glsl"
+#include "shaders/stages/lib/fused.glsl"
+#include "shaders/stages/lib/scan.glsl"
 
 void main() {
     scan_whole();

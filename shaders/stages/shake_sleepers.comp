@@ -2,8 +2,8 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/rest.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/stages/lib/stage.glsl"
 
 void shake(uint by, uint other) {
     if (shakes(rests.at[by], push.pass) && READ(traits, other).motion == MOTION_DYNAMIC)

@@ -2,7 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/stages/pass_contacts.glsl"
+#include "shaders/stages/lib/pass_contacts.glsl"
 
 void main() {
     solve_contact(thread());

@@ -6,9 +6,9 @@
 #extension GL_GOOGLE_include_directive : require
 
 #define SCREE_FUSED_SOLVER
-#include "shaders/stages/fused.glsl"
-#include "shaders/stages/pass_bodies.glsl"
-#include "shaders/stages/pass_contacts.glsl"
+#include "shaders/stages/lib/fused.glsl"
+#include "shaders/stages/lib/pass_bodies.glsl"
+#include "shaders/stages/lib/pass_contacts.glsl"
 
 void main() {
     uint bodies = PARAMETERS.bodies, contacts = COUNTED.solved;

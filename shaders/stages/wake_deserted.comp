@@ -2,10 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/counts.h"
-#include "shaders/physics/grid.h"
-#include "shaders/physics/rest.h"
-#include "shaders/stages/ids.glsl"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/stages/lib/ids.glsl"
 
 // Pairs of an owner are in the order of the other body's id.
 bool owner_touches(uint owner, uint other) {

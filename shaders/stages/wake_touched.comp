@@ -2,10 +2,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/counts.h"
-#include "shaders/physics/grid.h"
-#include "shaders/physics/rest.h"
-#include "shaders/stages/stage.glsl"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/stages/lib/stage.glsl"
 
 void raise(uint body, uint bits) {
     if (bits != 0u && READ(traits, body).motion == MOTION_DYNAMIC) atomicOr(rests.at[body], bits);

@@ -1,5 +1,5 @@
 // What pictures are made of: colour maps, ticks, text and meshes.
-#include "host/canvas_colors.h"
+#include "host/canvas/colors.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -7,9 +7,9 @@
 #include <string_view>
 #include <utility>
 
-#include "host/canvas_meshes.h"
-#include "host/canvas_overlay.h"
-#include "host/glyphs.h"
+#include "host/canvas/glyphs.h"
+#include "host/canvas/meshes.h"
+#include "host/canvas/overlay.h"
 
 using namespace scree::host;
 using glm::vec3;

@@ -3,9 +3,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "host/canvas.h"
+#include "host/canvas/canvas.h"
 #include "host/device_error.h"
-#include "shaders/physics/records.h"
+#include "shaders/physics/base/records.h"
 
 using namespace scree::host;
 using glm::vec3;

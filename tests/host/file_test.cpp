@@ -3,8 +3,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "host/file.h"
-#include "tests/host/compiled.h"
+#include "host/files/file.h"
+#include "tests/host/vulkan/compiled.h"
 
 using namespace scree::host;
 

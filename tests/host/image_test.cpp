@@ -1,5 +1,5 @@
 // Pictures, PNG files, frames and videos on disk.
-#include "host/image.h"
+#include "host/files/image.h"
 
 #include <unistd.h>
 
@@ -12,12 +12,12 @@
 #include <memory>
 #include <string>
 
-#include "host/file.h"
-#include "host/frame_writer.h"
-#include "host/raw_frames.h"
-#include "host/unfinished.h"
-#include "host/video.h"
-#include "tests/host/compiled.h"
+#include "host/files/file.h"
+#include "host/files/frame_writer.h"
+#include "host/files/partial_file.h"
+#include "host/files/raw_frames.h"
+#include "host/files/video.h"
+#include "tests/host/vulkan/compiled.h"
 
 using namespace scree::host;
 

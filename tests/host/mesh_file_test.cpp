@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "host/mesh_file.h"
+#include "host/files/mesh_file.h"
 
 using namespace scree;
 

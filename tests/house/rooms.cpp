@@ -18,9 +18,9 @@ bool begins(const std::string& text, const std::string& start) {
     return text.compare(0, start.size(), start) == 0;
 }
 
-// The only files of compute that know the machine.
+// The only folder of compute that knows the machine.
 bool knows_the_device(const SourceFile& file) {
-    return file.in("compute/device_runner") || file.in("compute/lockstep");
+    return file.in("compute/device/");
 }
 
 // What the files of a folder may include, by the beginning of its path. The first folder that fits counts.
@@ -34,8 +34,7 @@ const std::vector<Room> rooms = {
     {"shaders/render/", {"shaders/physics/", "shaders/render/"}},
     {"shaders/", {"shaders/"}},
     {"host/", {"host/", "shaders/embedded.h", "shaders/render/"}},
-    {"compute/device_runner", {"compute/", "host/", "shaders/"}},
-    {"compute/lockstep", {"compute/", "host/", "shaders/"}},
+    {"compute/device/", {"compute/", "host/", "shaders/"}},
     {"compute/", {"compute/", "shaders/physics/", "shaders/stages/"}},
     {"demos/", {"demos/", "compute/", "host/", "shaders/physics/"}},
     {"tests/", {"tests/", "demos/", "compute/", "host/", "shaders/"}},
@@ -122,14 +121,14 @@ TEST_CASE("house: the rules themselves tell right from wrong", "[house]") {
     const auto verdict = [](const std::string& path, const std::string& include) {
         return wrong_way({path, ""}, scree::house::includes_of("#include " + include + "\n").at(0)).empty();
     };
-    CHECK(verdict("compute/world.cpp", "\"shaders/physics/records.h\""));
-    CHECK(verdict("compute/device_runner.cpp", "\"host/buffer.h\""));
-    CHECK(verdict("demos/main.cpp", "\"host/canvas.h\""));
-    CHECK_FALSE(verdict("compute/world.cpp", "\"host/buffer.h\""));
-    CHECK_FALSE(verdict("compute/world.cpp", "\"world.h\""));
-    CHECK_FALSE(verdict("compute/world.cpp", "<vulkan/vulkan.h>"));
+    CHECK(verdict("compute/world/world.cpp", "\"shaders/physics/base/records.h\""));
+    CHECK(verdict("compute/device/device_runner.cpp", "\"host/vulkan/buffer.h\""));
+    CHECK(verdict("demos/main.cpp", "\"host/canvas/canvas.h\""));
+    CHECK_FALSE(verdict("compute/world/world.cpp", "\"host/vulkan/buffer.h\""));
+    CHECK_FALSE(verdict("compute/world/world.cpp", "\"world.h\""));
+    CHECK_FALSE(verdict("compute/world/world.cpp", "<vulkan/vulkan.h>"));
     CHECK_FALSE(verdict("host/canvas.cpp", "\"compute/world.h\""));
-    CHECK_FALSE(verdict("shaders/physics/contact.h", "\"compute/scene.h\""));
+    CHECK_FALSE(verdict("shaders/physics/solve/contact.h", "\"compute/scene.h\""));
     CHECK_FALSE(verdict("demos/main.cpp", "\"tests/house/tree.h\""));
     CHECK(scree::house::without_comments("a /* b\n */ c // d") == "a     \n    c     ");
     CHECK(scree::house::without_comments_and_strings("a \"//\" '\"' b") == "a \"  \" ' ' b");

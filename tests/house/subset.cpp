@@ -56,7 +56,7 @@ std::vector<std::string> breaches(const SourceFile& file, const std::set<std::st
         const std::string next = i + 1 < tokens.size() ? tokens[i + 1].text : "";
         const std::string previous = i > 0 ? tokens[i - 1].text : "";
         if (token.text == "/") found.push_back(at(file, token.line, "division; multiply by reciprocal()"));
-        // Stages use these on integers, which is exact; tests/house/spirv.cpp sees them on floats.
+        // Stages use these on integers, which is exact; tests/house/vulkan/spirv.cpp sees them on floats.
         const bool on_integers =
             file.in("shaders/stages/") && (token.text == "min" || token.text == "max" || token.text == "clamp");
         if (token.identifier() && !on_integers && next == "(" && previous != "." && forbidden_calls.count(token.text) != 0) {

@@ -5,9 +5,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "compute/scene_json.h"
-#include "demos/table.h"
-#include "host/file.h"
+#include "compute/scene_file/scene_json.h"
+#include "demos/program/table.h"
+#include "host/files/file.h"
 #include "tests/peers/race.h"
 
 int main(int argc, char** argv) {

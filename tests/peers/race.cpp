@@ -7,7 +7,7 @@
 #include <chrono>
 #include <functional>
 
-#include "demos/table.h"
+#include "demos/program/table.h"
 
 namespace scree::peers {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "compute/world.h"
-#include "demos/demos.h"
+#include "demos/scenes/demos.h"
 #include "tests/peers/race.h"
 
 namespace scree::peers {

@@ -1,7 +1,7 @@
 // scree in the race: a World whose bodies never sleep.
-#include "compute/device_runner.h"
+#include "compute/device/device_runner.h"
 #include "compute/world.h"
-#include "host/device.h"
+#include "host/vulkan/device.h"
 #include "tests/peers/engine.h"
 
 namespace scree::peers {

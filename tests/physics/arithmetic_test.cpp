@@ -1,5 +1,5 @@
 // The step's own arithmetic against double precision: reciprocals and roots, directions, turns.
-#include "shaders/physics/arithmetic.h"
+#include "shaders/physics/base/arithmetic.h"
 
 #include <algorithm>
 #include <catch2/catch.hpp>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "shaders/physics/motion.h"
+#include "shaders/physics/solve/motion.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

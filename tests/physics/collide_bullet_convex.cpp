@@ -13,9 +13,9 @@
 #include <memory>
 #include <random>
 
-#include "compute/mesh.h"
-#include "compute/state.h"
-#include "shaders/physics/collide_triangle.h"
+#include "compute/scene/mesh.h"
+#include "compute/step/state.h"
+#include "shaders/physics/collide/collide_triangle.h"
 
 using namespace scree;
 

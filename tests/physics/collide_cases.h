@@ -7,15 +7,15 @@
 #include <random>
 #include <vector>
 
-#include "shaders/physics/collide_box_box.h"
-#include "shaders/physics/collide_box_plane.h"
-#include "shaders/physics/collide_capsule_box.h"
-#include "shaders/physics/collide_capsule_capsule.h"
-#include "shaders/physics/collide_capsule_plane.h"
-#include "shaders/physics/collide_sphere_box.h"
-#include "shaders/physics/collide_sphere_capsule.h"
-#include "shaders/physics/collide_sphere_plane.h"
-#include "shaders/physics/collide_sphere_sphere.h"
+#include "shaders/physics/collide/collide_box_box.h"
+#include "shaders/physics/collide/collide_box_plane.h"
+#include "shaders/physics/collide/collide_capsule_box.h"
+#include "shaders/physics/collide/collide_capsule_capsule.h"
+#include "shaders/physics/collide/collide_capsule_plane.h"
+#include "shaders/physics/collide/collide_sphere_box.h"
+#include "shaders/physics/collide/collide_sphere_capsule.h"
+#include "shaders/physics/collide/collide_sphere_plane.h"
+#include "shaders/physics/collide/collide_sphere_sphere.h"
 
 namespace scree::tests {
 

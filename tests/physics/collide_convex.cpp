@@ -6,9 +6,9 @@
 #include <glm/gtc/quaternion.hpp>
 #include <random>
 
-#include "compute/hull.h"
-#include "compute/state.h"
-#include "shaders/physics/collide_convex.h"
+#include "compute/scene/hull.h"
+#include "compute/step/state.h"
+#include "shaders/physics/collide/collide_convex.h"
 
 using namespace scree;
 using glm::dvec3;

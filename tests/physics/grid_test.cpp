@@ -1,5 +1,5 @@
 // The grid's levels and cells: a body is small enough for its level, and whoever overlaps it looks into its cell.
-#include "shaders/physics/grid.h"
+#include "shaders/physics/collide/grid.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>

@@ -5,10 +5,10 @@
 #include <random>
 #include <set>
 
-#include "compute/hull.h"
 #include "compute/scene.h"
-#include "compute/state.h"
-#include "shaders/physics/separation.h"
+#include "compute/scene/hull.h"
+#include "compute/step/state.h"
+#include "shaders/physics/collide/separating_axis.h"
 
 using namespace scree;
 

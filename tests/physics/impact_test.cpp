@@ -1,10 +1,10 @@
 // When two bodies meet on their ways through a step, against closed forms.
-#include "shaders/physics/impact.h"
+#include "shaders/physics/extra/time_of_impact.h"
 
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "shaders/physics/grid.h"
+#include "shaders/physics/collide/grid.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

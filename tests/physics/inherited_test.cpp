@@ -1,7 +1,7 @@
 // What a contact inherits from the one that it was in the last step.
 #include <catch2/catch.hpp>
 
-#include "shaders/physics/contact.h"
+#include "shaders/physics/solve/contact.h"
 
 using namespace scree;
 using namespace scree::physics;

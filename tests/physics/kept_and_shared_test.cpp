@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "shaders/physics/crowd.h"
-#include "shaders/physics/persistence.h"
+#include "shaders/physics/solve/mass_splitting.h"
+#include "shaders/physics/solve/persistence.h"
 
 using namespace scree;
 using namespace scree::physics;

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-#include "compute/scene_json.h"
+#include "compute/scene_file/scene_json.h"
 
 using namespace scree;
 

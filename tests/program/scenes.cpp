@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "compute/scene_json.h"
-#include "shaders/physics/arithmetic.h"
+#include "compute/scene_file/scene_json.h"
+#include "shaders/physics/base/arithmetic.h"
 #include "tests/program/program.h"
 
 using nlohmann::json;
@@ -142,7 +142,7 @@ TEST_CASE("program: no bodies of a demo overlap at the start", "[program]") {
                     return !joint.collide && std::minmax(joint.a, joint.b) == std::minmax(i, j);
                 });
                 if (joined || a.motion != scree::Motion::dynamic || (j <= i && b.motion == scree::Motion::dynamic)) continue;
-                // What begins inside triangles is found by tests/world/demos_lockstep_test.cpp.
+                // What begins inside triangles is found by tests/demos/vulkan/lockstep_test.cpp.
                 if (std::holds_alternative<scree::Mesh>(b.shape) || std::holds_alternative<scree::HeightField>(b.shape)) continue;
                 const auto* plane = std::get_if<scree::Plane>(&b.shape);
                 if (plane ? above(a, *plane) : parted(a, b)) continue;

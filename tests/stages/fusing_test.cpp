@@ -5,9 +5,9 @@
 #include <memory>
 #include <string>
 
-#include "compute/device_runner.h"
-#include "compute/fusing.h"
+#include "compute/device/device_runner.h"
 #include "compute/scene.h"
+#include "compute/step/stage_fusion.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 

@@ -1,8 +1,8 @@
 // What a user does to a world does the same to the last bit on the device and on the CPU.
 #include <catch2/catch.hpp>
 
-#include "compute/device_runner.h"
-#include "compute/lockstep.h"
+#include "compute/device/device_runner.h"
+#include "compute/device/lockstep.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 

@@ -1,11 +1,11 @@
 // Joints of every kind: the same bits on both processors.
 #include <catch2/catch.hpp>
 
-#include "compute/device_runner.h"
-#include "compute/lockstep.h"
+#include "compute/device/device_runner.h"
+#include "compute/device/lockstep.h"
 #include "compute/scene.h"
 #include "compute/world.h"
-#include "host/device.h"
+#include "host/vulkan/device.h"
 
 using namespace scree;
 

@@ -5,10 +5,10 @@
 #include <span>
 #include <vector>
 
-#include "compute/device_runner.h"
-#include "compute/lockstep.h"
+#include "compute/device/device_runner.h"
+#include "compute/device/lockstep.h"
 #include "compute/world.h"
-#include "shaders/physics/flight.h"
+#include "shaders/physics/extra/sweep.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <random>
 
-#include "compute/lockstep.h"
-#include "compute/state.h"
-#include "host/device.h"
+#include "compute/device/lockstep.h"
+#include "compute/step/state.h"
+#include "host/vulkan/device.h"
 
 using namespace scree;
 

@@ -4,13 +4,13 @@
 #include <memory>
 #include <random>
 
-#include "compute/device_runner.h"
-#include "compute/lockstep.h"
-#include "compute/reordering.h"
-#include "compute/state.h"
+#include "compute/device/device_runner.h"
+#include "compute/device/lockstep.h"
+#include "compute/step/memory_order.h"
+#include "compute/step/state.h"
 #include "compute/world.h"
-#include "demos/demos.h"
-#include "host/device.h"
+#include "demos/scenes/demos.h"
+#include "host/vulkan/device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

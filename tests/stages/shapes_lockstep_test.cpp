@@ -2,11 +2,11 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "compute/device_runner.h"
-#include "compute/lockstep.h"
-#include "compute/traffic.h"
+#include "compute/device/device_runner.h"
+#include "compute/device/lockstep.h"
+#include "compute/step/memory_traffic.h"
 #include "compute/world.h"
-#include "host/device.h"
+#include "host/vulkan/device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

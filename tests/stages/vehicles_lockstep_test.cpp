@@ -1,9 +1,9 @@
 // Vehicles: the same bits on both processors, whoever drives them.
 #include <catch2/catch.hpp>
 
-#include "compute/cars.h"
-#include "compute/lockstep.h"
-#include "host/device.h"
+#include "compute/device/lockstep.h"
+#include "compute/vehicle_presets.h"
+#include "host/vulkan/device.h"
 
 using namespace scree;
 

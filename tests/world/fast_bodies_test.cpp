@@ -4,8 +4,8 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "compute/reference_runner.h"
-#include "compute/state.h"
+#include "compute/cpu/reference_runner.h"
+#include "compute/step/state.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 

@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "compute/fracture.h"
-#include "compute/scene_json.h"
+#include "compute/scene/fracture.h"
+#include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
-#include "shaders/physics/arithmetic.h"
+#include "shaders/physics/base/arithmetic.h"
 
 using namespace scree;
 
@@ -138,7 +138,7 @@ TEST_CASE("a body that breaks keeps linear and angular momentum to 1e-5, the str
                 REQUIRE(after.pieces == 12);
                 CHECK(change_of(before.momentum, after.momentum) < 1e-5 * length_of(start.momentum));
                 CHECK(change_of(before.angular_momentum, after.angular_momentum) < 1e-5 * moment);
-                if (speed > 1) continue;  // what is fast is set back on its way (flight.h), which changes its moment
+                if (speed > 1) continue;  // what is fast is set back on its way (sweep.h), which changes its moment
                 world.step(90);           // the pieces meet each other and the ball, side by side and in the way
                 const Statistics end = world.statistics();
                 CHECK(change_of(start.momentum, end.momentum) < 1e-5 * length_of(start.momentum));

@@ -3,7 +3,7 @@
 #include <memory>
 #include <new>
 
-#include "compute/reference_runner.h"
+#include "compute/cpu/reference_runner.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "compute/world.h"
-#include "shaders/physics/arithmetic.h"
+#include "shaders/physics/base/arithmetic.h"
 
 using namespace scree;
 

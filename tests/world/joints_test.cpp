@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compute/scene_json.h"
+#include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 
 using namespace scree;

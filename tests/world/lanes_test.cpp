@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "compute/reference/wide.h"
-#include "compute/reference_runner.h"
+#include "compute/cpu/reference_runner.h"
+#include "compute/cpu/simd/simd_stages.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

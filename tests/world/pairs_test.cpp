@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "compute/reference_runner.h"
-#include "compute/state.h"
-#include "shaders/physics/grid.h"
+#include "compute/cpu/reference_runner.h"
+#include "compute/step/state.h"
+#include "shaders/physics/collide/grid.h"
 #include "tests/oracle/brute_force_pairs.h"
 #include "tests/world/heaps.h"
 

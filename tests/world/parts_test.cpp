@@ -3,10 +3,10 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "compute/compound.h"
-#include "compute/mesh.h"
-#include "compute/scene_json.h"
-#include "compute/state.h"
+#include "compute/scene/compound.h"
+#include "compute/scene/mesh.h"
+#include "compute/scene_file/scene_json.h"
+#include "compute/step/state.h"
 #include "compute/world.h"
 
 using namespace scree;

@@ -4,8 +4,8 @@
 #include <optional>
 #include <variant>
 
-#include "compute/reference_runner.h"
-#include "compute/state.h"
+#include "compute/cpu/reference_runner.h"
+#include "compute/step/state.h"
 
 using namespace scree;
 

@@ -3,10 +3,10 @@
 #include <catch2/catch.hpp>
 #include <random>
 
-#include "compute/reordering.h"
-#include "compute/state.h"
+#include "compute/step/memory_order.h"
+#include "compute/step/state.h"
 #include "compute/world.h"
-#include "demos/demos.h"
+#include "demos/scenes/demos.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
 
-#include "compute/hull.h"
-#include "compute/scene_json.h"
+#include "compute/scene/hull.h"
+#include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 
 using namespace scree;

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 
-#include "compute/traffic.h"
+#include "compute/step/memory_traffic.h"
 #include "compute/world.h"
 
 namespace scree {

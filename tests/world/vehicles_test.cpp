@@ -2,8 +2,8 @@
 #include <catch2/catch.hpp>
 #include <functional>
 
-#include "compute/cars.h"
-#include "compute/scene_json.h"
+#include "compute/scene_file/scene_json.h"
+#include "compute/vehicle_presets.h"
 #include "compute/world.h"
 
 using namespace scree;

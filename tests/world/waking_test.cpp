@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "compute/reference_runner.h"
-#include "compute/state.h"
-#include "shaders/physics/rest.h"
+#include "compute/cpu/reference_runner.h"
+#include "compute/step/state.h"
+#include "shaders/physics/extra/sleep.h"
 #include "tests/world/heaps.h"
 #include "tests/world/sleepers.h"
 
@@ -36,7 +36,7 @@ TEST_CASE("a row of sleeping balls passes on a blow as it does awake") {
                 other.step(30);
                 const double mass = static_cast<double>(mass_properties(Sphere{}, 1000).mass);
                 const double momentum = mass * static_cast<double>(speed);
-                // Whom it shakes by less than a hundredth of the speed of sleep sleeps on (rest.h).
+                // Whom it shakes by less than a hundredth of the speed of sleep sleeps on (sleep.h).
                 const double lost = 0.01 * static_cast<double>(settings.sleep_speed * static_cast<float>(row) / speed);
                 CHECK(std::abs(world.statistics().momentum[0] / momentum - 1) < 1e-5 + lost);
                 for (std::size_t i = 1; i <= static_cast<std::size_t>(row) + 1; ++i) {

@@ -1,0 +1,213 @@
+// Reference stages over bodies: loads, bounds, and the body halves of a substep.
+#include <algorithm>
+#include <atomic>
+#include <span>
+
+#include "compute/cpu/simd/simd_stages.h"
+#include "compute/cpu/stages.h"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/grab_spring.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/motion.h"
+
+namespace scree::reference {
+
+namespace {
+
+struct Sum {
+    physics::Velocity change{};
+    float carrying = 0;
+    float told = physics::FOREVER;
+    float pressing = 0;
+};
+
+Sum sum_of_slots(const State& state, std::size_t body) {
+    Sum sum;
+    const auto first = state.slots.begin() + (body == 0 ? 0 : state.slot_ends[body - 1]);
+    const auto last = state.slots.begin() + state.slot_ends[body];
+    std::for_each(first, last, [&](const physics::Slot& slot) {
+        sum.change.linear += slot.linear;
+        sum.change.angular += slot.angular;
+        sum.carrying += slot.carries;
+        if (slot.carries > 0) sum.told = std::min(sum.told, slot.told);
+        sum.pressing += slot.told;
+    });
+    return sum;
+}
+
+bool asleep(const State& state, std::size_t body) {
+    return physics::is_asleep(state.rests[body], state.fixed().sleep_steps);
+}
+bool moved_by_contacts(const State& state, std::size_t body) {
+    return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
+}
+
+// Those that contacts move.
+std::vector<std::uint32_t> movable_bodies(const State& state) {
+    std::vector<std::uint32_t> bodies;
+    if (!physics::any_stirs(state.counted())) return bodies;
+    bodies.reserve(state.fixed().bodies);
+    for (std::uint32_t i = 0; i < state.fixed().bodies; ++i)
+        if (moved_by_contacts(state, i)) bodies.push_back(i);
+    return bodies;
+}
+
+void begin_substep_of(State& state, std::size_t i, bool first) {
+    const Sum sum = sum_of_slots(state, i);
+    state.velocities[i] = physics::accelerated(state.velocities[i], sum.change, state.loads[i], state.traits[i], state.fixed());
+    float& crowd = state.masses[i].split;
+    if (first) crowd = physics::drifted(crowd, sum.carrying, state.counted().steps);
+    crowd = physics::crowd_after(crowd, sum.carrying, sum.pressing);
+}
+
+void move(State& state, std::size_t i) {
+    const physics::Traits& traits = state.traits[i];
+    physics::Velocity velocity = state.velocities[i];
+    if (traits.motion == physics::MOTION_DYNAMIC) {
+        const Sum sum = sum_of_slots(state, i);
+        velocity.linear += sum.change.linear;
+        velocity.angular += sum.change.angular;
+        state.loads[i].blows = sum.carrying;
+    }
+    const physics::Moved after = physics::moved(state.poses[i], velocity, traits, state.fixed().h);
+    state.poses[i] = after.pose;
+    state.velocities[i] = after.velocity;
+    if (!physics::turns_evenly(traits))
+        state.masses[i] = physics::mass_in_world(traits, after.pose.orientation, state.masses[i].split);
+}
+
+}  // namespace
+
+void begin_step(State& state, const Threads& threads, std::uint32_t) {
+    std::fill(state.cells.begin(), state.cells.end(), 0u);
+    std::fill(state.pair_starts.begin(), state.pair_starts.end(), 0u);
+    std::fill(state.slot_ends.begin(), state.slot_ends.end(), 0u);
+    threads.for_each(state.fixed().bodies,
+                     [&](std::size_t i) { state.loads[i] = physics::gravity_load(state.traits[i], state.fixed()); });
+    if (state.fixed().wake_all) std::fill(state.rests.begin(), state.rests.end(), 0u);
+    state.counted() = physics::emptied(state.counted(), state.fixed());
+}
+
+void apply_actions(State& state, const Threads&, std::uint32_t) {
+    if (state.counted().overflow) return;
+    for (std::size_t i = 0; i < state.fixed().actions; ++i) {
+        const physics::Action& action = state.actions[i];
+        const std::size_t body = action.body;
+        if (physics::is_absent(state.traits[body].motion)) continue;
+        const physics::Mass mass = physics::mass_in_world(state.traits[body], state.poses[body].orientation, 1);
+        if (!state.fixed().redo) state.velocities[body] = physics::kicked(state.velocities[body], action, mass, state.fixed());
+        state.rests[body] = 0;
+        state.loads[body] = physics::loaded(state.loads[body], action, mass);
+    }
+}
+
+void place_parts(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    const std::size_t first = state.fixed().first_part;
+    threads.for_each(state.fixed().bodies - first, [&](std::size_t k) {
+        const physics::Traits& part = state.traits[first + k];
+        if (physics::motion_of(part) == physics::MOTION_FIXED) return;
+        const physics::Pose& owner = state.poses[part.owner];
+        state.velocities[first + k] = physics::velocity_of_part(part, owner, state.velocities[part.owner]);
+        state.poses[first + k] = physics::pose_of_part(physics::place_in_body(part), physics::turn_in_body(part), owner);
+    });
+}
+
+void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
+    physics::Counts& counts = state.counted();
+    const auto note = [](physics::uint& mask, physics::uint bits) {
+        const std::atomic_ref all(mask);
+        if ((all.load(std::memory_order_relaxed) & bits) != bits) all.fetch_or(bits, std::memory_order_relaxed);
+    };
+    const physics::uint sleep_steps = state.fixed().sleep_steps;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        // Copies, or the compiler must suspect that what is written below changes them, and computes twice.
+        const physics::Traits traits = state.traits[i];
+        const physics::Pose pose = state.poses[i];
+        if (physics::is_absent(traits.motion)) {
+            state.bounds[i] = physics::no_bounds(pose);
+            return;
+        }
+        const physics::Velocity velocity = state.velocities[i];
+        const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
+        physics::Bounds bounds = physics::bounds_of(traits, pose, velocity, state.loads[owner], state.fixed());
+        if (physics::will_be_fast(traits, velocity, state.fixed())) note(counts.fast, 1u);
+        state.masses[i] = owner == i ? physics::mass_in_world(traits, pose.orientation, state.masses[i].split) : physics::Mass{};
+        std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
+        const bool stirs = physics::stirs(physics::motion_of(traits), state.velocities[owner], state.rests[owner], sleep_steps);
+        const bool large = physics::is_large(traits);
+        const bool listed = !large && bounds.level != physics::NOWHERE;
+        if (listed) note(counts.levels, 1u << bounds.level);
+        if (listed && stirs) note(counts.levels_stirring, 1u << bounds.level);
+        if (large && stirs) note(counts.large_stirring, 1u);
+        if (physics::has_slept(state.rests[i], sleep_steps)) note(counts.sleepers, 1u);
+        if (!stirs) bounds.level |= physics::STILL;
+        state.bounds[i] = bounds;
+    });
+}
+
+void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
+    if (state.counted().overflow) return;
+    if (const WideStages* wide = wide_stages(threads.lanes())) {
+        const std::vector<std::uint32_t> bodies = movable_bodies(state);
+        WideTables tables = wide_tables(state, bodies);
+        tables.first = first != 0;
+        tables.steps = state.counted().steps;
+        threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->begin(tables, begin, end); });
+    } else {
+        threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+            if (moved_by_contacts(state, i)) begin_substep_of(state, i, first != 0);
+        });
+    }
+    const std::span grips = std::span(state.fixed().grips).first(state.fixed().held);
+    for (const physics::Grip& grip : grips) {
+        if (!moved_by_contacts(state, grip.body)) continue;
+        physics::Velocity& velocity = state.velocities[grip.body];
+        velocity = physics::pulled(velocity, state.poses[grip.body], state.masses[grip.body], grip, state.fixed());
+    }
+}
+
+void move_bodies(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    const WideStages* wide = wide_stages(threads.lanes());
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        const physics::uint motion = state.traits[i].motion;
+        if (motion == physics::MOTION_FIXED || physics::is_part(state.traits[i]) || physics::is_absent(motion) ||
+            asleep(state, i))
+            return;
+        if (!wide || !moved_by_contacts(state, i)) move(state, i);
+    });
+    if (!wide) return;
+    const std::vector<std::uint32_t> bodies = movable_bodies(state);
+    const WideTables tables = wide_tables(state, bodies);
+    threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->move(tables, begin, end); });
+}
+
+void end_step(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    ++state.counted().steps;
+    std::atomic<bool> any_fast = false;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        if (!moved_by_contacts(state, i)) return;
+        const Sum sum = sum_of_slots(state, i);
+        physics::Velocity& velocity = state.velocities[i];
+        velocity.linear = physics::without_dust(velocity.linear + sum.change.linear);
+        velocity.angular = physics::without_dust(velocity.angular + sum.change.angular);
+        const physics::Traits& traits = state.traits[i];
+        const float pace = physics::pace_of(traits, velocity, state.fixed());
+        state.rests[i] = physics::rest_after(state.rests[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);
+        if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
+        physics::Flight& flight = state.bounds[i].flight;
+        if (!physics::was_fast(traits, flight, state.poses[i])) return;
+        flight = physics::stopped_at(flight, physics::seen_part(traits, flight, state.poses[i], state.bounds[i]));
+        any_fast.store(true, std::memory_order_relaxed);
+    });
+    if (!any_fast) return;
+    state.counted().fast = 1;
+    state.counted().arguments[physics::WORK_FLIGHTS] = state.counted().arguments[physics::WORK_PAIRS];
+}
+
+}  // namespace scree::reference

@@ -1,0 +1,219 @@
+// Reference broadphase: bodies sorted by bucket, pairs by owner and partner.
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <cstring>
+#include <numeric>
+
+#include "compute/cpu/stages.h"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/persistence.h"
+
+namespace scree::reference {
+
+namespace {
+
+std::span<const physics::CellEntry> entries(const State& state, std::size_t first, std::size_t last) {
+    return std::span(state.cell_entries).subspan(first, last - first);
+}
+
+std::span<const physics::CellEntry> bucket(const State& state, std::size_t b) {
+    return entries(state, b == 0 ? 0 : state.cells[b - 1], state.cells[b]);
+}
+
+// physics::boxes_overlap without a branch: half of the neighbours do, and no processor foresees which.
+bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
+    using Four [[gnu::vector_size(16)]] = float;  // a bound and the integer behind it
+    using Halves [[gnu::vector_size(16)]] = std::uint64_t;
+    Four lower_a, upper_a, lower_b, upper_b;
+    std::memcpy(&lower_a, &a.lower, sizeof lower_a);
+    std::memcpy(&upper_a, &a.upper, sizeof upper_a);
+    std::memcpy(&lower_b, &b.lower, sizeof lower_b);
+    std::memcpy(&upper_b, &b.upper, sizeof upper_b);
+    const Halves both = (Halves)((lower_a <= upper_b) & (lower_b <= upper_a));
+    return (both[0] & (both[1] | 0xFFFFFFFF00000000u)) == ~std::uint64_t{0};
+}
+
+// Calls visit(entries) for the bodies in a row of cells along x, whose buckets follow each other round the end of the grid.
+template <typename Visit>
+void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cells, std::uint32_t level, const Visit& visit) {
+    const std::uint32_t buckets = state.fixed().buckets;
+    const auto end_of = [&](std::uint32_t b) { return b == 0 ? 0 : state.cells[b - 1]; };
+    if (cells >= buckets) return visit(entries(state, 0, end_of(buckets)));
+    const std::uint32_t first = physics::bucket_of(from, level, buckets);
+    const std::uint32_t last = std::min(first + cells, buckets);
+    visit(entries(state, end_of(first), end_of(last)));
+    if (first + cells > buckets) visit(entries(state, 0, end_of(first + cells - buckets)));
+}
+
+bool near_large(const State& state, std::size_t body, const physics::CellEntry& other) {
+    const physics::Bounds& own = state.bounds[body];
+    const auto plane_reached = [&](std::size_t plane, physics::vec3 lower, physics::vec3 upper) {
+        return physics::reaches_plane(lower, upper, state.traits[plane].size, state.poses[plane].position);
+    };
+    if (state.traits[other.body].shape == physics::SHAPE_PLANE) return plane_reached(other.body, own.lower, own.upper);
+    if (state.traits[body].shape == physics::SHAPE_PLANE) return plane_reached(body, other.lower, other.upper);
+    return physics::boxes_overlap(own.lower, own.upper, other.lower, other.upper);
+}
+
+bool still(const State& state, std::uint32_t body) {
+    return (state.bounds[body].level & physics::STILL) != 0;
+}
+
+// Pairs of bodies that do not stir are those that touched in the last step.
+template <typename Found>
+void for_each_carried_over(const State& state, std::uint32_t body, const Found& found) {
+    if (!still(state, body)) return;
+    for (std::size_t k = state.first_contacts_before[body]; k < state.first_contacts_before[body + 1]; ++k) {
+        const physics::Contact& contact = state.contacts_before[k];
+        if (still(state, contact.a) && still(state, contact.b)) found(contact.a == body ? contact.b : contact.a);
+    }
+}
+
+// Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
+bool kept_apart(const State& state, std::uint32_t body, std::uint32_t other) {
+    if (state.traits[body].joints == physics::NONE) std::swap(body, other);
+    for (std::uint32_t j = state.traits[body].joints; j != physics::NONE;) {
+        const physics::Joint& joint = state.joints[j];
+        const bool joins = (joint.a == body && joint.b == other) || (joint.a == other && joint.b == body);
+        if (joins && !joint.broken && !(joint.flags & physics::JOINT_COLLIDES)) return true;
+        j = joint.a == body ? joint.next_a : joint.next_b;
+    }
+    return false;
+}
+
+// Calls found(other) for each body whose pair with `body` the latter owns.
+template <typename Found>
+void for_each_partner(const State& state, std::uint32_t body, const Found& list) {
+    const physics::Parameters& p = state.fixed();
+    const physics::Traits& own = state.traits[body];
+    const std::uint32_t id = state.id_of(body);
+    const bool joined = state.has_joints();
+    const auto found = [&](std::uint32_t other) {
+        if (!joined || !kept_apart(state, state.body_of(body), state.body_of(other))) list(other);
+    };
+    const physics::Bounds& around = state.bounds[body];
+    if ((around.level & physics::NOWHERE) != 0) return;
+    for_each_carried_over(state, body, found);
+    if (still(state, body) && !physics::any_stirs(state.counted())) return;
+    for (const physics::CellEntry& other : bucket(state, p.buckets)) {
+        if (!physics::finds_large(id, around.level, physics::is_large(own), state.id_of(other.body), other.level)) continue;
+        if (physics::can_touch(own, state.traits[other.body]) && near_large(state, body, other)) found(other.body);
+    }
+    if (physics::is_large(own)) return;
+    for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
+        const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
+        const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
+        const auto cells = static_cast<std::uint32_t>(range.last.x - range.first.x + 1);
+        physics::ivec3 from = range.first;
+        const auto visit = [&](std::span<const physics::CellEntry> row) {
+            for (const physics::CellEntry& other : row) {
+                if (!(overlap(around, other) & ((other.level & ~(physics::STILL | physics::MOVES)) == level))) continue;
+                if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
+                const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
+                if (cell.y != from.y || cell.z != from.z) continue;  // of another row whose buckets happen to be the same
+                if (physics::can_touch(own, state.traits[other.body])) found(other.body);
+            }
+        };
+        for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
+            for (from.y = range.first.y; from.y <= range.last.y; ++from.y) for_each_in_row(state, from, cells, level, visit);
+    }
+}
+
+std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint32_t other) {
+    const auto first = state.contacts_before.begin() + state.first_contacts_before[owner];
+    const auto last = state.contacts_before.begin() + state.first_contacts_before[owner + 1];
+    const auto partner = [&](const physics::Contact& contact) { return state.id_of(contact.a == owner ? contact.b : contact.a); };
+    const std::uint32_t id = state.id_of(other);
+    const auto found = std::lower_bound(
+        first, last, id, [&](const physics::Contact& contact, std::uint32_t one) { return partner(contact) < one; });
+    return found != last && partner(*found) == id ? static_cast<std::uint32_t>(found - state.contacts_before.begin())
+                                                  : physics::NONE;
+}
+
+physics::Pair matched(const State& state, const physics::Candidate& candidate) {
+    physics::Pair pair{candidate.owner, candidate.other, 0, physics::NONE};
+    if (state.id_of(pair.b) < state.id_of(pair.a)) std::swap(pair.a, pair.b);
+    pair.previous = contact_before(state, pair.a, pair.b);
+    if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
+    if (still(state, pair.a) && still(state, pair.b)) {
+        pair.kind = physics::KIND_STILL;
+        return pair;
+    }
+    const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+    const std::uint32_t of_a = state.body_of(pair.a), of_b = state.body_of(pair.b);
+    const bool kept = pair.previous != physics::NONE && physics::has_weight(state.fixed()) &&
+                      physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta,
+                                       state.poses[of_a], state.velocities[of_a], tb, state.poses[of_b], state.velocities[of_b]);
+    pair.kind = kept ? physics::KIND_KEPT : physics::kind_of(ta.shape, tb.shape);
+    return pair;
+}
+
+}  // namespace
+
+void fill_cells(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        if (state.bounds[i].bucket == physics::NONE) return;
+        const std::uint32_t entry = std::atomic_ref(state.cells[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
+        state.cell_entries[entry].body = static_cast<std::uint32_t>(i);
+    });
+}
+
+void order_cells(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.fixed().buckets + 1, [&](std::size_t b) {
+        const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cells[b - 1]);
+        const auto last = state.cell_entries.begin() + state.cells[b];
+        std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
+        std::for_each(first, last, [&](physics::CellEntry& entry) {
+            const physics::Bounds& around = state.bounds[entry.body];
+            entry = {around.lower, entry.body, around.upper, physics::level_of_entry(around.level, state.traits[entry.body])};
+        });
+    });
+}
+
+void count_pairs(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    std::atomic_ref coarse(state.counted().pairs_coarse);
+    state.partners.resize(state.fixed().bodies);
+    threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
+        std::uint32_t parts = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            std::uint32_t count = 0;
+            for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t other) {
+                if (count < State::noted) state.partners[i][count] = other;
+                ++count;
+            });
+            state.pair_starts[i] = count;
+            parts += (count + 255) / 256;
+        }
+        coarse.fetch_add(parts, std::memory_order_relaxed);
+    });
+}
+
+void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        const auto owner = static_cast<std::uint32_t>(i);
+        auto next = state.candidates.begin() + state.pair_starts[i];
+        const auto list = [&](std::uint32_t other) { *next++ = {owner, other}; };
+        const std::size_t count = state.pair_starts[i + 1] - state.pair_starts[i];
+        if (count <= State::noted)
+            std::for_each_n(state.partners[i].begin(), count, list);
+        else
+            for_each_partner(state, owner, list);
+    });
+}
+
+void match_pairs(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        const auto first = state.candidates.begin() + state.pair_starts[i];
+        const auto last = state.candidates.begin() + state.pair_starts[i + 1];
+        std::sort(first, last, [&](const auto& x, const auto& y) { return state.id_of(x.other) < state.id_of(y.other); });
+        std::transform(first, last, state.pairs.begin() + state.pair_starts[i],
+                       [&](const physics::Candidate& candidate) { return matched(state, candidate); });
+    });
+}
+
+}  // namespace scree::reference

@@ -1,0 +1,258 @@
+// Reference contact stages: slots of bodies, preparation, and the contact halves of a substep.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+
+#include "compute/cpu/simd/simd_stages.h"
+#include "compute/cpu/stages.h"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/persistence.h"
+
+namespace scree::reference {
+
+namespace {
+
+bool movable(const State& state, std::uint32_t body) {
+    return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
+}
+
+std::uint32_t taken(std::uint32_t& end, std::uint32_t places = 1) {
+    return std::atomic_ref(end).fetch_add(places, std::memory_order_relaxed);
+}
+
+physics::Couple velocities_of(const State& state, const physics::Constraint& c) {
+    return {state.velocities[c.a], state.velocities[c.b]};
+}
+
+// Asked for only where a blow may be thrown back.
+vec3 pull(const State& state, const physics::Constraint& c) {
+    return c.restitution > 0 ? physics::pull_of(state.loads[c.a], state.loads[c.b]) : vec3(0);
+}
+
+// `told`: what A and B tell each other.
+void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying,
+              std::array<float, 2> told = {0, 0}) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying, told[1]);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying, told[0]);
+}
+
+}  // namespace
+
+void list_contacts(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().pairs, [&](std::size_t i) {
+        if (state.touching[i] == 0) return;
+        physics::Constraint& c = state.constraints[state.contact_starts[i]];
+        c.pair = static_cast<std::uint32_t>(i);
+        c.slot_a = c.slot_b = physics::NONE;
+        if (!state.reordered()) return;
+        // Until it is prepared, who owns it: order_slots asks.
+        const physics::Pair& pair = state.pairs[i];
+        const bool is_a = state.pair_starts[pair.a] <= i && i < state.pair_starts[pair.a + 1];
+        c.a = state.id_of(is_a ? pair.a : pair.b);
+    });
+}
+
+void count_slots(State& state, const Threads& threads, std::uint32_t) {
+    if (!physics::any_stirs(state.counted())) return;
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::Pair& pair = state.pairs[state.constraints[i].pair];
+        for (const std::uint32_t body : {state.body_of(pair.a), state.body_of(pair.b)})
+            if (movable(state, body)) taken(state.slot_ends[body]);
+    });
+}
+
+void fill_slots(State& state, const Threads& threads, std::uint32_t) {
+    if (!physics::any_stirs(state.counted())) return;
+    physics::Counts& counts = state.counted();
+    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
+        std::vector<std::uint32_t> solved;  // by one thread: all asking one counter for a place each took longer than the rest
+        solved.reserve(last - first);
+        for (auto contact = static_cast<std::uint32_t>(first); contact < last; ++contact) {
+            const physics::Pair& pair = state.pairs[state.constraints[contact].pair];
+            const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+            const bool moves_a = movable(state, a), moves_b = movable(state, b);
+            if (moves_a) state.slot_sides[taken(state.slot_ends[a])] = 2 * contact;
+            if (moves_b) state.slot_sides[taken(state.slot_ends[b])] = 2 * contact + 1;
+            if (moves_a || moves_b) solved.push_back(contact);
+        }
+        std::copy(solved.begin(), solved.end(),
+                  state.binned.begin() + taken(counts.solved, static_cast<std::uint32_t>(solved.size())));
+    });
+    counts.arguments[physics::WORK_SOLVED].x = physics::work_for(counts.solved, state.fixed()).x;
+}
+
+void order_slots(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    const std::size_t n = state.fixed().bodies;
+    threads.for_each(n, [&](std::size_t i) {
+        state.first_contacts[i] = state.contact_starts[state.pair_starts[i]];
+        const std::uint32_t first = i == 0 ? 0 : state.slot_ends[i - 1];
+        const std::uint32_t last = state.slot_ends[i];
+        // By the id of the contact's owner, then by contact, and joints behind them: so that the body's sum has one order.
+        const auto key = [&](std::uint32_t side) {
+            const bool of_joint = (side & physics::OF_JOINT) != 0;
+            return std::pair(of_joint ? physics::NONE : state.constraints[side / 2].a, side);
+        };
+        const auto sides = state.slot_sides.begin();
+        if (state.reordered())
+            std::sort(sides + first, sides + last, [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+        else
+            std::sort(sides + first, sides + last);
+        for (std::uint32_t slot = first; slot < last; ++slot) {
+            const std::uint32_t side = state.slot_sides[slot];
+            if (side & physics::OF_JOINT) {
+                state.joints[side & ~physics::OF_JOINT].slot = slot;
+                continue;
+            }
+            physics::Constraint& c = state.constraints[side / 2];
+            (side % 2 == 0 ? c.slot_a : c.slot_b) = slot;
+        }
+    });
+    state.first_contacts[n] = state.counted().contacts;
+}
+
+void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
+    const physics::Parameters& p = state.fixed();
+    const WideStages* wide = wide_stages(threads.lanes());
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        physics::Constraint& c = state.constraints[i];
+        const std::uint32_t index = c.pair;
+        const physics::Pair& pair = state.pairs[index];
+        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+        const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+        const physics::Manifold& manifold = state.manifolds[index];
+        physics::Contact& contact = state.contacts[i];
+        physics::Impulse& impulse = state.impulses[i];
+        const bool idle = c.slot_a == physics::NONE && c.slot_b == physics::NONE;
+        const bool tyre_is_a = physics::tyre_of(ta) != 0;
+        const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb);
+        if (idle && pair.kind == physics::KIND_STILL) {
+            contact = physics::aged(state.contacts_before[pair.previous]);
+            impulse = physics::continued(contact, state.impulses_before[pair.previous]);
+            impulse.separation = physics::separations_of(manifold);
+            c = physics::idle_constraint(contact);
+            c.a = a;
+            c.b = b;
+            return;
+        }
+        if (pair.kind >= physics::KIND_KEPT) {
+            contact = physics::aged(state.contacts_before[pair.previous]);
+            impulse = physics::continued(contact, state.impulses_before[pair.previous]);
+        } else {
+            contact = physics::contact_of(pair, manifold, state.touching[index], state.poses[a], state.poses[b]);
+            impulse = physics::no_impulse(contact.d);
+            if (pair.previous != physics::NONE) {
+                const physics::Contact& before = state.contacts_before[pair.previous];
+                const physics::uvec4 matches =
+                    tyre ? physics::matches_of_tyre(contact, before, tyre_is_a,
+                                                    std::min(physics::thickness(ta), physics::thickness(tb)))
+                         : physics::matches_of(contact, before, physics::match_radius(ta, tb));
+                impulse = physics::inherited(contact, state.impulses_before[pair.previous], matches);
+            }
+        }
+        impulse.separation = physics::separations_of(manifold);
+        const bool sleeps_a = physics::motion_of(ta) == physics::MOTION_DYNAMIC && c.slot_a == physics::NONE;
+        const bool sleeps_b = physics::motion_of(tb) == physics::MOTION_DYNAMIC && c.slot_b == physics::NONE;
+        if (pair.previous != physics::NONE)
+            contact.load = physics::load_of(sleeps_a || sleeps_b, state.contacts_before[pair.previous],
+                                            state.impulses_before[pair.previous]);
+        if (idle) {
+            c = physics::idle_constraint(contact);
+            c.a = a;
+            c.b = b;
+            return;
+        }
+        c = physics::constraint_of(contact, ta, tb, c.slot_a, c.slot_b, p);
+        c.a = a;
+        c.b = b;
+        c.pair = index;
+        if (tyre) c = physics::on_tyre(c, tyre_is_a, state.hulls[tyre - 1], contact.d, velocities_of(state, c));
+
+        impulse.pressed = physics::pressing(impulse);
+        if (wide) return;
+        const physics::Mass ma = physics::lent(state.masses[c.a], impulse, p), mb = physics::lent(state.masses[c.b], impulse, p);
+        const physics::Couple now = velocities_of(state, c);
+        const float carrying = physics::carries(c, impulse, now, p);
+        hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying,
+                 {impulse.pressed, impulse.pressed});
+    });
+    if (!wide) return;
+    const WideTables tables = wide_tables(state, state.binned);
+    threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->hand_out(tables, first, end); });
+}
+
+void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
+    if (const WideStages* wide = wide_stages(threads.lanes())) {
+        const WideTables tables = wide_tables(state, state.binned);
+        threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->solve(tables, first, end); });
+        return;
+    }
+    threads.for_each(state.counted().solved, [&](std::size_t k) {
+        const std::size_t i = state.binned[k];
+        const physics::Constraint& c = state.constraints[i];
+        const physics::Mass ma = physics::lent(state.masses[c.a], state.impulses[i], state.fixed());
+        const physics::Mass mb = physics::lent(state.masses[c.b], state.impulses[i], state.fixed());
+        const physics::Couple before = velocities_of(state, c);
+        const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
+        state.impulses[i] = after.impulse;
+        hand_out(state, c, physics::shares_of(before, after.couple, ma, mb), physics::blow_of(after.impulse));
+    });
+}
+
+namespace {
+
+void relax(State& state, const Threads& threads, bool last, bool first, bool felt) {
+    const auto told = [&](std::uint32_t body) {
+        return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
+    };
+    if (const WideStages* wide = wide_stages(threads.lanes())) {
+        WideTables tables = wide_tables(state, state.binned);
+        std::vector<float> all_told(last ? state.fixed().bodies : 0);
+        threads.for_each(all_told.size(), [&](std::size_t i) { all_told[i] = told(static_cast<std::uint32_t>(i)); });
+        if (felt) tables.felt = reinterpret_cast<std::uint32_t*>(state.candidates.data());
+        tables.first = first;
+        if (last) tables.told = reinterpret_cast<const std::uint32_t*>(all_told.data());
+        threads.for_ranges(state.counted().solved, [&](std::size_t from, std::size_t to) { wide->relax(tables, from, to); });
+        return;
+    }
+    threads.for_each(state.counted().solved, [&](std::size_t k) {
+        const std::size_t i = state.binned[k];
+        const physics::Constraint& c = state.constraints[i];
+        const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a], state.fixed());
+        const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b], state.fixed());
+        const physics::Couple before = velocities_of(state, c);
+        const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
+        physics::Impulse& impulse = state.impulses[i];
+        if (felt) {
+            const float carried = physics::pressing(after.impulse);
+            physics::uint& sum = state.candidates[i].owner;
+            sum = std::bit_cast<physics::uint>(first ? carried : std::bit_cast<float>(sum) + carried);
+        }
+        impulse = physics::without_blows(after.impulse, c.count);
+        impulse.pressed = physics::pressing(impulse);
+        physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
+        const float carrying = physics::carries(c, impulse, after.couple, state.fixed());
+        if (last) {
+            hand_out(state, c, share, carrying, {told(c.a), told(c.b)});
+        } else {
+            hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying, {impulse.pressed, impulse.pressed});
+        }
+    });
+}
+
+}  // namespace
+
+void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
+    relax(state, threads, last != 0, false, false);
+}
+
+void relax_contacts_felt(State& state, const Threads& threads, std::uint32_t pass) {
+    relax(state, threads, (pass & 1) != 0, (pass & 2) != 0, true);
+}
+
+}  // namespace scree::reference

@@ -1,0 +1,91 @@
+// Reference stages of bodies that break.
+#include "shaders/physics/extra/fracture.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+
+#include "compute/cpu/stages.h"
+#include "shaders/physics/extra/sleep.h"
+
+namespace scree::reference {
+
+namespace {
+
+// Calls visit(contact, side) for each slot that a contact has of a body, in their order.
+template <typename Visit>
+void for_each_slot(const State& state, std::size_t body, const Visit& visit) {
+    const auto first = state.slot_sides.begin() + (body == 0 ? 0 : state.slot_ends[body - 1]);
+    const auto last = state.slot_sides.begin() + state.slot_ends[body];
+    std::for_each(first, last, [&](physics::uint slot) {
+        if ((slot & physics::OF_JOINT) == 0) visit(std::size_t{slot / 2}, slot % 2);
+    });
+}
+
+float carried(const State& state, std::size_t contact) {
+    return std::bit_cast<float>(state.candidates[contact].owner);
+}
+
+bool some_broken(const State& state) {
+    return state.counted().broken != 0 && state.counted().overflow == 0;
+}
+
+}  // namespace
+
+void find_broken(State& state, const Threads& threads, std::uint32_t) {
+    if (state.counted().overflow) return;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        physics::Traits& body = state.traits[i];
+        if (!physics::may_break(body)) return;
+        float blow = 0;
+        for_each_slot(state, i, [&](std::size_t contact, physics::uint) { blow = std::max(blow, carried(state, contact)); });
+        const physics::Fracturing fracturing = physics::fracturing_of(state.hull_table(), body.fracture);
+        const float kept = physics::kept_part(fracturing, blow, body);
+        body.strain = physics::strain_after(fracturing, blow, body, state.velocities[i]);
+        if (kept >= 1) return;
+        state.loads[i].kept = kept;
+        std::atomic_ref(state.counted().broken).fetch_add(1, std::memory_order_relaxed);
+    });
+}
+
+void give_back(State& state, const Threads& threads, std::uint32_t) {
+    if (!some_broken(state)) return;
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        if (!physics::is_movable(state.traits[i].motion, state.rests[i], state.fixed().sleep_steps)) return;
+        physics::Velocity velocity = state.velocities[i];
+        for_each_slot(state, i, [&](std::size_t contact, physics::uint side) {
+            const physics::Constraint& c = state.constraints[contact];
+            const float kept = std::min(state.loads[c.a].kept, state.loads[c.b].kept);
+            if (kept >= 1 || carried(state, contact) <= 0) return;
+            velocity = physics::given_back(velocity, state.masses[i], c, state.impulses[contact], side,
+                                           carried(state, contact) * (1 - kept));
+        });
+        state.velocities[i] = physics::limited(velocity, state.fixed());
+    });
+}
+
+void break_bodies(State& state, const Threads& threads, std::uint32_t) {
+    if (!some_broken(state)) return;
+    const physics::Hulls table = state.hull_table();
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        if (state.loads[i].kept >= 1) return;
+        const physics::Fracturing fracturing = physics::fracturing_of(table, state.traits[i].fracture);
+        for (physics::uint k = 0; k < physics::pieces_of(table, fracturing); ++k) {
+            const std::size_t row = fracturing.first_piece + k;
+            const physics::Moved part = physics::piece_of(table, fracturing, k, state.poses[i], state.velocities[i]);
+            state.poses[row] = part.pose;
+            state.velocities[row] = part.velocity;
+            state.rests[row] = 0;
+            physics::Traits& piece = state.traits[row];
+            piece.motion = physics::MOTION_DYNAMIC;
+            if (piece.fracture != physics::NONE)
+                piece.strain = physics::strain_after(physics::fracturing_of(table, piece.fracture), 0, piece, part.velocity);
+        }
+        state.traits[i].motion = physics::MOTION_BROKEN;
+        state.traits[i].strain = 0;
+        state.rests[i] = 0;
+        state.velocities[i] = {};
+    });
+}
+
+}  // namespace scree::reference

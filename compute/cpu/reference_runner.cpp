@@ -1,0 +1,42 @@
+// Walks the plan on the CPU.
+#include "compute/cpu/reference_runner.h"
+
+#include <chrono>
+
+namespace scree {
+
+std::string ReferenceRunner::device() const {
+    return std::to_string(threads_.count()) + (threads_.count() == 1 ? " thread" : " threads");
+}
+
+void ReferenceRunner::attach(State& state) {
+    state_ = &state;
+    if (planned_substeps_ == state.substeps && planned_content_ == state.content()) return;
+    planned_substeps_ = state.substeps;
+    planned_content_ = state.content();
+    plan_ = plan(planned_substeps_, planned_content_);
+    clock_ = StageClock(plan_);
+}
+
+bool ReferenceRunner::step() {
+    return step([](const Stage&, std::size_t) { return true; });
+}
+
+bool ReferenceRunner::step(const std::function<bool(const Stage&, std::size_t)>& look) {
+    if (!state_->fixed().redo) state_->turn_over();
+    clock_.begin_step();
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        plan_[i].reference(*state_, threads_, plan_[i].pass);
+        clock_.add(i, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        if (!look(plan_[i], i)) return false;
+    }
+    clock_.end_step();
+    return state_->counted().overflow == 0;
+}
+
+std::unique_ptr<Runner> make_reference_runner(int threads) {
+    return std::make_unique<ReferenceRunner>(threads);
+}
+
+}  // namespace scree

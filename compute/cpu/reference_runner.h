@@ -1,0 +1,44 @@
+// The reference runner: the plan's stages as loops on the CPU, in place on the attached state.
+#pragma once
+
+#include <functional>
+
+#include "compute/runner.h"
+#include "compute/step/plan.h"
+#include "compute/step/stage_clock.h"
+
+namespace scree {
+
+class ReferenceRunner : public Runner {
+public:
+    explicit ReferenceRunner(int threads, int lanes = Threads::most_lanes) : threads_(threads, lanes) {}
+    std::string backend() const override { return "cpu"; }
+    std::string device() const override;
+    std::uint32_t group_size() const override { return 64; }
+    bool in_place() const override { return true; }
+    void attach(State& state) override;
+    bool step() override;
+    void fetch_body(std::size_t) override {}
+    void fetch_bodies() override {}
+    void fetch_contacts() override {}
+    void fetch_joints() override {}
+    void send_joint(std::size_t) override {}
+    void fetch_vehicles() override {}
+    void send_vehicle(std::size_t) override {}
+    void fetch() override {}
+    StageTimes stage_times() const override { return clock_.means(); }
+    StageTimes last_stage_times() const override { return clock_.last(); }
+
+    // A step whose every stage is followed by a look at the state; stops, returning false, when the look says so.
+    bool step(const std::function<bool(const Stage&, std::size_t index)>& look);
+
+private:
+    Threads threads_;
+    State* state_ = nullptr;
+    std::vector<Stage> plan_;
+    int planned_substeps_ = 0;
+    Content planned_content_;
+    StageClock clock_;
+};
+
+}  // namespace scree

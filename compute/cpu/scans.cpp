@@ -1,0 +1,53 @@
+// Reference scans: the standard algorithms, in place of three device stages each.
+#include <algorithm>
+#include <numeric>
+
+#include "compute/cpu/stages.h"
+#include "shaders/physics/base/work_counts.h"
+
+namespace scree::reference {
+
+namespace {
+
+// Exclusive, in place, with the total behind the last item.
+void scan_in_place(std::vector<physics::uint>& list, std::size_t items) {
+    list[items] = 0;
+    std::exclusive_scan(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(items) + 1, list.begin(), 0u);
+}
+
+}  // namespace
+
+void scan_nothing(State&, const Threads&, std::uint32_t) {}
+
+void scan_cells_offsets(State& state, const Threads&, std::uint32_t) {
+    scan_in_place(state.cells, state.fixed().buckets + 1);
+}
+
+void scan_pairs_spine(State& state, const Threads&, std::uint32_t) {
+    const auto end = state.pair_starts.begin() + state.fixed().bodies;
+    state.counted() = physics::with_pairs(state.counted(), std::accumulate(state.pair_starts.begin(), end, 0u), state.fixed());
+}
+void scan_pairs_offsets(State& state, const Threads&, std::uint32_t) {
+    scan_in_place(state.pair_starts, state.fixed().bodies);
+}
+
+void scan_kinds_offsets(State& state, const Threads&, std::uint32_t) {
+    scan_in_place(state.contact_starts, physics::KINDS * physics::spans_of(state.counted().pairs));
+}
+
+void scan_contacts_spine(State& state, const Threads&, std::uint32_t) {
+    const auto end = state.touching.begin() + state.counted().pairs;
+    const auto total = std::count_if(state.touching.begin(), end, [](physics::uint points) { return points > 0; });
+    state.counted() = physics::with_contacts(state.counted(), static_cast<physics::uint>(total), state.fixed());
+}
+void scan_contacts_offsets(State& state, const Threads&, std::uint32_t) {
+    const auto end = state.touching.begin() + state.counted().pairs;
+    std::transform(state.touching.begin(), end, state.contact_starts.begin(), [](physics::uint points) { return points > 0; });
+    scan_in_place(state.contact_starts, state.counted().pairs);
+}
+
+void scan_slots_offsets(State& state, const Threads&, std::uint32_t) {
+    scan_in_place(state.slot_ends, state.fixed().bodies);
+}
+
+}  // namespace scree::reference

@@ -1,0 +1,25 @@
+// The widest stages that this processor has, and the tables of a state as they see them.
+#include "compute/cpu/simd/simd_stages.h"
+
+#include "compute/step/state.h"
+
+namespace scree::reference {
+
+WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
+    const auto words = [](auto& table) { return reinterpret_cast<std::uint32_t*>(table.data()); };
+    return {items.data(),           words(state.parameters), words(state.traits),     words(state.constraints),
+            words(state.slot_ends), words(state.poses),      words(state.velocities), words(state.masses),
+            words(state.loads),     words(state.impulses),   words(state.slots)};
+}
+
+const WideStages* wide_stages(int most) {
+#if defined(__x86_64__)
+    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+        return &wide_stages_16;
+    if (most >= 8 && __builtin_cpu_supports("avx2")) return &wide_stages_8;
+#endif
+    return most >= 4 ? &wide_stages_4 : nullptr;
+}
+
+}  // namespace scree::reference

@@ -1,0 +1,90 @@
+// The stages as plain loops on the CPU: the independent text that the shaders are checked against. One function a stage.
+#pragma once
+
+#include <cstdint>
+
+#include "compute/step/state.h"
+#include "compute/step/threads.h"
+
+namespace scree::reference {
+
+// How the stages of a substep see a state that work on several items at once (compute/cpu/simd/simd_stages.h).
+struct WideTables;
+WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
+
+#define SCREE_STAGE(name) void name(State& state, const Threads& threads, std::uint32_t pass)
+
+// bodies.cpp
+SCREE_STAGE(begin_step);
+SCREE_STAGE(apply_actions);
+SCREE_STAGE(place_parts);
+SCREE_STAGE(bound_bodies);
+SCREE_STAGE(begin_substep);
+SCREE_STAGE(move_bodies);
+SCREE_STAGE(end_step);
+
+// broadphase.cpp
+SCREE_STAGE(fill_cells);
+SCREE_STAGE(order_cells);
+SCREE_STAGE(count_pairs);
+SCREE_STAGE(fill_pairs);
+SCREE_STAGE(match_pairs);
+
+// narrowphase.cpp
+SCREE_STAGE(count_kinds);
+SCREE_STAGE(fill_kinds);
+SCREE_STAGE(collide);  // pass: the kind of pairs
+SCREE_STAGE(collide_kept);
+SCREE_STAGE(collide_still);
+
+// waking.cpp
+SCREE_STAGE(wake_touched);
+SCREE_STAGE(wake_deserted);
+SCREE_STAGE(shake_sleepers);  // pass: how deep those wake who shake in this round
+
+// contacts.cpp
+SCREE_STAGE(list_contacts);
+SCREE_STAGE(count_slots);
+SCREE_STAGE(fill_slots);
+SCREE_STAGE(order_slots);
+SCREE_STAGE(prepare_contacts);
+SCREE_STAGE(solve_contacts);
+SCREE_STAGE(relax_contacts);
+
+SCREE_STAGE(relax_contacts_felt);
+
+// joints.cpp
+SCREE_STAGE(wake_joined);
+SCREE_STAGE(count_joint_slots);
+SCREE_STAGE(fill_joint_slots);
+SCREE_STAGE(prepare_joints);
+SCREE_STAGE(solve_joints);
+SCREE_STAGE(relax_joints);  // pass: whether it is the step's last
+
+// vehicles.cpp
+SCREE_STAGE(drive_vehicles);
+
+// continuous_collision.cpp
+SCREE_STAGE(foresee_impacts);
+SCREE_STAGE(drop_passers);
+SCREE_STAGE(find_impacts);  // pass: the round
+SCREE_STAGE(stop_bodies);
+
+// fracture.cpp
+SCREE_STAGE(find_broken);
+SCREE_STAGE(give_back);
+SCREE_STAGE(break_bodies);
+
+// scans.cpp: block sums are the devices' own affair; here the total is known in the spine, the offsets in the last stage.
+SCREE_STAGE(scan_nothing);
+SCREE_STAGE(scan_pairs_spine);
+SCREE_STAGE(scan_contacts_spine);
+SCREE_STAGE(scan_cells_offsets);
+SCREE_STAGE(scan_pairs_offsets);
+SCREE_STAGE(scan_kinds_offsets);
+SCREE_STAGE(scan_contacts_offsets);
+SCREE_STAGE(scan_slots_offsets);
+
+#undef SCREE_STAGE
+
+}  // namespace scree::reference

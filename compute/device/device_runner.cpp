@@ -1,0 +1,323 @@
+// Walks the plan on a Vulkan device.
+#include "compute/device/device_runner.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+
+#include "compute/step/stage_fusion.h"
+#include "shaders/embedded.h"
+#include "shaders/physics/base/work_counts.h"
+
+namespace scree {
+
+namespace {
+
+// A software device runs every group of a dispatch to its end, whether its threads have items or not: smaller ones waste less in
+// a small world, and share it out among the cores.
+std::uint32_t threads_of_a_group(const host::Device& device) {
+    return device.report().is_processor ? 64 : 128;
+}
+
+// contacts <-> contacts_before and so on in the second parity.
+Table other_parity(Table table) {
+    using enum Table;
+    switch (table) {
+        case contacts:
+            return contacts_before;
+        case contacts_before:
+            return contacts;
+        case impulses:
+            return impulses_before;
+        case impulses_before:
+            return impulses;
+        case first_contacts:
+            return first_contacts_before;
+        case first_contacts_before:
+            return first_contacts;
+        default:
+            return table;
+    }
+}
+
+constexpr std::array read_while_changing{Table::poses, Table::velocities, Table::masses,
+                                         Table::loads, Table::impulses,   Table::slots};  // shaders/stages/lib/read_coherent.glsl
+
+static_assert(host::tables_of_a_step.storage == table_count - 1);  // all but the parameters
+static_assert(host::tables_of_a_step.texels == table_count);
+static_assert(host::tables_of_a_step.changing_texels == read_while_changing.size());
+
+// The parameters are a uniform block; with `texels` every table can be read as texels too (shaders/stages/lib/read.glsl).
+std::vector<host::Access> accesses(bool texels) {
+    std::vector<host::Access> all(table_count);
+    all[static_cast<std::size_t>(Table::parameters)].uniform = true;
+    for (const Table table : read_while_changing) all[static_cast<std::size_t>(table)].changing = texels;
+    for (std::size_t i = 0; texels && i < table_count; ++i)
+        all[i].texel_bytes = static_cast<std::uint32_t>(std::min<std::size_t>(16, table_infos()[i].record_bytes));
+    return all;
+}
+
+std::size_t argument_offset(physics::uint row) {
+    return offsetof(physics::Counts, arguments) + row * sizeof(physics::uvec4);
+}
+
+}  // namespace
+
+DeviceRunner::DeviceRunner(std::shared_ptr<host::Device> device) : device_(std::move(device)) {}
+DeviceRunner::~DeviceRunner() {
+    if (device_) device_->wait_idle();
+}
+
+std::string DeviceRunner::device() const {
+    return device_->report().name;
+}
+std::uint32_t DeviceRunner::group_size() const {
+    return threads_of_a_group(*device_);
+}
+
+const host::Buffer& DeviceRunner::buffer(Table table) const {
+    return buffers_[static_cast<std::size_t>(parity_ ? other_parity(table) : table)];
+}
+host::Buffer& DeviceRunner::buffer(Table table) {
+    return buffers_[static_cast<std::size_t>(parity_ ? other_parity(table) : table)];
+}
+
+void DeviceRunner::attach(State& state) {
+    device_->wait_idle();
+    state_ = &state;
+    make_buffers();
+    const host::Reach reach = reach_needed();
+    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() || planned_substeps_ != state.substeps ||
+        planned_content_ != state.content())
+        make_plan(reach);
+    fuse();
+    upload();
+    bind_tables();
+}
+
+host::Reach DeviceRunner::reach_needed() const {
+    const bool bindable = std::all_of(buffers_.begin(), buffers_.end(), [&](const host::Buffer& buffer) {
+        return buffer.bytes() <= device_->report().largest_binding;
+    });
+    // The parameters are none of the storage buffers.
+    return bindable && table_count - 1 <= device_->limits().maxPerStageDescriptorStorageBuffers ? host::Reach::bound
+                                                                                                : host::Reach::far;
+}
+
+bool DeviceRunner::reads_texels() const {
+    const std::uint32_t most = device_->limits().maxTexelBufferElements;
+    const auto all = accesses(true);
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (buffers_[i].bytes() / all[i].texel_bytes > most) return false;
+    return device_->report().prefers_texels;
+}
+
+void DeviceRunner::make_plan(host::Reach reach) {
+    planned_substeps_ = state_->substeps;
+    planned_content_ = state_->content();
+    plan_ = plan(planned_substeps_, planned_content_);
+    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels()) {
+        pipelines_.clear();
+        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t),
+                                                      reach, accesses(reads_texels()));
+    }
+    for (host::Buffer& back : counts_back_)
+        if (!back) back = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
+}
+
+// shaders/stages/lib/fused.glsl says why.
+bool DeviceRunner::is_one_subgroup() const {
+    return device_->report().is_processor && device_->report().subgroup > 0;
+}
+std::uint32_t DeviceRunner::fused_group_size() const {
+    return is_one_subgroup() ? device_->report().subgroup : group_size();
+}
+
+std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const {
+    if (stage.reference) return {group_size(), stage.content};
+    return {fused_group_size(), stage.content, is_one_subgroup() ? 1u : 0u};
+}
+
+void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
+    const std::string variant =
+        std::string(layout_->reach() == host::Reach::far ? ".far" : "") + (layout_->has_texels() ? ".texels" : "");
+    // Drivers take up to a tenth of a second for each, on one core.
+    std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
+    for (const Stage& stage : stages)
+        if (!pipelines_.contains({stage.name, stage.content}) &&
+            std::none_of(missing.begin(), missing.end(), [&](const auto& other) {
+                return other.first->name == stage.name && other.first->content == stage.content;
+            }))
+            missing.emplace_back(&stage, std::nullopt);
+    tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
+        const Stage& stage = *missing[i].first;
+        missing[i].second.emplace(layout_, stage.name.c_str(), shaders::find(stage.name + variant), constants_of(stage));
+    });
+    for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->content}, std::move(*pipeline));
+}
+
+// A world that has grown may be small no more.
+void DeviceRunner::fuse() {
+    std::vector<Stage> recorded = fused(plan_, state_->fixed(), fused_group_size());
+    const bool as_before = std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),
+                                      [](const Stage& a, const Stage& b) { return a.name == b.name && a.pass == b.pass; });
+    recorded_ = std::move(recorded);
+    if (!as_before) clock_ = StageClock(recorded_);
+    make_pipelines(recorded_);
+}
+
+void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage) const {
+    const physics::Parameters& p = state_->fixed();
+    recording.bind(pipelines_.at({stage.name, stage.content}), *tables_[parity_]);
+    recording.push(&stage.pass, sizeof(stage.pass));
+    const auto indirect = [&](physics::uint row) {
+        recording.dispatch_indirect(buffers_[static_cast<std::size_t>(Table::counts)], argument_offset(row));
+    };
+    switch (stage.over) {
+        case Over::one_group:
+            recording.dispatch(1);
+            break;
+        case Over::actions:
+            recording.dispatch(physics::work_for(state_->action_room, p).x);
+            break;
+        case Over::bodies:
+            recording.dispatch(std::max(1u, physics::work_for(p.bodies, p).x));
+            break;
+        case Over::buckets:
+            recording.dispatch(physics::work_for(p.buckets + 2, p).x);
+            break;
+        case Over::body_blocks:
+            recording.dispatch(physics::scan_work_for(p.bodies, p).x);
+            break;
+        case Over::bucket_blocks:
+            recording.dispatch(physics::scan_work_for(p.buckets + 1, p).x);
+            break;
+        case Over::pairs:
+            indirect(physics::WORK_PAIRS);
+            break;
+        case Over::spans:
+            indirect(physics::WORK_SPANS);
+            break;
+        case Over::kind_blocks:
+            indirect(physics::WORK_KIND_BLOCKS);
+            break;
+        case Over::pair_blocks:
+            indirect(physics::WORK_PAIR_BLOCKS);
+            break;
+        case Over::contacts:
+            indirect(physics::WORK_CONTACTS);
+            break;
+        case Over::shaken:
+            indirect(physics::WORK_SHAKEN);
+            break;
+        case Over::solved:
+            indirect(physics::WORK_SOLVED);
+            break;
+        case Over::kind:
+            indirect(physics::WORK_KIND + stage.pass);
+            break;
+        case Over::flights:
+            indirect(physics::WORK_FLIGHTS);
+            break;
+        case Over::joint_blocks:
+            recording.dispatch(std::max(1u, physics::work_for(p.joint_blocks, p).x));
+            break;
+        case Over::vehicles:
+            recording.dispatch(std::max(1u, physics::work_for(p.vehicles, p).x));
+            break;
+    }
+}
+
+void DeviceRunner::bind_tables() {
+    for (std::size_t parity = 0; parity < 2; ++parity) {
+        std::vector<const host::Buffer*> bound;
+        for (std::size_t i = 0; i < table_count; ++i)
+            bound.push_back(
+                &buffers_[static_cast<std::size_t>(parity ? other_parity(static_cast<Table>(i)) : static_cast<Table>(i))]);
+        alone_[parity].clear();
+        steps_[parity] = {};
+        tables_[parity] = std::make_unique<host::Table>(layout_, bound);
+    }
+}
+
+const host::Recording& DeviceRunner::whole_step() {
+    std::unique_ptr<host::Recording>& step = steps_[parity_][timed_ ? 1 : 0];
+    if (step) return *step;
+    auto recording = std::make_unique<host::Recording>(device_, timed_ ? static_cast<std::uint32_t>(recorded_.size()) + 1 : 0);
+    if (timed_) recording->timestamp();
+    for (const Stage& stage : recorded_) {
+        record_stage(*recording, stage);
+        if (stage.feeds_next) recording->barrier();
+        if (timed_) recording->timestamp();
+    }
+    recording->copy(buffers_[static_cast<std::size_t>(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
+    recording->barrier();
+    recording->end();
+    step = std::move(recording);
+    return *step;
+}
+
+void DeviceRunner::begin_step() {
+    if (!state_->fixed().redo) parity_ ^= 1;
+    send_inputs();
+}
+
+bool DeviceRunner::step() {
+    begin_step();
+    device_->submit_and_wait({whole_step().handle()});
+    return finished(parity_);
+}
+
+bool DeviceRunner::finished(std::size_t parity) {
+    std::memcpy(&state_->counted(), counts_back_[parity].mapped(), sizeof(physics::Counts));
+    if (timed_) {
+        clock_.begin_step();
+        const std::vector<double> seconds = steps_[parity][1]->timestamp_seconds();
+        for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
+        clock_.end_step();
+    }
+    return state_->counted().overflow == 0;
+}
+
+bool DeviceRunner::steps(int count, std::uint64_t& done) {
+    std::array<std::optional<host::Submission>, 2> under_way;  // by parity
+    int submitted = 0;
+    for (int waited = 0; waited < count; ++waited, ++done) {
+        while (submitted < count && submitted < waited + 2) {
+            begin_step();
+            under_way[parity_].emplace(*device_, std::vector{whole_step().handle()});
+            ++submitted;
+        }
+        const std::size_t parity = submitted == waited + 2 ? parity_ ^ 1 : parity_;
+        under_way[parity]->wait();
+        if (finished(parity)) continue;
+        // The step behind it has found the overflow and left everything as it was.
+        for (std::optional<host::Submission>& step : under_way) step.reset();
+        parity_ = parity;
+        return false;
+    }
+    return true;
+}
+
+void DeviceRunner::run_stage(std::size_t index) {
+    std::vector<std::unique_ptr<host::Recording>>& alone = alone_[parity_];
+    if (alone.empty()) {
+        make_pipelines(plan_);
+        for (const Stage& stage : plan_) {
+            auto recording = std::make_unique<host::Recording>(device_, 0);
+            record_stage(*recording, stage);
+            recording->barrier();
+            recording->end();
+            alone.push_back(std::move(recording));
+        }
+    }
+    device_->submit_and_wait({alone[index]->handle()});
+}
+
+std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device) {
+    return std::make_unique<DeviceRunner>(std::move(device));
+}
+
+}  // namespace scree

@@ -1,0 +1,114 @@
+// The device runner: the plan's stages as compute dispatches on a Vulkan device, recorded once and submitted every step.
+#pragma once
+
+#include <array>
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "compute/runner.h"
+#include "compute/step/plan.h"
+#include "compute/step/stage_clock.h"
+#include "host/vulkan/buffer.h"
+#include "host/vulkan/command_buffer.h"
+#include "host/vulkan/device.h"
+#include "host/vulkan/pipeline.h"
+
+namespace scree {
+
+class DeviceRunner : public Runner {
+public:
+    explicit DeviceRunner(std::shared_ptr<host::Device> device);
+    ~DeviceRunner() override;
+
+    std::string backend() const override { return "vulkan"; }
+    std::string device() const override;
+    std::uint32_t group_size() const override;
+    bool in_place() const override { return false; }
+    void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
+    bool step() override;
+    bool steps(int count, std::uint64_t& done) override;
+    void fetch_body(std::size_t index) override;
+    void fetch_bodies() override;
+    void fetch_contacts() override;
+    void fetch_joints() override;
+    void send_joint(std::size_t record) override;
+    void fetch_vehicles() override;
+    void send_vehicle(std::size_t index) override;
+    void fetch() override;
+    void time_stages(bool on) override { timed_ = on; }
+    StageTimes stage_times() const override { return clock_.means(); }
+    StageTimes last_stage_times() const override { return clock_.last(); }
+
+    // What a canvas draws from. They are other buffers after a step that had to grow.
+    const host::Buffer& traits() const { return buffer(Table::traits); }
+    const host::Buffer& poses() const { return buffer(Table::poses); }
+    const host::Buffer& velocities() const { return buffer(Table::velocities); }
+    const host::Buffer& counts() const { return buffer(Table::counts); }
+    const host::Buffer& contacts() const { return buffer(Table::contacts); }
+    const host::Buffer& impulses() const { return buffer(Table::impulses); }
+    const host::Buffer& slot_ends() const { return buffer(Table::slot_ends); }
+    const host::Buffer& slot_sides() const { return buffer(Table::slot_sides); }
+    const host::Buffer& rests() const { return buffer(Table::rests); }
+    const host::Buffer& ids() const { return buffer(Table::ids); }
+    const host::Buffer& bounds() const { return buffer(Table::bounds); }
+    const host::Buffer& joints() const { return buffer(Table::joints); }
+    std::uint32_t joint_records() const;  // of the table of joints
+
+    // For the comparison with another runner: a step stage by stage, and what a stage wrote.
+    void begin_step();
+    void run_stage(std::size_t index);
+    void read(Table table, std::span<std::byte> bytes) const;
+    void write(Table table, std::span<const std::byte> bytes);
+    // Whether stages run as one because the world is small.
+    bool is_fused() const { return recorded_.size() < plan_.size(); }
+    // Whether the tables are bound or, too long or too many for this device, found by address.
+    host::Reach reach() const { return layout_->reach(); }
+    // Fills with 0xCD every table that the step now begun must not read before it has written it.
+    void poison();
+
+private:
+    const host::Buffer& buffer(Table table) const;
+    host::Buffer& buffer(Table table);
+    host::Reach reach_needed() const;
+    bool reads_texels() const;
+    void make_plan(host::Reach reach);
+    void fuse();
+    bool is_one_subgroup() const;
+    std::uint32_t fused_group_size() const;
+    std::vector<std::uint32_t> constants_of(const Stage& stage) const;  // for its specialisation
+    void make_pipelines(const std::vector<Stage>& stages);
+    void make_buffers();
+    void upload();
+    void bind_tables();
+    const host::Recording& whole_step();
+    bool finished(std::size_t parity);  // a step: whether every list had room
+    void record_stage(host::Recording& recording, const Stage& stage) const;
+    void send_inputs();
+    void fetch_live(Table table);
+
+    std::shared_ptr<host::Device> device_;
+    State* state_ = nullptr;
+    std::vector<Stage> plan_;
+    std::vector<Stage> recorded_;  // the plan, in a small world with stages fused
+    int planned_substeps_ = 0;
+    Content planned_content_;
+    StageClock clock_;
+    std::shared_ptr<host::TableLayout> layout_;
+    std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
+    std::vector<host::Buffer> buffers_;        // by binding; contacts and those before change places with the parity
+    std::array<host::Buffer, 2> counts_back_;  // per parity
+    // Per parity: the table, and (made when asked for) the whole step, without and with times, and each stage alone.
+    std::array<std::unique_ptr<host::Table>, 2> tables_;
+    std::array<std::array<std::unique_ptr<host::Recording>, 2>, 2> steps_;
+    std::array<std::vector<std::unique_ptr<host::Recording>>, 2> alone_;
+    std::size_t parity_ = 0;
+    bool timed_ = false;
+    physics::Parameters sent_{};
+};
+
+std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device);
+
+}  // namespace scree

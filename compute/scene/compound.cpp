@@ -1,0 +1,67 @@
+// The mass of a compound: its parts' masses, centres and inertias, summed in double precision.
+#include "compute/scene/compound.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compute/scene/hull.h"
+
+namespace scree {
+
+namespace {
+
+using glm::dmat3;
+using glm::dquat;
+using glm::dvec3;
+
+dquat turn_of(const Part& part) {
+    return glm::normalize(dquat(part.orientation.w, part.orientation.x, part.orientation.y, part.orientation.z));
+}
+
+double reach_of(const Compound& compound) {
+    double reach = 0;
+    for (const Part& part : compound.parts) reach = std::max(reach, glm::length(dvec3(part.position)));
+    return reach;
+}
+
+}  // namespace
+
+WholeMass mass_of(const Compound& compound, float density) {
+    WholeMass whole;
+    std::vector<MassProperties> parts;
+    for (const Part& part : compound.parts) {
+        parts.push_back(mass_properties(whole_shape(part.shape), part.density > 0 ? part.density : density));
+        whole.mass += parts.back().mass;
+        whole.centre += dvec3(part.position) * static_cast<double>(parts.back().mass);
+    }
+    if (whole.mass > 0) whole.centre /= whole.mass;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        const dmat3 turn = glm::mat3_cast(turn_of(compound.parts[i]));
+        dmat3 own(0);
+        for (int k = 0; k < 3; ++k) own[k][k] = parts[i].inertia[k];
+        // The parallel axis theorem (Steiner): m (|r|^2 1 - r r^T) more.
+        const dvec3 r = dvec3(compound.parts[i].position) - whole.centre;
+        whole.inertia += turn * own * glm::transpose(turn) +
+                         static_cast<double>(parts[i].mass) * (glm::dot(r, r) * dmat3(1) - glm::outerProduct(r, r));
+    }
+    return whole;
+}
+
+Recentred bring_to_centre(Compound& compound, float density) {
+    Recentred before;
+    const WholeMass whole = mass_of(compound, density);
+    const dmat3 axes = principal_axes(whole.inertia);
+    const double rounding = 1e-6 * (reach_of(compound) + 1e-3);
+    if (axes == dmat3(1) && glm::length(whole.centre) <= rounding) return before;
+    before.centre = whole.centre;
+    before.axes = glm::normalize(glm::quat_cast(axes));
+    const dquat back = glm::conjugate(before.axes);
+    for (Part& part : compound.parts) {
+        part.position = vec3(back * (dvec3(part.position) - whole.centre));
+        const dquat turn = glm::normalize(back * turn_of(part));
+        if (axes != dmat3(1)) part.orientation = vec4(glm::dvec4(turn.x, turn.y, turn.z, turn.w));
+    }
+    return before;
+}
+
+}  // namespace scree

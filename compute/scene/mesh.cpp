@@ -1,0 +1,205 @@
+// How the triangles of a mesh are cleaned and told of their neighbours.
+#include "compute/scene/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace scree {
+
+namespace {
+
+using glm::dvec3;
+using glm::uvec3;
+using glm::vec3;
+
+// Of the mesh's size: vertices that lie nearer to each other are one. What programs write as one place differs by rounding.
+constexpr double same_place = 1e-7;
+// Of a triangle's longest edge: less high, and its normal is rounding.
+constexpr double least_height = 1e-5;
+// Sine of half a degree: what bends less is flat, and does not trip.
+constexpr double flat_bend = 0.0087;
+
+double size_of(std::span<const vec3> vertices) {
+    dvec3 lower(1e300), upper(-1e300);
+    for (const vec3& v : vertices) {
+        lower = glm::min(lower, dvec3(v));
+        upper = glm::max(upper, dvec3(v));
+    }
+    return vertices.empty() ? 0 : glm::length(upper - lower);
+}
+
+// For each vertex the first one at the same place. Places are told apart by a grid; a neighbour beyond a cell's side is looked
+// for there too.
+std::vector<std::uint32_t> welded(std::span<const vec3> vertices, double tolerance) {
+    using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+    std::map<Cell, std::vector<std::uint32_t>> cells;
+    std::vector<std::uint32_t> first(vertices.size());
+    const double inverse = tolerance > 0 ? 0.5 / tolerance : 1e9;
+    for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+        const dvec3 v(vertices[i]);
+        const auto low = glm::floor((v - tolerance) * inverse), high = glm::floor((v + tolerance) * inverse);
+        first[i] = i;
+        for (double x = low.x; x <= high.x && first[i] == i; ++x)
+            for (double y = low.y; y <= high.y && first[i] == i; ++y)
+                for (double z = low.z; z <= high.z && first[i] == i; ++z) {
+                    const auto at =
+                        cells.find({static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), static_cast<std::int64_t>(z)});
+                    if (at == cells.end()) continue;
+                    for (const std::uint32_t other : at->second)
+                        if (glm::length(dvec3(vertices[other]) - v) <= tolerance) first[i] = std::min(first[i], other);
+                }
+        if (first[i] != i) continue;
+        const dvec3 own = glm::floor(v * inverse);
+        cells[{static_cast<std::int64_t>(own.x), static_cast<std::int64_t>(own.y), static_cast<std::int64_t>(own.z)}].push_back(
+            i);
+    }
+    return first;
+}
+
+dvec3 normal_of(std::span<const vec3> vertices, const uvec3& t) {
+    const dvec3 a(vertices[t[0]]), b(vertices[t[1]]), c(vertices[t[2]]);
+    return glm::normalize(glm::cross(b - a, c - a));
+}
+
+bool has_area(std::span<const vec3> vertices, const uvec3& t) {
+    if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) return false;
+    const dvec3 a(vertices[t[0]]), b(vertices[t[1]]), c(vertices[t[2]]);
+    const double longest = std::max({glm::length(b - a), glm::length(c - b), glm::length(a - c)});
+    return glm::length(glm::cross(b - a, c - a)) > least_height * longest * longest;
+}
+
+uvec3 rotated_to_least(uvec3 t) {
+    while (t[0] > t[1] || t[0] > t[2]) t = {t[1], t[2], t[0]};
+    return t;
+}
+
+struct Edge {
+    std::vector<std::uint32_t> along, against;  // triangles that run through it from the lesser to the greater vertex; back
+};
+using Edges = std::map<std::pair<std::uint32_t, std::uint32_t>, Edge>;
+
+Edges edges_of(const std::vector<uvec3>& triangles) {
+    Edges edges;
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        for (int k = 0; k < 3; ++k) {
+            const std::uint32_t from = triangles[i][k], to = triangles[i][(k + 1) % 3];
+            Edge& edge = edges[std::minmax(from, to)];
+            (from < to ? edge.along : edge.against).push_back(i);
+        }
+    }
+    return edges;
+}
+
+// The neighbour over an edge, if there is exactly one and it faces the same way.
+const std::uint32_t* neighbour(const Edge& edge, bool along) {
+    if (edge.along.size() != 1 || edge.against.size() != 1) return nullptr;
+    return along ? edge.against.data() : edge.along.data();
+}
+
+vec3 limit_of(dvec3 own, dvec3 outward, const dvec3* neighbours) {
+    if (!neighbours) return vec3(outward);
+    return glm::dot(*neighbours, outward) > flat_bend ? vec3(*neighbours) : vec3(own);
+}
+
+}  // namespace
+
+MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given) {
+    if (given.empty()) throw MeshError("/triangles", "there are none");
+    for (std::size_t i = 0; i < vertices.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (!std::isfinite(vertices[i][k])) throw MeshError("/vertices/" + std::to_string(i), "is not finite");
+    for (std::size_t i = 0; i < given.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (given[i][k] >= vertices.size())
+                throw MeshError("/triangles/" + std::to_string(i), "vertex " + std::to_string(given[i][k]) + " of " +
+                                                                       std::to_string(vertices.size()) + " (they count from 0)");
+    const std::vector<std::uint32_t> first = welded(vertices, same_place * size_of(vertices));
+    MeshForm form;
+    std::vector<uvec3> triangles;
+    std::map<std::array<std::uint32_t, 3>, bool> seen;
+    for (const uvec3& t : given) {
+        const uvec3 own = rotated_to_least({first[t[0]], first[t[1]], first[t[2]]});
+        const bool fresh = seen.try_emplace({own[0], own[1], own[2]}, true).second;
+        if (fresh && has_area(vertices, own))
+            triangles.push_back(own);
+        else
+            ++form.dropped;
+    }
+    if (triangles.empty()) throw MeshError("/triangles", "none of them has an area");
+
+    const Edges edges = edges_of(triangles);
+    for (const auto& [ends, edge] : edges) {
+        const std::size_t sides = edge.along.size() + edge.against.size();
+        form.open += sides == 1;
+        form.branching += sides > 1 && !neighbour(edge, true);
+    }
+    std::vector<dvec3> normals;
+    for (const uvec3& t : triangles) normals.push_back(normal_of(vertices, t));
+    for (std::size_t i = 0; i < triangles.size(); ++i) {
+        const uvec3& t = triangles[i];
+        MeshForm::Triangle made;
+        const vec3 corners[3] = {vertices[t[0]], vertices[t[1]], vertices[t[2]]};
+        const vec3 lower = glm::min(corners[0], glm::min(corners[1], corners[2]));
+        const vec3 upper = glm::max(corners[0], glm::max(corners[1], corners[2]));
+        made.middle = (lower + upper) * 0.5f;
+        made.normal = vec3(normals[i]);
+        made.half_extents = vec3(0);
+        for (int k = 0; k < 3; ++k) {
+            made.corners[static_cast<std::size_t>(k)] = corners[k] - made.middle;
+            made.half_extents = glm::max(made.half_extents, glm::abs(corners[k] - made.middle));
+            form.reach = std::max(form.reach, glm::length(corners[k]));
+            const std::uint32_t from = t[k], to = t[(k + 1) % 3];
+            const std::uint32_t* other = neighbour(edges.at(std::minmax(from, to)), from < to);
+            const dvec3 outward = glm::normalize(glm::cross(dvec3(vertices[to]) - dvec3(vertices[from]), normals[i]));
+            made.limits[static_cast<std::size_t>(k)] = limit_of(normals[i], outward, other ? &normals[*other] : nullptr);
+        }
+        made.distance = glm::dot(made.normal, made.corners[0]);
+        form.triangles.push_back(made);
+    }
+    return form;
+}
+
+MeshForm mesh_form(const HeightField& field) {
+    std::vector<vec3> vertices;
+    std::vector<uvec3> triangles;
+    const float half_x = 0.5f * static_cast<float>(field.columns - 1), half_z = 0.5f * static_cast<float>(field.rows - 1);
+    for (std::uint32_t row = 0; row < field.rows; ++row) {
+        for (std::uint32_t column = 0; column < field.columns; ++column) {
+            const std::uint32_t here = row * field.columns + column;
+            vertices.emplace_back((static_cast<float>(column) - half_x) * field.spacing, field.heights[here],
+                                  (static_cast<float>(row) - half_z) * field.spacing);
+            if (row + 1 == field.rows || column + 1 == field.columns) continue;
+            const std::uint32_t below = here + field.columns;
+            triangles.emplace_back(here, below, here + 1);
+            triangles.emplace_back(here + 1, below, below + 1);
+        }
+    }
+    return mesh_form(vertices, triangles);
+}
+
+std::string oddities(const MeshForm& form) {
+    std::string text;
+    const auto say = [&](std::size_t count, const char* one, const char* many, const char* what) {
+        if (count == 0) return;
+        text += (text.empty() ? "" : "; ") + std::to_string(count) + " " + (count == 1 ? one : many) + what;
+    };
+    say(form.dropped, "triangle", "triangles", " without area, or repeated, left out");
+    say(form.open, "open edge", "open edges", ": what rolls over one leaves the mesh");
+    say(form.branching, "edge", "edges",
+        " where more than two triangles meet, or two that face opposite ways: seams there may be felt");
+    say(crossing_triangles(form), "triangle", "triangles",
+        " that cut through another: what gets between their faces is pushed both ways");
+    return text;
+}
+
+const MeshForm* mesh_form_of(const Shape& shape) {
+    if (const auto* mesh = std::get_if<Mesh>(&shape)) return mesh->form.get();
+    if (const auto* field = std::get_if<HeightField>(&shape)) return field->form.get();
+    return nullptr;
+}
+
+}  // namespace scree

@@ -1,0 +1,259 @@
+// Blocks of joints, their order of elimination (minimum degree), and their records.
+#include "compute/step/joint_blocks.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace scree {
+
+namespace {
+
+using Indices = std::vector<std::uint32_t>;
+
+// Which joints hang together through bodies that move.
+class Graph {
+public:
+    Graph(const Scene& scene, const std::vector<physics::Traits>& traits) : scene_(scene), of_body_(scene.bodies.size()) {
+        for (std::size_t j = 0; j < scene.joints.size(); ++j)
+            for (const std::size_t body : {scene.joints[j].a, scene.joints[j].b})
+                if (body != the_world && traits[body].motion == physics::MOTION_DYNAMIC)
+                    of_body_[body].push_back(static_cast<std::uint32_t>(j));
+    }
+
+    bool moves(std::size_t body) const { return body != the_world && !of_body_[body].empty(); }
+
+    std::set<std::uint32_t> neighbours(std::uint32_t joint) const {
+        std::set<std::uint32_t> found;
+        for (const std::size_t body : {scene_.joints[joint].a, scene_.joints[joint].b})
+            if (body != the_world) found.insert(of_body_[body].begin(), of_body_[body].end());
+        found.erase(joint);
+        return found;
+    }
+
+    // All joints that hang together with one, the nearest first.
+    Indices reached_from(std::uint32_t start) const {
+        Indices order{start};
+        std::set<std::uint32_t> seen{start};
+        std::set<std::size_t> bodies;
+        for (std::size_t at = 0; at < order.size(); ++at) {
+            const Joint& joint = scene_.joints[order[at]];
+            for (const std::size_t body : {joint.a, joint.b}) {
+                if (body == the_world || !bodies.insert(body).second) continue;
+                for (const std::uint32_t next : of_body_[body])
+                    if (seen.insert(next).second) order.push_back(next);
+            }
+        }
+        return order;
+    }
+
+private:
+    const Scene& scene_;
+    std::vector<Indices> of_body_;
+};
+
+struct Eliminated {
+    std::uint32_t joint;
+    std::set<std::uint32_t> links;
+};
+
+// The order in which each joint touches the fewest that are left; empty if one touches too many.
+std::vector<Eliminated> elimination_of(const Graph& graph, const Indices& joints) {
+    if (joints.size() > most_joints_of_block) return {};
+    const std::set<std::uint32_t> inside(joints.begin(), joints.end());
+    std::map<std::uint32_t, std::set<std::uint32_t>> left;
+    for (const std::uint32_t joint : joints)
+        for (const std::uint32_t other : graph.neighbours(joint))
+            if (inside.contains(other)) left[joint].insert(other);
+    for (const std::uint32_t joint : joints) left[joint];
+    std::vector<Eliminated> order;
+    while (!left.empty()) {
+        const auto least = std::min_element(left.begin(), left.end(),
+                                            [](const auto& x, const auto& y) { return x.second.size() < y.second.size(); });
+        if (least->second.size() > physics::MOST_LINKS) return {};
+        const Eliminated next{least->first, least->second};
+        left.erase(least);
+        for (const std::uint32_t other : next.links) {
+            left[other].insert(next.links.begin(), next.links.end());
+            left[other].erase(other);
+            left[other].erase(next.joint);
+        }
+        order.push_back(next);
+    }
+    return order;
+}
+
+// Of joints in the order in which they were reached; halves of what is too much for one block.
+void cut(const Graph& graph, const Indices& joints, std::vector<std::vector<Eliminated>>& blocks) {
+    std::vector<Eliminated> order = elimination_of(graph, joints);
+    if (!order.empty()) {
+        blocks.push_back(std::move(order));
+        return;
+    }
+    const auto middle = joints.begin() + static_cast<std::ptrdiff_t>(joints.size() / 2);
+    cut(graph, {joints.begin(), middle}, blocks);
+    cut(graph, {middle, joints.end()}, blocks);
+}
+
+std::vector<std::vector<Eliminated>> blocks_of(const Scene& scene, const Graph& graph) {
+    std::vector<std::vector<Eliminated>> blocks;
+    std::vector<bool> done(scene.joints.size());
+    for (std::uint32_t j = 0; j < scene.joints.size(); ++j) {
+        if (done[j]) continue;
+        // From the far end, so that halves of a chain are its halves.
+        const Indices whole = graph.reached_from(graph.reached_from(j).back());
+        for (const std::uint32_t joint : whole) done[joint] = true;
+        cut(graph, whole, blocks);
+    }
+    return blocks;
+}
+
+physics::uint index_of(std::size_t body) {
+    return body == the_world ? physics::NONE : static_cast<physics::uint>(body);
+}
+
+physics::Joint record_of(const Joint& joint) {
+    physics::Joint record{};
+    record.a = index_of(joint.a);
+    record.b = index_of(joint.b);
+    record.anchor_a = joint.anchor_a;
+    record.anchor_b = joint.anchor_b;
+    record.frame_a = joint.frame_a;
+    record.frame_b = joint.frame_b;
+    const JointAxes axes = axes_of_kind(joint.kind);
+    record.flags = axes.flags | (joint.collide ? physics::JOINT_COLLIDES : 0u);
+    for (std::size_t k = 0; k < 6; ++k) record.axes[k] = axis_record(axes.axes[k]);
+    record.break_force = joint.break_force;
+    record.break_torque = joint.break_torque;
+    record.broken = joint.broken;
+    return record;
+}
+
+// Appends the records of one block.
+void append(const Scene& scene, const Graph& graph, const std::vector<Eliminated>& block, JointTables& tables) {
+    const auto first = static_cast<std::uint32_t>(tables.records.size());
+    std::map<std::size_t, std::uint32_t> members;
+    std::vector<std::size_t> bodies;
+    for (std::uint32_t k = 0; k < block.size(); ++k) {
+        const Joint& joint = scene.joints[block[k].joint];
+        tables.record_of[block[k].joint] = first + k;
+        for (const std::size_t body : {joint.a, joint.b}) {
+            if (!graph.moves(body) || !members.try_emplace(body, first + static_cast<std::uint32_t>(bodies.size())).second)
+                continue;
+            bodies.push_back(body);
+        }
+    }
+    tables.records.resize(first + std::max(block.size(), bodies.size()));
+    const auto member = [&](std::size_t body) { return graph.moves(body) ? members.at(body) : physics::NONE; };
+    for (std::uint32_t k = 0; k < block.size(); ++k) {
+        const Joint& joint = scene.joints[block[k].joint];
+        physics::Joint& record = tables.records[first + k] = record_of(joint);
+        record.member_a = member(joint.a);
+        record.member_b = member(joint.b);
+        for (const std::uint32_t other : block[k].links) record.links_to[record.links++] = tables.record_of[other];
+        std::sort(record.links_to, record.links_to + record.links);
+    }
+    tables.records[first].block_joints = static_cast<physics::uint>(block.size());
+    tables.records[first].block_members = static_cast<physics::uint>(bodies.size());
+    tables.records[tables.blocks++].first_of_block = first;
+    for (std::uint32_t k = 0; first + k < tables.records.size(); ++k) {
+        tables.records[first + k].member = k < bodies.size() ? static_cast<physics::uint>(bodies[k]) : physics::NONE;
+        tables.records[first + k].slot = physics::NONE;
+    }
+}
+
+}  // namespace
+
+JointAxes axes_of_kind(const JointKind& kind) {
+    JointAxes made;
+    const Axis locked{.locked = true};
+    for (std::size_t k = 0; k < 3; ++k) made.axes[k] = locked;
+    const auto lock_turns = [&] {
+        for (std::size_t k = 3; k < 6; ++k) made.axes[k] = locked;
+    };
+    if (const auto* ball = std::get_if<Ball>(&kind)) {
+        for (std::size_t k = 3; k < 6; ++k) made.axes[k].friction = ball->friction;
+    } else if (const auto* hinge = std::get_if<Hinge>(&kind)) {
+        lock_turns();
+        made.axes[3] = hinge->turn;
+    } else if (const auto* slider = std::get_if<Slider>(&kind)) {
+        lock_turns();
+        made.axes[0] = slider->slide;
+    } else if (std::holds_alternative<Fixed>(kind)) {
+        lock_turns();
+    } else if (const auto* distance = std::get_if<Distance>(&kind)) {
+        made.flags = physics::JOINT_RADIAL;
+        for (std::size_t k = 0; k < 3; ++k) made.axes[k] = {};
+        made.axes[0].limits = Limits{distance->least, distance->greatest};
+        made.axes[0].spring = distance->spring;
+    } else if (const auto* cone = std::get_if<ConeTwist>(&kind)) {
+        made.flags = physics::JOINT_CONE;
+        made.axes[3].limits = cone->twist;
+        made.axes[4].limits = Limits{-unlimited, cone->swing};
+        made.axes[3].friction = cone->friction;
+    } else if (const auto* six = std::get_if<SixDegrees>(&kind)) {
+        const Axis all[] = {six->x, six->y, six->z, six->twist, six->swing_y, six->swing_z};
+        if (!six->twist.locked) made.flags = physics::JOINT_SPINS;
+        std::copy(std::begin(all), std::end(all), made.axes);
+    }
+    return made;
+}
+
+physics::JointAxis axis_record(const Axis& axis) {
+    physics::JointAxis record{};
+    record.lower = -unlimited;
+    record.upper = unlimited;
+    if (axis.locked || (axis.limits && axis.limits->lower == axis.limits->upper)) {
+        record.mode = physics::AXIS_LOCKED;
+        record.rest = axis.locked ? 0 : axis.limits->lower;
+        return record;
+    }
+    if (axis.limits) {
+        record.mode |= physics::AXIS_LIMITED;
+        record.lower = axis.limits->lower;
+        record.upper = axis.limits->upper;
+    }
+    if (axis.spring && (axis.spring->stiffness > 0 || axis.spring->damping > 0)) {
+        record.mode |= physics::AXIS_SPRING;
+        record.stiffness = axis.spring->stiffness;
+        record.damping = axis.spring->damping;
+        record.rest = axis.spring->rest;
+        record.most = axis.spring->max_force;
+    } else if (axis.motor) {
+        record.mode |= physics::AXIS_MOTOR;
+        record.speed = axis.motor->speed;
+        record.most = axis.motor->max_force;
+    } else if (axis.friction > 0) {
+        record.mode |= physics::AXIS_MOTOR;
+        record.most = axis.friction;
+    }
+    return record;
+}
+
+JointTables joint_tables(const Scene& scene, std::vector<physics::Traits>& traits) {
+    JointTables tables;
+    if (scene.joints.empty()) return tables;
+    tables.record_of.resize(scene.joints.size());
+    const Graph graph(scene, traits);
+    for (const std::vector<Eliminated>& block : blocks_of(scene, graph)) append(scene, graph, block, tables);
+    std::vector<physics::uint> blocks(scene.bodies.size());
+    for (const physics::Joint& record : tables.records)
+        if (record.member != physics::NONE) ++blocks[record.member];
+    for (physics::Joint& record : tables.records)
+        if (record.member != physics::NONE) record.blocks = blocks[record.member];
+    // Each body's list, in the order of the scene.
+    for (std::size_t j = scene.joints.size(); j-- > 0;) {
+        physics::Joint& record = tables.records[tables.record_of[j]];
+        const auto list = [&](physics::uint body, physics::uint& next) {
+            next = physics::NONE;
+            if (body == physics::NONE || traits[body].motion != physics::MOTION_DYNAMIC) return;
+            next = traits[body].joints;
+            traits[body].joints = tables.record_of[j];
+        };
+        list(record.a, record.next_a);
+        list(record.b, record.next_b);
+    }
+    return tables;
+}
+
+}  // namespace scree

@@ -1,0 +1,163 @@
+// Orders bodies along a Morton curve, and moves them in the tables.
+#include "compute/step/memory_order.h"
+
+#include <tbb/parallel_sort.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+#include <numeric>
+#include <utility>
+
+#include "compute/step/threads.h"
+
+namespace scree {
+
+namespace {
+
+bool may_move(const Body& body) {
+    return body.piece_of == no_body;  // the body that it is a piece of knows its row
+}
+
+// Every third bit, from 21.
+std::uint64_t spread_out(std::uint64_t x) {
+    x &= 0x1FFFFF;
+    x = (x | x << 32) & 0x1F00000000FFFF;
+    x = (x | x << 16) & 0x1F0000FF0000FF;
+    x = (x | x << 8) & 0x100F00F00F00F00F;
+    x = (x | x << 4) & 0x10C30C30C30C30C3;
+    return (x | x << 2) & 0x1249249249249249;
+}
+
+// Morton 1966: the bits of three coordinates in turn. Cells beyond two million from the origin share the last one.
+std::uint64_t place_on_curve(vec3 position, float inverse_cell) {
+    constexpr double middle = 1 << 20;
+    std::uint64_t place = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const double cell = std::floor(static_cast<double>(position[axis]) * inverse_cell) + middle;
+        const double within = std::isfinite(cell) ? std::clamp(cell, 0.0, 2 * middle - 1) : 0.0;
+        place |= spread_out(static_cast<std::uint64_t>(within)) << axis;
+    }
+    return place;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state) {
+    const std::size_t n = scene.bodies.size();
+    std::vector<std::pair<std::uint64_t, std::uint32_t>> order(n);
+    Threads().for_each(n, [&](std::size_t id) {
+        order[id] = {place_on_curve(state.poses[state.row_of(id)].position, state.fixed().inverse_cell),
+                     static_cast<std::uint32_t>(id)};
+    });
+    std::erase_if(order, [&](const auto& one) { return !may_move(scene.bodies[one.second]); });
+    tbb::parallel_sort(order.begin(), order.end());
+    std::vector<std::uint32_t> rows(n);
+    std::iota(rows.begin(), rows.end(), 0u);
+    auto next = order.begin();
+    for (std::uint32_t row = 0; row < n; ++row)
+        if (may_move(scene.bodies[row])) rows[(next++)->second] = row;
+    return rows;
+}
+
+double stride_in_space(const Scene& scene, const State& state, const std::vector<std::uint32_t>& rows) {
+    std::vector<std::uint32_t> ids(scene.bodies.size());
+    for (std::uint32_t id = 0; id < ids.size(); ++id) ids[rows.empty() ? state.row_of(id) : rows[id]] = id;
+    std::erase_if(ids,
+                  [&](std::uint32_t id) { return !may_move(scene.bodies[id]) || scene.bodies[id].motion != Motion::dynamic; });
+    if (ids.size() < 2) return 0;
+    const double most = 64.0 * state.fixed().cell;
+    double sum = 0;
+    for (std::size_t k = 1; k < ids.size(); ++k) {
+        const vec3 apart = state.poses[state.row_of(ids[k])].position - state.poses[state.row_of(ids[k - 1])].position;
+        const double distance = glm::length(glm::dvec3(apart));
+        sum += distance < most ? distance : most;  // of what is not finite, too
+    }
+    return sum / static_cast<double>(ids.size() - 1);
+}
+
+std::vector<std::uint32_t> contacts_by_id(const State& state) {
+    const std::uint32_t contacts = state.counted().contacts;
+    std::vector<std::uint32_t> order;
+    order.reserve(contacts);
+    if (!state.reordered()) {
+        order.resize(contacts);
+        std::iota(order.begin(), order.end(), 0u);
+        return order;
+    }
+    for (std::uint32_t id = 0; id < state.fixed().bodies; ++id) {
+        const std::uint32_t row = state.row_of(id);
+        for (std::uint32_t k = state.first_contacts[row]; k < std::min(contacts, state.first_contacts[row + 1]); ++k)
+            order.push_back(k);
+    }
+    return order;
+}
+
+void State::number_rows() {
+    std::iota(ids.begin(), ids.end(), 0u);
+    for (std::uint32_t id = 0; id < rows_.size(); ++id) ids[rows_[id]] = id;
+}
+
+void State::reorder(const std::vector<std::uint32_t>& rows) {
+    const std::uint32_t n = fixed().first_part, all = fixed().bodies;
+    std::vector<std::uint32_t> from(all), to(all);  // rows
+    std::iota(from.begin(), from.end(), 0u);
+    std::iota(to.begin(), to.end(), 0u);
+    for (std::uint32_t id = 0; id < n; ++id) {
+        from[rows[id]] = row_of(id);
+        to[row_of(id)] = rows[id];
+    }
+    // All that wants memory first: whoever runs out of it finds every body where it was.
+    std::vector<std::uint32_t> by_id = rows;
+    // One for every table: new memory takes longer than what is done to it.
+    std::vector<std::byte> scratch(n * sizeof(physics::Traits));
+    const Threads threads;
+    const auto follow = [&](physics::uint& row) {
+        if (row < n) row = to[row];
+    };
+    // Contacts are listed by the row of their owner, and its own in the order of ids.
+    const bool with_contacts = contacts.size() >= counted().contacts && first_contacts.size() > all;
+    if (with_contacts) {
+        contacts_before.resize(contacts.size());
+        impulses_before.resize(impulses.size());
+        first_contacts_before.resize(first_contacts.size());
+        first_contacts_before[0] = 0;
+        for (std::uint32_t row = 0; row < all; ++row)
+            first_contacts_before[row + 1] =
+                first_contacts_before[row] + first_contacts[from[row] + 1] - first_contacts[from[row]];
+        threads.for_each(all, [&](std::size_t row) {
+            std::uint32_t place = first_contacts_before[row];
+            for (std::uint32_t k = first_contacts[from[row]]; k < first_contacts[from[row] + 1]; ++k, ++place) {
+                contacts_before[place] = contacts[k];
+                follow(contacts_before[place].a);
+                follow(contacts_before[place].b);
+                impulses_before[place] = impulses[k];
+            }
+        });
+    }
+    const auto take = [&](auto& table) {
+        if (table.size() < all) return;  // it is not here
+        constexpr std::size_t bytes = sizeof table[0];
+        static_assert(bytes <= sizeof(physics::Traits));
+        threads.for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
+        threads.for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
+    };
+    take(traits);
+    take(poses);
+    take(velocities);
+    take(rests);
+    take(masses);
+    for (physics::Traits& row : traits) follow(row.owner);
+    for (physics::Joint& joint : joints)
+        for (physics::uint* row : {&joint.a, &joint.b, &joint.member}) follow(*row);
+    for (physics::Vehicle& vehicle : vehicles) {
+        follow(vehicle.handling.chassis);
+        for (physics::VehicleWheel& wheel : vehicle.wheel) follow(wheel.body);
+    }
+    if (with_contacts) turn_over();
+    rows_.swap(by_id);
+    number_rows();
+}
+
+}  // namespace scree

@@ -1,0 +1,114 @@
+// Finds runs of stages that one workgroup can do.
+#include "compute/step/stage_fusion.h"
+
+#include <algorithm>
+#include <string>
+
+#include "shaders/physics/collide/grid.h"
+
+namespace scree {
+
+namespace {
+
+// A dispatch costs lavapipe 7 us, and a fused stage one core has to do alone: a step of 155 boxes with 238 contacts takes 2.0 ms
+// with fused stages and 2.3 ms without, one with 552 contacts 3.7 and 4.0 on two cores that others kept busy, too.
+constexpr std::uint32_t most_contacts = 320;
+constexpr std::uint32_t most_items = 2048;
+
+bool is_small(const physics::Parameters& p) {
+    return p.contact_capacity <= most_contacts && std::max({p.pair_capacity, p.bodies, p.buckets}) <= most_items;
+}
+
+// Lavapipe ends a shader's loops after 65,535 rounds in all, without a word, and one of its vectors goes through everything here.
+constexpr std::uint32_t most_rounds = 60000;
+// Both passes over a contact: eight sweeps over four points in each, and a few loops over the points. 160 were seen.
+constexpr std::uint32_t contact_rounds = 200;
+
+// So many substeps one dispatch does. Bodies gather their slots one by one, twice a substep.
+std::uint32_t substeps_at_once(const physics::Parameters& p, std::uint32_t threads) {
+    const std::uint32_t rounds = (p.contact_capacity / threads + 1) * contact_rounds + 4 * p.contact_capacity + 2 * p.bodies;
+    return std::max(1u, most_rounds / rounds);
+}
+
+using Names = std::vector<std::string>;
+
+struct Run {
+    std::string name;
+    Names parts;
+};
+
+Names scan(const std::string& what) {
+    return {"scan_" + what + "_sums", "scan_" + what + "_spine", "scan_" + what + "_offsets"};
+}
+
+Names joined(Names names, const Names& more) {
+    names.insert(names.end(), more.begin(), more.end());
+    return names;
+}
+
+// Longer runs before those that they contain.
+const std::vector<Run>& runs() {
+    static const std::vector<Run> all = {
+        {"scan_cells", scan("cells")},
+        {"scan_pairs", scan("pairs")},
+        {"bin_pairs", joined(joined({"count_kinds"}, scan("kinds")), {"fill_kinds"})},
+        {"scan_contacts", scan("contacts")},
+        {"list_slots", joined(joined({"count_slots"}, scan("slots")), {"fill_slots", "order_slots"})},
+        {"scan_slots", scan("slots")},
+        {"substeps", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts"}},
+        {"substeps_felt", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts_felt"}},
+    };
+    return all;
+}
+
+bool begins_at(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
+    return first + run.parts.size() <= plan.size() &&
+           std::equal(run.parts.begin(), run.parts.end(), plan.begin() + static_cast<std::ptrdiff_t>(first),
+                      [](const std::string& name, const Stage& stage) { return name == stage.name; });
+}
+
+// How often in succession.
+std::uint32_t times_at(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
+    std::uint32_t times = 0;
+    while (begins_at(run, plan, first + times * run.parts.size())) ++times;
+    return times;
+}
+
+// `part` of `whole` substeps, from the one after `before` on: shaders/stages/substeps.comp.
+std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t whole) {
+    return before | part << 8 | whole << 16;
+}
+
+Stage in_one(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
+    Stage all{.name = run.name, .over = Over::one_group, .reference = nullptr, .writes = {}};
+    for (std::size_t k = 0; k < run.parts.size(); ++k) all.content |= plan[first + k].content;
+    return all;
+}
+
+}  // namespace
+
+std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Parameters& parameters, std::uint32_t threads) {
+    if (!is_small(parameters)) return plan;
+    std::vector<Stage> stages;
+    for (std::size_t i = 0; i < plan.size();) {
+        const auto run = std::find_if(runs().begin(), runs().end(), [&](const Run& each) { return begins_at(each, plan, i); });
+        if (run == runs().end()) {
+            stages.push_back(plan[i++]);
+            continue;
+        }
+        const std::uint32_t times = times_at(*run, plan, i), at_once = substeps_at_once(parameters, threads);
+        for (std::uint32_t done = 0; done < times; done += at_once) {
+            stages.push_back(in_one(*run, plan, i));
+            stages.back().pass = pass_of(done, std::min(at_once, times - done), times);
+        }
+        i += times * run->parts.size();
+    }
+    return stages;
+}
+
+std::vector<std::string> parts_of(const std::string& name) {
+    const auto run = std::find_if(runs().begin(), runs().end(), [&](const Run& each) { return each.name == name; });
+    return run == runs().end() ? std::vector{name} : run->parts;
+}
+
+}  // namespace scree

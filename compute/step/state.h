@@ -1,0 +1,182 @@
+// Every table of a step on the host: what the reference runner works on, and the image of what a device holds.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "compute/scene.h"
+#include "compute/settings.h"
+#include "shaders/physics/base/records.h"
+#include "shaders/physics/collide/shape_data.h"
+#include "shaders/stages/lib/tables.h"
+
+namespace scree {
+
+// What tables are as long as.
+enum class Length {
+    one,
+    bodies,
+    entries,
+    bodies_and_end,
+    buckets,
+    pairs,
+    pairs_and_end,
+    kinds,
+    candidates,
+    contacts,
+    slots,
+    hulls,
+    joints,
+    vehicles,
+    actions
+};
+
+enum class Table : std::uint32_t {
+#define SCREE_NAME(binding, name, block, record, length) name = binding,
+    SCREE_TABLES(SCREE_NAME)
+#undef SCREE_NAME
+};
+
+struct TableInfo {
+    const char* name;
+    std::size_t record_bytes;
+    Length length;
+};
+#define SCREE_COUNT(binding, name, block, record, length) +1
+inline constexpr std::size_t table_count = 0 SCREE_TABLES(SCREE_COUNT);
+#undef SCREE_COUNT
+const std::array<TableInfo, table_count>& table_infos();  // by binding
+
+// What of the stages a scene needs.
+struct Content {
+    bool convex = false;        // some body is a cylinder, cone or hull
+    bool hulls = false;         // some body is a hull
+    bool triangles = false;     // there are meshes or height fields
+    bool moving_parts = false;  // there are compounds, or meshes, that move
+    bool joints = false;
+    bool breaking = false;  // some body may break
+    bool vehicles = false;
+    bool bounces = false;    // some contact may throw back what strikes it
+    bool rolls = false;      // some contact resists rolling
+    bool round = false;      // there are spheres or capsules
+    bool tyres = false;      // with a vehicle or without
+    bool reordered = false;  // rows are in another order than ids
+    static Content everything() { return {true, true, true, true, true, true, true, true, true, true, true, true}; }
+    bool operator==(const Content&) const = default;
+};
+
+// Parameters::sleep_steps.
+physics::uint sleep_steps_of(const Settings& settings);
+
+struct State {
+#define SCREE_VECTOR(binding, name, block, record, length) std::vector<physics::record> name;
+    SCREE_TABLES(SCREE_VECTOR)
+#undef SCREE_VECTOR
+
+    // The tables of a checked scene before its first step. `all`: every table has its memory here; else only what the scene
+    // itself says, and make() brings the others.
+    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all);
+    void make(Table table);
+
+    // Last step's contacts become those before; called at the start of every step that is not a repetition.
+    void turn_over();
+
+    // Makes room for what the last step asked for and half as much again. What is in the tables stays.
+    void grow();
+
+    // What may change between steps, into the parameters (grips, which depend on the substeps, are the caller's to make anew).
+    // Impulses that last are those of a substep; those of the last step are brought to the new length of one. They, and
+    // everything else that lasts, must be here (Runner::fetch), and the runner be attached again, if the substeps change.
+    void tune(vec3 gravity, const Settings& settings);
+    // One more body, the last; the rows of parts move up behind it. Everything that lasts must be here, and the runner be
+    // attached again.
+    void add(const Body& body);
+    // The joints are the scene's: those that were here, but for the one at `without`, and then others. The same holds.
+    void rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
+
+    // Puts bodies into other rows, rows[id] being the new one of each. Rows of parts stay, and those of pieces must (their bodies
+    // know them). All that lasts from step to step goes with its body, and no bit of what follows changes; what is left of the
+    // last step beside it is of no use any more. Everything that lasts must be here, and the runner be attached again. Where
+    // memory ends, nothing has changed.
+    void reorder(const std::vector<std::uint32_t>& rows);
+    bool reordered() const {
+        return !rows_.empty();
+    }
+    // Where a body of the scene is, and which body, or part, is there.
+    std::uint32_t row_of(std::size_t id) const {
+        return id < rows_.size() ? rows_[id] : static_cast<std::uint32_t>(id);
+    }
+    std::uint32_t id_of(std::uint32_t row) const {
+        return rows_.empty() ? row : ids[row];
+    }
+
+    // Items of a table as allocated, and those that mean something at present.
+    std::size_t allocated(Length length) const;
+    std::size_t live(Length length) const;
+    Content content() const;
+    bool has_joints() const;
+    // Whether some body may break.
+    bool has_fractures() const;
+    // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
+    std::uint32_t body_of(std::uint32_t row) const {
+        return row < fixed().first_part ? row : traits[row].owner;
+    }
+    std::size_t bytes() const;  // of all tables, wherever they are
+
+    std::span<std::byte> raw(Table table);
+    std::span<const std::byte> raw(Table table) const;
+
+    physics::Parameters& fixed() {
+        return parameters[0];
+    }
+    const physics::Parameters& fixed() const {
+        return parameters[0];
+    }
+    physics::Counts& counted() {
+        return counts[0];
+    }
+    const physics::Counts& counted() const {
+        return counts[0];
+    }
+
+    physics::Hulls hull_table() const {
+        return {hulls.data()};
+    }
+
+    int substeps = 1;
+    std::uint32_t action_room = 64;            // bodies that the user may act upon in one step; grows
+    std::vector<std::uint32_t> joint_records;  // of each joint of the scene
+
+    // The plain loops' own, no table: the first partners of each body as they were counted, so that they need not be sought again
+    // to be listed. More than any body has in a heap of equal ones; whoever has more seeks again.
+    static constexpr std::size_t noted = 15;
+    std::vector<std::array<std::uint32_t, noted>> partners;
+
+private:
+    static physics::Pose start_of(const Body& body);
+    static physics::Velocity start_velocity_of(const Body& body);
+    static std::uint32_t buckets_for(std::uint32_t bodies);
+    void allocate();
+    void number_rows();
+    std::vector<std::uint32_t> rows_;  // by id; empty: every body is in the row of its id
+    physics::Traits traits_of(const Body& body, std::uint32_t index);
+    physics::Traits form_of(const SimpleShape& shape);
+    physics::Traits form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
+    void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others
+    void place(std::uint32_t part);                            // where its body is
+    physics::uint place_of(const Hull& hull);
+    physics::uint place_of(const Fracture& fracture);
+    physics::uint place_of(const std::optional<Tyre>& tyre);
+    bool all_ = true;
+    std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table
+    std::map<std::pair<float, float>, physics::uint> tyres_;           // likewise
+    std::map<std::shared_ptr<const Cut>, physics::uint> cuts_;         // of how bodies come apart, in the same table
+};
+
+}  // namespace scree

@@ -1,0 +1,186 @@
+// What a user does to a world while it runs: takes hold of bodies, turns its dials, adds bodies.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include "compute/scene/fracture.h"
+#include "compute/world/world_impl.h"
+
+namespace scree {
+
+namespace {
+
+constexpr float farthest = 1e6f;  // m, as in a scene
+
+void demand(bool condition, const std::string& what) {
+    if (!condition) throw std::invalid_argument(what);
+}
+
+bool within(vec3 v, float limit) {
+    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+
+vec3 half_extents(const Shape& shape) {
+    if (const auto* compound = std::get_if<Compound>(&shape)) {
+        vec3 half(0);
+        for (const Part& part : compound->parts)
+            half = glm::max(half, glm::abs(part.position) + vec3(glm::length(half_extents(whole_shape(part.shape)))));
+        return half;
+    }
+    if (const auto* sphere = std::get_if<Sphere>(&shape)) return vec3(sphere->radius);
+    if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents;
+    if (const auto* capsule = std::get_if<Capsule>(&shape))
+        return {capsule->radius, capsule->radius + capsule->half_height, capsule->radius};
+    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return {cylinder->radius, cylinder->half_height, cylinder->radius};
+    if (const auto* cone = std::get_if<Cone>(&shape)) return {cone->radius, 0.75f * cone->height, cone->radius};
+    vec3 half(0);
+    if (const auto* hull = std::get_if<Hull>(&shape))
+        for (const vec3& point : hull->points) half = glm::max(half, glm::abs(point));
+    return half;
+}
+
+void check(const GripSpring& s) {
+    demand(s.hertz >= 0.1f && s.hertz <= 30, "grip: hertz must be between 0.1 and 30");
+    demand(s.damping_ratio >= 0 && s.damping_ratio <= 10, "grip: damping_ratio must be between 0 and 10");
+    demand(s.max_acceleration >= 0 && s.max_acceleration <= 1e4f, "grip: max_acceleration must be between 0 and 10000 m/s^2");
+    demand(s.spin_damping >= 0 && s.spin_damping <= 100, "grip: spin_damping must be between 0 and 100 1/s");
+}
+
+// The coefficients of Catto, Soft Constraints, GDC 2011; see shaders/physics/extra/grab_spring.h.
+physics::Grip record_of(std::size_t body, vec3 anchor, vec3 target, const GripSpring& spring, float h) {
+    const float omega = 2 * std::numbers::pi_v<float> * spring.hertz;
+    const float a1 = 2 * spring.damping_ratio + h * omega;
+    const float a2 = h * omega * a1;
+    physics::Grip grip{};
+    grip.body = static_cast<physics::uint>(body);
+    grip.anchor = anchor;
+    grip.target = target;
+    grip.bias_rate = omega / a1;
+    grip.mass_scale = a2 / (1 + a2);
+    grip.most = spring.max_acceleration * h;
+    grip.spin_kept = 1 / (1 + h * spring.spin_damping);
+    return grip;
+}
+
+}  // namespace
+
+World::Interior::Held& World::Interior::held(std::size_t grip) {
+    if (grip < grips.size() && grips[grip]) return *grips[grip];
+    throw std::out_of_range("grip " + std::to_string(grip) + " does not hold anything");
+}
+
+// Records that are not in use are zero, so that the same holds leave the same parameters.
+void World::Interior::take_up_grips() {
+    physics::Parameters& parameters = state.fixed();
+    parameters.held = 0;
+    for (physics::Grip& record : parameters.grips) record = {};
+    for (const std::optional<Held>& grip : grips) {
+        if (!grip) continue;
+        action_on(grip->body, vec3(0), vec3(0));  // wakes it
+        parameters.grips[parameters.held++] =
+            record_of(state.row_of(grip->body), grip->anchor, grip->target, grip->spring, parameters.h);
+    }
+}
+
+std::size_t World::grip(std::size_t body, vec3 anchor, vec3 target, const GripSpring& spring) {
+    Interior& in = *interior_;
+    const auto free = std::find(in.grips.begin(), in.grips.end(), std::nullopt);
+    if (free == in.grips.end()) throw std::length_error("at most " + std::to_string(most_grips) + " grips hold at once");
+    check(spring);
+    demand(within(target, farthest), "grip: the target must be within 1000000 m of 0");
+    in.action_on(body, anchor, target);
+    const vec3 box = half_extents(in.scene.bodies[body].shape);
+    *free = Interior::Held{body, glm::clamp(anchor, -box, box), target, spring};
+    return static_cast<std::size_t>(free - in.grips.begin());
+}
+
+void World::move_grip(std::size_t grip, vec3 target) {
+    demand(within(target, farthest), "grip: the target must be within 1000000 m of 0");
+    interior_->held(grip).target = target;
+}
+
+void World::release(std::size_t grip) {
+    interior_->held(grip);
+    interior_->grips[grip].reset();
+}
+
+void World::explode(vec3 centre, float radius, float speed) {
+    demand(within(centre, farthest), "explosion: the centre must be within 1000000 m of 0");
+    demand(radius > 0 && radius <= farthest, "explosion: the radius must be in (0, 1000000] m");
+    demand(std::abs(speed) <= 1e4f, "explosion: the speed must be within 10000 m/s");
+    const std::vector<BodyState> states = bodies();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        const Body& body = interior_->scene.bodies[i];
+        if (body.motion != Motion::dynamic || !states[i].there) continue;
+        const vec3 apart = states[i].position - centre;
+        const float distance = glm::length(apart);
+        if (!(distance < radius)) continue;
+        const vec3 direction = distance > 1e-6f * radius ? apart / distance : vec3(0, 1, 0);
+        const float mass = mass_properties(body.shape, body.density).mass;
+        apply_impulse(i, direction * (mass * speed * (1 - distance / radius)));
+    }
+}
+
+void World::Interior::retune(const Settings& changed) {
+    bool replan = changed.substeps != settings.substeps;
+    if ((changed.least_restitution > 0) != (settings.least_restitution > 0)) {
+        Content content = state.content();
+        state.fixed().least_restitution = changed.least_restitution;
+        replan = replan || state.content() != content;
+        state.fixed().least_restitution = settings.least_restitution;
+    }
+    if (replan) runner->fetch();
+    settings = changed;
+    state.tune(scene.gravity, settings);
+    if (replan) runner->attach(state);
+}
+
+void World::set_gravity(vec3 gravity) {
+    interior_->scene.gravity = checked(Scene{gravity, {}, {}}).gravity;
+    interior_->retune(interior_->settings);
+    wake_all();
+}
+
+void World::set_friction_factor(float factor) {
+    Settings changed = interior_->settings;
+    changed.friction_factor = factor;
+    interior_->retune(checked(changed));
+    wake_all();
+}
+
+void World::set_least_restitution(float restitution) {
+    Settings changed = interior_->settings;
+    changed.least_restitution = restitution;
+    interior_->retune(checked(changed));
+    wake_all();
+}
+
+void World::set_substeps(int substeps) {
+    Settings changed = interior_->settings;
+    changed.substeps = substeps;
+    interior_->retune(checked(changed));
+}
+
+void World::set_sleeping(bool allowed) {
+    interior_->settings.sleeping = allowed;
+    interior_->state.fixed().sleep_steps = sleep_steps_of(interior_->settings);
+}
+
+std::size_t World::add_body(const Body& body) {
+    Interior& in = *interior_;
+    Scene added = checked(Scene{in.scene.gravity, {on_its_own(body)}, {}});
+    const std::size_t first = in.scene.bodies.size();
+    in.runner->fetch();
+    for (Body& one : added.bodies) {
+        if (one.piece_of != no_body) one.piece_of += first;
+        if (one.fracture) one.fracture->first_piece += first;
+        in.state.add(one);
+        in.scene.bodies.push_back(std::move(one));
+    }
+    in.runner->attach(in.state);
+    return first;
+}
+
+}  // namespace scree

@@ -1,0 +1,64 @@
+// When the bodies of a world are put into another order in memory.
+#include <utility>
+
+#include "compute/step/memory_order.h"
+#include "compute/world/world_impl.h"
+
+namespace scree {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// With fewer everything lies in a cache. A settled pile on two cores, sorted against as it fell: the solver's passes over 10,000
+// boxes take 0.77 of the time on the CPU and 0.82 to 0.85 on lavapipe, those over 100,000 0.8 on the CPU.
+constexpr std::size_t fewest_bodies = 4096;
+constexpr double share_of_time = 0.02;
+constexpr double worth_it = 1.25;  // bodies next to each other in memory are so much farther apart than they might be
+
+double seconds_since(Clock::time_point then) {
+    return std::chrono::duration<double>(Clock::now() - then).count();
+}
+
+}  // namespace
+
+bool World::Interior::keeps_order() const {
+    return settings.reordering && scene.bodies.size() >= fewest_bodies;
+}
+
+void World::Interior::begin_in_order() {
+    if (!keeps_order()) return;
+    const auto begin = Clock::now();
+    state.reorder(rows_by_place(scene, state));
+    looked = Clock::now();
+    seconds_to_look = seconds_since(begin);
+}
+
+void World::Interior::keep_order() {
+    const bool asked = std::exchange(reorder_now, false);
+    if (!asked && (!keeps_order() || (looked && seconds_since(*looked) * share_of_time < seconds_to_look))) return;
+    const auto begin = Clock::now();
+    runner->fetch_bodies();
+    const std::vector<std::uint32_t> rows = rows_by_place(scene, state);
+    if (asked || stride_in_space(scene, state) > worth_it * stride_in_space(scene, state, rows)) {
+        runner->fetch();
+        state.reorder(rows);
+        runner->attach(state);
+        ++reorderings;
+    }
+    looked = Clock::now();
+    seconds_to_look = seconds_since(begin);
+}
+
+void World::reorder() {
+    interior_->reorder_now = true;
+}
+std::uint64_t World::reorderings() const {
+    return interior_->reorderings;
+}
+std::size_t World::row_of(std::size_t body) const {
+    interior_->require_body(body);
+    return interior_->state.row_of(body);
+}
+
+}  // namespace scree

@@ -1,0 +1,294 @@
+// The world: walks steps, grows tables, and turns what the user asks into actions.
+#include "compute/world.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "compute/scene/fracture.h"
+#include "compute/statistics.h"
+#include "compute/step/memory_order.h"
+#include "compute/world/world_impl.h"
+#include "shaders/physics/extra/sleep.h"
+
+namespace scree {
+
+namespace {
+
+// Sums that a step can calculate with: no mass is so small that this much pushes it beyond what a float holds.
+physics::Action bounded(physics::Action action) {
+    constexpr float most = 1e15f;
+    for (vec3* push : {&action.force, &action.torque, &action.impulse, &action.angular_impulse})
+        *push = glm::clamp(*push, vec3(-most), vec3(most));
+    return action;
+}
+
+// The turning force of a push at an offset from the centre. In double precision: a float's products end at 1e38.
+vec3 moment(vec3 offset, vec3 push) {
+    const glm::dvec3 turn = glm::cross(glm::dvec3(offset), glm::dvec3(push));
+    constexpr double most = std::numeric_limits<float>::max();
+    return vec3(glm::clamp(turn, glm::dvec3(-most), glm::dvec3(most)));
+}
+
+bool finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+}  // namespace
+
+World::Interior::Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r)
+    : scene(std::move(s)), settings(t), runner(std::move(r)), state(scene, settings, runner->group_size(), runner->in_place()) {
+    begin_in_order();
+    runner->attach(state);
+}
+
+void World::Interior::require_body(std::size_t body) const {
+    if (body < scene.bodies.size()) return;
+    throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()));
+}
+
+physics::Action& World::Interior::action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too) {
+    require_body(body);
+    if (!finite(value) || !finite(second)) throw std::invalid_argument("body " + std::to_string(body) + ": not finite");
+    const Motion motion = scene.bodies[body].motion;
+    if (motion == Motion::fixed || (motion == Motion::kinematic && !kinematic_too))
+        throw std::invalid_argument("body " + std::to_string(body) + " is not dynamic");
+    return actions[body];
+}
+
+void World::Interior::make_room_for_actions() {
+    runner->fetch();
+    state.action_room = std::bit_ceil(static_cast<std::uint32_t>(actions.size()));
+    state.make(Table::actions);
+    runner->attach(state);
+}
+
+void World::Interior::make_room_for_lists() {
+    runner->fetch();
+    state.grow();
+    ++growths;
+    state.fixed().redo = 1;
+    runner->attach(state);
+}
+
+void World::Interior::step() {
+    if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
+    broken = true;
+    keep_order();
+    take_up_grips();
+    if (actions.size() > state.action_room) make_room_for_actions();
+    physics::Parameters& parameters = state.fixed();
+    parameters.actions = 0;
+    for (const auto& [body, action] : actions) {
+        physics::Action& told = state.actions[parameters.actions++] = bounded(action);
+        told.body = state.row_of(body);
+    }
+    actions.clear();
+    parameters.redo = 0;
+    while (!runner->step()) make_room_for_lists();
+    state.fixed().wake_all = 0;
+    ++steps;
+    broken = false;
+}
+
+int World::Interior::steps_alone(int count) {
+    if (std::any_of(grips.begin(), grips.end(), [](const auto& grip) { return grip.has_value(); })) return 0;
+    broken = true;
+    state.fixed().actions = 0;
+    state.fixed().redo = 0;
+    const std::uint64_t before = steps;
+    const bool all = runner->steps(count, steps);
+    if (!all) {
+        do make_room_for_lists();
+        while (!runner->step());
+        ++steps;
+    }
+    broken = false;
+    return static_cast<int>(steps - before);
+}
+
+World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
+    : interior_(std::make_unique<Interior>(scree::checked(scene), scree::checked(settings), std::move(runner))) {}
+World::World(const Scene& scene, const Settings& settings, int threads)
+    : World(scene, settings, make_reference_runner(threads)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::step(int count) {
+    constexpr int most_alone = 64;  // the bodies' order in memory is looked after between them
+    while (count > 0) {
+        interior_->step();
+        --count;
+        if (count > 0) count -= interior_->steps_alone(std::min(count, most_alone));
+    }
+}
+
+std::uint64_t World::steps() const {
+    return interior_->steps;
+}
+std::size_t World::bodies_there() const {
+    if (!interior_->state.has_fractures()) return interior_->scene.bodies.size();
+    const std::vector<BodyState> all = bodies();
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const BodyState& body) { return body.there; }));
+}
+double World::time() const {
+    return static_cast<double>(interior_->steps) / interior_->settings.rate;
+}
+const Scene& World::scene() const {
+    return interior_->scene;
+}
+const Settings& World::settings() const {
+    return interior_->settings;
+}
+Runner& World::runner() {
+    return *interior_->runner;
+}
+
+void World::apply_force(std::size_t body, vec3 force, vec3 offset) {
+    physics::Action& action = interior_->action_on(body, force, offset);
+    action.force += force;
+    action.torque += moment(offset, force);
+}
+void World::apply_torque(std::size_t body, vec3 torque) {
+    interior_->action_on(body, torque, torque).torque += torque;
+}
+void World::apply_impulse(std::size_t body, vec3 impulse, vec3 offset) {
+    physics::Action& action = interior_->action_on(body, impulse, offset);
+    action.impulse += impulse;
+    action.angular_impulse += moment(offset, impulse);
+}
+void World::apply_angular_impulse(std::size_t body, vec3 impulse) {
+    interior_->action_on(body, impulse, impulse).angular_impulse += impulse;
+}
+void World::set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity) {
+    physics::Action& action = interior_->action_on(body, velocity, angular_velocity, /* kinematic_too */ true);
+    action.flags |= physics::ACTION_SETS_VELOCITY;
+    action.velocity = velocity;
+    action.angular_velocity = angular_velocity;
+}
+
+void World::wake(std::size_t body) {
+    interior_->action_on(body, vec3(0), vec3(0));
+}
+void World::wake_all() {
+    interior_->state.fixed().wake_all = 1;
+}
+BodyState World::Interior::body_state(std::size_t i) const {
+    const std::uint32_t row = state.row_of(i);
+    return {state.poses[row].position,
+            state.poses[row].orientation,
+            state.velocities[row].linear,
+            state.velocities[row].angular,
+            physics::is_asleep(state.rests[row], state.fixed().sleep_steps),
+            !physics::is_absent(state.traits[row].motion)};
+}
+
+std::vector<BodyState> World::bodies() const {
+    interior_->runner->fetch_bodies();
+    std::vector<BodyState> bodies(interior_->scene.bodies.size());
+    for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = interior_->body_state(i);
+    return bodies;
+}
+
+Scene World::snapshot() const {
+    Scene scene = interior_->scene;
+    interior_->runner->fetch_bodies();
+    std::vector<Body> there;
+    std::vector<std::size_t> place_there(scene.bodies.size(), no_body);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        const BodyState now = interior_->body_state(i);
+        if (!now.there) continue;
+        place_there[i] = there.size();
+        Body& body = there.emplace_back(on_its_own(std::move(scene.bodies[i])));
+        if (body.motion == Motion::fixed) continue;
+        body.position = now.position;
+        body.orientation = now.orientation;
+        body.velocity = now.velocity;
+        body.angular_velocity = now.angular_velocity;
+    }
+    scene.bodies = std::move(there);
+    interior_->runner->fetch_joints();
+    std::vector<Joint> joints;
+    std::vector<std::size_t> joint_there(scene.joints.size(), no_body);
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        joint_there[i] = joints.size();
+        Joint& joint = joints.emplace_back(scene.joints[i]);
+        joint.broken = interior_->joint_state(i).broken;
+        const auto gone = [&](std::size_t& body) {
+            if (body == the_world) return false;
+            body = place_there[body];
+            return body == no_body;
+        };
+        if (gone(joint.a) | gone(joint.b)) {
+            joints.pop_back();
+            joint_there[i] = no_body;
+        }
+    }
+    scene.joints = std::move(joints);
+    interior_->keep_vehicles(scene, place_there, joint_there);
+    return scene;
+}
+
+BodyState World::body(std::size_t index) const {
+    interior_->require_body(index);
+    interior_->runner->fetch_body(interior_->state.row_of(index));
+    return interior_->body_state(index);
+}
+
+std::vector<Touching> World::touching(std::size_t body) const {
+    interior_->require_body(body);
+    interior_->runner->fetch_bodies();
+    interior_->runner->fetch_contacts();
+    const State& state = interior_->state;
+    std::vector<Touching> found;
+    for (const std::uint32_t i : contacts_by_id(state)) {
+        const physics::Contact& contact = state.contacts[i];
+        const std::size_t a = state.id_of(state.body_of(contact.a)), b = state.id_of(state.body_of(contact.b));
+        if (a != body && b != body) continue;
+        const physics::vec4 pushes = state.impulses[i].normal;
+        const float force = (pushes.x + pushes.y + pushes.z + pushes.w) * state.fixed().inverse_h;
+        found.push_back({a == body ? b : a, static_cast<int>(contact.count), force});
+    }
+    return found;
+}
+
+Statistics World::statistics() const {
+    interior_->runner->fetch_bodies();
+    interior_->runner->fetch_contacts();
+    interior_->runner->fetch_joints();
+    return statistics_of(interior_->scene, interior_->state);
+}
+
+const State& World::state() const {
+    interior_->runner->fetch_bodies();
+    interior_->runner->fetch_contacts();
+    interior_->runner->fetch_joints();
+    interior_->runner->fetch_vehicles();
+    return interior_->state;
+}
+
+std::uint64_t World::state_hash() const {
+    interior_->runner->fetch_bodies();
+    return hash_of(interior_->state);
+}
+
+std::uint64_t World::buffer_growths() const {
+    return interior_->growths;
+}
+std::size_t World::buffer_bytes() const {
+    return interior_->state.bytes();
+}
+void World::time_stages(bool on) {
+    interior_->runner->time_stages(on);
+}
+StageTimes World::stage_times() const {
+    return interior_->runner->stage_times();
+}
+StageTimes World::last_stage_times() const {
+    return interior_->runner->last_stage_times();
+}
+
+}  // namespace scree

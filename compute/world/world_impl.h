@@ -1,0 +1,73 @@
+// What a world is made of.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "compute/scene/joint_validation.h"
+#include "compute/step/state.h"
+#include "compute/world.h"
+
+namespace scree {
+
+struct World::Interior {
+    struct Held {
+        std::size_t body = 0;
+        vec3 anchor{0}, target{0};
+        GripSpring spring;
+    };
+
+    Scene scene;
+    Settings settings;
+    std::unique_ptr<Runner> runner;
+    State state;
+    std::map<std::size_t, physics::Action> actions;  // for the next step, by body
+    std::array<std::optional<Held>, most_grips> grips;
+    std::uint64_t steps = 0;
+    std::uint64_t growths = 0;
+    bool reorder_now = false;  // asked for
+    std::uint64_t reorderings = 0;
+    double seconds_to_look = 0;  // after the bodies' order in memory, the last time
+    std::optional<std::chrono::steady_clock::time_point> looked;
+    bool broken = false;  // left true by a step that ended in an exception: the tables may be half grown
+
+    Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r);
+    void step();
+    int steps_alone(int count);  // up to so many in which the user asks for nothing; 0 while a grip is held
+    bool keeps_order() const;    // of the bodies in memory
+    void begin_in_order();
+    void keep_order();  // between two steps
+    void make_room_for_actions();
+    void make_room_for_lists();  // and the step shall be done again
+    void require_body(std::size_t body) const;
+    physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
+    BodyState body_state(std::size_t i) const;
+
+    // joints.cpp
+    void require_joint(std::size_t joint) const;  // throws std::out_of_range
+    JointState joint_state(std::size_t i) const;
+    void wake(const Joint& joint);  // its bodies, in the next step
+    void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
+
+    // vehicles.cpp
+    void require_vehicle(std::size_t vehicle) const;  // throws std::out_of_range
+    void require_no_wheel(std::size_t joint) const;   // throws std::invalid_argument if a vehicle has a wheel on it
+    void tell(std::size_t vehicle, const Controls& controls, bool by_route);
+    VehicleState vehicle_state(std::size_t index) const;
+    // As they are now, into a snapshot whose bodies and joints are those that are there (no_body: gone).
+    void keep_vehicles(Scene& snapshot, const std::vector<std::size_t>& bodies, const std::vector<std::size_t>& joints) const;
+
+    // editing.cpp
+    Held& held(std::size_t grip);  // throws std::out_of_range
+    void take_up_grips();          // into the parameters of the coming step
+    void retune(const Settings& changed);
+};
+
+}  // namespace scree

@@ -1,0 +1,154 @@
+// Where a world is drawn: the choice between the two canvases, and the tables that the chosen one draws from.
+#include "demos/film/drawing.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <span>
+
+#include "compute/scene/mesh.h"
+#include "compute/step/state.h"
+#include "demos/film/solid_meshes.h"
+#include "demos/program/exit_status.h"
+#include "host/device_error.h"
+
+namespace scree::demos {
+
+namespace {
+
+// Rows of the tables by what they look like.
+class Instances {
+public:
+    void add(std::uint32_t row, const SimpleShape& shape) {
+        // In the order of SimpleShape's alternatives.
+        std::vector<std::uint32_t>* const lists[] = {&made.spheres, &made.capsules, &made.boxes, &made.planes};
+        if (shape.index() < std::size(lists)) {
+            lists[shape.index()]->push_back(row);
+            return;
+        }
+        const auto* hull = std::get_if<Hull>(&shape);
+        const void* key = hull ? static_cast<const void*>(hull->form.get()) : (std::get_if<Cone>(&shape) ? &cones_ : &cylinders_);
+        const auto [mesh, fresh] = meshes_.try_emplace(key, static_cast<std::uint32_t>(made.meshes.size()));
+        if (fresh) made.meshes.push_back(hull ? hull_mesh(*hull) : (key == &cones_ ? cone_mesh() : cylinder_mesh()));
+        add(row, mesh->second);
+    }
+    // Triangles, a patch of them at a time: the first one's row carries the patch, and none is much larger than other solids.
+    void add(std::uint32_t first_row, const MeshForm& form) {
+        for (std::size_t k = 0; k < form.triangles.size(); k += triangles_of_patch) {
+            const std::size_t last = std::min(k + triangles_of_patch, form.triangles.size());
+            made.meshes.push_back(patch_mesh(form, k, last));
+            add(first_row + static_cast<std::uint32_t>(k), static_cast<std::uint32_t>(made.meshes.size() - 1));
+        }
+    }
+
+    host::ShapeInstances made;
+
+private:
+    void add(std::uint32_t row, std::uint32_t mesh) {
+        made.solids.push_back(row);
+        made.solid_meshes.push_back(mesh);
+    }
+
+    static constexpr std::size_t triangles_of_patch = 128;  // as many as a cylinder has
+    std::map<const void*, std::uint32_t> meshes_;           // of cylinders, of cones, of each hull
+    const char cylinders_ = 0, cones_ = 0;
+};
+
+}  // namespace
+
+host::ShapeInstances instances_of(const World& world) {
+    const Scene& scene = world.scene();
+    Instances instances;
+    auto part = static_cast<std::uint32_t>(scene.bodies.size());  // the row of the next; as State has them
+    for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
+        const Shape& shape = scene.bodies[i].shape;
+        if (const std::optional<SimpleShape> simple = simple_shape(shape))
+            instances.add(static_cast<std::uint32_t>(world.row_of(i)), *simple);
+        if (const auto* compound = std::get_if<Compound>(&shape))
+            for (const Part& one : compound->parts) instances.add(part++, one.shape);
+        if (const MeshForm* form = mesh_form_of(shape)) {
+            instances.add(part, *form);
+            part += static_cast<std::uint32_t>(form->triangles.size());
+        }
+    }
+    return std::move(instances.made);
+}
+
+host::BodyTables tables_of(const State& state) {
+    const std::uint32_t contacts = state.counted().contacts;
+    host::BodyTables tables{state.traits,
+                            state.poses,
+                            state.velocities,
+                            std::span(state.contacts).first(contacts),
+                            std::span(state.impulses).first(contacts),
+                            contacts};
+    tables.slot_ends = state.slot_ends;
+    tables.slot_sides = state.slot_sides;
+    tables.rests = state.rests;
+    tables.bounds = state.bounds;
+    tables.ids = state.ids;
+    tables.joints = state.joints;
+    tables.joint_count = static_cast<std::uint32_t>(state.joints.size());
+    return tables;
+}
+
+namespace {
+
+// On whatever is there. OpenGL ES first: a processor draws a frame in 5% less time than with Vulkan (llvmpipe and lavapipe, 3,000
+// bodies at 1280x720).
+std::unique_ptr<host::Canvas> any_canvas(const Machine& machine, const host::ShapeInstances& instances,
+                                         const host::CanvasOptions& options) {
+    std::string missing;
+    try {
+        return host::make_gl_canvas(instances, options);
+    } catch (const host::DeviceError& error) {
+        missing = error.what();
+    }
+    try {
+        return make_vulkan_canvas(machine, instances, options);
+    } catch (const host::DeviceError& error) {
+        throw UsageError("--frames and --video need OpenGL ES or Vulkan, though the simulation does not: " + missing + "; or " +
+                         error.what());
+    }
+}
+
+}  // namespace
+
+Drawing::Drawing(const std::string& canvas, const Machine& machine, World& world, const host::CanvasOptions& options)
+    : world_(world), word_(canvas), machine_(machine), options_(options) {
+    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device;
+    update();
+}
+
+std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
+    const host::ShapeInstances instances = instances_of(world_);
+    try {
+        if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
+        return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);
+    } catch (const host::DeviceError& error) {
+        throw UsageError(error.what());
+    }
+}
+
+void Drawing::update() {
+    if (!canvas_ || bodies_ != world_.scene().bodies.size() || reorderings_ != world_.reorderings()) {
+        canvas_.reset();
+        canvas_ = make_canvas();
+        bodies_ = world_.scene().bodies.size();
+        reorderings_ = world_.reorderings();
+    }
+    const host::BodyTables tables = from_device_ ? tables_on_device(world_.runner()) : tables_of(world_.state());
+    contacts_ = tables.touch_count;
+    canvas_->set_tables(tables);
+}
+
+std::uint32_t Drawing::contacts() const {
+    return contacts_;
+}
+
+vec3 Drawing::position_of(std::size_t body) const {
+    const std::size_t row = world_.row_of(body);
+    return from_device_ ? position_on_device(world_.runner(), row) : world_.state().poses[row].position;
+}
+
+}  // namespace scree::demos

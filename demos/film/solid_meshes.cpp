@@ -1,0 +1,85 @@
+// Triangles of cylinders, cones and hulls.
+#include "demos/film/solid_meshes.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "compute/scene/hull.h"
+#include "compute/scene/mesh.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr int sides = 32;  // of a circle
+
+void add(host::SolidMesh& mesh, vec3 point, vec3 normal) {
+    mesh.corners.emplace_back(point, 0);
+    mesh.corners.emplace_back(normal, 0);
+}
+vec3 on_circle(int k) {
+    const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / sides;
+    return {std::cos(angle), 0, std::sin(angle)};
+}
+// A disc at a height, seen from above or from below.
+void add_disc(host::SolidMesh& mesh, float height, float up) {
+    const vec3 lift(0, height, 0), normal(0, up, 0);
+    for (int k = 0; k < sides; ++k) {
+        add(mesh, lift, normal);
+        add(mesh, lift + on_circle(up > 0 ? k + 1 : k), normal);
+        add(mesh, lift + on_circle(up > 0 ? k : k + 1), normal);
+    }
+}
+
+}  // namespace
+
+host::SolidMesh cylinder_mesh() {
+    host::SolidMesh mesh{true, {}};
+    add_disc(mesh, 1, 1);
+    add_disc(mesh, -1, -1);
+    for (int k = 0; k < sides; ++k) {
+        const vec3 a = on_circle(k), b = on_circle(k + 1), up(0, 1, 0);
+        add(mesh, a - up, a);
+        add(mesh, a + up, a);
+        add(mesh, b + up, b);
+        add(mesh, a - up, a);
+        add(mesh, b + up, b);
+        add(mesh, b - up, b);
+    }
+    return mesh;
+}
+
+host::SolidMesh cone_mesh() {
+    host::SolidMesh mesh{true, {}};
+    add_disc(mesh, -0.25f, -1);
+    for (int k = 0; k < sides; ++k) {
+        const vec3 a = on_circle(k), b = on_circle(k + 1), up(0, 1, 0);
+        add(mesh, a - up * 0.25f, a + up);
+        add(mesh, up * 0.75f, (a + b) * 0.5f + up);
+        add(mesh, b - up * 0.25f, b + up);
+    }
+    return mesh;
+}
+
+host::SolidMesh hull_mesh(const Hull& hull) {
+    host::SolidMesh mesh;
+    for (const HullForm::Face& face : hull.form->faces) {
+        for (std::size_t k = 1; k + 1 < face.corners.size(); ++k) {
+            for (const std::size_t corner : {std::size_t{0}, k, k + 1})
+                add(mesh, vec3(hull.form->vertices[face.corners[corner]]), vec3(face.normal));
+        }
+    }
+    return mesh;
+}
+
+host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t last) {
+    host::SolidMesh mesh;
+    for (std::size_t k = first; k < last; ++k) {
+        const MeshForm::Triangle& triangle = form.triangles[k];
+        for (const vec3& corner : triangle.corners)
+            add(mesh, triangle.middle + corner - form.triangles[first].middle, triangle.normal);
+    }
+    return mesh;
+}
+
+}  // namespace scree::demos

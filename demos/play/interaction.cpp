@@ -1,0 +1,221 @@
+// What a person's hands mean.
+#include "demos/play/interaction.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "demos/scenes/demos.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr double most_steps = 8;    // in one go, and seconds that they may take: a slow machine falls behind the clock rather
+constexpr double most_time = 0.05;  // than show nothing
+constexpr double slowest = 1.0 / 16;
+constexpr std::size_t few_vehicles = 4;  // that one of them is what a scene is about
+
+host::Key key(char character) {
+    return host::key_of(character);
+}
+
+}  // namespace
+
+const char* const key_help =
+    "  left button        take hold of a body and drag it (the wheel draws it nearer or farther);\n"
+    "                     beside bodies: look round\n"
+    "  right button       look round; with Shift, or the middle button: move the view; wheel: nearer, farther\n"
+    "  Space, B           throw a ball, a box through the pointer\n"
+    "  arrows, Page Up/Down  push the selected body; X: an explosion where the pointer points\n"
+    "  1, 2, 3            add a sphere, a capsule, a box\n"
+    "  where there is a vehicle:\n"
+    "  W, S, A, D or arrows  drive it: accelerate, brake (then backwards), left, right; Space: the hand brake\n"
+    "  Backspace, C       put it on its wheels where it is; the camera chases it, or stays\n"
+    "  F                  follow the selected body; Home: the first view again\n"
+    "  P, .               pause, a single step; L: slower (1/2 to 1/16), then full speed again\n"
+    "  R, Tab             begin again, the next demo (with Shift the one before)\n"
+    "  H, Q               hide the panel, close the window";
+
+Interaction::Interaction(Session& session, Extent extent)
+    : session_(session), extent_(extent), eye_(session.subject().viewpoint) {
+    begin_again();
+}
+
+void Interaction::perform(const Act& act) {
+    try {
+        session_.perform(act);
+        message_.clear();
+    } catch (const std::logic_error& error) {
+        message_ = error.what();
+    } catch (const SceneError& error) {
+        message_ = error.what();
+    }
+}
+
+// ---- events
+void Interaction::on(const host::Event& event) {
+    using enum host::EventKind;
+    switch (event.kind) {
+        case resized:
+            extent_ = {static_cast<int>(event.x), static_cast<int>(event.y)};
+            break;
+        case moved:
+            move(event);
+            break;
+        case pressed:
+            x_ = event.x;
+            y_ = event.y;
+            press(event);
+            break;
+        case released:
+            release_button();
+            break;
+        case scrolled:
+            scroll(event.amount);
+            break;
+        case key_pressed:
+            held_keys_.insert(event.key);
+            press_key(event);
+            break;
+        case key_released:
+            held_keys_.erase(event.key);
+            break;
+    }
+}
+
+void Interaction::press(const host::Event& event) {
+    if (motion_ != Motion::none) return;
+    if (event.button == host::Button::middle || event.shift) {
+        motion_ = Motion::pans;
+        return;
+    }
+    motion_ = Motion::orbits;
+    if (event.button == host::Button::right) return;
+    const std::optional<Hit> hit = hit_under_pointer();
+    const bool dynamic = hit && session_.world().scene().bodies[hit->body].motion == scree::Motion::dynamic;
+    if (dynamic) {
+        selected_ = hit->body;
+        grab(*hit);
+    }
+}
+
+void Interaction::release_button() {
+    if (motion_ == Motion::holds) let_go();
+    motion_ = Motion::none;
+}
+
+void Interaction::move(const host::Event& event) {
+    const double dx = event.x - x_, dy = event.y - y_;
+    x_ = event.x;
+    y_ = event.y;
+    if (motion_ == Motion::orbits) eye_.orbit(dx, dy);
+    if (motion_ == Motion::pans) {
+        follows = false;
+        eye_.pan(dx, dy, extent_);
+    }
+    if (motion_ == Motion::holds) drag();
+}
+
+void Interaction::scroll(double clicks) {
+    if (!hold_) {
+        eye_.zoom(clicks);
+        return;
+    }
+    hold_->depth *= std::pow(1.1f, static_cast<float>(clicks));
+    drag();
+}
+
+void Interaction::press_key(const host::Event& event) {
+    using enum host::Key;
+    const host::Key pressed = event.key;
+    if (is_driving_key(pressed)) {
+        if (!told_) told_ = Controls{};
+        return;
+    }
+    if (pressed == backspace) put_upright();
+    if (pressed == key('C') && vehicle()) chases = !chases;
+    if (pressed == space) throw_body(Kind::sphere);
+    if (pressed == key('B')) throw_body(Kind::box);
+    if (pressed == key('X')) explode();
+    if (pressed == key('1')) add(Kind::sphere);
+    if (pressed == key('2')) add(Kind::capsule);
+    if (pressed == key('3')) add(Kind::box);
+    if (pressed == key('P')) paused = !paused;
+    if (pressed == key('.')) step_once();
+    if (pressed == key('L')) pace = static_cast<double>(pace) > slowest ? pace / 2 : 1;
+    if (pressed == key('F')) follows = !follows && selected_;
+    if (pressed == home) eye_ = Eye(session_.subject().viewpoint);
+    if (pressed == key('R')) reset();
+    if (pressed == tab) open_next(event.shift ? -1 : 1);
+    if (pressed == key('Q') || pressed == escape) wants_to_close_ = true;
+}
+
+// ---- scenes
+void Interaction::begin_again() {
+    hold_.reset();
+    motion_ = Motion::none;
+    selected_.reset();
+    handled_.clear();
+    thrown_ = 0;
+    follows = false;
+    told_.reset();
+    chases = !session_.subject().scene.vehicles.empty() && session_.subject().scene.vehicles.size() <= few_vehicles;
+    backlog_ = 0;
+    single_steps_ = 0;
+}
+
+void Interaction::reset() {
+    begin_again();
+    session_.reset();
+}
+
+void Interaction::open(const std::string& name) {
+    try {
+        session_.open(name);
+    } catch (const std::exception& error) {
+        message_ = error.what();
+        return;
+    }
+    message_.clear();
+    begin_again();
+    eye_ = Eye(session_.subject().viewpoint);
+}
+
+void Interaction::open_next(int direction) {
+    std::vector<std::string> names;
+    for (const Demo& demo : all_demos()) {
+        if (!demo.trial) names.emplace_back(demo.name);
+    }
+    const auto now = std::find(names.begin(), names.end(), session_.options().name);
+    const auto count = static_cast<std::ptrdiff_t>(names.size());
+    const std::ptrdiff_t at = now == names.end() ? (direction > 0 ? -1 : 0) : now - names.begin();
+    open(names[static_cast<std::size_t>((at + direction + count) % count)]);
+}
+
+// ---- the clock
+void Interaction::make_step() {
+    push_selected();
+    drive();
+    session_.step();
+}
+
+void Interaction::advance(double seconds) {
+    if (paused) {
+        backlog_ = 0;
+    } else {
+        backlog_ += seconds * static_cast<double>(pace * session_.world().settings().rate);
+        if (backlog_ > most_steps) backlog_ = most_steps;
+        const auto start = std::chrono::steady_clock::now();
+        for (; backlog_ >= 1; backlog_ -= 1) {
+            make_step();
+            const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+            if (taken.count() > most_time) backlog_ = std::min(backlog_, 1.0);
+        }
+    }
+    for (; single_steps_ > 0; --single_steps_) make_step();
+    if (chases) chase(seconds);
+    if (follows && selected_) eye_.look_at(session_.world().body(*selected_).position);
+}
+
+}  // namespace scree::demos

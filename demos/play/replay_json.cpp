@@ -1,0 +1,273 @@
+// Input as JSON text: one act a line, every float so that it reads back to the same bits.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "compute/scene_file/joints_json.h"
+#include "compute/scene_file/json_reading.h"
+#include "compute/scene_file/scene_json.h"
+#include "demos/play/replay.h"
+#include "demos/program/report.h"
+
+namespace scree::demos {
+
+namespace {
+
+using namespace json_reading;
+
+const Names keys = {"scree_input", "scene", "bodies",   "seed", "rate",      "substeps",
+                    "sleeping",    "steps", "end_hash", "acts", "start_hash"};
+const Names act_names = {"grab", "drag", "release", "add", "join", "unjoin", "push", "explode", "turn", "drive", "righten"};
+constexpr std::uint64_t most_steps = 1000000000;  // as --steps
+
+// ---- writing
+std::string text_of(float value) {
+    if (value == 0) return std::signbit(value) ? "-0.0" : "0";
+    const std::string shortest = fmt::format("{}", value);
+    // Readers go through a double; should that round twice to a neighbour, write all digits.
+    return static_cast<float>(std::stod(shortest)) == value ? shortest : fmt::format("{:.17g}", static_cast<double>(value));
+}
+std::string text_of(vec3 v) {
+    return fmt::format("[{}, {}, {}]", text_of(v.x), text_of(v.y), text_of(v.z));
+}
+std::string text_of(int value) {
+    return std::to_string(value);
+}
+std::string text_of(bool value) {
+    return value ? "true" : "false";
+}
+
+struct Writer {
+    std::string operator()(const Grab& act) const {
+        return fmt::format(R"("grab": {{"grip": {}, "body": {}, "anchor": {}, "target": {}}})", act.grip, act.body,
+                           text_of(act.anchor), text_of(act.target));
+    }
+    std::string operator()(const Drag& act) const {
+        return fmt::format(R"("drag": {{"grip": {}, "target": {}}})", act.grip, text_of(act.target));
+    }
+    std::string operator()(const Release& act) const { return fmt::format(R"("release": {{"grip": {}}})", act.grip); }
+    std::string operator()(const Add& act) const { return "\"add\": " + body_to_json(act.body); }
+    std::string operator()(const Join& act) const { return "\"join\": " + joint_to_json(act.joint); }
+    std::string operator()(const Unjoin& act) const { return fmt::format(R"("unjoin": {{"joint": {}}})", act.joint); }
+    std::string operator()(const Push& act) const {
+        return fmt::format(R"("push": {{"body": {}, "force": {}}})", act.body, text_of(act.force));
+    }
+    std::string operator()(const Explode& act) const {
+        return fmt::format(R"("explode": {{"centre": {}, "radius": {}, "speed": {}}})", text_of(act.centre), text_of(act.radius),
+                           text_of(act.speed));
+    }
+    std::string operator()(const Drive& act) const {
+        return fmt::format(R"("drive": {{"vehicle": {}, "throttle": {}, "brake": {}, "steer": {}, "hand_brake": {}}})",
+                           act.vehicle, text_of(act.controls.throttle), text_of(act.controls.brake), text_of(act.controls.steer),
+                           text_of(act.controls.hand_brake));
+    }
+    std::string operator()(const Righten& act) const { return fmt::format(R"("righten": {{"vehicle": {}}})", act.vehicle); }
+    std::string operator()(const Turn& act) const {
+        std::string inside;
+        const auto add = [&](const char* key, const auto& value) {
+            if (value) inside += fmt::format("{}\"{}\": {}", inside.empty() ? "" : ", ", key, text_of(*value));
+        };
+        add("gravity", act.gravity);
+        add("substeps", act.substeps);
+        add("friction_factor", act.friction_factor);
+        add("least_restitution", act.least_restitution);
+        add("sleeping", act.sleeping);
+        return "\"turn\": {" + inside + "}";
+    }
+};
+
+// ---- reading
+std::uint64_t hash_of(const json& value, const Place& place) {
+    std::string word;
+    read(value, place, word);
+    std::uint64_t hash = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), hash, 16);
+    if (word.size() != 16 || error != std::errc() || end != word.data() + word.size())
+        refuse(place, "must be 16 hexadecimal digits, is \"" + word + "\"");
+    return hash;
+}
+
+Turn turn_of(const json& value, const Place& place) {
+    only(value, place, {"gravity", "substeps", "friction_factor", "least_restitution", "sleeping"});
+    if (value.empty()) refuse(place, "turns nothing");
+    Turn turn;
+    if (value.contains("gravity")) read(value["gravity"], place / "gravity", turn.gravity.emplace());
+    if (value.contains("friction_factor"))
+        read(value["friction_factor"], place / "friction_factor", turn.friction_factor.emplace());
+    if (value.contains("least_restitution"))
+        read(value["least_restitution"], place / "least_restitution", turn.least_restitution.emplace());
+    if (value.contains("sleeping")) read(value["sleeping"], place / "sleeping", turn.sleeping.emplace());
+    if (value.contains("substeps")) {
+        std::size_t substeps = 0;
+        read(value["substeps"], place / "substeps", substeps);
+        if (substeps < 1 || substeps > 64) refuse(place / "substeps", "must be between 1 and 64");
+        turn.substeps = static_cast<int>(substeps);
+    }
+    return turn;
+}
+
+// The body, checked as a scene's are, but with its place in this file.
+Body added_body(const json& value, const Place& place) {
+    const Body body = body_of(value, place);
+    try {
+        return checked(Scene{vec3(0), {body}}).bodies.front();
+    } catch (const SceneError& error) {
+        const std::string inside = std::string_view(error.pointer).starts_with("/bodies/0") ? error.pointer.substr(9) : "";
+        const std::string reason = std::string(error.what()).substr(error.pointer.empty() ? 0 : error.pointer.size() + 2);
+        throw SceneError(place.pointer() + inside, reason);
+    }
+}
+
+Act act_of(const std::string& name, const json& value, const Place& place) {
+    if (name == "add") return Add{added_body(value, place)};
+    if (name == "turn") return turn_of(value, place);
+    if (name == "join") return Join{joint_of(value, place)};
+    if (name == "unjoin") {
+        Unjoin act;
+        only(value, place, {"joint"});
+        required(value, place, "joint", act.joint);
+        return act;
+    }
+    if (name == "grab") {
+        Grab act;
+        only(value, place, {"grip", "body", "anchor", "target"});
+        required(value, place, "grip", act.grip);
+        required(value, place, "body", act.body);
+        required(value, place, "anchor", act.anchor);
+        required(value, place, "target", act.target);
+        return act;
+    }
+    if (name == "drag") {
+        Drag act;
+        only(value, place, {"grip", "target"});
+        required(value, place, "grip", act.grip);
+        required(value, place, "target", act.target);
+        return act;
+    }
+    if (name == "release") {
+        Release act;
+        only(value, place, {"grip"});
+        required(value, place, "grip", act.grip);
+        return act;
+    }
+    if (name == "drive") {
+        Drive act;
+        only(value, place, {"vehicle", "throttle", "brake", "steer", "hand_brake"});
+        required(value, place, "vehicle", act.vehicle);
+        optional(value, place, "throttle", act.controls.throttle);
+        optional(value, place, "brake", act.controls.brake);
+        optional(value, place, "steer", act.controls.steer);
+        optional(value, place, "hand_brake", act.controls.hand_brake);
+        return act;
+    }
+    if (name == "righten") {
+        Righten act;
+        only(value, place, {"vehicle"});
+        required(value, place, "vehicle", act.vehicle);
+        return act;
+    }
+    if (name == "push") {
+        Push act;
+        only(value, place, {"body", "force"});
+        required(value, place, "body", act.body);
+        required(value, place, "force", act.force);
+        return act;
+    }
+    Explode act;
+    only(value, place, {"centre", "radius", "speed"});
+    required(value, place, "centre", act.centre);
+    required(value, place, "radius", act.radius);
+    required(value, place, "speed", act.speed);
+    return act;
+}
+
+TimedAct timed_act_of(const json& value, const Place& place) {
+    if (!value.is_object()) refuse(place, "must be an object, is " + kind(value));
+    TimedAct timed;
+    std::size_t step = 0;
+    required(value, place, "step", step);
+    timed.step = step;
+    if (value.size() != 2) refuse(place, "must have \"step\" and one act (" + listed(act_names) + ")");
+    for (const auto& [key, inside] : value.items()) {
+        if (key == "step") continue;
+        if (std::find(act_names.begin(), act_names.end(), key) == act_names.end())
+            throw SceneError(place.pointer() + "/" + escaped(key), unknown("act", key, act_names));
+        timed.act = act_of(key, inside, place / key.c_str());
+    }
+    return timed;
+}
+
+json parsed(std::string_view text) {
+    try {
+        return json::parse(text);
+    } catch (const json::parse_error& error) {
+        refuse_syntax(text, error);
+    } catch (const json::out_of_range& error) {
+        refuse_number(text, error);
+    }
+}
+
+void read_settings(const json& value, const Place& root, Input& input) {
+    std::size_t seed = 1, substeps = 8;
+    optional(value, root, "bodies", input.bodies);
+    optional(value, root, "seed", seed);
+    optional(value, root, "rate", input.rate);
+    optional(value, root, "substeps", substeps);
+    optional(value, root, "sleeping", input.sleeping);
+    if (!(input.rate >= 10 && input.rate <= 1000)) refuse(root / "rate", "must be between 10 and 1000 Hz");
+    if (substeps < 1 || substeps > 64) refuse(root / "substeps", "must be between 1 and 64");
+    input.seed = seed;
+    input.substeps = static_cast<int>(substeps);
+}
+
+}  // namespace
+
+std::string json_of(const Input& input) {
+    std::string text =
+        fmt::format("{{\"scree_input\": 1,\n \"scene\": {},\n \"bodies\": {}, \"seed\": {},\n",
+                    json(input.scene).dump(-1, ' ', false, json::error_handler_t::replace), input.bodies, input.seed);
+    text +=
+        fmt::format(" \"rate\": {}, \"substeps\": {}, \"sleeping\": {},\n", text_of(input.rate), input.substeps, input.sleeping);
+    if (input.start_hash) text += fmt::format(" \"start_hash\": \"{}\",\n", hash_text(*input.start_hash));
+    text += fmt::format(" \"steps\": {},\n", input.steps);
+    if (input.end_hash) text += fmt::format(" \"end_hash\": \"{}\",\n", hash_text(*input.end_hash));
+    text += " \"acts\": [";
+    const char* between = "\n  ";
+    for (const TimedAct& act : input.acts) {
+        text += fmt::format("{}{{\"step\": {}, {}}}", between, act.step, std::visit(Writer{}, act.act));
+        between = ",\n  ";
+    }
+    return text + "\n]}\n";
+}
+
+Input input_from_json(std::string_view text) {
+    const json value = parsed(text);
+    const Place root{nullptr, nullptr, 0};
+    only(value, root, keys);
+    std::size_t version = 0, steps = 0;
+    required(value, root, "scree_input", version);
+    if (version != 1) refuse(root / "scree_input", "is of version " + std::to_string(version) + "; this program knows 1");
+    Input input;
+    required(value, root, "scene", input.scene);
+    required(value, root, "steps", steps);
+    if (steps > most_steps) refuse(root / "steps", "must be at most " + std::to_string(most_steps));
+    input.steps = steps;
+    read_settings(value, root, input);
+    if (value.contains("start_hash")) input.start_hash = hash_of(value["start_hash"], root / "start_hash");
+    if (value.contains("end_hash")) input.end_hash = hash_of(value["end_hash"], root / "end_hash");
+    if (!value.contains("acts")) refuse(root, "lacks \"acts\"");
+    if (!value["acts"].is_array()) refuse(root / "acts", "must be an array, is " + kind(value["acts"]));
+    const Place acts = root / "acts";
+    for (std::size_t i = 0; i < value["acts"].size(); ++i) {
+        input.acts.push_back(timed_act_of(value["acts"][i], acts / i));
+        const std::uint64_t step = input.acts.back().step;
+        if (i > 0 && step < input.acts[i - 1].step) refuse(acts / i / "step", "acts must be in the order of their steps");
+        if (step > steps) refuse(acts / i / "step", "lies beyond /steps, " + std::to_string(steps));
+    }
+    return input;
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,45 @@
+// Doing what a user does.
+#include "demos/play/user_commands.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+namespace scree::demos {
+
+namespace {
+
+struct Performer {
+    World& world;
+
+    void operator()(const Grab& act) const {
+        const std::size_t grip = world.grip(act.body, act.anchor, act.target);
+        if (grip == act.grip) return;
+        world.release(grip);
+        throw std::invalid_argument(fmt::format("the lowest grip that is free is {}, not {}", grip, act.grip));
+    }
+    void operator()(const Drag& act) const { world.move_grip(act.grip, act.target); }
+    void operator()(const Release& act) const { world.release(act.grip); }
+    void operator()(const Add& act) const { world.add_body(act.body); }
+    void operator()(const Join& act) const { world.add_joint(act.joint); }
+    void operator()(const Unjoin& act) const { world.remove_joint(act.joint); }
+    void operator()(const Push& act) const { world.apply_force(act.body, act.force); }
+    void operator()(const Explode& act) const { world.explode(act.centre, act.radius, act.speed); }
+    void operator()(const Drive& act) const { world.drive(act.vehicle, act.controls); }
+    void operator()(const Righten& act) const { world.put_upright(act.vehicle); }
+    void operator()(const Turn& act) const {
+        if (act.gravity) world.set_gravity(*act.gravity);
+        if (act.substeps) world.set_substeps(*act.substeps);
+        if (act.friction_factor) world.set_friction_factor(*act.friction_factor);
+        if (act.least_restitution) world.set_least_restitution(*act.least_restitution);
+        if (act.sleeping) world.set_sleeping(*act.sleeping);
+    }
+};
+
+}  // namespace
+
+void perform(const Act& act, World& world) {
+    std::visit(Performer{world}, act);
+}
+
+}  // namespace scree::demos

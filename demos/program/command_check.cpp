@@ -1,0 +1,114 @@
+// scree check: the stability suite. Every demo runs as long as its promise takes, and is held to it.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+
+#include "demos/program/backend.h"
+#include "demos/program/commands.h"
+#include "demos/program/console.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/interrupt.h"
+#include "demos/program/output_check.h"
+#include "demos/program/progress.h"
+#include "demos/suite/selection.h"
+#include "demos/suite/suite.h"
+#include "host/files/file.h"
+
+namespace scree::demos {
+
+namespace {
+
+struct Options {
+    std::vector<std::string> names;
+    MachineOptions machine;
+    std::string report;
+    float offset = 0;
+    bool list = false, quiet = false;
+};
+
+std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Machine& machine, float offset, bool quiet) {
+    std::vector<Outcome> outcomes;
+    for (const Demo* demo : chosen) {
+        std::optional<Progress> progress;
+        const auto tell = [&](long steps, long all) {
+            if (!progress) {
+                progress.emplace(fmt::format("{} ({} of {})", demo->name, outcomes.size() + 1, chosen.size()), all, "steps",
+                                 quiet);
+            }
+            progress->done(steps);
+            return !is_interrupted();
+        };
+        DemoOptions size = suite_size(*demo);
+        size.offset = offset;
+        Outcome outcome = at_work([&] { return run_trial(*demo, size, machine.make_runner(), tell); });
+        progress.reset();
+        if (is_interrupted()) {
+            say("scree: interrupted in {}\n", demo->name);
+            break;
+        }
+        outcomes.push_back(std::move(outcome));
+    }
+    return outcomes;
+}
+
+// A word that is no demo's name and yet chooses some was perhaps mistyped.
+void note_beginning(const std::string& word) {
+    std::string found;
+    for (const Demo* demo : select_demos({word})) found += (found.empty() ? "" : ", ") + std::string(demo->name);
+    if (found != word) say("scree: \"{}\" is {}\n", word, found);
+}
+
+int check(const Options& options) {
+    const std::vector<const Demo*> chosen = select_demos(options.names);
+    if (options.list) {
+        if (!options.report.empty())
+            throw UsageError("--list and --report: with --list nothing runs, and there is nothing to report");
+        fmt::print("{}", promises_of(chosen));
+        return done;
+    }
+    require_writable_file("--report", options.report);
+    const Machine machine = choose_machine(options.machine, Choice::fastest);
+    if (!options.quiet) {
+        for (const std::string& word : options.names) note_beginning(word);
+    }
+    if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
+    const std::vector<Outcome> outcomes = outcomes_of(chosen, machine, options.offset, options.quiet);
+    machine.require_valid();
+    const Kept count = count_kept(outcomes);
+    if (options.report != "-" && !outcomes.empty())
+        fmt::print("{}\n{} of {} promises kept\n", table_of(outcomes), count.kept, count.of);
+    if (is_interrupted()) return interrupted;
+    if (!options.report.empty()) {
+        const std::unique_ptr<Runner> runner = machine.make_runner();
+        const std::string json = json_of(outcomes, runner->backend(), runner->device());
+        if (options.report == "-") {
+            fmt::print("{}", json);
+        } else {
+            at_work([&] { host::write_atomically(options.report, json); });
+        }
+    }
+    return count.kept == count.of ? done : promise_missed;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand("check", "The stability suite: measured against promised");
+    auto options = std::make_shared<Options>();
+    command->add_option("names", options->names, "demos and trials: names, their beginnings or patterns (default: all)");
+    command->add_flag("--list", options->list, "say what is promised and how it is measured, and run nothing");
+    command->add_option("--report", options->report, "a file for the same as JSON; - is the standard output");
+    command
+        ->add_option("--offset", options->offset,
+                     "moves every scene so far from the origin along x and z, m, to see where the accuracy of positions ends")
+        ->check(CLI::Range(-1e6f, 1e6f));
+    add_options(*command, options->machine);
+    command->add_flag("--quiet,-q", options->quiet, "no progress");
+    command->footer(
+        "Examples:\n  scree check --backend cpu\n  scree check 'stack*' pyramid --report stands.json\n"
+        "  scree check 'stack*' bounce --offset 10000\n"
+        "State hashes are those of any other backend.");
+    command->callback([options, &status] { status = check(*options); });
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,293 @@
+// scree run: simulates a demo or a scene file, with pictures and a report, and holds it to its promise.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include "demos/film/pictures.h"
+#include "demos/play/replay.h"
+#include "demos/program/backend.h"
+#include "demos/program/commands.h"
+#include "demos/program/console.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/interrupt.h"
+#include "demos/program/loaded_scene.h"
+#include "demos/program/output_check.h"
+#include "demos/program/progress.h"
+#include "demos/program/report.h"
+#include "demos/suite/recorder.h"
+#include "host/files/file.h"
+
+namespace scree::demos {
+
+namespace {
+
+struct Options {
+    SceneOptions scene;
+    MachineOptions machine;
+    PictureOptions pictures;
+    std::string report;
+    std::string save;             // a file for the scene as it is at the end; may be empty
+    std::string input;            // a recording's file; may be empty
+    std::optional<Input> played;  // what is in it
+    bool quiet = false;
+};
+
+double seconds_since(std::chrono::steady_clock::time_point start) {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
+// What must be known before hours of work: that its result can be written.
+void require_writable(const Options& options) {
+    if (options.pictures.wanted() && options.pictures.fps > static_cast<double>(options.scene.rate)) {
+        throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
+                                     options.scene.rate));
+    }
+    if (options.pictures.takes_output() && options.report == "-") {
+        throw UsageError("--raw - and --report -: the standard output is for one of them; name a file for the other");
+    }
+    if (options.save == "-") throw UsageError("--save -: name a file");
+    require_writable_file("--report", options.report);
+    require_writable_file("--save", options.save);
+}
+
+// Where nobody looks at every step, so many short ones are asked for at once: a device then need not wait for the host between
+// them. In the report each of them took as long as all on average.
+constexpr int most_at_once = 8;  // divides the place of a timed step
+constexpr double longest_waiting_ms = 10;
+
+double steps_alone(World& world, const Script& before_step, int count) {
+    if (before_step) before_step(world);
+    const auto start = std::chrono::steady_clock::now();
+    world.step(count);
+    return seconds_since(start);
+}
+
+void steps_timed(const Subject& subject, World& world, Recorder* recorder, int count, RunReport& report) {
+    const double seconds = recorder ? recorder->step() : steps_alone(world, subject.before_step, count);
+    if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
+    if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
+    report.step_ms.insert(report.step_ms.end(), static_cast<std::size_t>(count), seconds * 1e3 / count);
+    report.seconds_simulating += seconds;
+}
+
+// At the end of the time that the promise speaks of: what a longer run shows is no part of it.
+void hold_to_promise(const Subject& subject, const World& world, std::optional<Recorder>& recorder, RunReport& report) {
+    if (!recorder || world.time() < subject.seconds - 0.5 / static_cast<double>(world.settings().rate)) return;
+    report.rows = subject.promise->judge(recorder->finish());
+    report.judged = true;
+    recorder.reset();
+}
+
+// Times of stages take time, up to a third of a small step on lavapipe.
+constexpr int steps_a_timed_one = 16;
+
+// False if the user wished to end.
+bool simulate(const Options& options, const Subject& subject, World& world, Pictures* pictures, RunReport& report) {
+    const int steps = options.scene.step_count(subject.seconds);
+    std::optional<Recorder> recorder;
+    if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
+    Progress progress(subject.name, steps, "steps", options.quiet);
+    if (pictures) pictures->after_step();
+    const bool reports = !options.report.empty();
+    for (int done = 0; done < steps;) {
+        if (is_interrupted()) return false;
+        const bool timed = reports && (done % steps_a_timed_one == steps_a_timed_one / 2 || done + 1 == steps);
+        world.time_stages(timed);
+        const bool watched = timed || recorder || pictures || subject.before_step || done < 2;
+        const bool waits =
+            world.runner().backend() != "cpu" && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
+        const int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
+        const int count = watched || !waits ? 1 : unwatched;
+        steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
+        done += count;
+        hold_to_promise(subject, world, recorder, report);
+        if (pictures) pictures->after_step();
+        progress.done(done);
+    }
+    // What was done after the last recorded step is part of the state that the recording ended in.
+    if (options.played && options.played->steps == world.steps()) subject.before_step(world);
+    return !is_interrupted();
+}
+
+// A run that is held to no promise, or went on after it, must be sound all the same. Hands may throw from below the ground.
+void hold_to_soundness(bool played, World& world, RunReport& report) {
+    report.statistics = world.statistics();
+    Trace trace;
+    trace.statistics = report.statistics;
+    for (Row& row : judge(played ? std::vector<Claim>{finite()} : soundness(), trace)) {
+        if (!report.judged || !row.pass) report.rows.push_back(std::move(row));
+    }
+}
+
+// A recording that was played to its end must end as it did.
+void hold_to_recording(const Options& options, RunReport& report) {
+    if (!options.played || !options.played->end_hash || options.played->steps != report.steps) return;
+    const std::uint64_t hash = *options.played->end_hash;
+    report.rows.push_back(
+        {"state hash at the end", hash_text(hash) + ", as recorded", hash_text(report.state_hash), hash == report.state_hash});
+}
+
+void conclude(const Options& options, const Subject& subject, const RunReport& report) {
+    if (!options.report.empty() && options.report != "-") host::write_atomically(options.report, json_of(report));
+    if (options.report == "-") {
+        fmt::print("{}", json_of(report));
+    } else if (!options.quiet) {
+        std::string text = summary_of(report);
+        if (subject.promise && !report.judged) {
+            text += fmt::format("The promise was not judged: it takes {:g} s, and this run had {:g} s.\n", subject.seconds,
+                                static_cast<double>(report.steps) / static_cast<double>(report.rate));
+        }
+        if (options.pictures.takes_output()) {
+            say("{}", printable(text));
+        } else {
+            fmt::print("{}", printable(text));
+        }
+    }
+    if (all_pass(report.rows) || !options.quiet) return;
+    for (const Row& row : report.rows) {
+        if (!row.pass) say("scree: {}: {}: promised {}, measured {}\n", subject.name, row.what, row.promised, row.measured);
+    }
+}
+
+// What was drawn is written whole, and the video ends there.
+int end_early(World& world, Pictures* pictures) {
+    const int frames = pictures ? pictures->count() : 0;
+    try {
+        if (pictures) pictures->finish();
+    } catch (const std::exception& error) {
+        say("scree: {}\n", error.what());
+    }
+    say("scree: interrupted after {} steps{}\n", world.steps(), frames ? fmt::format(", {} pictures", frames) : "");
+    return interrupted;
+}
+
+void measure(World& world, RunReport& report) {
+    report.backend = world.runner().backend();
+    report.device = world.runner().device();
+    report.steps = world.steps();
+    report.rate = world.settings().rate;
+    report.substeps = world.settings().substeps;
+    report.stages = world.stage_times();
+    report.buffer_growths = world.buffer_growths();
+    report.buffer_bytes = world.buffer_bytes();
+    report.state_hash = world.state_hash();
+}
+
+int work(const Options& options, const Subject& subject, const Machine& machine, World& world, Pictures* pictures,
+         RunReport& report) {
+    const auto start = std::chrono::steady_clock::now();
+    if (!simulate(options, subject, world, pictures, report)) return end_early(world, pictures);
+    if (pictures) pictures->finish();
+    report.seconds_running = seconds_since(start);
+    report.name = subject.name;
+    report.frames = pictures ? pictures->count() : 0;
+    const PictureTimes times = pictures ? pictures->times() : PictureTimes{};
+    report.seconds_drawing = times.draw;
+    report.seconds_waiting = times.encode_wait;
+    measure(world, report);
+    hold_to_soundness(options.played.has_value(), world, report);
+    hold_to_recording(options, report);
+    report.seconds_total = seconds_since(report.started);
+    report.peak_memory_bytes = peak_memory();
+    machine.require_valid();
+    conclude(options, subject, report);
+    if (!options.save.empty()) host::write_atomically(options.save, scene_to_json(world.snapshot(), subject.viewpoint));
+    return all_pass(report.rows) ? done : promise_missed;
+}
+
+// The limit is a setting, so a scene alone cannot be wrong about it.
+void note_clamped_speeds(const Scene& scene, const Settings& settings) {
+    const auto count = std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
+        const vec3 v = body.velocity;  // squares of the greatest floats need a double
+        return body.motion == Motion::dynamic && std::hypot(static_cast<double>(v.x), static_cast<double>(v.y),
+                                                            static_cast<double>(v.z)) > static_cast<double>(settings.max_speed);
+    });
+    if (count == 0) return;
+    say("scree: note: {} faster than {:g} m/s and {} slowed to that\n",
+        count == 1 ? "1 body starts" : fmt::format("{} bodies start", count), settings.max_speed, count == 1 ? "is" : "are");
+}
+
+int run(const Options& options) {
+    RunReport report;
+    require_writable(options);
+    Subject subject = load_subject(options.scene);
+    if (options.played) {  // happens again, and the demo's promise no longer binds
+        subject.before_step = replay(*options.played, options.input, std::move(subject.before_step));
+        subject.promise.reset();
+    }
+    const Machine machine = choose_machine(options.machine, Choice::fastest);
+    if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
+    if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
+    World world(subject.scene, subject.settings(options.scene), machine.make_runner());
+    std::optional<Pictures> pictures;
+    if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
+    if (pictures) report.canvas = pictures->canvas();
+    return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
+}
+
+template <class Value>
+void agree(const CLI::App& command, const char* option, const Value& named, const Value& recorded, const std::string& path) {
+    if (command.count(option) == 0 || named == recorded) return;
+    throw UsageError(
+        fmt::format("{}: the recording {} says {}, the command line {}; leave the option out", option, path, recorded, named));
+}
+
+// The options with which the input was recorded, and its steps unless the user says how many. What else the user named on the
+// command line (the scene, --bodies, --seed and so on) must agree: throws UsageError.
+SceneOptions with_input(const CLI::App& command, SceneOptions options, const Input& input, const std::string& path) {
+    agree(command, "scene", options.name, input.scene, path);
+    agree(command, "--bodies", options.bodies, input.bodies, path);
+    agree(command, "--seed", options.seed, input.seed, path);
+    agree(command, "--rate", options.rate, input.rate, path);
+    agree(command, "--substeps", options.substeps, input.substeps, path);
+    agree(command, "--no-sleep", options.sleeping, input.sleeping, path);
+    options.name = input.scene;
+    options.bodies = input.bodies;
+    options.seed = input.seed;
+    options.rate = input.rate;
+    options.substeps = input.substeps;
+    options.sleeping = input.sleeping;
+    if (!options.steps && !options.seconds) options.steps = static_cast<int>(std::max<std::uint64_t>(1, input.steps));
+    return options;
+}
+
+int run(const CLI::App& command, Options options) {
+    options.pictures.require_sense(command, options.report);
+    if (!options.input.empty()) {
+        options.played = load_input(options.input);
+        options.scene = with_input(command, options.scene, *options.played, options.input);
+    } else if (options.scene.name.empty()) {
+        throw UsageError("run: name a demo (scree list) or a scene file, or give a recording with --input");
+    }
+    return run(options);
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand("run", "Simulate a demo or a scene file headlessly");
+    auto options = std::make_shared<Options>();
+    add_options(*command, options->scene);
+    add_options(*command, options->machine);
+    add_options(*command, options->pictures);
+    command->add_option("--report", options->report, "a file for all numbers of the run as JSON; - is the standard output");
+    command->add_option("--save", options->save,
+                        "a scene file for how things lie and move at the end: to go on from there, in scree or elsewhere");
+    command->add_option("--input", options->input,
+                        "a recording of `scree view --record`: its scene, settings and steps, and all that was done, bit by bit");
+    command->get_option("scene")->required(false);
+    command->add_flag("--quiet,-q", options->quiet, "no progress and no summary");
+    command->footer(
+        "Examples:\n  scree run tower\n  scree run --input played.json --video played.mp4\n  scree run avalanche --bodies 20k "
+        "--seconds 10 --video avalanche.mp4\n"
+        "  scree run wall --camera fit,orbit:10 --preview wall.gif\n"
+        "  scree run dominoes --camera follow:7 --raw - | ffplay -f rawvideo -pixel_format rgb24 -video_size 1280x720 -\n"
+        "  scree run scene.json --backend cpu --threads 4 --report -\n"
+        "  scree run pile --bodies 10k --no-sleep --seconds 15 --save settled.json && scree run settled.json --video later.mp4");
+    command->callback([command, options, &status] { status = run(*command, *options); });
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,181 @@
+// Finding what to simulate, and refusing what cannot fit.
+#include "demos/program/loaded_scene.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+
+#include "demos/film/camera.h"
+#include "demos/program/console.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/option_parsing.h"
+#include "demos/scenes/demos.h"
+#include "demos/scenes/scene_builder.h"
+#include "host/files/file.h"
+#include "host/files/mesh_file.h"
+
+namespace scree::demos {
+
+namespace {
+
+// What a body takes while it is simulated: the scene itself, the tables of a step on the host and on the device, room for its
+// contacts. Too small, and a run ends half way for want of memory.
+constexpr double bytes_per_body = 7000;
+
+// Memory that this process may still take: what the system says is available, or less if a limit is set.
+double available_memory() {
+    double bytes = std::numeric_limits<double>::infinity();
+    std::ifstream system("/proc/meminfo");
+    for (std::string key, unit; system >> key;) {
+        double kilobytes = 0;
+        if (!(system >> kilobytes)) break;
+        std::getline(system, unit);
+        if (key == "MemAvailable:") bytes = kilobytes * 1024;
+    }
+    double limit = 0, used = 0;
+    if (std::ifstream("/sys/fs/cgroup/memory.max") >> limit && std::ifstream("/sys/fs/cgroup/memory.current") >> used) {
+        bytes = std::min(bytes, limit - used);
+    }
+    rlimit address_space{};
+    if (getrlimit(RLIMIT_AS, &address_space) == 0 && address_space.rlim_cur != RLIM_INFINITY) {
+        bytes = std::min(bytes, static_cast<double>(address_space.rlim_cur));
+    }
+    return std::max(bytes, 0.0);
+}
+
+std::size_t most_bodies() {
+    // Bodies are numbered with 32 bits; the highest numbers are taken.
+    return static_cast<std::size_t>(std::min(available_memory() / bytes_per_body, 4.0e9));
+}
+
+bool is_file_name(const std::string& name) {
+    return name.find('/') != name.npos || name.ends_with(".json");
+}
+
+// Corners of where a scene's bodies start: of those that move if there are any, else of all but planes.
+void set_bounds(Subject& subject) {
+    vec3 low(std::numeric_limits<float>::max()), high(-low);
+    for (const bool moving : {true, false}) {
+        for (const Body& body : subject.scene.bodies) {
+            if (std::holds_alternative<Plane>(body.shape) || (moving && body.motion != Motion::dynamic)) continue;
+            const float reach = reach_of(body.shape);
+            low = glm::min(low, body.position - reach);
+            high = glm::max(high, body.position + reach);
+        }
+        if (low.x <= high.x) break;
+    }
+    if (low.x > high.x) low = vec3(-1), high = vec3(1);
+    subject.low = low;
+    subject.high = high;
+}
+
+// The files that meshes name, which lie beside the scene's.
+void read_meshes(Scene& scene, const std::filesystem::path& folder) {
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        auto* mesh = std::get_if<Mesh>(&scene.bodies[i].shape);
+        if (!mesh || mesh->file.empty()) continue;
+        try {
+            host::MeshFile read = host::read_mesh(folder / mesh->file);
+            mesh->vertices = std::move(read.vertices);
+            mesh->triangles = std::move(read.triangles);
+            for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
+        } catch (const host::FileError& error) {
+            throw SceneError("/bodies/" + std::to_string(i) + "/shape/mesh/file", error.what());
+        }
+    }
+}
+
+std::string free_memory() {
+    return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", available_memory() / 1e9,
+                       static_cast<double>(most_bodies()) / 1e3);
+}
+
+// Pieces of bodies that may break have rows of their own from the start (compute/scene/fracture.h).
+void require_memory_for_pieces(const Scene& scene, const std::string& what) {
+    constexpr std::size_t deepest = 4;
+    double pieces = 0;
+    for (const Body& body : scene.bodies) {
+        if (!body.fracture) continue;
+        double of_level = 1;
+        for (std::size_t level = 0; level < std::min(body.fracture->depth, deepest); ++level)
+            pieces += of_level *= static_cast<double>(body.fracture->pieces);
+    }
+    const double rows = static_cast<double>(scene.bodies.size()) + pieces;
+    if (pieces == 0 || rows <= static_cast<double>(most_bodies())) return;
+    throw UsageError(
+        fmt::format("{}: beyond memory: {} bodies and the {:.0f} pieces that they may break into need about {:.3g} "
+                    "GB, {}, pieces included; ask for fewer",
+                    what, scene.bodies.size(), pieces, rows * bytes_per_body / 1e9, free_memory()));
+}
+
+Subject from_file(const std::string& path) {
+    Subject subject;
+    subject.name = path;
+    try {
+        SceneDocument document = scene_from_json(host::read_text(path), most_bodies());
+        read_meshes(document.scene, std::filesystem::path(path).parent_path());
+        require_memory_for_pieces(document.scene, path);
+        std::vector<std::string> notes;
+        subject.scene = checked(std::move(document.scene), &notes);
+        for (const std::string& note : notes) say("scree: note: {}: {}\n", path, note);
+        set_bounds(subject);
+        subject.viewpoint = document.viewpoint ? *document.viewpoint : view_of(subject.low, subject.high, 30, 20);
+    } catch (const SceneError& error) {
+        throw UsageError(path + ": " + error.what());
+    }
+    return subject;
+}
+
+}  // namespace
+
+void require_memory_for(std::size_t bodies) {
+    if (bodies <= most_bodies()) return;
+    throw UsageError(fmt::format("--bodies {}: beyond memory: they need about {:.3g} GB, {}; ask for fewer", bodies,
+                                 static_cast<double>(bodies) * bytes_per_body / 1e9, free_memory()));
+}
+
+Settings Subject::settings(const SceneOptions& options) const {
+    Settings settings = options.settings();
+    settings.sleeping = settings.sleeping && sleeping;
+    return settings;
+}
+
+Subject load_subject(const SceneOptions& options) {
+    const Demo* demo = find_demo(options.name);
+    if (!demo && is_file_name(options.name)) {
+        if (options.bodies) throw UsageError("--bodies: a scene file has its own bodies; leave the option out");
+        try {
+            return from_file(options.name);
+        } catch (const std::bad_alloc&) {
+            throw UsageError(options.name + ": beyond memory; " + free_memory());
+        }
+    }
+    if (!demo) {
+        std::vector<std::string> names;
+        for (const Demo& known : all_demos()) names.emplace_back(known.name);
+        const std::string near = nearest(options.name, names);
+        throw UsageError(fmt::format("unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json",
+                                     options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
+    }
+    if (options.bodies && !demo->takes_bodies) {
+        throw UsageError(
+            fmt::format("--bodies: the demo {} has a fixed number of bodies; pile, mix and avalanche take any", demo->name));
+    }
+    require_memory_for(options.bodies);
+    DemoScene built = build(*demo, {options.bodies, options.seed});
+    require_memory_for_pieces(built.scene, options.bodies ? fmt::format("--bodies {}", options.bodies) : options.name);
+    return {demo->name,
+            std::move(built.scene),
+            built.viewpoint,
+            built.low,
+            built.high,
+            built.seconds,
+            std::move(built.promise),
+            built.sleeping,
+            std::move(built.before_step)};
+}
+
+}  // namespace scree::demos

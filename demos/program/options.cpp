@@ -1,0 +1,105 @@
+// The options that commands share, and their words.
+#include "demos/program/options.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
+#include <limits>
+
+#include "demos/program/option_parsing.h"
+
+namespace scree::demos {
+
+Settings SceneOptions::settings() const {
+    Settings settings;
+    settings.rate = rate;
+    settings.substeps = substeps;
+    settings.sleeping = sleeping;
+    return settings;
+}
+
+int SceneOptions::step_count(double default_seconds) const {
+    if (steps) return *steps;
+    return static_cast<int>(std::max(1L, std::lround(seconds.value_or(default_seconds) * static_cast<double>(rate))));
+}
+
+std::size_t count_of(const std::string& word) {
+    std::string digits = word;
+    double scale = 1;
+    if (!word.empty()) {
+        const char last = word.back();
+        scale = last == 'k' || last == 'K' ? 1e3 : last == 'm' || last == 'M' ? 1e6 : last == 'g' || last == 'G' ? 1e9 : 1;
+        if (scale > 1) digits.pop_back();
+    }
+    const double value = number_of(digits, "--bodies", ", such as 500, 10k or 1M") * scale;
+    if (value < 1 || value > 1e15 || value != std::floor(value)) {
+        throw CLI::ValidationError("--bodies", fmt::format("must be a whole number of at least 1, is \"{}\"", word));
+    }
+    return static_cast<std::size_t>(value);
+}
+
+std::uint64_t seed_of(const std::string& word) {
+    std::uint64_t seed = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seed);
+    if (error != std::errc() || end != word.data() + word.size()) {
+        throw CLI::ValidationError("--seed", fmt::format("must be a whole number between 0 and {}, is \"{}\"",
+                                                         std::numeric_limits<std::uint64_t>::max(), word));
+    }
+    return seed;
+}
+
+std::vector<std::size_t> counts_of(const std::string& list) {
+    std::vector<std::size_t> counts;
+    std::size_t from = 0;
+    while (from <= list.size()) {
+        const std::size_t to = std::min(list.find(',', from), list.size());
+        counts.push_back(count_of(list.substr(from, to - from)));
+        from = to + 1;
+    }
+    return counts;
+}
+
+void add_options(CLI::App& command, MachineOptions& options) {
+    command
+        .add_option("--backend", options.backend,
+                    "auto (a GPU; without one, a software Vulkan device or the processor, whichever measures faster), "
+                    "vulkan or cpu")
+        ->check(one_of({"auto", "vulkan", "cpu"}))
+        ->group("Where");
+    command.add_option("--device", options.device, "the Vulkan device: its index or part of its name (see scree devices)")
+        ->group("Where");
+    command.add_option("--threads", options.threads, "of --backend cpu, and of no other; 0 is one a core")
+        ->check(CLI::Range(0, 1024))
+        ->group("Where");
+    command.add_flag("--validate", options.validate, "check every Vulkan call with the validation layers (slow)")->group("Where");
+}
+
+void add_options(CLI::App& command, SceneOptions& options) {
+    command.add_option("scene", options.name, "a demo (see scree list) or a scene file, NAME.json")->required();
+    auto* steps = command.add_option("--steps", options.steps, "how many steps")->check(CLI::Range(1, 1000000000))->group("What");
+    command
+        .add_option("--seconds", options.seconds,
+                    "how long, in simulated seconds (default: until the demo's promise can be judged)")
+        ->check(between(1e-3, 1e6))
+        ->excludes(steps)
+        ->group("What");
+    command.add_option("--rate", options.rate, "steps a second")->check(between(10.0, 1000.0))->group("What");
+    command.add_option("--substeps", options.substeps, "of a step; more make taller stacks stand")
+        ->check(CLI::Range(1, 64))
+        ->group("What");
+    command.add_flag("!--no-sleep", options.sleeping, "bodies at rest stay awake")->group("What");
+    command
+        .add_option_function<std::string>(
+            "--bodies", [&options](const std::string& word) { options.bodies = count_of(word); },
+            "how many; 10k and 1M are understood")
+        ->group("What");
+    command
+        .add_option_function<std::string>(
+            "--seed", [&options](const std::string& word) { options.seed = seed_of(word); },
+            "of the random numbers that a demo is built with")
+        ->group("What");
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,200 @@
+// The options of pictures.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <filesystem>
+#include <map>
+
+#include "demos/film/pictures.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/option_parsing.h"
+#include "demos/program/options.h"
+
+namespace scree::demos {
+
+namespace {
+
+void set_size(PictureOptions& options, const std::string& word) {
+    const auto [width, height] = halves(word, 'x', "--size", "WIDTHxHEIGHT");
+    const auto pixels_of = [](const std::string& side) {
+        const double pixels = number_of(side, "--size");
+        if (pixels != std::floor(pixels) || pixels < 16 || pixels > 16384) {
+            throw CLI::ValidationError("--size", "each side must be a whole number of pixels between 16 and 16384, is " + side);
+        }
+        return static_cast<int>(pixels);
+    };
+    options.width = pixels_of(width);
+    options.height = pixels_of(height);
+}
+
+void set_range(PictureOptions& options, const std::string& word) {
+    const auto [low, high] = halves(word, ':', "--color-range", "LOW:HIGH");
+    options.color_range = {float_of(low, "--color-range"), float_of(high, "--color-range")};
+    if (!(options.color_range->first < options.color_range->second)) {
+        throw CLI::ValidationError("--color-range", "LOW must be below HIGH, is " + word);
+    }
+}
+
+void set_camera(CameraOptions& options, const std::string& list) {
+    const std::vector<std::string> known = {"fit", "orbit", "follow"};
+    for (std::size_t from = 0, to = 0; from <= list.size(); from = to + 1) {
+        to = std::min(list.find(',', from), list.size());
+        const std::string word = list.substr(from, to - from);
+        const std::size_t colon = std::min(word.find(':'), word.size());
+        const std::string name = word.substr(0, colon);
+        const std::string rest = colon < word.size() ? word.substr(colon + 1) : "";
+        if (const std::string wrong = one_of(known)(name); !wrong.empty()) throw CLI::ValidationError("--camera", wrong);
+        if (name == "fit" && colon < word.size()) throw CLI::ValidationError("--camera", "fit takes no value");
+        if (name == "fit") options.fit = true;
+        if (name == "orbit") {
+            options.orbit = rest.empty() ? 20.0 : number_of(rest, "--camera", ", such as orbit:20");
+            if (std::abs(*options.orbit) < 0.1 || std::abs(*options.orbit) > 1e6) {
+                throw CLI::ValidationError("--camera",
+                                           "orbit: a turn takes between 0.1 and 1e6 s, or as many negative for the "
+                                           "other way round; is " +
+                                               rest);
+            }
+        }
+        if (name == "follow") {
+            if (rest.empty()) throw CLI::ValidationError("--camera", "follow needs a body: follow:NAME or follow:INDEX");
+            options.follow = rest;
+        }
+    }
+}
+
+using Set = std::function<void(const std::string&)>;
+
+void add_camera(CLI::App& command, CameraOptions& options) {
+    const char* group = "Camera";
+    command
+        .add_option_function<std::string>(
+            "--camera", Set([&options](const std::string& word) { set_camera(options, word); }),
+            "fit (as near as all of the scene is seen), orbit[:SECONDS] (round the target, a turn in 20 s), follow:BODY (by its "
+            "name or index); several parted by commas. Without: as the scene says, which may be a path with moments")
+        ->group(group);
+    command
+        .add_option_function<std::string>("--eye",
+                                          Set([&options](const std::string& word) { options.eye = vector_of(word, "--eye"); }),
+                                          "X,Y,Z of the camera, m; with follow, seen from the body if --target is given, too")
+        ->group(group);
+    command
+        .add_option_function<std::string>(
+            "--target", Set([&options](const std::string& word) { options.target = vector_of(word, "--target"); }),
+            "X,Y,Z of what it looks at, m")
+        ->group(group);
+    command.add_option("--fov", options.vertical_fov, "its angle from bottom to top, degrees")
+        ->check(between(1, 170))
+        ->group(group);
+    command
+        .add_flag("--orthographic", options.orthographic,
+                  "parallel rays: sizes do not depend on distance; the target is as large as without")
+        ->group(group);
+}
+
+void add_outputs(CLI::App& command, PictureOptions& options) {
+    const char* group = "Pictures";
+    command.add_option("--frames", options.frames, "a folder for frame_000000.png and so on")->group(group);
+    command
+        .add_option("--png-depth", options.bits,
+                    "bits a channel, 8 or 16; with 16 the picture is drawn into floats, and raw frames have 16, too")
+        ->check(CLI::IsMember({8, 16}))
+        ->group(group);
+    command.add_option("--video", options.video, "a video file, NAME.mp4 (needs ffmpeg)")->group(group);
+    command.add_option("--preview", options.preview, "a small animated picture, NAME.gif or NAME.webp (needs ffmpeg)")
+        ->group(group);
+    command
+        .add_option(
+            "--raw", options.raw,
+            "bare pixels, rgb24 (rgb48 with --png-depth 16), into a file, a pipe or -, the standard output: scree run mix "
+            "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
+        ->group(group);
+    command
+        .add_option_function<std::string>("--size", Set([&options](const std::string& word) { set_size(options, word); }),
+                                          "of a picture, WIDTHxHEIGHT (1280x720)")
+        ->group(group);
+    command.add_option("--fps", options.fps, "pictures for each simulated second, at most --rate")
+        ->check(between(0.1, 1000.0))
+        ->group(group);
+}
+
+std::string place_of(const std::string& file) {
+    std::error_code ignored;
+    const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
+    return std::filesystem::is_other(place) ? "" : place.string();  // /dev/null takes what comes
+}
+
+}  // namespace
+
+void PictureOptions::require_sense(const CLI::App& command, const std::string& report) const {
+    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--report"}) {
+        for (const std::string& name : command.get_option(option)->results())
+            if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
+    }
+    const std::pair<const char*, const std::string*> files[] = {
+        {"--video", &video}, {"--preview", &preview}, {"--raw", &raw}, {"--report", &report}};
+    std::map<std::string, const char*> taken;
+    for (const auto& [option, name] : files) {
+        const std::string place = name->empty() || *name == "-" ? "" : place_of(*name);
+        if (place.empty()) continue;
+        const auto [other, is_new] = taken.emplace(place, option);
+        if (!is_new) throw UsageError(fmt::format("{} and {}: both are {}; name another file", other->second, option, *name));
+    }
+    if (wanted()) return;
+    for (const CLI::Option* option : command.get_options()) {
+        const std::string& group = option->get_group();
+        if (option->count() == 0 || (group != "Pictures" && group != "Camera")) continue;
+        throw UsageError(option->get_name() + ": no pictures are asked for; add --frames, --video, --preview or --raw");
+    }
+}
+
+void add_options(CLI::App& command, PictureOptions& options) {
+    add_outputs(command, options);
+    const char* group = "Pictures";
+    command
+        .add_option(
+            "--color", options.color,
+            "what colour tells; contact-impulse is the sum over the body's contacts in a substep, sleep how long it has been "
+            "quiet, material which friction, restitution and density it has")
+        ->check(one_of(color_words()))
+        ->group(group);
+    command.add_option("--color-map", options.color_map, "how it tells it")->check(one_of(color_map_words()))->group(group);
+    command
+        .add_option_function<std::string>(
+            "--color-range", Set([&options](const std::string& word) { set_range(options, word); }),
+            "LOW:HIGH in the unit of --color (default: from 0 to what a typical body would have after falling over the scene's "
+            "height)")
+        ->group(group);
+    command
+        .add_option_function<std::string>("--color-scale",
+                                          Set([&options](const std::string& word) { options.logarithmic = word == "log"; }),
+                                          "linear, or log: from a thousandth of the range's end, or as --color-range says")
+        ->check(one_of({"linear", "log"}))
+        ->group(group);
+    command
+        .add_option(
+            "--show", options.show,
+            "what else to draw, a list parted by commas: contacts (their points, and along the normal how hard they push), "
+            "velocities (arrows, the way in 0.2 s), joints (that are not torn: from the bodies' middles to the anchors, and the "
+            "axis; blue without force, yellow at ten times the lighter body's weight, red at a hundred times), boxes (bounds "
+            "over the next step), cells (of the broadphase's grid, where bodies are; both from the first step on), sleep "
+            "(sleepers "
+            "dull and blue)")
+        ->check(one_of({"contacts", "velocities", "joints", "boxes", "cells", "sleep"}))
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->group(group);
+    command
+        .add_option("--canvas", options.canvas,
+                    "what draws: vulkan, gl (OpenGL ES) or auto (vulkan on the device that simulates; for the processor gl, and "
+                    "vulkan where there is no gl); the pictures look the same")
+        ->check(one_of({"auto", "vulkan", "gl"}))
+        ->group(group);
+    command.add_flag("!--no-legend", options.legend, "no colour scale in the picture")->group(group);
+    command.add_flag("!--no-caption", options.caption, "no name, time, numbers of bodies and contacts, and device in it")
+        ->group(group);
+    add_camera(command, options.camera);
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,41 @@
+// Whether a file can be written.
+#include "demos/program/output_check.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "demos/program/exit_status.h"
+
+namespace scree::demos {
+
+void require_writable_file(const char* option, const std::string& name) {
+    if (name.empty() || name == "-") return;
+    const auto refuse = [&](const std::string& why) { throw UsageError(fmt::format("{} {}: {}", option, name, why)); };
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(name, ignored);
+    if (std::filesystem::is_directory(status)) refuse("is a folder; name a file in it");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {  // /dev/stdout, a pipe
+        if (::access(name.c_str(), W_OK) != 0) refuse(std::string("cannot be written: ") + std::strerror(errno));
+        return;
+    }
+    std::filesystem::path target = std::filesystem::exists(status) ? std::filesystem::canonical(name, ignored) : "";
+    if (target.empty()) target = name;  // else where links lead
+    const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder, ignored))
+        refuse(fmt::format("there is no folder {}; make it first", folder.string()));
+    // Asking for permission is not enough: only making a file tells of a read-only disk.
+    std::string trial = (folder / ".scree-XXXXXX").string();
+    const int made = ::mkstemp(trial.data());
+    if (made < 0) {
+        refuse(fmt::format("no file can be made in the folder {}: {}; name another", folder.string(), std::strerror(errno)));
+    }
+    ::close(made);
+    ::unlink(trial.c_str());
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,134 @@
+// Reports of runs.
+#include "demos/program/report.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <numeric>
+
+#include "demos/program/progress.h"
+#include "demos/program/table.h"
+
+namespace scree::demos {
+
+Spread spread_of(std::vector<double> step_ms) {
+    if (step_ms.empty()) return {};
+    std::sort(step_ms.begin(), step_ms.end());
+    const std::size_t n = step_ms.size();
+    const double mean = std::accumulate(step_ms.begin(), step_ms.end(), 0.0) / static_cast<double>(n);
+    return {mean, (step_ms[(n - 1) / 2] + step_ms[n / 2]) / 2, step_ms[(n * 95 + 99) / 100 - 1], step_ms.front()};
+}
+
+std::size_t peak_memory() {
+    rusage usage{};
+    if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+}
+
+std::string hash_text(std::uint64_t hash) {
+    return fmt::format("{:016x}", hash);
+}
+
+namespace {
+
+double per_body(const RunReport& r, std::size_t bytes) {
+    return r.statistics.bodies ? static_cast<double>(bytes) / static_cast<double>(r.statistics.bodies) : 0.0;
+}
+
+}  // namespace
+
+std::string json_of(const RunReport& r) {
+    const Spread ms = spread_of(r.step_ms);
+    const Statistics& s = r.statistics;
+    nlohmann::ordered_json stages = nlohmann::ordered_json::object(), promise = nlohmann::ordered_json::array();
+    for (const auto& [stage, milliseconds] : r.stages) stages[stage] = milliseconds;
+    for (const Row& row : r.rows) {
+        promise.push_back({{"what", row.what}, {"promised", row.promised}, {"measured", row.measured}, {"pass", row.pass}});
+    }
+    const nlohmann::ordered_json json = {
+        {"demo", r.name},
+        {"backend", r.backend},
+        {"device", r.device},
+        {"canvas", r.canvas},
+        {"bodies", s.bodies},
+        {"broken", s.broken},
+        {"pieces", s.pieces},
+        {"steps", r.steps},
+        {"dt", 1.0 / r.rate},
+        {"substeps", r.substeps},
+        {"ms_per_step", {{"mean", ms.mean}, {"median", ms.median}, {"p95", ms.p95}, {"min", ms.min}}},
+        {"stages", stages},
+        {"manifolds", s.manifolds},
+        {"points", s.points},
+        {"penetration", {{"mean", s.penetration_mean}, {"max", s.penetration_max}}},
+        {"max_speed", s.max_speed},
+        {"kinetic_energy", s.kinetic_energy},
+        {"potential_energy", s.potential_energy},
+        {"momentum", s.momentum},
+        {"angular_momentum", s.angular_momentum},
+        {"drift_max", s.drift_max},
+        {"joints",
+         {{"count", s.joints},
+          {"broken", s.joints_broken},
+          {"greatest_force", s.joint_force_max},
+          {"greatest_torque", s.joint_torque_max}}},
+        {"asleep", s.asleep},
+        {"not_finite", s.not_finite},
+        {"below_ground", s.below_ground},
+        {"buffer_growths", r.buffer_growths},
+        {"buffer_bytes", r.buffer_bytes},
+        {"bytes_per_body", per_body(r, r.buffer_bytes)},
+        {"peak_memory_bytes", r.peak_memory_bytes},
+        {"peak_memory_per_body", per_body(r, r.peak_memory_bytes)},
+        {"first_step_seconds", r.first_step_seconds},
+        {"seconds_total", r.seconds_total},
+        {"frames", r.frames},
+        {"frames_per_second", r.seconds_running > 0 ? r.frames / r.seconds_running : 0.0},
+        {"seconds",
+         {{"running", r.seconds_running},
+          {"simulate", r.seconds_simulating},
+          {"draw", r.seconds_drawing},
+          {"encode_wait", r.seconds_waiting}}},
+        {"state_hash", hash_text(r.state_hash)},
+        {"promise", {{"judged", r.judged}, {"pass", r.judged && all_pass(r.rows)}, {"rows", promise}}},
+    };
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+std::string summary_of(const RunReport& r) {
+    const Spread ms = spread_of(r.step_ms);
+    const Statistics& s = r.statistics;
+    const auto metres = [](double value) { return fmt::format("{:.3g} mm", value * 1000); };
+    std::string text =
+        fmt::format("{}: {} bodies, {} steps of 1/{:g} s on {} ({})\n", r.name, s.bodies, r.steps, r.rate, r.backend, r.device);
+    const auto line = [&text](const char* what, const std::string& value) { text += fmt::format("  {:<16}{}\n", what, value); };
+    line("time per step",
+         fmt::format("{} (median {}, 95% below {})", duration(ms.mean / 1e3), duration(ms.median / 1e3), duration(ms.p95 / 1e3)));
+    line("first step", fmt::format("after {}", duration(r.first_step_seconds)));
+    line("contacts", fmt::format("{} pairs touch, in {} points", s.manifolds, s.points));
+    line("asleep", fmt::format("{} of {} bodies", s.asleep, s.bodies));
+    if (s.broken || s.pieces) line("broken", fmt::format("{} bodies, into pieces of which {} are there", s.broken, s.pieces));
+    line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
+    line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
+    line("greatest drift", fmt::format("{:.4g} m", s.drift_max));
+    if (s.joints > 0)
+        line("joints", fmt::format("{}, {} torn; at most {:.4g} N and {:.4g} N m carried", s.joints, s.joints_broken,
+                                   s.joint_force_max, s.joint_torque_max));
+    line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
+                                per_body(r, r.buffer_bytes), r.buffer_growths));
+    line("state hash", hash_text(r.state_hash));
+    if (r.frames > 0) {
+        line("pictures",
+             fmt::format("{}, {} in all: {} simulating, {} drawing, {} waiting for encoders; {:.3g} a second", r.frames,
+                         duration(r.seconds_total), duration(r.seconds_simulating), duration(r.seconds_drawing),
+                         duration(r.seconds_waiting), r.frames / std::max(r.seconds_running, 1e-9)));
+    }
+    if (r.rows.empty()) return text;
+    std::vector<Cells> rows = {verdict_heading()};
+    for (const Row& row : r.rows) rows.push_back(verdict(row));
+    return text + "\n" + table(rows);
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,110 @@
+// Choosing where to simulate, with Vulkan.
+#include "demos/program/backend.h"
+
+#include <fmt/format.h>
+
+#include "compute/device/device_runner.h"
+#include "demos/program/backend_timing.h"
+#include "demos/program/exit_status.h"
+#include "host/copy_speed.h"
+#include "host/vulkan/device.h"
+#include "shaders/physics/base/records.h"
+
+namespace scree::demos {
+
+std::unique_ptr<Runner> Machine::make_runner() const {
+    return device ? make_device_runner(device) : make_reference_runner(options.threads);
+}
+
+double Machine::copy_speed() const {
+    return device ? host::device_copy_speed(device) : host::processor_copy_speed(options.threads);
+}
+
+void Machine::require_valid() const {
+    const std::shared_ptr<host::Device>& watched = device ? device : screen;
+    if (!watched || !options.validate) return;
+    const std::vector<std::string> messages = watched->validation_messages();
+    if (messages.empty()) return;
+    throw WorkFailed("Vulkan validation: " + std::to_string(messages.size()) + " messages, the first: " + messages.front());
+}
+
+namespace {
+
+// A software device shares the cores with the processor's own path: whichever is faster here.
+void take_the_faster(Machine& machine) {
+    const host::DeviceReport& device = machine.device->report();
+    const std::string key = fmt::format("{}, {}, {} threads", device.name, device.driver, machine.options.threads);
+    const Paces paces = paces_of(key, [&] {
+        return measure_paces([&] { return make_device_runner(machine.device); },
+                             [&] { return make_reference_runner(machine.options.threads); });
+    });
+    const bool leave = paces.processor < paces.device;
+    machine.remark =
+        fmt::format("simulating {}: a step of {} resting boxes took {:.1f} ms on {} and {:.1f} ms on the processor",
+                    leave ? "on the processor" : "on " + device.name, heap_bodies, paces.device, device.name, paces.processor);
+    if (leave) machine.device = nullptr;
+}
+
+}  // namespace
+
+Machine choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions) {
+    Machine machine{options, nullptr, ""};
+    const bool shows = !window_extensions.empty();
+    const auto open = [&] {
+        return host::Device::open(
+            {.which = options.device, .validation = options.validate, .window_extensions = window_extensions, .on_message = {}});
+    };
+    if (options.backend == "cpu") {
+        if (!options.device.empty())
+            throw UsageError("--device: the backend cpu has no devices; use --threads, or --backend vulkan");
+        if (shows) machine.screen = open();
+        return machine;
+    }
+    if (options.backend == "vulkan" && options.threads > 0)
+        throw UsageError("--threads: the backend vulkan has none to choose; leave it out, or say --backend cpu");
+    const bool insist = options.backend == "vulkan" || !options.device.empty() || options.validate || shows;
+    try {
+        machine.device = open();
+        if (shows) machine.screen = machine.device;
+        if (choice == Choice::fastest && options.backend == "auto" && options.device.empty() && !options.validate &&
+            machine.device->report().is_processor)
+            take_the_faster(machine);
+        else if (options.threads > 0)
+            machine.remark = "--threads is for --backend cpu; simulating on " + machine.device->report().name;
+    } catch (const host::DeviceError& error) {
+        if (insist) throw;
+        machine.remark = std::string("no Vulkan device (") + error.what() + "); simulating on the processor";
+    }
+    return machine;
+}
+
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
+                                                 const host::CanvasOptions& options) {
+    std::shared_ptr<host::Device> device = machine.device ? machine.device : machine.screen;
+    if (!device) device = host::Device::open({.which = "", .validation = machine.options.validate, .on_message = {}});
+    return host::make_vulkan_canvas(std::move(device), instances, options);
+}
+
+host::BodyTables tables_on_device(Runner& runner) {
+    const auto& device = dynamic_cast<DeviceRunner&>(runner);
+    physics::Counts counts{};
+    device.counts().read(&counts, sizeof counts);
+    host::BodyTables tables{&device.traits(),   &device.poses(),    &device.velocities(),
+                            &device.contacts(), &device.impulses(), counts.contacts};
+    tables.slot_ends = &device.slot_ends();
+    tables.slot_sides = &device.slot_sides();
+    tables.rests = &device.rests();
+    tables.bounds = &device.bounds();
+    tables.ids = &device.ids();
+    tables.joints = &device.joints();
+    tables.joint_count = device.joint_records();
+    return tables;
+}
+
+vec3 position_on_device(Runner& runner, std::size_t row) {
+    physics::Pose pose{};
+    dynamic_cast<DeviceRunner&>(runner).poses().read(&pose, sizeof pose, row * sizeof pose);
+    return pose.position;
+}
+
+}  // namespace scree::demos

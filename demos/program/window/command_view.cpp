@@ -1,0 +1,283 @@
+// scree view: a demo or a scene file in a window, to be taken hold of.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "demos/film/drawing.h"
+#include "demos/film/pictures.h"
+#include "demos/play/interaction.h"
+#include "demos/program/backend.h"
+#include "demos/program/commands.h"
+#include "demos/program/console.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/interrupt.h"
+#include "demos/program/loaded_scene.h"
+#include "demos/program/option_parsing.h"
+#include "demos/program/output_check.h"
+#include "demos/program/report.h"
+#include "demos/program/window/panel.h"
+#include "host/files/file.h"
+#include "host/window/window.h"
+
+namespace scree::demos {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+constexpr double report_every = 0.5;  // s
+
+struct Options {
+    SceneOptions scene;
+    MachineOptions machine;
+    std::string size = "1280x720";
+    Extent extent;
+    std::string color = "momentum";
+    std::string record, report;
+};
+
+double seconds_between(Clock::time_point from, Clock::time_point to) {
+    return std::chrono::duration<double>(to - from).count();
+}
+
+// A rate that follows what happens within about a second.
+class Meter {
+public:
+    void count(std::uint64_t events, double seconds) {
+        events_ += static_cast<double>(events);
+        seconds_ += seconds;
+        if (seconds_ < 0.5) return;
+        rate_ = events_ / seconds_;
+        events_ = seconds_ = 0;
+    }
+    double rate() const { return rate_; }
+
+private:
+    double events_ = 0, seconds_ = 0, rate_ = 0;
+};
+
+host::Camera camera_of(const Eye& eye) {
+    host::Camera camera;
+    const Viewpoint view = eye.viewpoint();
+    camera.eye = view.eye;
+    camera.target = view.target;
+    camera.vertical_fov = view.vertical_fov;
+    return camera;
+}
+
+// The window and what is in it.
+class Viewer {
+public:
+    Viewer(const Options& options, const host::Display& display, Machine machine);
+    void run();
+    void write_report();
+    void write_recording();
+
+private:
+    bool is_over();
+    void take_events(double wait);
+    void make_drawing();
+    void draw();
+
+    const Options& options_;
+    Machine machine_;
+    Session session_;
+    Interaction interaction_;
+    Panel panel_;
+    host::Window window_;
+    std::unique_ptr<Drawing> drawing_;
+    std::uint64_t drawn_beginning_ = 0;
+    Extent drawn_extent_{0, 0};
+    std::string color_;
+    Rates rates_;
+    std::uint64_t pictures_ = 0;
+    std::optional<std::uint64_t> last_step_;  // where the window closes by itself
+    Clock::time_point started_ = Clock::now();
+};
+
+Viewer::Viewer(const Options& options, const host::Display& display, Machine machine)
+    : options_(options),
+      machine_(std::move(machine)),
+      session_(options.scene, [this] { return machine_.make_runner(); }),
+      interaction_(session_, options.extent),
+      window_(display, machine_.screen, "scree", options.extent.width, options.extent.height),
+      color_(options.color) {
+    if (options.scene.steps || options.scene.seconds)
+        last_step_ = static_cast<std::uint64_t>(options.scene.step_count(session_.subject().seconds));
+}
+
+bool Viewer::is_over() {
+    const bool all_steps = last_step_ && session_.world().steps() >= *last_step_;
+    return all_steps || window_.wants_to_close() || interaction_.wants_to_close() || is_interrupted();
+}
+
+void Viewer::take_events(double wait) {
+    for (const host::Event& event : window_.poll(wait)) {
+        interaction_.on(event);
+        if (event.kind == host::EventKind::key_pressed && event.key == host::key_of('H')) panel_.shown = !panel_.shown;
+    }
+}
+
+// Another world or another size needs another drawing.
+void Viewer::make_drawing() {
+    const Extent extent{window_.width(), window_.height()};
+    const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_extent_.width == extent.width &&
+                      drawn_extent_.height == extent.height;
+    if (same) return;
+    host::CanvasOptions canvas;
+    canvas.width = extent.width;
+    canvas.height = extent.height;
+    drawing_.reset();
+    drawing_ = std::make_unique<Drawing>("vulkan", machine_, session_.world(), canvas);
+    if (drawn_beginning_ != session_.beginnings()) window_.set_title("scree: " + session_.subject().name);
+    drawn_beginning_ = session_.beginnings();
+    drawn_extent_ = extent;
+}
+
+void Viewer::draw() {
+    if (window_.width() < 16 || window_.height() < 16) return;  // minimised
+    window_.begin_panel();
+    panel_.lay_out(session_, interaction_, rates_, color_);
+    window_.end_panel();
+    make_drawing();
+    drawing_->update();
+    const Subject& subject = session_.subject();
+    const World& world = session_.world();
+    const std::string caption =
+        panel_.shown ? ""
+                     : fmt::format("{}\n{}, {:.2f} s{}", subject.name, counted(world.bodies_there(), "body", "bodies"),
+                                   world.time(), interaction_.paused ? ", paused" : "");
+    PictureOptions colors;
+    colors.color = color_;
+    const host::View view{camera_of(interaction_.eye()), scale_of(colors, subject, world.settings()), caption, subject.low,
+                          subject.high};
+    if (window_.show(drawing_->canvas(), view)) ++pictures_;
+}
+
+void Viewer::run() {
+    Meter steps, pictures;
+    Clock::time_point before = Clock::now(), reported = before;
+    while (!is_over()) {
+        const bool minimised = window_.width() == 0;
+        take_events(minimised ? 0.05 : interaction_.paused ? 0.02 : 0);  // a clock that stands needs no haste
+        const Clock::time_point now = Clock::now();
+        const double seconds = seconds_between(std::exchange(before, now), now);
+        const std::uint64_t step = session_.world().steps(), picture = pictures_, beginning = session_.beginnings();
+        interaction_.advance(seconds);
+        draw();
+        steps.count(beginning == session_.beginnings() ? session_.world().steps() - std::min(step, session_.world().steps()) : 0,
+                    seconds);
+        pictures.count(pictures_ - picture, seconds);
+        rates_ = {steps.rate(), pictures.rate()};
+        if (seconds_between(reported, now) < report_every) continue;
+        write_report();
+        reported = now;
+    }
+}
+
+void Viewer::write_report() {
+    if (options_.report.empty()) return;
+    World& world = session_.world();
+    nlohmann::ordered_json holds = nlohmann::ordered_json::array();
+    const auto numbers = [](vec3 v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
+    for (const Handled& hold : interaction_.handled())
+        holds.push_back({{"body", hold.body}, {"from", numbers(hold.from)}, {"to", numbers(hold.to)}});
+    nlohmann::ordered_json json = {{"demo", session_.subject().name},
+                                   {"backend", world.runner().backend()},
+                                   {"device", world.runner().device()},
+                                   {"bodies", world.scene().bodies.size()},
+                                   {"steps", world.steps()},
+                                   {"state_hash", hash_text(world.state_hash())},
+                                   {"paused", interaction_.paused},
+                                   {"grabbed", holds},
+                                   {"thrown", interaction_.thrown()},
+                                   {"width", window_.width()},
+                                   {"height", window_.height()},
+                                   {"pictures", pictures_},
+                                   {"steps_per_second", rates_.steps},
+                                   {"pictures_per_second", rates_.pictures},
+                                   {"seconds", seconds_between(started_, Clock::now())}};
+    if (interaction_.vehicle()) {
+        const VehicleState vehicle = world.vehicle(*interaction_.vehicle());
+        json["vehicle"] = {{"speed", vehicle.speed}, {"by_route", vehicle.by_route}, {"steer", vehicle.controls.steer}};
+    }
+    if (interaction_.selected()) {
+        json["selected"] = *interaction_.selected();
+        json["selected_position"] = numbers(world.body(*interaction_.selected()).position);
+    }
+    host::write_atomically(options_.report, json.dump(1) + "\n");
+}
+
+void Viewer::write_recording() {
+    if (!options_.record.empty()) host::write_atomically(options_.record, json_of(session_.input()));
+}
+
+Extent extent_of(const std::string& word) {
+    Extent extent;
+    char rest = 0;
+    const int read = std::sscanf(word.c_str(), "%dx%d%c", &extent.width, &extent.height, &rest);
+    if (read != 2 || extent.width < 64 || extent.height < 64 || extent.width > 16384 || extent.height > 16384)
+        throw UsageError("--size: must be WIDTHxHEIGHT, each between 64 and 16384 pixels, is \"" + word + "\"");
+    return extent;
+}
+
+std::unique_ptr<host::Display> open_display(const Options& options) {
+    try {
+        return std::make_unique<host::Display>();
+    } catch (const host::DeviceError& error) {
+        load_subject(options.scene);  // a wrong name is to be told first
+        throw UsageError(fmt::format("view: {}; without a display, pictures come from: scree run {} --frames DIR", error.what(),
+                                     options.scene.name));
+    }
+}
+
+int view(Options options) {
+    options.extent = extent_of(options.size);
+    require_writable_file("--record", options.record);
+    require_writable_file("--report", options.report);
+    const std::unique_ptr<host::Display> display = open_display(options);
+    const Machine machine = choose_machine(options.machine, Choice::fastest, display->extensions());
+    if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
+    {
+        Viewer viewer(options, *display, machine);
+        at_work([&] {
+            viewer.run();
+            viewer.write_report();
+            viewer.write_recording();
+        });
+    }
+    machine.require_valid();
+    return is_interrupted() ? interrupted : done;
+}
+
+}  // namespace
+
+void add_view(CLI::App& program, int& status) {
+    CLI::App* command = program.add_subcommand("view", "A demo or a scene file in a window, to be taken hold of");
+    auto options = std::make_shared<Options>();
+    add_options(*command, options->scene);
+    command->get_option("--steps")->description("close the window after so many");
+    command->get_option("--seconds")->description("close the window after so many simulated seconds");
+    add_options(*command, options->machine);
+    command->add_option("--size", options->size, "of the window, WIDTHxHEIGHT (1280x720)")->group("Window");
+    command->add_option("--color", options->color, "what colour tells at first (the words: scree run --help)")
+        ->check(one_of(color_words()))
+        ->group("Window");
+    command
+        ->add_option(
+            "--record", options->record,
+            "a file for all that was done since the scene began, written at closing; scree run --input FILE does it again")
+        ->group("Window");
+    command
+        ->add_option("--report", options->report,
+                     "a file for what goes on, as JSON, written anew every half second and at closing")
+        ->group("Window");
+    command->footer(std::string("In the window:\n") + key_help +
+                    "\n\nExamples:\n  scree view wall\n  scree view pile --bodies 3k --record played.json\n"
+                    "  scree run --input played.json --video played.mp4");
+    command->callback([options, &status] { status = view(*options); });
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,41 @@
+// Choosing where to simulate, in a build without Vulkan: the processor.
+#include "demos/program/backend.h"
+#include "demos/program/exit_status.h"
+#include "host/copy_speed.h"
+#include "host/device_error.h"
+
+namespace scree::demos {
+
+namespace {
+constexpr const char* cure = "this scree was built without Vulkan; configure it with -DSCREE_VULKAN=ON";
+}
+
+std::unique_ptr<Runner> Machine::make_runner() const {
+    return make_reference_runner(options.threads);
+}
+
+double Machine::copy_speed() const {
+    return host::processor_copy_speed(options.threads);
+}
+
+void Machine::require_valid() const {}
+
+Machine choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {
+    if (options.backend == "vulkan") throw UsageError(std::string("--backend vulkan: ") + cure);
+    if (!options.device.empty()) throw UsageError(std::string("--device: ") + cure);
+    return {options, nullptr, ""};
+}
+
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine&, const host::ShapeInstances&, const host::CanvasOptions&) {
+    throw host::DeviceError(std::string("Vulkan: ") + cure);
+}
+
+host::BodyTables tables_on_device(Runner&) {
+    return {};
+}
+
+vec3 position_on_device(Runner&, std::size_t) {
+    return vec3(0);
+}
+
+}  // namespace scree::demos

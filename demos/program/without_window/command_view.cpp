@@ -1,0 +1,19 @@
+// The command that needs a window, in a build without one: it says so.
+#include <CLI/CLI.hpp>
+
+#include "demos/program/commands.h"
+#include "demos/program/exit_status.h"
+
+namespace scree::demos {
+
+void add_view(CLI::App& program, int&) {
+    CLI::App* command = program.add_subcommand("view", "In a window (not in this build)");
+    command->allow_extras();
+    command->callback([] {
+        throw UsageError(
+            "this scree was built without a window; configure it with -DSCREE_WINDOW=ON, or make pictures: scree run DEMO "
+            "--frames DIR");
+    });
+}
+
+}  // namespace scree::demos

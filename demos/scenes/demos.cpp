@@ -1,0 +1,93 @@
+// The list of demos, in one place.
+#include "demos/scenes/demos.h"
+
+#include <algorithm>
+
+namespace scree::demos {
+
+const std::vector<Demo>& all_demos() {
+    static const std::vector<Demo> demos = {
+        {"rest", "a sphere, a capsule and a box come to rest on the ground", 4, false, rest},
+        {"stack", "ten boxes, placed a little carelessly, stand", 10, false, stack},
+        {"tower", "a single column of forty boxes stands", 40, false, tower},
+        {"wall", "a wall of sixteen courses in running bond stands", 520, false, wall},
+        {"pyramid", "a pyramid of 465 boxes stands", 465, false, pyramid},
+        {"seesaw", "equal weights balance; unequal weights tip", 6, false, seesaw},
+        {"slopes", "bodies slide, stick and roll down inclines as the formulas say", 8, false, slopes},
+        {"cradle", "five spheres in a row pass on a blow", 10, false, cradle},
+        {"dominoes", "a winding row of dominoes falls, to the last", 60, false, dominoes},
+        {"pile", "boxes fall into a pit and come to rest", 1000, true, pile},
+        {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
+        {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
+        {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
+        {"terrain", "bodies of every shape tumble down hills, a height field, and gather in the valley", 600, true, terrain},
+        {"mesh", "bodies of every shape come down a staircase into a bowl, a mesh from a file", 120, true, mesh},
+        {"chain", "two chains of twenty links swing, one with a load of a hundred links", 41, false, chain},
+        {"bridge", "a hanging bridge of planks bears a dozen crates", 36, false, bridge},
+        {"ragdolls", "three hundred figures of eleven limbs fall on steps and come to rest", 3300, true, ragdolls},
+        {"pendulums", "pendulums of every kind keep their period and their energy for a minute", 7, false, pendulums},
+        {"machine", "a motor turns two gears, a crank and a piston", 18, false, machine},
+        {"wrecking", "a heavy ball on a chain breaks through a brick wall", 204, false, wrecking},
+        {"glass", "a ball goes through six panes of glass, and stops at the seventh", 8, false, glass},
+        {"shatter", "bodies that fall into a pit burst into pieces", 2000, true, shatter},
+        {"drive", "a car drives a course with a ramp, a banked curve and things to push", 37, false, drive},
+        {"cars", "cars of five bodies drive round and round, each by itself", 100, true, cars},
+
+        {"stack20", "twenty boxes stand", 20, false, stack20, true},
+        {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
+        {"smallstack", "ten boxes of 0.2 m stand", 10, false, smallstack, true},
+        {"heavytop", "nine boxes carry one that weighs as much as a hundred", 10, false, heavytop, true},
+        {"pyramid100", "a pyramid of 5,050 boxes stands", 5050, false, pyramid100, true},
+        {"cards", "a house of cards, three storeys high, stands", 15, false, cards, true},
+        {"jenga", "a tower of eighteen layers of three blocks stands", 54, false, jenga, true},
+        {"tray", "a plate of less than half their weight carries 500 boxes", 501, false, tray, true},
+        {"pile1m", "boxes of 1 m lie still in a pit, fall asleep, and wake where a ball strikes", 10000, true, pile1m, true},
+        {"mix1m", "spheres, capsules and boxes of about 1 m lie still in a pit", 10000, true, mix1m, true},
+        {"overlap", "bodies that overlap by half come apart", 10000, true, overlap, true},
+
+        {"solids", "cylinders, cones and hulls stand, stack and roll", 17, false, solids, true},
+        {"thresholds", "bodies break on what is just above their threshold, not just below", 32, false, thresholds, true},
+        {"roadtest", "cars brake, accelerate, corner and park as the formulas say", 35, false, roadtest, true},
+        {"fragments", "bodies that break in empty space keep their momentum", 64, false, fragments, true},
+
+        {"compounds", "tables of five boxes carry columns; a bar tips where its centre of mass says", 14, false, compounds, true},
+        {"rollmesh", "a ball rolls over 10,000 triangles in a plane as over a plane", 1, false, rollmesh, true},
+        {"hulls1m", "hulls of 1 m settle in a pit", 10000, true, hulls1m, true},
+
+        {"onset", "boxes begin to slide at the angle atan(mu)", 18, false, onset, true},
+        {"hold", "boxes below that angle do not creep", 9, false, hold, true},
+        {"steep", "boxes slide and round bodies roll down a steep incline as the formulas say", 9, false, steep, true},
+        {"rolling", "rolling resistance brings round bodies to rest where the formula says", 12, false, rolling, true},
+        {"bounce", "bodies bounce to e^2 of the height of their fall", 15, false, bounce, true},
+        {"tumbling", "free boxes turn over and keep angular momentum and energy", 3, false, tumbling, true},
+        {"swarm", "bodies colliding in empty space keep their momentum", 64, false, swarm, true},
+        {"shots", "fast spheres and boxes do not pass a thin wall", 10000, true, shots, true},
+        {"strikes", "fast spheres and boxes do not pass thin plates or small bodies", 1500, true, strikes, true},
+    };
+    return demos;
+}
+
+const Demo* find_demo(std::string_view name) {
+    const auto& demos = all_demos();
+    const auto found = std::find_if(demos.begin(), demos.end(), [&](const Demo& demo) { return name == demo.name; });
+    return found == demos.end() ? nullptr : &*found;
+}
+
+DemoScene build(const Demo& demo, DemoOptions options) {
+    if (options.bodies == 0 || !demo.takes_bodies) options.bodies = demo.bodies;
+    DemoScene made = demo.build(options);
+    const vec3 offset(options.offset, 0, options.offset);
+    for (Body& body : made.scene.bodies) body.position += offset;
+    for (vec3* place : {&made.viewpoint.eye, &made.viewpoint.target, &made.low, &made.high}) *place += offset;
+    for (Vehicle& vehicle : made.scene.vehicles)
+        for (WayPoint& point : vehicle.route) point.position += offset;
+    for (ViewKey& key : made.viewpoint.path) key.eye += offset, key.target += offset;
+    return made;
+}
+
+DemoScene awake(DemoScene scene) {
+    scene.sleeping = false;
+    return scene;
+}
+
+}  // namespace scree::demos

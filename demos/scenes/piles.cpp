@@ -1,0 +1,64 @@
+// Heaps in a pit: boxes alone, and boxes with spheres and capsules.
+#include <algorithm>
+#include <cmath>
+
+#include "demos/scenes/demos.h"
+#include "demos/scenes/random_bodies.h"
+#include "demos/scenes/scene_builder.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr float largest_reach = 0.42f;  // m
+constexpr float cell = 2 * largest_reach;
+
+// `count` bodies in a lattice above a pit that is twice as wide as the lattice is high: one sees into it.
+DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), float smallest_reach) {
+    const std::size_t count = options.bodies;
+    const int side = std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * static_cast<double>(count)))));
+    Scene scene;
+    scene.bodies.reserve(count + 5);
+    scene.bodies.push_back(ground());
+    const float half = 0.5f * cell * static_cast<float>(side) + 0.1f;
+    const float wall = 0.4f * cell * static_cast<float>(side);
+    add_pit(scene, {half, wall, half}, 0.5f);
+    Random random(options.seed);
+    float top = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const auto n = static_cast<std::size_t>(side);
+        Body body = make(random.between(smallest_reach, largest_reach), random);
+        const vec3 place(static_cast<float>(i % n) - 0.5f * static_cast<float>(side - 1), static_cast<float>(i / (n * n)) + 0.55f,
+                         static_cast<float>(i / n % n) - 0.5f * static_cast<float>(side - 1));
+        body.position = place * cell;
+        top = body.position.y + largest_reach;
+        scene.bodies.push_back(body);
+    }
+    const float outside = half + 0.5f;
+    const vec3 low(-outside, 0, -outside), high(outside, top, outside);
+    const float seconds = 8 + 0.2f * static_cast<float>(side);  // the higher the lattice, the longer it falls and settles
+    return {std::move(scene),
+            view_of(low, high, 35, 38),
+            low,
+            high,
+            seconds,
+            Promise(all_within({-half, -0.01f, -half}, {half, 2 * wall, half}), penetration_below(0.05), energy_never_rises(0.01),
+                    end_speed_below(0.5))
+                .watching_energy()};
+}
+
+}  // namespace
+
+DemoScene pile(const DemoOptions& options) {
+    return heap(options, random_box, 0.32f);
+}
+
+DemoScene mix(const DemoOptions& options) {
+    return heap(options, random_mixed, 0.25f);
+}
+
+DemoScene assortment(const DemoOptions& options) {
+    return heap(options, random_assorted, 0.2f);
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,159 @@
+// What must stand: bodies at rest, columns, a wall and pyramids.
+#include <cmath>
+
+#include "demos/scenes/demos.h"
+#include "demos/scenes/random.h"
+#include "demos/scenes/scene_builder.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr float half = 0.5f;  // m, of the boxes that are stacked
+
+// A column of boxes, each off by up to 2 mm and turned by up to 0.3 degrees, as if set by hand.
+Scene column(int count, std::uint64_t seed, float half_extent = half) {
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Random random(seed);
+    for (int i = 0; i < count; ++i) {
+        const vec3 position(random.between(-0.002f, 0.002f), half_extent + 2 * half_extent * static_cast<float>(i),
+                            random.between(-0.002f, 0.002f));
+        const vec4 turn = turned({0, 1, 0}, random.between(-0.3f, 0.3f) * degrees);
+        scene.bodies.push_back(box_at(position, vec3(half_extent), turn));
+    }
+    return scene;
+}
+
+DemoScene standing(Scene scene, vec3 size, float elevation, float seconds, Promise promise) {
+    const vec3 low(-size.x / 2, 0, -size.z / 2), high(size.x / 2, size.y, size.z / 2);
+    return {std::move(scene), view_of(low, high, 30, elevation), low, high, seconds, std::move(promise)};
+}
+
+DemoScene pyramid_of(int base, std::uint64_t seed, const Promise& promise) {
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Random random(seed);
+    for (int row = 0; row < base; ++row) {
+        for (int column = 0; column < base - row; ++column) {
+            const float x = (static_cast<float>(column) - 0.5f * static_cast<float>(base - row - 1)) * 1.02f;
+            const vec3 position(x, half + 2 * half * static_cast<float>(row), random.between(-0.002f, 0.002f));
+            scene.bodies.push_back(box_at(position, vec3(half), turned({0, 1, 0}, random.between(-0.3f, 0.3f) * degrees)));
+        }
+    }
+    const auto size = static_cast<float>(base);
+    return awake(standing(std::move(scene), {1.02f * size + 0.4f, size + 0.2f, 6}, 14, 20, promise));
+}
+
+double sideways_of(const Trace& trace, std::size_t body) {
+    const vec3 way = trace.end[body].position - trace.start[body].position;
+    return std::hypot(way.x, way.z);
+}
+
+}  // namespace
+
+DemoScene rest(const DemoOptions&) {
+    Scene scene;
+    scene.bodies.push_back(ground());
+    const float drop = 0.01f;
+    Body sphere;
+    sphere.name = "sphere";
+    sphere.shape = Sphere{0.5f};
+    sphere.position = {-2.4f, 0.5f + drop, 0};
+    Body capsule;
+    capsule.name = "capsule";
+    capsule.shape = Capsule{0.3f, 0.4f};
+    capsule.position = {-0.8f, 0.3f + drop, 0};
+    capsule.orientation = turned({1, 0, 0}, 90 * degrees);
+    Body box = box_at({0.8f, 0.5f + drop, 0}, vec3(0.5f), turned({0, 1, 0}, 30 * degrees));
+    box.name = "box";
+    Body slab = box_at({2.4f, 0.15f + drop, 0}, {0.6f, 0.15f, 0.4f}, turned({0, 1, 0}, -20 * degrees));
+    slab.name = "slab";
+    for (Body* body : {&sphere, &capsule, &box, &slab}) {
+        body->rolling_resistance = 0.005f;
+        scene.bodies.push_back(*body);
+    }
+    const vec3 low(-3.2f, 0, -1), high(3.2f, 1.6f, 1);
+    return {std::move(scene),
+            view_of(low, high, 25, 18),
+            low,
+            high,
+            5,
+            Promise(drift_below(0.05), end_speed_below(0.005), penetration_below(0.002))};
+}
+
+DemoScene stack(const DemoOptions& options) {
+    return awake(standing(column(10, options.seed), {4, 10.2f, 4}, 14, 20,
+                          Promise(drift_below(0.012), end_speed_below(0.005), penetration_below(0.005))));
+}
+
+DemoScene stack20(const DemoOptions& options) {
+    return awake(standing(column(20, options.seed), {6, 20.2f, 6}, 12, 20,
+                          Promise(drift_below(0.045), end_speed_below(0.005), penetration_below(0.01))));
+}
+
+DemoScene tower(const DemoOptions& options) {
+    return awake(standing(column(40, options.seed), {8, 40.5f, 8}, 10, 20,
+                          Promise(drift_below(0.16), end_speed_below(0.005), penetration_below(0.01))));
+}
+
+// Taller than the contacts can carry awake for ever: it stands because it falls asleep.
+DemoScene stack80(const DemoOptions& options) {
+    constexpr std::size_t count = 80;
+    // Its own weight presses the column together by more than half a metre, so what counts is that it stays a column.
+    const Claim top_stays = at_most("sideways drift of the topmost", 0.5, "m", "from its start to the end, half a box",
+                                    [](const Trace& trace) { return sideways_of(trace, count); });
+    const Claim none_fell = at_most("boxes that fell", 0, "", "no longer above the one below", [](const Trace& trace) {
+        double fallen = 0;
+        for (std::size_t i = 2; i <= count; ++i) {
+            const vec3 apart = trace.end[i].position - trace.end[i - 1].position;
+            fallen += !(std::hypot(apart.x, apart.z) < half && apart.y > half);
+        }
+        return fallen;
+    });
+    return standing(column(count, options.seed), {16, 80.5f, 16}, 8, 60, Promise(top_stays, none_fell));
+}
+
+DemoScene smallstack(const DemoOptions& options) {
+    return awake(standing(column(10, options.seed, 0.1f), {0.8f, 2.05f, 0.8f}, 14, 20,
+                          Promise(drift_below(0.01), end_speed_below(0.005), penetration_below(0.002))));
+}
+
+// Ten boxes, of which the topmost weighs as much as a hundred.
+DemoScene heavytop(const DemoOptions& options) {
+    Scene scene = column(10, options.seed);
+    scene.bodies.back().density *= 100;
+    return awake(standing(std::move(scene), {4, 10.2f, 4}, 14, 20, Promise(drift_below(0.18), end_speed_below(0.05))));
+}
+
+DemoScene wall(const DemoOptions& options) {
+    constexpr int rows = 16, columns = 32;
+    const vec3 brick(0.5f, 0.25f, 0.25f);
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Random random(options.seed);
+    for (int row = 0; row < rows; ++row) {
+        const bool shifted = row % 2 == 1;  // odd courses begin and end with half a brick
+        const float y = brick.y * static_cast<float>(2 * row + 1);
+        for (int column = 0; column < columns + shifted; ++column) {
+            const bool halved = shifted && (column == 0 || column == columns);
+            float x = static_cast<float>(column) - 0.5f * columns + (shifted ? 0.0f : 0.5f);
+            if (halved) x += column == 0 ? 0.25f : -0.25f;
+            const vec3 size(halved ? 0.25f : 0.5f, brick.y, brick.z);
+            // A millimetre of air at each head joint: bricks must not overlap at the start.
+            scene.bodies.push_back(box_at({x, y, random.between(-0.002f, 0.002f)}, size - vec3(0.0005f, 0, 0)));
+        }
+    }
+    return awake(standing(std::move(scene), {32, 8.2f, 4}, 16, 20,
+                          Promise(drift_below(0.04), end_speed_below(0.01), penetration_below(0.005))));
+}
+
+DemoScene pyramid(const DemoOptions& options) {
+    return pyramid_of(30, options.seed, Promise(drift_below(0.06), end_speed_below(0.01), penetration_below(0.01)));
+}
+
+DemoScene pyramid100(const DemoOptions& options) {
+    return pyramid_of(100, options.seed, Promise(drift_below(0.6)));
+}
+
+}  // namespace scree::demos

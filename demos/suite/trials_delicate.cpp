@@ -1,0 +1,117 @@
+// What stands only if contacts neither creep nor shake: a house of cards, a tower of blocks, a light tray under a heavy load.
+#include <cmath>
+
+#include "demos/scenes/demos.h"
+#include "demos/scenes/random.h"
+#include "demos/scenes/scene_builder.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr float lean = 22 * degrees;               // of a card from upright; the feet need a friction of 0.40
+constexpr float length = 0.9f, thickness = 0.01f;  // m, of a card; as thick as a card of 9 cm that is 1 mm thick
+constexpr float width = 0.6f;
+
+// Two cards that lean against each other above (x, y); how high their upper edges are is returned.
+float add_tent(Scene& scene, float x, float y, Random& random) {
+    const float half_span = 0.5f * (thickness * std::cos(lean) + length * std::sin(lean));
+    const float half_rise = 0.5f * (thickness * std::sin(lean) + length * std::cos(lean));
+    for (const float side : {-1.0f, 1.0f}) {
+        const vec3 place(x + side * half_span, y + half_rise, random.between(-0.002f, 0.002f));
+        scene.bodies.push_back(box_at(place, {thickness / 2, length / 2, width / 2}, turned({0, 0, 1}, side * lean)));
+    }
+    return y + 2 * half_rise;
+}
+
+}  // namespace
+
+DemoScene cards(const DemoOptions& options) {
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Random random(options.seed);
+    const float spacing = 2 * (thickness * std::cos(lean) + length * std::sin(lean));
+    float y = 0;
+    for (int tents = 3; tents > 0; --tents) {
+        float top = y;
+        const float first = -0.5f * spacing * static_cast<float>(tents - 1);
+        for (int i = 0; i < tents; ++i) top = add_tent(scene, first + spacing * static_cast<float>(i), y, random);
+        // Floors reach from the ridge of one tent to that of the next; cut to a millimetre less, so that they do not overlap.
+        for (int i = 0; i + 1 < tents; ++i) {
+            const vec3 place(first + spacing * (static_cast<float>(i) + 0.5f), top + thickness / 2,
+                             random.between(-0.002f, 0.002f));
+            scene.bodies.push_back(box_at(place, {(spacing - 0.001f) / 2, thickness / 2, width / 2}));
+        }
+        y = top + thickness;
+    }
+    const vec3 low(-1.3f, 0, -0.6f), high(1.3f, 2.7f, 0.6f);
+    return awake(
+        {std::move(scene), view_of(low, high, 25, 12), low, high, 20, Promise(drift_below(0.02), end_speed_below(0.005))});
+}
+
+// The blocks of the game, ten times as large.
+DemoScene jenga(const DemoOptions& options) {
+    const vec3 half(0.375f, 0.075f, 0.125f);
+    const float spacing = 0.254f;  // m, across: 4 mm of air, so that turned blocks do not overlap
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Random random(options.seed);
+    for (int layer = 0; layer < 18; ++layer) {
+        for (int i = -1; i <= 1; ++i) {
+            const float along = random.between(-0.002f, 0.002f), across = spacing * static_cast<float>(i);
+            const bool turned_layer = layer % 2 == 1;
+            const vec3 place(turned_layer ? across : along, half.y * static_cast<float>(2 * layer + 1),
+                             turned_layer ? along : across);
+            const float turn = (turned_layer ? 90 : 0) + random.between(-0.3f, 0.3f);
+            scene.bodies.push_back(box_at(place, half, turned({0, 1, 0}, turn * degrees)));
+            scene.bodies.back().density = 600;  // wood
+        }
+    }
+    const vec3 low(-0.8f, 0, -0.8f), high(0.8f, 2.75f, 0.8f);
+    // A third of a layer at the most, of what the whole tower sinks into itself.
+    return awake({std::move(scene), view_of(low, high, 30, 14), low, high, 20,
+                  Promise(drift_below(0.05), end_speed_below(0.005), penetration_below(0.01))});
+}
+
+// A plate on a table smaller than itself, under one layer of boxes that weigh two and a half times as much together. On one of a
+// tenth of their weight they would not come to rest: its parts are too light to hold a box (mass_splitting.h).
+DemoScene tray(const DemoOptions& options) {
+    constexpr int rows = 20, columns = 25;
+    constexpr float spacing = 1.05f;
+    const vec3 half(0.5f * spacing * columns, 0.1f, 0.5f * spacing * rows);
+    const vec3 table(0.6f * half.x, 0.5f, 0.6f * half.z);
+    Scene scene;
+    scene.bodies.push_back(ground());
+    scene.bodies.push_back(fixed_box({0, table.y, 0}, table));
+    const std::size_t plate = scene.bodies.size();
+    scene.bodies.push_back(box_at({0, 2 * table.y + half.y, 0}, half));
+    scene.bodies[plate].density = 200000 / (8 * half.x * half.y * half.z);  // 200 t; the 500 boxes weigh 1 t each
+    Random random(options.seed);
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+            const vec3 place(spacing * (static_cast<float>(column) - 0.5f * (columns - 1)) + random.between(-0.002f, 0.002f),
+                             2 * table.y + 2 * half.y + 0.5f,
+                             spacing * (static_cast<float>(row) - 0.5f * (rows - 1)) + random.between(-0.002f, 0.002f));
+            scene.bodies.push_back(box_at(place, vec3(0.5f), turned({0, 1, 0}, random.between(-0.3f, 0.3f) * degrees)));
+        }
+    }
+    const Claim still = at_most("speed of the plate at the end", 0.005, "m/s", "of its centre",
+                                [plate](const Trace& trace) { return glm::length(trace.end[plate].velocity); });
+    const Claim calm =
+        at_most("mean speed of the plate", 0.005, "m/s", "over the last 5 s, at every step", [](const Trace& trace) {
+            double sum = 0, count = 0;
+            for (const Trace::Moment& moment : trace.moments) {
+                sum += static_cast<double>(glm::length(moment.bodies[0].velocity));
+                ++count;
+            }
+            return sum / count;
+        });
+    const Claim level = at_most("tilt of the plate", 0.5, "degrees", "at the end", [plate](const Trace& trace) {
+        return tilt(trace.end[plate], {0, 1, 0});
+    });
+    const vec3 low(-half.x, 0, -half.z), high(half.x, 2.4f, half.z);
+    return awake({std::move(scene), view_of(low, high, 30, 24), low, high, 20,
+                  Promise(still, calm, level, drift_below(0.05)).watching({plate}, {every_step, 15})});
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,142 @@
+// Trials of fast bodies: thousands of shots at walls thinner than the way of one step, at plates and at bodies that can move.
+#include <algorithm>
+#include <cmath>
+
+#include "demos/scenes/demos.h"
+#include "demos/scenes/random.h"
+#include "demos/scenes/scene_builder.h"
+#include "demos/suite/analytic_checks.h"
+#include "shaders/physics/base/arithmetic.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr float fastest = 300, slowest = 5;  // m/s
+constexpr float wall_friction = 0.3f;
+constexpr float half_size = 0.05f;  // m, of every shot: spheres and boxes 0.1 m wide
+constexpr float cell = 1.5f;        // m, a shooter's share of the front
+
+// Every second one a box, turned and spinning at random; the whole range of speeds, half of them above 100 m/s.
+Body some_shot(std::size_t index, Random& random) {
+    Body body;
+    if (index % 2 == 0) {
+        body.shape = Sphere{half_size};
+    } else {
+        body.shape = Box{vec3(half_size)};
+        body.orientation = random.orientation();
+    }
+    body.angular_velocity = {random.between(-20, 20), random.between(-20, 20), random.between(-20, 20)};
+    body.friction = 0.3f;
+    body.restitution = index % 4 < 2 ? 0.5f : 0.0f;
+    return body;
+}
+float some_speed(Random& random) {
+    const float part = random.unit();
+    return part < 0.5f ? slowest + (100 - slowest) * 2 * part : 100 + (fastest - 100) * (2 * part - 1);
+}
+// A direction toward -z, slanted at most so far that it moves `sideways` m sideways for one forward.
+vec3 some_aim(float sideways, Random& random) {
+    const vec3 aim(random.between(-sideways, sideways), random.between(-sideways, sideways), -1);
+    return glm::normalize(aim);
+}
+vec3 some_place(float half, Random& random) {
+    return vec3(random.between(-half, half), random.between(-half, half), 0);
+}
+
+struct Front {
+    int columns, rows;
+    std::size_t places() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
+    vec3 middle(std::size_t index) const {
+        const int column = static_cast<int>(index) % columns, row = static_cast<int>(index) / columns;
+        return cell * vec3(static_cast<float>(column) - 0.5f * static_cast<float>(columns - 1),
+                           static_cast<float>(row) - 0.5f * static_cast<float>(rows - 1), 0);
+    }
+    vec3 corner(float depth) const {
+        return vec3(0.5f * cell * static_cast<float>(columns), 0.5f * cell * static_cast<float>(rows), depth);
+    }
+};
+Front front_for(std::size_t count) {
+    const int columns = std::max(1, static_cast<int>(std::ceil(std::sqrt(static_cast<double>(count) * 16 / 9))));
+    return {columns, (static_cast<int>(count) + columns - 1) / columns};
+}
+
+DemoScene finish(Scene scene, const Front& front, const std::string& what, std::vector<Shot> shots, float seconds) {
+    const vec3 high = front.corner(2);
+    return {std::move(scene), view_of(-high, high, 30, 15), -high, high, seconds, Promise(none_through(what, std::move(shots)))};
+}
+
+// More wall around the pieces, as wide as the way of the fastest shot: one that does not bounce slides along it.
+void add_margin(Scene& scene, const Front& front, float half_thickness, float seconds) {
+    const vec3 inner = front.corner(half_thickness);
+    const float half = fastest * seconds / 2;
+    for (const float side : {-1.0f, 1.0f}) {
+        scene.bodies.push_back(
+            fixed_box({side * (inner.x + half), 0, 0}, {half, inner.y + 2 * half, half_thickness}, wall_friction));
+        scene.bodies.push_back(fixed_box({0, side * (inner.y + half), 0}, {inner.x, half, half_thickness}, wall_friction));
+    }
+}
+
+}  // namespace
+
+// A wall 0.05 m thick, in pieces that meet, each with its own shooter close before it: the slowest and most slanted shot arrives
+// after 0.2 s.
+DemoScene shots(const DemoOptions& options) {
+    constexpr float thin = 0.025f, seconds = 0.4f;
+    const Front front = front_for(options.bodies);
+    Random random(options.seed);
+    Scene scene;
+    scene.gravity = vec3(0);
+    std::vector<Shot> shots;
+    const auto add_piece = [&](std::size_t i) {
+        scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, wall_friction));
+        return scene.bodies.size() - 1;
+    };
+    for (std::size_t i = 0; i < options.bodies; ++i) {
+        const std::size_t piece = add_piece(i);
+        Body shot = some_shot(i, random);
+        const vec3 aim = some_aim(1, random);
+        shot.position = front.middle(i) + some_place(0.2f, random) - aim * (random.between(0.12f, 0.45f) / -aim.z);
+        shot.velocity = aim * some_speed(random);
+        shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
+        scene.bodies.push_back(shot);
+    }
+    for (std::size_t i = options.bodies; i < front.places(); ++i) add_piece(i);  // no hole in the last row
+    add_margin(scene, front, thin, seconds);
+    return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
+}
+
+// What can move: plates 0.04 m thick, of 50 kg and of 4 kg, a sphere and a box as large as the shots, of 0.5 and 1 kg. What
+// bounces goes away from its target's middle whatever it turns to; what sticks to a plate hits it straight and turns with it.
+DemoScene strikes(const DemoOptions& options) {
+    constexpr float thin = 0.02f, gentlest = 20;
+    const Front front = front_for(options.bodies);
+    Random random(options.seed);
+    Scene scene;
+    scene.gravity = vec3(0);
+    std::vector<Shot> shots;
+    for (std::size_t i = 0; i < options.bodies; ++i) {
+        const bool plate = i % 4 < 2, heavy = i % 4 == 0, sticking = plate && i % 8 < 4;
+        Body shot = some_shot(plate ? (sticking ? 0 : i / 8) : i, random);
+        shot.restitution = sticking ? 0.0f : 0.5f;
+        Body target = box_at(front.middle(i), {0.5f, 0.5f, thin});
+        target.density = heavy ? 1250.0f : 100.0f;
+        if (!plate) {  // like meets like, face to face
+            shot.orientation = vec4(0, 0, 0, 1);
+            shot.angular_velocity = vec3(0);
+            target.shape = shot.shape;
+            target.density = shot.density;
+        }
+        const bool box = std::holds_alternative<Box>(shot.shape);
+        const vec3 aim = some_aim(plate && !sticking && !box ? 0.5f : 0, random);
+        const vec3 mark = target.position + some_place(heavy ? 0.1f : 0.01f, random);
+        shot.position = mark - aim * random.between(0.2f, 0.5f);
+        shot.velocity = aim * std::max(gentlest, some_speed(random));
+        shots.push_back({scene.bodies.size() + 1, scene.bodies.size(), {0, 0, 1}, plate ? thin : 0, sticking});
+        scene.bodies.push_back(target);
+        scene.bodies.push_back(shot);
+    }
+    return finish(std::move(scene), front, "shots at thin plates and small bodies", std::move(shots), 0.1f);
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,130 @@
+// What every canvas draws: the tables and images that the picture shaders read, and the draws of a picture in their order.
+#include "host/canvas/canvas_plan.h"
+
+#include <stdexcept>
+#include <string>
+
+namespace scree::host {
+
+const std::array<BindingInfo, BINDINGS>& binding_infos() {
+    static const std::array<BindingInfo, BINDINGS> infos = [] {
+        std::array<BindingInfo, BINDINGS> all;
+        all[TRAITS] = {Source::bodies, &BodyTables::traits, "traits"};
+        all[POSES] = {Source::bodies, &BodyTables::poses, "poses"};
+        all[VELOCITIES] = {Source::bodies, &BodyTables::velocities, "velocities"};
+        all[TOUCHES] = {Source::bodies, &BodyTables::touches, "touches"};
+        all[PUSHES] = {Source::bodies, &BodyTables::pushes, "pushes"};
+        all[SLOT_ENDS] = {Source::bodies, &BodyTables::slot_ends, "slot ends"};
+        all[SLOT_SIDES] = {Source::bodies, &BodyTables::slot_sides, "slot sides"};
+        all[RESTS] = {Source::bodies, &BodyTables::rests, "rests"};
+        all[BOUNDS] = {Source::bodies, &BodyTables::bounds, "bounds"};
+        all[JOINTS] = {Source::bodies, &BodyTables::joints, "joints"};
+        all[IDS] = {Source::bodies, &BodyTables::ids, "ids"};
+        for (const Binding image : {SUN_MAP, SKY_MAP, GLYPHS, SCENE}) all[image] = {Source::image, nullptr, ""};
+        return all;
+    }();
+    return infos;
+}
+
+bool reads(std::uint32_t binding, const CanvasOptions& options, ColorBy by) {
+    switch (binding) {
+        case TOUCHES:
+            return options.marks;
+        case PUSHES:
+            return options.marks || by == ColorBy::contact_impulse;
+        case SLOT_ENDS:
+            return by == ColorBy::contact_impulse || by == ColorBy::contacts;
+        case SLOT_SIDES:
+            return by == ColorBy::contact_impulse;
+        case RESTS:
+            return options.sleep || by == ColorBy::rest;
+        case BOUNDS:
+            return options.boxes || options.cells;
+        case JOINTS:
+            return options.joints;
+        case IDS:
+            return by == ColorBy::body;
+        default:
+            return true;
+    }
+}
+
+void require_tables(const BodyTables& tables, const CanvasOptions& options, ColorBy by) {
+    for (std::uint32_t i = 0; i < BINDINGS; ++i) {
+        const BindingInfo& info = binding_infos()[i];
+        if (info.table == nullptr || !reads(i, options, by) || (tables.*info.table).given) continue;
+        throw std::invalid_argument(std::string("canvas: the table of ") + info.name + " is missing");
+    }
+}
+
+std::vector<Draw> draws_of(const CanvasOptions& options) {
+    std::vector<Draw> draws;
+    for (const Pass map : {Pass::sun_map, Pass::sky_map}) {
+        if (!options.shadows) break;
+        const std::uint32_t light = map == Pass::sun_map ? 0 : 1;
+        const auto shadow = [&](const DrawState& state, Mesh mesh, std::uint32_t run) {
+            draws.push_back({state, Items::bodies, mesh, 0, run, pushed_for_run(run, light)});
+        };
+        const DrawState round{map, "round_shadow.vert", "round_shadow.frag", Cull::none, Compare::less, true};
+        shadow(round, Mesh::disc, RUN_ALL_SPHERES);
+        shadow(round, Mesh::discs, RUN_ALL_CAPSULES);
+        // The maps are not mirrored as pictures are, so this keeps the sides towards the light.
+        shadow({map, "box_shadow.vert", "", Cull::front, Compare::less, true}, Mesh::box, RUN_ALL_BOXES);
+        shadow({map, "solid_shadow.vert", "", Cull::front, Compare::less, true}, Mesh::solid, RUN_ALL_SOLIDS);
+    }
+    // Depth falls from 1 to 0 with distance, which spends a float's precision evenly. What usually lies behind comes last, so
+    // that most of it is never shaded.
+    const auto body = [](const char* vertex, const char* fragment, Cull cull) {
+        return DrawState{Pass::picture, vertex, fragment, cull, Compare::greater, true};
+    };
+    std::vector<Draw> bodies;
+    const auto seen = [&](const char* vertex, const char* fragment, Mesh mesh, std::uint32_t run) {
+        bodies.push_back({body(vertex, fragment, Cull::back), Items::bodies, mesh, 0, run, pushed_for_run(run, 0)});
+    };
+    seen("box.vert", "box.frag", Mesh::box, RUN_BOXES);
+    seen("solid.vert", "solid.frag", Mesh::solid, RUN_SOLIDS);
+    const auto finer = [](Mesh coarsest, std::uint32_t k) { return static_cast<Mesh>(static_cast<std::uint32_t>(coarsest) + k); };
+    for (std::uint32_t k = 0; k < SPHERE_DETAILS; ++k)
+        seen("round.vert", "round.frag", finer(Mesh::sphere_0, k), RUN_SPHERES + k);
+    for (std::uint32_t k = 0; k < CAPSULE_DETAILS; ++k)
+        seen("round.vert", "round.frag", finer(Mesh::capsule_0, k), RUN_CAPSULES + k);
+    // First all depths, then the colours of what was nearest: bodies come in any order, and shading takes ten times as long.
+    for (Draw draw : bodies) {
+        draw.state.fragment = "";
+        draws.push_back(draw);
+    }
+    for (Draw& draw : bodies) {
+        draw.state.depth = Compare::greater_or_equal;
+        draw.state.writes_depth = false;
+        draws.push_back(draw);
+    }
+    draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 12});
+    draws.push_back({{Pass::picture, "sky.vert", "sky.frag", Cull::none, Compare::greater_or_equal}, Items::one, Mesh::none, 3});
+    if (options.marks) {
+        DrawState mark{Pass::picture, "mark.vert", "mark.frag", Cull::none, Compare::less, false, true, true};
+        draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 1});  // behind bodies
+        mark.depth = Compare::greater_or_equal;
+        draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 0});
+    }
+    if (options.joints) {
+        DrawState joint{Pass::picture, "joint.vert", "joint.frag", Cull::none, Compare::less, false, true};
+        draws.push_back({joint, Items::joints, Mesh::none, JOINT_CORNERS, 0, 1});  // behind bodies
+        joint.depth = Compare::greater_or_equal;
+        draws.push_back({joint, Items::joints, Mesh::none, JOINT_CORNERS, 0, 0});
+    }
+    const DrawState line{Pass::picture, "line.vert", "line.frag", Cull::none, Compare::greater_or_equal, false, true};
+    const auto lines = [&](bool wanted, std::uint32_t kind, std::uint32_t run, std::uint32_t corners) {
+        if (wanted) draws.push_back({line, Items::bodies, Mesh::none, corners, run, pushed_for_run(run, kind)});
+    };
+    lines(options.cells, LINES_CELLS, RUN_CUBES, CUBE_CORNERS);
+    lines(options.boxes, LINES_BOXES, RUN_CUBES, CUBE_CORNERS);
+    lines(options.velocities, LINES_VELOCITIES, RUN_ARROWS, ARROW_CORNERS);
+    if (options.samples == 1) draws.push_back({{Pass::finish, "sky.vert", "smooth.frag"}, Items::one, Mesh::none, 3});
+    draws.push_back({{Pass::finish, "overlay.vert", "overlay.frag", Cull::none, Compare::always, false, true, true},
+                     Items::quads,
+                     Mesh::none,
+                     4});
+    return draws;
+}
+
+}  // namespace scree::host

@@ -1,0 +1,150 @@
+// The frame as the picture shaders see it: from a camera, a colour scale and the lights.
+#include "host/canvas/frame.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+namespace scree::host {
+namespace {
+
+struct Axes {
+    vec3 right, up, back;
+};
+
+// A right-handed frame whose `back` is given; `up` is a wish.
+Axes axes_of(vec3 back, vec3 up) {
+    vec3 right = glm::cross(up, back);
+    if (glm::dot(right, right) < 1e-8f) right = glm::cross(std::abs(back.y) < 0.9f ? vec3(0, 1, 0) : vec3(0, 0, -1), back);
+    right = glm::normalize(right);
+    return {right, glm::cross(back, right), back};
+}
+
+bool finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+// How far before and behind the target an orthographic camera sees, in distances of the eye: more, and depths of bodies that
+// touch become the same number.
+constexpr float ORTHOGRAPHIC_REACH = 100;
+
+struct LightMap {
+    mat4 matrix{1};
+    float texel = 0;  // m
+    float depth = 0;  // m
+};
+
+// The box, as seen along parallel rays that come from `toward`, as 0..1 in three axes.
+LightMap light_map(vec3 toward, vec3 eye, vec3 low, vec3 high, int size) {
+    const Axes axes = axes_of(toward, vec3(0, 1, 0));
+    vec3 least(1e30f), most(-1e30f);
+    for (int i = 0; i < 8; ++i) {
+        const vec3 corner =
+            vec3((i & 1) != 0 ? high.x : low.x, (i & 2) != 0 ? high.y : low.y, (i & 4) != 0 ? high.z : low.z) - eye;
+        const vec3 seen(glm::dot(axes.right, corner), glm::dot(axes.up, corner), glm::dot(axes.back, corner));
+        least = glm::min(least, seen);
+        most = glm::max(most, seen);
+    }
+    const vec3 margin = (most - least) * 0.02f + vec3(0.05f);
+    least -= margin;
+    most += margin;
+    const vec3 extent = most - least;
+    LightMap map;
+    for (int k = 0; k < 3; ++k) {
+        map.matrix[k][0] = axes.right[k] / extent.x;
+        map.matrix[k][1] = axes.up[k] / extent.y;
+        map.matrix[k][2] = -axes.back[k] / extent.z;
+    }
+    map.matrix[3] = vec4(-least.x / extent.x, -least.y / extent.y, most.z / extent.z, 1.0f);
+    map.texel = std::max(extent.x, extent.y) / static_cast<float>(size);
+    map.depth = extent.z;
+    return map;
+}
+
+void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options) {
+    const vec3 look = camera.target - camera.eye;
+    if (!finite(camera.eye) || !finite(look) || !(glm::dot(look, look) > 0) || !finite(camera.up) || !(camera.near_plane > 0) ||
+        !(camera.vertical_fov > 0 && camera.vertical_fov < 179)) {
+        throw std::invalid_argument(
+            "camera: the eye and the target must differ and be finite, the angle lie between 0 and 179 degrees");
+    }
+    const Axes axes = axes_of(-glm::normalize(look), camera.up);
+    const auto width = static_cast<float>(options.width), height = static_cast<float>(options.height);
+    const float slope = std::tan(glm::radians(camera.vertical_fov) * 0.5f);
+    const float aspect = width / height, distance = glm::length(look);
+    // Half the picture's height: at 1 m, or everywhere.
+    const float rise = camera.orthographic ? slope * distance : slope;
+    const float near_plane = std::min(camera.near_plane, 0.05f * distance);
+    mat4 m(0);
+    for (int k = 0; k < 3; ++k) {
+        m[k][0] = axes.right[k] / (rise * aspect);
+        m[k][1] = -axes.up[k] / rise;
+        m[k][3] = camera.orthographic ? 0 : -axes.back[k];
+    }
+    m[3][2] = near_plane;
+    if (camera.orthographic) {
+        // Depth falls from 1 to 0 over a stretch with the target in its middle; what lies farther before or behind is cut off.
+        const float depth = 1 / (2 * ORTHOGRAPHIC_REACH * distance);
+        for (int k = 0; k < 3; ++k) m[k][2] = axes.back[k] * depth;
+        m[3] = vec4(0, 0, 0.5f + distance * depth, 1);
+        frame.pixel.w = depth;
+    }
+    frame.view_projection = m;
+    frame.forward = vec4(-axes.back, camera.orthographic ? 1.0f : 0.0f);
+    for (int k = 0; k < 4; ++k) {
+        const vec3 across = k < 2 ? axes.right : axes.up;
+        const float half = k < 2 ? rise * aspect : rise, sign = k % 2 == 0 ? 1.0f : -1.0f;
+        frame.sides[k] =
+            camera.orthographic ? vec4(sign * across, half) : vec4(glm::normalize(sign * across - half * axes.back), 0);
+    }
+    const vec3 corner = axes.up * rise - axes.right * (rise * aspect) - (camera.orthographic ? vec3(0) : axes.back);
+    frame.ray_corner = vec4(corner, near_plane);
+    frame.ray_right = vec4(axes.right * (2 * rise * aspect / width), width);
+    frame.ray_down = vec4(axes.up * (-2 * rise / height), height);
+    frame.pixel.x = 2 * rise / height;
+    frame.eye = vec4(camera.eye, 3.5f * distance);
+}
+
+void set_scale(Frame& frame, const ColorScale& scale) {
+    if (has_scale(scale.by) &&
+        (!(scale.high > scale.low) || !std::isfinite(scale.high - scale.low) || (scale.logarithmic && !(scale.low > 0)))) {
+        throw std::invalid_argument("color scale: high must exceed low, and low exceed 0 when logarithmic");
+    }
+    const float low = scale.logarithmic ? std::log(scale.low) : scale.low;
+    const float high = scale.logarithmic ? std::log(scale.high) : scale.high;
+    frame.scale = vec4(low, high, scale.logarithmic ? 1.0f : 0.0f, static_cast<float>(scale.by));
+    for (uint i = 0; i < MAP_ENTRIES; ++i) {
+        frame.colors[i] = vec4(map_color(scale.map, static_cast<float>(i) / static_cast<float>(MAP_ENTRIES - 1)), 1.0f);
+    }
+}
+
+}  // namespace
+
+Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOptions& options, vec3 scene_low, vec3 scene_high) {
+    Frame frame{};
+    set_camera(frame, camera, options);
+    set_scale(frame, scale);
+    const bool box = finite(scene_low) && finite(scene_high);
+    const vec3 low = box ? glm::min(scene_low, scene_high) : camera.target - vec3(10.0f);
+    const vec3 high = box ? glm::max(scene_low, scene_high) : camera.target + vec3(10.0f);
+    const vec3 sun = glm::length(options.toward_sun) > 0 ? glm::normalize(options.toward_sun) : vec3(0, 1, 0);
+    const LightMap sun_map = light_map(sun, camera.eye, low, high, SUN_MAP_SIZE);
+    const LightMap sky_map = light_map(vec3(0, 1, 0), camera.eye, low, high, SKY_MAP_SIZE);
+    frame.sun_map = sun_map.matrix;
+    frame.sky_map = sky_map.matrix;
+    frame.pixel.y = sky_map.depth;
+    frame.pixel.z = 20 * sky_map.texel;
+    frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
+    frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
+    const std::size_t materials = std::min<std::size_t>(scale.materials.size(), MOST_MATERIALS);
+    for (std::size_t i = 0; i < materials; ++i) frame.materials[i] = vec4(scale.materials[i].nature, 0);
+
+    frame.marks =
+        vec4(options.marks ? 1.0f : 0.0f, options.mark_push, static_cast<float>(materials), options.sleep ? 1.0f : 0.0f);
+    frame.rest = vec4(static_cast<float>(options.sleep_steps), options.step_seconds, options.cell, options.arrow_seconds);
+    frame.joints.x = options.joint_pull;
+    frame.maps = vec4(sun_map.texel, sky_map.texel, 1.0f / SUN_MAP_SIZE, 1.0f / SKY_MAP_SIZE);
+    return frame;
+}
+
+}  // namespace scree::host

@@ -1,0 +1,186 @@
+// The canvas that draws with OpenGL ES, from tables in host memory.
+#include "host/canvas/gl/canvas_gl.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "host/canvas/frame.h"
+#include "host/canvas/gl/canvas_gl_impl.h"
+#include "host/canvas/overlay.h"
+
+namespace scree::host {
+namespace {
+
+constexpr GLenum function_of(Compare compare) {
+    switch (compare) {
+        case Compare::less:
+            return GL_LESS;
+        case Compare::greater:
+            return GL_GREATER;
+        case Compare::greater_or_equal:
+            return GL_GEQUAL;
+        case Compare::always:
+            break;
+    }
+    return GL_ALWAYS;
+}
+
+}  // namespace
+
+void GlCanvas::Interior::fill(Binding binding, const void* data, std::size_t bytes) const {
+    gl.glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffers[binding]);
+    // Memory anew: what the last picture is drawn from need not be waited for. A shader may look at a table without records.
+    gl.glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16)), nullptr, GL_STREAM_DRAW);
+    gl.glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
+}
+
+void GlCanvas::Interior::fill_tables(ColorBy by) const {
+    GLint64 most = 0;
+    gl.glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
+    for (std::uint32_t i = 0; i < BINDINGS; ++i) {
+        const BindingInfo& info = binding_infos()[i];
+        if (info.table == nullptr || !reads(i, options, by)) continue;
+        const std::span<const std::byte> bytes = (tables.*info.table).bytes;
+        if (static_cast<std::int64_t>(bytes.size()) > most) {
+            throw DeviceError("canvas: a table of " + std::to_string(bytes.size()) + " bytes; " + context.renderer() +
+                              " reads at most " + std::to_string(most));
+        }
+        fill(static_cast<Binding>(i), bytes.data(), bytes.size());
+    }
+}
+
+// What colour bodies have, which of them are seen, and how finely they shall be drawn.
+void GlCanvas::Interior::look() const {
+    if (scenery.bodies() == 0) return;
+    for (std::size_t i = 0; i < looks.size(); ++i) {
+        gl.glUseProgram(looks[i]);
+        gl.glDispatchCompute(groups_of_look(i, scenery.bodies()), 1, 1);
+        gl.glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    }
+}
+
+void GlCanvas::Interior::begin(const Target& on) const {
+    gl.glBindFramebuffer(GL_FRAMEBUFFER, on.framebuffer);
+    gl.glViewport(0, 0, on.width, on.height);
+}
+
+void GlCanvas::Interior::set_state(const DrawState& state) const {
+    const auto set = [this](GLenum what, bool on) { on ? gl.glEnable(what) : gl.glDisable(what); };
+    set(GL_CULL_FACE, state.cull != Cull::none);
+    if (state.cull != Cull::none) gl.glCullFace(state.cull == Cull::back ? GL_BACK : GL_FRONT);
+    set(GL_BLEND, state.blends);
+    const GLboolean colors = state.fragment.empty() ? GL_FALSE : GL_TRUE;
+    gl.glColorMask(colors, colors, colors, colors);
+    gl.glDepthFunc(function_of(state.depth));
+    gl.glDepthMask(state.writes_depth ? GL_TRUE : GL_FALSE);
+}
+
+void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const Draw& draw = draws[i];
+        Run items = scenery.items(draw.items, tables, quad_count);
+        std::uint32_t corners = draw.corners;
+        if (draw.items == Items::bodies) {
+            const BodyRun& run = scenery.runs[draw.run];
+            // Of those that are seen only the device knows how many there are.
+            items = {0, draw.run < SEEN_RUNS ? scenery.bodies() : instances_of(run)};
+            corners *= run.together;
+        }
+        if (draw.state.pass != pass || items.count == 0) continue;
+        const Program& program = programs[program_of[i]];
+        set_state(draw.state);
+        gl.glUseProgram(program.name);
+        if (program.pushed >= 0) gl.glUniform1ui(program.pushed, draw.pushed);
+        if (program.first_instance >= 0) gl.glUniform1i(program.first_instance, static_cast<GLint>(items.first));
+        const GLenum kind = draw.state.strip ? GL_TRIANGLE_STRIP : GL_TRIANGLES;
+        const auto instances = static_cast<GLsizei>(items.count);
+        if (draw.mesh == Mesh::none) {
+            gl.glDrawArraysInstanced(kind, 0, static_cast<GLsizei>(corners), instances);
+        } else if (draw.run < SEEN_RUNS) {
+            gl.glDrawElementsIndirect(kind, GL_UNSIGNED_INT, reinterpret_cast<const void*>(draw.run * sizeof(DrawArguments)));
+        } else {
+            const Run mesh = scenery.mesh(draw.mesh);
+            gl.glDrawElementsInstanced(kind, static_cast<GLsizei>(mesh.count), GL_UNSIGNED_INT,
+                                       reinterpret_cast<const void*>(std::size_t{mesh.first} * sizeof(std::uint32_t)), instances);
+        }
+    }
+}
+
+void GlCanvas::Interior::draw_shadows(std::size_t light) const {
+    begin(shadow_maps[light]);
+    gl.glDepthMask(GL_TRUE);
+    gl.glClearDepthf(1);
+    gl.glClear(GL_DEPTH_BUFFER_BIT);
+    draw_all(light == 0 ? Pass::sun_map : Pass::sky_map, 0);
+}
+
+void GlCanvas::Interior::draw_picture(std::uint32_t quad_count) const {
+    begin(scene);
+    gl.glDepthMask(GL_TRUE);
+    gl.glClearDepthf(0);  // infinitely far
+    gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    draw_all(Pass::picture, quad_count);
+    if (options.samples == 1) begin(target);
+    draw_all(Pass::finish, quad_count);
+    if (options.samples > 1) {
+        gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
+        gl.glBlitFramebuffer(0, 0, options.width, options.height, 0, 0, options.width, options.height, GL_COLOR_BUFFER_BIT,
+                             GL_NEAREST);
+        gl.glBindFramebuffer(GL_FRAMEBUFFER, target.framebuffer);
+    }
+}
+
+GlCanvas::GlCanvas(const ShapeInstances& instances, const CanvasOptions& options)
+    : interior_(std::make_unique<Interior>(instances, options)) {}
+GlCanvas::~GlCanvas() = default;
+
+std::string GlCanvas::name() const {
+    return interior_->context.version() + ", " + interior_->context.renderer();
+}
+
+void GlCanvas::set_tables(const BodyTables& tables) {
+    require_tables(tables, interior_->options, ColorBy::momentum);
+    for (const BindingInfo& info : binding_infos()) {
+        if (info.table != nullptr && (tables.*info.table).buffer != nullptr)
+            throw std::invalid_argument("canvas: OpenGL ES draws from host memory, and a table is a Vulkan buffer");
+    }
+    interior_->tables = tables;
+}
+
+void GlCanvas::begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
+    const Interior& in = *interior_;
+    const CanvasOptions& options = in.options;
+    require_tables(in.tables, options, scale.by);
+    const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
+    std::vector<OverlayQuad> quads = overlay_quads(options.width, options.height, options.legend, scale, caption);
+    quads.resize(std::min<std::size_t>(quads.size(), MOST_QUADS));
+
+    const GlContext::Current current(in.context);
+    in.fill(FRAME, &frame, sizeof frame);
+    in.fill(QUADS, quads.data(), quads.size() * sizeof(OverlayQuad));
+    in.fill_tables(scale.by);
+    in.look();
+    in.draw_shadows(0);
+    in.draw_shadows(1);
+    in.draw_picture(static_cast<std::uint32_t>(quads.size()));
+    in.check("drawing a picture");
+}
+
+Image GlCanvas::finish() {
+    const Interior& in = *interior_;
+    const CanvasOptions& options = in.options;
+    const GlContext::Current current(in.context);
+    in.gl.glBindFramebuffer(GL_FRAMEBUFFER, in.target.framebuffer);
+    Image image{options.width, options.height,
+                std::vector<std::uint8_t>(std::size_t{4} * static_cast<std::size_t>(options.width) *
+                                          static_cast<std::size_t>(options.height))};
+    in.gl.glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+    in.check("reading a picture");
+    return image;
+}
+
+std::unique_ptr<Canvas> make_gl_canvas(const ShapeInstances& instances, const CanvasOptions& options) {
+    return std::make_unique<GlCanvas>(instances, options);
+}
+
+}  // namespace scree::host

@@ -1,0 +1,28 @@
+// The canvas that draws with OpenGL ES, from tables in host memory.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/canvas/canvas.h"
+
+namespace scree::host {
+
+class GlCanvas final : public Canvas {
+public:
+    // As make_gl_canvas.
+    GlCanvas(const ShapeInstances& instances, const CanvasOptions& options);
+    ~GlCanvas() override;
+
+    std::string name() const override;
+    void set_tables(const BodyTables& tables) override;
+    void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+               vec3 scene_high) override;
+    Image finish() override;
+
+private:
+    struct Interior;
+    std::unique_ptr<Interior> interior_;
+};
+
+}  // namespace scree::host

@@ -1,0 +1,66 @@
+// What the OpenGL ES canvas holds in its context.
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "host/canvas/draw_geometry.h"
+#include "host/canvas/gl/canvas_gl.h"
+#include "host/canvas/gl/gl_context.h"
+
+namespace scree::host {
+
+struct GlCanvas::Interior {
+    Interior(const ShapeInstances& shapes, const CanvasOptions& chosen);
+
+    // Shaders linked together, and where their values go; -1: they have none.
+    struct Program {
+        std::string_view vertex, fragment;
+        GLuint name = 0;
+        GLint pushed = -1, first_instance = -1;
+    };
+    struct Target {
+        GLuint framebuffer = 0;
+        int width = 0, height = 0;  // pixels
+    };
+
+    GlContext context;  // its end ends all objects in it
+    const GlFunctions& gl;
+    CanvasOptions options;
+    Scenery scenery;
+    std::vector<Draw> draws;
+    std::vector<Program> programs;
+    std::vector<std::size_t> program_of;  // each draw
+    std::array<GLuint, LOOKS.size()> looks{};
+    BodyTables tables;
+    std::array<GLuint, BINDINGS> buffers{}, textures{};
+    std::array<Target, 2> shadow_maps;  // sun, sky
+    Target scene, target;               // the bodies, the picture
+    bool half_depth = false;            // clip space's depth runs from 0 to w, as in Vulkan
+
+    void make_state();
+    void make_buffers();
+    void make_programs();
+    GLuint shader(GLenum kind, std::string_view name) const;
+    GLuint linked(const std::vector<GLuint>& parts, const std::string& what) const;
+    Program linked(std::string_view vertex, std::string_view fragment) const;
+    void make_shadow_maps();
+    void make_picture();
+    void make_glyphs();
+    GLuint texture(GLenum format, int width, int height, GLint filter) const;
+    GLuint renderbuffer(GLenum format, int samples) const;
+    void require_complete() const;
+
+    void fill(Binding binding, const void* data, std::size_t bytes) const;
+    void fill_tables(ColorBy by) const;
+    void look() const;
+    void begin(const Target& on) const;
+    void set_state(const DrawState& state) const;
+    void draw_all(Pass pass, std::uint32_t quad_count) const;
+    void draw_shadows(std::size_t light) const;
+    void draw_picture(std::uint32_t quad_count) const;
+    void check(const char* what) const;
+};
+
+}  // namespace scree::host

@@ -1,0 +1,23 @@
+// The legend and the caption, as rectangles in pixels.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "host/canvas/colors.h"
+#include "shaders/render/frame.h"
+
+namespace scree::host {
+
+// Where the colour bar lies, pixels.
+struct BarPlace {
+    int left = 0, top = 0, right = 0, bottom = 0;
+};
+
+BarPlace legend_bar(int width, int height);
+
+// The legend (if it shall be there and `scale` has one) in the lower right corner, the caption's lines in the lower left. Sizes
+// follow the height.
+std::vector<OverlayQuad> overlay_quads(int width, int height, bool legend, const ColorScale& scale, const std::string& caption);
+
+}  // namespace scree::host

@@ -1,0 +1,35 @@
+// The canvas that draws with Vulkan, on the device that simulates or another.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "host/canvas/canvas.h"
+#include "host/vulkan/device.h"
+
+namespace scree::host {
+
+class VulkanCanvas final : public Canvas {
+public:
+    // As make_vulkan_canvas.
+    VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const CanvasOptions& options);
+    ~VulkanCanvas() override;
+
+    std::string name() const override;
+    void set_tables(const BodyTables& tables) override;
+    void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+               vec3 scene_high) override;
+    Image finish() override;
+
+    // As draw(), but the picture stays on the device: 8-bit sRGB, in the layout of a transfer's source, of the options' size,
+    // until the next one is drawn.
+    VkImage draw_there(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+                       vec3 scene_high);
+    const CanvasOptions& options() const;
+
+private:
+    struct Interior;
+    std::unique_ptr<Interior> interior_;
+};
+
+}  // namespace scree::host

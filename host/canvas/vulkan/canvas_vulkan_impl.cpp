@@ -1,0 +1,194 @@
+// What the Vulkan canvas holds on the device: made once, before the first picture.
+#include "host/canvas/vulkan/canvas_vulkan_impl.h"
+
+#include <algorithm>
+
+#include "host/canvas/frame.h"
+#include "host/canvas/glyphs.h"
+
+namespace scree::host {
+namespace {
+
+CanvasOptions checked(CanvasOptions options, const Device& device) {
+    const auto most = static_cast<int>(std::min(device.limits().maxFramebufferWidth, device.limits().maxFramebufferHeight));
+    if (options.width < 16 || options.height < 16 || options.width > most || options.height > most) {
+        throw DeviceError("canvas: a picture of " + std::to_string(options.width) + " x " + std::to_string(options.height) +
+                          " pixels; this device draws from 16 x 16 to " + std::to_string(most) + " x " + std::to_string(most));
+    }
+    if (options.samples == 0) options.samples = device.report().is_processor ? 1 : 4;
+    if (options.samples != 1 && options.samples != 4)
+        throw DeviceError("canvas: samples must be 1 or 4, or 0 for what suits the device");
+    if (options.bits != 8 && options.bits != 16) throw DeviceError("canvas: bits must be 8 or 16");
+    return options;
+}
+
+}  // namespace
+
+VulkanCanvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
+    : device(std::move(opened)), options(checked(chosen, *device)), scenery(shapes), draws(draws_of(options)), objects(device) {
+    make_buffers();
+    make_layout();
+    make_samplers();
+    make_shadow_maps();
+    make_picture();
+    make_pipelines();
+    make_looks();
+    make_commands();
+    upload_glyphs();
+}
+
+VulkanCanvas::Interior::~Interior() {
+    try {
+        wait();
+    } catch (const DeviceError&) {
+        // A lost device draws no more.
+    }
+}
+
+void VulkanCanvas::Interior::make_buffers() {
+    const auto filled = [this](const char* name, const auto& records) {
+        Buffer buffer(device, name, std::span(records).size_bytes());
+        buffer.write(records.data(), buffer.bytes());
+        return buffer;
+    };
+    instances = filled("canvas instances", scenery.instances);
+    directions = filled("canvas directions", scenery.directions);
+    indices = filled("canvas indices", scenery.indices);
+    const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
+    frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
+    quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
+    // The device says which bodies are seen; how they are drawn is known.
+    runs = filled("canvas runs", scenery.runs);
+    arguments = filled("canvas arguments", arguments_of(scenery, draws));
+    const std::size_t groups = std::max(1u, groups_of_look(0, scenery.bodies()));
+    group_counts = Buffer(device, "canvas group counts", groups * SEEN_RUNS * sizeof(std::uint32_t));
+    tints = Buffer(device, "canvas tints", scenery.records * sizeof(vec4));
+    picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
+}
+
+void VulkanCanvas::Interior::make_samplers() {
+    const VulkanFunctions& vk = device->vk();
+    VkSamplerCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
+    info.magFilter = info.minFilter = VK_FILTER_LINEAR;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
+    linear_sampler = objects.make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler");
+    // The shadow maps: outside of them nothing casts.
+    info.magFilter = info.minFilter = VK_FILTER_NEAREST;
+    info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
+    info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
+    depth_sampler = objects.make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler");
+}
+
+void VulkanCanvas::Interior::make_shadow_maps() {
+    shadow_pass = make_shadow_pass(objects);
+    for (std::size_t i = 0; i < shadow_maps.size(); ++i) {
+        ShadowMap& map = shadow_maps[i];
+        // Without shadows the maps are never read, but a descriptor must name something.
+        map.size = !options.shadows ? 1 : i == 0 ? SUN_MAP_SIZE : SKY_MAP_SIZE;
+        map.surface = objects.surface({DEPTH_FORMAT, map.size, map.size,
+                                       VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,
+                                       VK_IMAGE_ASPECT_DEPTH_BIT, 1});
+        map.framebuffer = objects.framebuffer(shadow_pass, std::array{map.surface.view}, map.size, map.size);
+    }
+}
+
+void VulkanCanvas::Interior::make_picture() {
+    const VkFormat format = color_format(options.bits);
+    picture_pass = make_picture_pass(objects, options.samples, format);
+    const auto surface = [&](VkFormat of, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
+        return objects.surface({of, options.width, options.height, usage, aspect, samples});
+    };
+    constexpr VkImageUsageFlags shown = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    target = surface(format, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
+    const Surface depth =
+        surface(DEPTH_FORMAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, options.samples);
+    const bool smooths = options.samples == 1;
+    scene = surface(
+        format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | static_cast<VkImageUsageFlags>(smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : 0),
+        VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
+    std::vector<VkImageView> views{scene.view, depth.view};
+    if (!smooths) views.push_back(target.view);
+    framebuffer = objects.framebuffer(picture_pass, views, options.width, options.height);
+
+    if (smooths) {
+        smoothing_pass = make_smoothing_pass(objects, format);
+        smoothing_framebuffer = objects.framebuffer(smoothing_pass, std::array{target.view}, options.width, options.height);
+    }
+}
+
+void VulkanCanvas::Interior::make_pipelines() {
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+        const DrawState& state = draws[i].state;
+        const auto alike = std::find_if(draws.begin(), draws.begin() + static_cast<std::ptrdiff_t>(i),
+                                        [&](const Draw& earlier) { return earlier.state == state; });
+        if (const auto at = static_cast<std::size_t>(alike - draws.begin()); at < i) {
+            pipelines.push_back(pipelines[at]);
+            continue;
+        }
+        PipelineShape shape{state, picture_pass, layout, options.samples, options.width, options.height};
+        if (state.pass == Pass::sun_map || state.pass == Pass::sky_map) {
+            shape.pass = shadow_pass;
+            shape.samples = 1;
+            shape.width = shape.height = shadow_maps[state.pass == Pass::sun_map ? 0 : 1].size;
+        } else if (state.pass == Pass::finish && smoothing_pass != VK_NULL_HANDLE) {
+            shape.pass = smoothing_pass;
+        }
+        pipelines.push_back(make_pipeline(objects, shape));
+    }
+}
+
+void VulkanCanvas::Interior::make_looks() {
+    const VulkanFunctions& vk = device->vk();
+    for (std::size_t i = 0; i < LOOKS.size(); ++i) {
+        VkComputePipelineCreateInfo info{};
+        info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+        info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+        info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+        info.stage.module = objects.shader(LOOKS[i]);
+        info.stage.pName = "main";
+        info.layout = layout;
+        check(vk.vkCreateComputePipelines(device->handle(), device->pipeline_cache(), 1, &info, nullptr, &looks[i]), LOOKS[i]);
+        objects.on_end([this, at = looks[i]] { device->vk().vkDestroyPipeline(device->handle(), at, nullptr); });
+    }
+}
+
+void VulkanCanvas::Interior::make_commands() {
+    const VulkanFunctions& vk = device->vk();
+    VkCommandPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    info.queueFamilyIndex = device->queue_family();
+    pool = objects.make(vk.vkCreateCommandPool, vk.vkDestroyCommandPool, info, "vkCreateCommandPool");
+    VkCommandBufferAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocation.commandPool = pool;
+    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocation.commandBufferCount = 1;
+    check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    drawn = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence, "vkCreateFence");
+}
+
+void VulkanCanvas::Interior::upload_glyphs() {
+    const VulkanFunctions& vk = device->vk();
+    const GlyphAtlas& atlas = glyph_atlas();
+    glyphs = objects.surface({VK_FORMAT_R8_UNORM, atlas.width, atlas.height,
+                              VK_IMAGE_USAGE_SAMPLED_BIT | VK_IMAGE_USAGE_TRANSFER_DST_BIT, VK_IMAGE_ASPECT_COLOR_BIT, 1});
+    Buffer staging(device, "canvas glyphs", atlas.levels.size(), BufferUse::upload);
+    staging.write(atlas.levels.data(), atlas.levels.size());
+    begin();
+    image_barrier(glyphs.image, VK_IMAGE_LAYOUT_UNDEFINED, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                  VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, VK_ACCESS_TRANSFER_WRITE_BIT);
+    VkBufferImageCopy copy{};
+    copy.imageSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    copy.imageExtent = {static_cast<std::uint32_t>(atlas.width), static_cast<std::uint32_t>(atlas.height), 1};
+    vk.vkCmdCopyBufferToImage(commands, staging.handle(), glyphs.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1, &copy);
+    image_barrier(glyphs.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+                  VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+                  VK_ACCESS_SHADER_READ_BIT);
+    end_and_wait();
+}
+
+}  // namespace scree::host

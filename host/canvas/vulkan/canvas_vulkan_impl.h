@@ -1,0 +1,76 @@
+// What the Vulkan canvas holds on the device.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "host/canvas/draw_geometry.h"
+#include "host/canvas/vulkan/canvas_vulkan.h"
+#include "host/canvas/vulkan/passes.h"
+#include "host/canvas/vulkan/vulkan_objects.h"
+#include "host/vulkan/buffer.h"
+
+namespace scree::host {
+
+struct ShadowMap {
+    Surface surface;
+    VkFramebuffer framebuffer = VK_NULL_HANDLE;
+    int size = 0;  // texels
+};
+
+struct VulkanCanvas::Interior {
+    Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen);
+    ~Interior();
+    Interior(const Interior&) = delete;
+    Interior& operator=(const Interior&) = delete;
+
+    std::shared_ptr<Device> device;
+    CanvasOptions options;
+    Scenery scenery;
+    std::vector<Draw> draws;
+    std::vector<VkPipeline> pipelines;  // of each draw
+    std::array<VkPipeline, LOOKS.size()> looks{};
+    BodyTables tables;
+    std::array<Buffer, BINDINGS> copies;  // of tables in host memory
+    Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints;
+    Objects objects;
+    VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
+    VkPipelineLayout layout = VK_NULL_HANDLE;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    VkSampler depth_sampler = VK_NULL_HANDLE, linear_sampler = VK_NULL_HANDLE;
+    VkRenderPass shadow_pass = VK_NULL_HANDLE, picture_pass = VK_NULL_HANDLE, smoothing_pass = VK_NULL_HANDLE;
+    std::array<ShadowMap, 2> shadow_maps;  // sun, sky
+    Surface scene, target, glyphs;         // the bodies with one sample, the picture, the letters
+    VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence drawn = VK_NULL_HANDLE;
+    bool pending = false;  // a picture is being drawn
+
+    void make_buffers();
+    void make_layout();
+    void make_samplers();
+    void make_shadow_maps();
+    void make_picture();
+    void make_pipelines();
+    void make_looks();
+    void make_commands();
+    void upload_glyphs();
+    const Buffer& table_of(std::uint32_t binding, ColorBy by);
+    void write_set(ColorBy by);
+
+    // All of a picture, up to `target`.
+    void record(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high);
+    void begin();
+    void end_and_wait();
+    void wait();  // for the picture that is being drawn, if there is one
+    void look();
+    void draw_all(Pass pass, std::uint32_t quad_count);
+    void draw_bodies(const Draw& draw);
+    void draw_shadows(std::size_t light);
+    void draw_picture(std::uint32_t quad_count);
+    void image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
+                       VkPipelineStageFlags after, VkAccessFlags written, VkAccessFlags read);
+};
+
+}  // namespace scree::host

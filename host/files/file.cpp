@@ -1,0 +1,104 @@
+// Files: read whole, written whole or not at all.
+#include "host/files/file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <system_error>
+
+#include "host/files/partial_file.h"
+#include "host/files/pipe.h"
+
+namespace scree::host {
+namespace {
+
+[[noreturn]] void fail(const char* what, const std::filesystem::path& path, int error) {
+    throw FileError(std::string("cannot ") + what + " " + path.string() + ": " + std::strerror(error));
+}
+
+class Descriptor {
+public:
+    explicit Descriptor(int number) : number_(number) {}
+    ~Descriptor() { close(); }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number() const { return number_; }
+    bool close() {
+        const int number = number_;
+        number_ = -1;
+        return number < 0 || ::close(number) == 0;
+    }
+
+private:
+    int number_;
+};
+
+void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
+    Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    if (file.number() < 0) fail("write", path, errno);
+    if (const int error = write_all(file.number(), bytes.data(), bytes.size())) fail("write", path, error);
+}
+
+}  // namespace
+
+std::filesystem::path cache_folder() {
+    const char* base = std::getenv("XDG_CACHE_HOME");
+    if (base && *base == '/') return std::filesystem::path(base) / "scree";
+    const char* home = std::getenv("HOME");
+    return home && *home == '/' ? std::filesystem::path(home) / ".cache" / "scree" : std::filesystem::path();
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+    if (file.number() < 0) fail("read", path, errno);
+    std::string text;
+    char block[65536];
+    for (;;) {
+        const ssize_t count = ::read(file.number(), block, sizeof block);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail("read", path, errno);
+        if (count == 0) return text;
+        text.append(block, static_cast<std::size_t>(count));
+    }
+}
+
+void write_atomically(const std::filesystem::path& path, std::string_view bytes) {
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+    if (std::filesystem::is_directory(status)) fail("write", path, EISDIR);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return write_in_place(path, bytes);
+    // Through a link, the file it leads to is replaced, not the link.
+    std::filesystem::path target = std::filesystem::exists(status) ? std::filesystem::canonical(path, ignored) : path;
+    if (target.empty()) target = path;
+
+    static std::atomic<unsigned> serial{0};
+    std::filesystem::path part = target;
+    part += ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+    const Unfinished unfinished(part);
+    Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    if (file.number() < 0) fail("write", path, errno);
+    int error = write_all(file.number(), bytes.data(), bytes.size());
+    if (!file.close() && error == 0) error = errno;
+    if (error == 0 && ::rename(part.c_str(), target.c_str()) != 0) error = errno;
+    if (error != 0) {
+        ::unlink(part.c_str());
+        fail("write", path, error);
+    }
+}
+
+void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes) {
+    write_atomically(path, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+void make_folder(const std::filesystem::path& path) {
+    std::error_code error;
+    std::filesystem::create_directories(path, error);
+    if (error) fail("make the folder", path, error.value());
+    if (!std::filesystem::is_directory(path, error)) fail("make the folder", path, ENOTDIR);
+}
+
+}  // namespace scree::host

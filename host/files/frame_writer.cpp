@@ -1,0 +1,211 @@
+// Frames to PNG files, to a video, to an animated preview and as bare pixels, encoded beside the simulation.
+#include "host/files/frame_writer.h"
+
+#include <algorithm>
+#include <condition_variable>
+#include <cstdio>
+#include <deque>
+#include <exception>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <system_error>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "host/files/raw_frames.h"
+#include "host/files/video.h"
+
+namespace scree::host {
+namespace {
+
+struct Job {
+    int number = 0;
+    std::shared_ptr<const Image> image;
+};
+
+// A bounded queue of frames with its own threads.
+class Line {
+public:
+    Line(std::size_t longest, int threads, std::function<void(const Job&)> work) : longest_(longest), work_(std::move(work)) {
+        try {
+            for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
+        } catch (const std::system_error& error) {
+            close();  // those that started wait for frames
+            throw ImageError(std::string("frames: no thread to encode them: ") + error.what());
+        }
+    }
+    ~Line() { close(); }
+    Line(const Line&) = delete;
+    Line& operator=(const Line&) = delete;
+
+    void add(Job job) {
+        std::unique_lock lock(mutex_);
+        room_.wait(lock, [&] { return jobs_.size() < longest_ || error_; });
+        if (error_) std::rethrow_exception(error_);
+        if (closed_) throw ImageError("frames: the writer is finished, no more can be added");
+        jobs_.push_back(std::move(job));
+        arrived_.notify_one();
+    }
+    void close() {
+        {
+            const std::lock_guard lock(mutex_);
+            closed_ = true;
+        }
+        arrived_.notify_all();
+        threads_.clear();  // joins
+    }
+    void rethrow() {
+        const std::lock_guard lock(mutex_);
+        if (error_) std::rethrow_exception(error_);
+    }
+
+private:
+    void run() {
+        for (;;) {
+            Job job;
+            {
+                std::unique_lock lock(mutex_);
+                arrived_.wait(lock, [&] { return !jobs_.empty() || closed_; });
+                if (jobs_.empty()) return;
+                job = std::move(jobs_.front());
+                jobs_.pop_front();
+                if (error_) continue;  // after an error the rest is only taken away
+            }
+            room_.notify_one();
+            try {
+                work_(job);
+            } catch (...) {
+                const std::lock_guard lock(mutex_);
+                if (!error_) error_ = std::current_exception();
+                room_.notify_all();
+            }
+        }
+    }
+
+    std::size_t longest_;
+    std::function<void(const Job&)> work_;
+    std::mutex mutex_;
+    std::condition_variable arrived_, room_;
+    std::deque<Job> jobs_;
+    bool closed_ = false;
+    std::exception_ptr error_;
+    std::vector<std::jthread> threads_;
+};
+
+// Frames of an earlier run would stand behind the last of a shorter one, as if they were its own.
+void require_no_frames(const std::filesystem::path& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+        const std::string name = entry.path().filename().string();
+        if (!name.starts_with("frame_") || !name.ends_with(".png")) continue;
+        throw ImageError(folder.string() + ": holds frames already, such as " + name + "; name another folder, or remove them");
+    }
+}
+
+Clip clip_of(const std::filesystem::path& preview) {
+    if (preview.extension() == ".gif") return Clip::gif;
+    if (preview.extension() == ".webp") return Clip::webp;
+    throw ImageError(preview.string() + ": a preview is a .gif or a .webp; name a file such as scree.gif");
+}
+
+// What ffmpeg makes is MP4 whatever the name says. What is no regular file is refused with that as the reason.
+void require_film(const std::filesystem::path& video) {
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(video, ignored);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return;
+    if (video.extension() != ".mp4") throw ImageError(video.string() + ": a video is an .mp4; name a file such as scree.mp4");
+}
+
+int encoders(int asked) {
+    if (asked > 0) return asked;
+    return std::thread::hardware_concurrency() > 4 ? 2 : 1;
+}
+
+}  // namespace
+
+struct FrameWriter::Interior {
+    FrameWriterOptions options;
+    int frames = 0;
+    std::unique_ptr<Video> video, preview;
+    std::unique_ptr<RawFrames> raw;
+    struct Output {
+        std::unique_ptr<Line> line;
+        std::function<void()> finish;  // what the line wrote to; may be empty
+    };
+    std::vector<Output> outputs;  // end before what they write to
+
+    void add_output(int threads, std::function<void(const Job&)> work, std::function<void()> finish) {
+        const auto longest = static_cast<std::size_t>(std::max(options.waiting, 1));
+        outputs.push_back({std::make_unique<Line>(longest, threads, std::move(work)), std::move(finish)});
+    }
+    void add_video(std::unique_ptr<Video>& owner, const std::filesystem::path& path, Clip clip) {
+        owner = std::make_unique<Video>(path,
+                                        VideoShape{options.width, options.height, options.bits, options.frames_per_second, clip});
+        Video* const to = owner.get();
+        add_output(
+            1, [to](const Job& job) { to->add(*job.image); }, [to] { to->finish(); });
+    }
+};
+
+FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::make_unique<Interior>()) {
+    Interior& in = *interior_;
+    in.options = options;
+    if (!options.video.empty()) require_film(options.video);
+    const Clip preview = options.preview.empty() ? Clip::gif : clip_of(options.preview);
+    if (!options.folder.empty()) {
+        require_writable_folder(options.folder);
+        require_no_frames(options.folder);
+    }
+    if (!options.raw.empty()) {
+        in.raw = std::make_unique<RawFrames>(options.raw);
+        RawFrames* const raw = in.raw.get();
+        in.add_output(
+            1, [raw](const Job& job) { raw->add(*job.image); }, [raw] { raw->finish(); });
+    }
+    if (!options.video.empty()) in.add_video(in.video, options.video, Clip::film);
+    if (!options.preview.empty()) in.add_video(in.preview, options.preview, preview);
+    if (!options.folder.empty()) {
+        const auto write = [folder = options.folder](const Job& job) {
+            char name[32];
+            std::snprintf(name, sizeof name, "frame_%06d.png", job.number);
+            write_png(folder / name, *job.image);
+        };
+        in.add_output(encoders(options.threads), write, {});
+    }
+}
+
+FrameWriter::~FrameWriter() {
+    if (interior_->frames == 0) return;  // nothing replaces what stood under the names
+    try {
+        finish();
+    } catch (const std::exception&) {
+        // The owner is already leaving with its own error, or did not ask.
+    }
+}
+
+void FrameWriter::add(Image image) {
+    const Job job{interior_->frames++, std::make_shared<const Image>(std::move(image))};
+    for (const Interior::Output& output : interior_->outputs) output.line->add(job);
+}
+
+void FrameWriter::finish() {
+    // All to their ends before the first error is told: what can be whole, shall be.
+    std::exception_ptr first;
+    for (const Interior::Output& output : interior_->outputs) {
+        output.line->close();
+        try {
+            output.line->rethrow();
+            if (output.finish) output.finish();
+        } catch (const std::exception&) {
+            if (!first) first = std::current_exception();
+        }
+    }
+    if (first) std::rethrow_exception(first);
+}
+
+int FrameWriter::frames() const {
+    return interior_->frames;
+}
+
+}  // namespace scree::host

@@ -1,0 +1,256 @@
+// Triangles from files, by tinyobjloader (OBJ) and tinygltf (glTF, GLB).
+#include "host/files/mesh_file.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <glm/gtc/quaternion.hpp>
+#include <glm/gtc/type_ptr.hpp>
+
+#define TINYOBJLOADER_IMPLEMENTATION
+#include <tiny_obj_loader.h>
+
+#define TINYGLTF_IMPLEMENTATION
+#define TINYGLTF_NO_STB_IMAGE
+#define TINYGLTF_NO_STB_IMAGE_WRITE
+#define TINYGLTF_NO_EXTERNAL_IMAGE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE
+#define TINYGLTF_NO_INCLUDE_STB_IMAGE_WRITE
+#include <tiny_gltf.h>
+
+namespace scree::host {
+
+namespace {
+
+constexpr std::size_t most_vertices = 100'000'000;
+
+// One file, for messages.
+struct Source {
+    std::string name;
+    [[noreturn]] void refuse(const std::string& reason) const { throw FileError(name + ": " + reason); }
+};
+
+std::string one_line(std::string text) {
+    std::replace(text.begin(), text.end(), '\n', ' ');
+    while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back()))) text.pop_back();
+    return text;
+}
+
+// ---- OBJ
+// tinyobjloader reads what is no number as 0: so vertices are looked at before.
+void check_vertices(std::string_view bytes, const Source& source) {
+    std::size_t line = 1;
+    for (std::size_t begin = 0; begin < bytes.size(); ++line) {
+        const std::size_t end = std::min(bytes.find('\n', begin), bytes.size());
+        std::string_view text = bytes.substr(begin, end - begin);
+        begin = end + 1;
+        if (text.size() < 2 || text[0] != 'v' || (text[1] != ' ' && text[1] != '\t')) continue;
+        text.remove_prefix(1);
+        for (int k = 0; k < 3; ++k) {
+            const std::size_t first = text.find_first_not_of(" \t\r+");
+            text.remove_prefix(std::min(first, text.size()));
+            double value = 0;
+            const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (error != std::errc() || !std::isfinite(static_cast<float>(value)))
+                source.refuse("line " + std::to_string(line) + ": a vertex needs three finite numbers");
+            text.remove_prefix(static_cast<std::size_t>(rest - text.data()));
+        }
+    }
+}
+
+MeshFile from_obj(std::string_view bytes, const Source& source) {
+    check_vertices(bytes, source);
+    tinyobj::ObjReaderConfig config;
+    config.triangulate = true;
+    tinyobj::ObjReader reader;
+    if (!reader.ParseFromString(std::string(bytes), "", config)) source.refuse("not an OBJ file: " + one_line(reader.Error()));
+    MeshFile mesh;
+    const auto& numbers = reader.GetAttrib().vertices;
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+        mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
+    for (const tinyobj::shape_t& shape : reader.GetShapes()) {
+        const auto& indices = shape.mesh.indices;
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+            glm::uvec3 triangle;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const int index = indices[i + k].vertex_index;
+                if (index < 0 || static_cast<std::size_t>(index) >= mesh.vertices.size())
+                    source.refuse("a face of \"" + shape.name + "\" has vertex " + std::to_string(index + 1) + " of " +
+                                  std::to_string(mesh.vertices.size()));
+                triangle[static_cast<int>(k)] = static_cast<std::uint32_t>(index);
+            }
+            mesh.triangles.push_back(triangle);
+        }
+    }
+    return mesh;
+}
+
+// ---- glTF
+// The bytes of an accessor, one element after the other.
+struct Elements {
+    const unsigned char* first;
+    std::size_t stride, count;
+    int component;
+};
+
+class Gltf {
+public:
+    Gltf(const tinygltf::Model& model, const Source& source) : model_(model), source_(source) {}
+
+    MeshFile triangles() {
+        for (const std::string& extension : model_.extensionsRequired)
+            if (extension.find("compression") != std::string::npos || extension.find("quantization") != std::string::npos)
+                source_.refuse("needs the extension " + extension + ", which packs vertices; write the file without it");
+        const int scene = model_.defaultScene >= 0 ? model_.defaultScene : 0;
+        if (static_cast<std::size_t>(scene) < model_.scenes.size()) {
+            for (const int node : model_.scenes[static_cast<std::size_t>(scene)].nodes) add_node(node, glm::dmat4(1), 0);
+        } else {
+            for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) add_mesh(mesh, glm::dmat4(1));
+        }
+        return std::move(mesh_);
+    }
+
+private:
+    Elements elements(int index, int type, const std::string& place) const {
+        if (index < 0 || static_cast<std::size_t>(index) >= model_.accessors.size()) source_.refuse(place + ": no such accessor");
+        const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
+        const std::string here = "/accessors/" + std::to_string(index);
+        if (accessor.type != type) source_.refuse(here + ": has elements of the wrong type");
+        if (accessor.sparse.isSparse) source_.refuse(here + ": is sparse, which is not read; write the file without");
+        if (accessor.bufferView < 0 || static_cast<std::size_t>(accessor.bufferView) >= model_.bufferViews.size())
+            source_.refuse(here + ": has no buffer view");
+        const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+        if (view.buffer < 0 || static_cast<std::size_t>(view.buffer) >= model_.buffers.size())
+            source_.refuse(here + ": its buffer is missing");
+        const auto& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
+        const int stride = accessor.ByteStride(view);
+        const int width = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor.componentType)) *
+                          tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
+        if (stride <= 0 || width <= 0 || accessor.count > most_vertices) source_.refuse(here + ": is malformed");
+        const std::size_t begin = view.byteOffset + accessor.byteOffset;
+        const std::size_t length =
+            accessor.count == 0 ? 0 : (accessor.count - 1) * static_cast<std::size_t>(stride) + static_cast<std::size_t>(width);
+        if (begin > data.size() || length > data.size() - begin) source_.refuse(here + ": reaches beyond its buffer");
+        return {data.data() + begin, static_cast<std::size_t>(stride), accessor.count, accessor.componentType};
+    }
+
+    std::uint32_t index_at(const Elements& elements, std::size_t i) const {
+        const unsigned char* at = elements.first + i * elements.stride;
+        if (elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return *at;
+        if (elements.component == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+            std::uint16_t value = 0;
+            std::memcpy(&value, at, sizeof value);
+            return value;
+        }
+        std::uint32_t value = 0;
+        std::memcpy(&value, at, sizeof value);
+        return value;
+    }
+
+    void add_primitive(const tinygltf::Primitive& primitive, const glm::dmat4& turn, const std::string& place) {
+        const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
+        if (mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines
+        const auto position = primitive.attributes.find("POSITION");
+        if (position == primitive.attributes.end()) source_.refuse(place + ": has no POSITION");
+        const Elements places = elements(position->second, TINYGLTF_TYPE_VEC3, place);
+        if (places.component != TINYGLTF_COMPONENT_TYPE_FLOAT) source_.refuse(place + ": its POSITION is not of floats");
+        const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
+        for (std::size_t i = 0; i < places.count; ++i) {
+            glm::vec3 at;
+            std::memcpy(&at, places.first + i * places.stride, sizeof at);
+            mesh_.vertices.push_back(glm::vec3(turn * glm::dvec4(glm::dvec3(at), 1)));
+        }
+        std::vector<std::uint32_t> corners(places.count);
+        for (std::uint32_t i = 0; i < corners.size(); ++i) corners[i] = i;
+        if (primitive.indices >= 0) {
+            const Elements indices = elements(primitive.indices, TINYGLTF_TYPE_SCALAR, place);
+            corners.resize(indices.count);
+            for (std::size_t i = 0; i < corners.size(); ++i) {
+                corners[i] = index_at(indices, i);
+                if (corners[i] >= places.count)
+                    source_.refuse(place + ": index " + std::to_string(i) + " is vertex " + std::to_string(corners[i]) + " of " +
+                                   std::to_string(places.count));
+            }
+        }
+        const bool mirrored = glm::determinant(glm::dmat3(turn)) < 0;
+        const std::size_t step = mode == TINYGLTF_MODE_TRIANGLES ? 3 : 1;
+        for (std::size_t i = 0; i + 2 < corners.size(); i += step) {
+            const bool odd = mode == TINYGLTF_MODE_TRIANGLE_STRIP && i % 2 == 1;
+            const std::uint32_t a = corners[mode == TINYGLTF_MODE_TRIANGLE_FAN ? 0 : i];
+            std::uint32_t b = corners[i + 1], c = corners[i + 2];
+            if (odd != mirrored) std::swap(b, c);
+            mesh_.triangles.emplace_back(base + a, base + b, base + c);
+        }
+    }
+
+    void add_mesh(int index, const glm::dmat4& turn) {
+        const std::string place = "/meshes/" + std::to_string(index);
+        if (index < 0 || static_cast<std::size_t>(index) >= model_.meshes.size()) source_.refuse(place + ": there is none");
+        const auto& primitives = model_.meshes[static_cast<std::size_t>(index)].primitives;
+        for (std::size_t i = 0; i < primitives.size(); ++i)
+            add_primitive(primitives[i], turn, place + "/primitives/" + std::to_string(i));
+    }
+
+    void add_node(int index, const glm::dmat4& above, int depth) {
+        const std::string place = "/nodes/" + std::to_string(index);
+        if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) source_.refuse(place + ": there is none");
+        if (depth > 100) source_.refuse(place + ": nodes lie in each other in a circle");
+        const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
+        glm::dmat4 turn(1);
+        if (node.matrix.size() == 16) turn = glm::make_mat4(node.matrix.data());
+        if (node.translation.size() == 3) turn[3] = glm::dvec4(node.translation[0], node.translation[1], node.translation[2], 1);
+        if (node.rotation.size() == 4)
+            turn *= glm::mat4_cast(glm::dquat(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]));
+        if (node.scale.size() == 3)
+            for (int k = 0; k < 3; ++k) turn[k] *= node.scale[static_cast<std::size_t>(k)];
+        turn = above * turn;
+        if (node.mesh >= 0) add_mesh(node.mesh, turn);
+        for (const int child : node.children) add_node(child, turn, depth + 1);
+    }
+
+    const tinygltf::Model& model_;
+    const Source& source_;
+    MeshFile mesh_;
+};
+
+MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, const std::filesystem::path& folder) {
+    tinygltf::TinyGLTF loader;
+    // Pictures are nothing to collide with: none is read.
+    loader.SetImageLoader(
+        [](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; },
+        nullptr);
+    tinygltf::Model model;
+    std::string error, warning;
+    const auto size = static_cast<unsigned>(bytes.size());
+    const std::string base = folder.empty() ? "." : folder.string();
+    const bool read = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, base)
+                             : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, base);
+    if (!read) source.refuse("not a glTF file: " + one_line(error.empty() ? warning : error));
+    return Gltf(model, source).triangles();
+}
+
+}  // namespace
+
+MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::filesystem::path& folder) {
+    const Source source{name};
+    std::string ending = std::filesystem::path(name).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (ending != ".obj" && ending != ".gltf" && ending != ".glb")
+        source.refuse("meshes are read from .obj, .gltf and .glb files");
+    MeshFile mesh = ending == ".obj" ? from_obj(bytes, source) : from_gltf(bytes, ending == ".glb", source, folder);
+    if (mesh.triangles.empty()) source.refuse("has no triangles");
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            if (!std::isfinite(mesh.vertices[i][k])) source.refuse("vertex " + std::to_string(i + 1) + " is not finite");
+    return mesh;
+}
+
+MeshFile read_mesh(const std::filesystem::path& path) {
+    return mesh_of(read_text(path), path.string(), path.parent_path());
+}
+
+}  // namespace scree::host

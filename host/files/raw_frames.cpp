@@ -1,0 +1,89 @@
+// Frames as bare pixels.
+#include "host/files/raw_frames.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <string>
+
+#include "host/files/partial_file.h"
+#include "host/files/pipe.h"
+
+namespace scree::host {
+
+struct RawFrames::Interior {
+    std::string name;  // for messages
+    std::filesystem::path target, partial;
+    std::optional<Unfinished> unfinished;
+    int descriptor = -1;
+    bool owned = false;
+
+    [[noreturn]] void fail(int error) const {
+        throw ImageError(name + ": no frame can be written: " +
+                         (error == EPIPE ? "the program that reads them has ended" : std::strerror(error)));
+    }
+    void open(const std::filesystem::path& path, int flags) {
+        descriptor = ::open(path.c_str(), flags | O_WRONLY | O_CLOEXEC, 0666);
+        if (descriptor < 0) fail(errno);
+        owned = true;
+    }
+    int close() {
+        const int number = descriptor;
+        descriptor = -1;
+        return owned && number >= 0 && ::close(number) != 0 ? errno : 0;
+    }
+};
+
+RawFrames::RawFrames(const std::filesystem::path& path) : interior_(std::make_unique<Interior>()) {
+    Interior& in = *interior_;
+    in.name = path == "-" ? "the standard output" : path.string();
+    if (path == "-") {
+        in.descriptor = STDOUT_FILENO;
+        if (::isatty(STDOUT_FILENO) == 1) {
+            throw ImageError("the standard output is a terminal, which cannot show raw frames; send them into a file or a pipe");
+        }
+        return;
+    }
+    std::error_code ignored;
+    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
+    if (std::filesystem::is_directory(status)) throw ImageError(in.name + ": is a folder; name a file, a pipe, or -");
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        in.open(path, 0);
+        return;
+    }
+    require_writable_folder(path.parent_path());
+    in.target = std::filesystem::exists(status) ? std::filesystem::canonical(path) : path;
+    in.partial = in.target.string() + ".part" + std::to_string(::getpid());
+    in.unfinished.emplace(in.partial);
+    in.open(in.partial, O_CREAT | O_TRUNC);
+}
+
+RawFrames::~RawFrames() {
+    interior_->close();
+    if (interior_->partial.empty()) return;
+    std::error_code ignored;
+    std::filesystem::remove(interior_->partial, ignored);
+}
+
+void RawFrames::add(const Image& image) {
+    if (interior_->descriptor < 0) throw ImageError(interior_->name + ": no more frames can be added");
+    const PipeSignalHeld held;
+    const std::vector<std::uint8_t> bytes = rgb_bytes(image);
+    if (const int error = write_all(interior_->descriptor, bytes.data(), bytes.size())) interior_->fail(error);
+}
+
+void RawFrames::finish() {
+    if (interior_->descriptor < 0) return;
+    if (const int error = interior_->close()) interior_->fail(error);
+    if (interior_->partial.empty()) return;
+    std::error_code error;
+    std::filesystem::rename(interior_->partial, interior_->target, error);
+    if (error) throw ImageError(interior_->name + ": cannot be written: " + error.message());
+    interior_->partial.clear();
+    interior_->unfinished.reset();
+}
+
+}  // namespace scree::host

@@ -1,0 +1,241 @@
+// A video file or an animated picture, encoded by ffmpeg from frames sent through a pipe.
+#include "host/files/video.h"
+
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <sys/mman.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <bit>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "host/files/partial_file.h"
+#include "host/files/pipe.h"
+
+extern char** environ;
+
+namespace scree::host {
+namespace {
+
+std::string find_ffmpeg() {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        const std::string candidate = (folder.empty() ? "." : folder) + "/ffmpeg";
+        if (::access(candidate.c_str(), X_OK) == 0) return candidate;
+    }
+    throw ImageError("ffmpeg not found: apt-get install ffmpeg, or leave out --video and --preview");
+}
+
+// The file that links lead to, so that it is replaced and not the link. Throws ImageError unless that is a file or nothing yet.
+std::filesystem::path target_of(const std::filesystem::path& path, const char* such_as) {
+    namespace fs = std::filesystem;
+    const auto refuse = [&](const char* why) {
+        throw ImageError(path.string() + ": " + why + "; name a file such as " + such_as);
+    };
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::is_directory(status)) refuse("is a folder");
+    if (fs::is_regular_file(status)) return fs::canonical(path);
+    if (fs::exists(status)) refuse("is not a regular file, and only such can be replaced by a whole video");
+    fs::path target = path;
+    for (int links = 0; fs::is_symlink(target, ignored); ++links) {  // to what is not there yet
+        if (links == 40) refuse("is a link that leads in a circle");
+        target = target.parent_path() / fs::read_symlink(target);
+    }
+    return target;
+}
+
+using Words = std::vector<std::string>;
+
+std::string decimal(double number) {
+    std::ostringstream text;
+    text.imbue(std::locale::classic());
+    text << number;
+    return text.str();
+}
+
+// What ffmpeg makes of the frames.
+Words output_of(const VideoShape& shape) {
+    const std::string smaller = "fps=" + decimal(std::min(shape.frames_per_second, 15.0)) +
+                                ",scale=" + std::to_string(std::min(shape.width, 480)) + ":-1:flags=lanczos";
+    if (shape.clip == Clip::webp) return {"-vf", smaller, "-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"};
+    if (shape.clip == Clip::gif) {
+        // The palette is of the first seconds: until it is known, ffmpeg holds the frames in memory. One for each frame would
+        // make the file eight times as large.
+        const std::string colored =
+            ",split[a][b];[a]trim=end=8,palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle";
+        return {"-filter_complex", smaller + colored, "-loop", "0", "-f", "gif"};
+    }
+    return {"-vf",
+            // The default would tag nothing and convert by BT.601, which players of HD video misread.
+            "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709",
+            "-color_primaries", "bt709", "-color_trc", "bt709", "-c:v", "libx264", "-preset", "fast", "-crf", "18", "-pix_fmt",
+            "yuv420p", "-movflags", "+faststart", "-f", "mp4"};
+}
+
+// What turns the frames on ffmpeg's standard input into the file.
+Words command_of(const std::string& program, const VideoShape& shape, const std::string& file) {
+    const char* sixteen = std::endian::native == std::endian::little ? "rgba64le" : "rgba64be";
+    Words words{program,
+                "-hide_banner",
+                "-loglevel",
+                "error",
+                "-nostdin",
+                "-y",
+                "-f",
+                "rawvideo",
+                "-pixel_format",
+                shape.bits == 16 ? sixteen : "rgba",
+                "-video_size",
+                std::to_string(shape.width) + "x" + std::to_string(shape.height),
+                "-framerate",
+                decimal(shape.frames_per_second),
+                "-i",
+                "pipe:0"};
+    const Words output = output_of(shape);
+    words.insert(words.end(), output.begin(), output.end());
+    words.push_back(file);
+    return words;
+}
+
+const char* example_of(Clip clip) {
+    return clip == Clip::film ? "scree.mp4" : clip == Clip::gif ? "scree.gif" : "scree.webp";
+}
+
+}  // namespace
+
+struct Video::Interior {
+    std::filesystem::path path, target, partial;
+    VideoShape shape;
+    std::optional<Unfinished> unfinished;
+    pid_t process = -1;
+    int pipe = -1;    // to ffmpeg's input
+    int errors = -1;  // what ffmpeg says, an unnamed file
+
+    void start(const std::string& program);
+    int wait();
+    [[noreturn]] void fail();
+    void discard();
+};
+
+void Video::Interior::start(const std::string& program) {
+    int ends[2];
+    if (::pipe2(ends, O_CLOEXEC) != 0) throw ImageError(std::string("ffmpeg: no pipe: ") + std::strerror(errno));
+    pipe = ends[1];
+    errors = ::memfd_create("ffmpeg", MFD_CLOEXEC);
+    Words words = command_of(program, shape, partial.string());
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+
+    posix_spawn_file_actions_t actions;
+    posix_spawn_file_actions_init(&actions);
+    posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
+    posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
+    if (errors >= 0) posix_spawn_file_actions_adddup2(&actions, errors, 2);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t none;
+    sigemptyset(&none);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    // Its own group: Ctrl-C is for the simulation, which then finishes or discards the video itself.
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
+    const int error = posix_spawn(&process, program.c_str(), &actions, &attributes, arguments.data(), environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&actions);
+    ::close(ends[0]);
+    if (error != 0) {
+        process = -1;
+        discard();
+        throw ImageError(program + ": cannot be started: " + std::strerror(error));
+    }
+    unfinished.emplace(partial, process);
+}
+
+int Video::Interior::wait() {
+    if (pipe >= 0) ::close(pipe);
+    pipe = -1;
+    int status = 0;
+    if (process > 0) {
+        while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+        }
+    }
+    process = -1;
+    if (unfinished) unfinished.emplace(partial);  // nobody writes it any more
+    return status;
+}
+
+void Video::Interior::fail() {
+    wait();
+    std::string said(4096, '\0');
+    const ssize_t n = errors >= 0 ? ::pread(errors, said.data(), said.size(), 0) : 0;
+    said.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
+    while (!said.empty() && said.back() == '\n') said.pop_back();
+    discard();
+    throw ImageError(path.string() + ": ffmpeg failed: " + (said.empty() ? "it ended early and said nothing" : said));
+}
+
+void Video::Interior::discard() {
+    if (process > 0) ::kill(process, SIGKILL);
+    wait();
+    if (errors >= 0) ::close(errors);
+    errors = -1;
+    std::error_code ignored;
+    std::filesystem::remove(partial, ignored);
+    unfinished.reset();
+}
+
+Video::Video(const std::filesystem::path& path, const VideoShape& shape) : interior_(std::make_unique<Interior>()) {
+    if (shape.width < 2 || shape.height < 2 || !(shape.frames_per_second > 0)) {
+        throw ImageError(path.string() + ": a video needs at least 2 x 2 pixels and a positive frame rate");
+    }
+    const std::filesystem::path target = target_of(path, example_of(shape.clip));
+    const std::string program = find_ffmpeg();
+    require_writable_folder(target.parent_path());
+    interior_->path = path;
+    interior_->target = target;
+    interior_->partial = target.string() + ".part" + std::to_string(::getpid());
+    interior_->shape = shape;
+    interior_->start(program);
+}
+
+Video::~Video() {
+    interior_->discard();
+}
+
+void Video::add(const Image& image) {
+    if (interior_->pipe < 0) throw ImageError(interior_->path.string() + ": the video is closed");
+    const VideoShape& shape = interior_->shape;
+    if (image.width != shape.width || image.height != shape.height || image.bits != shape.bits) {
+        const auto words = [](int width, int height, int bits) {
+            return std::to_string(width) + " x " + std::to_string(height) + " pixels of " + std::to_string(bits) + " bits";
+        };
+        throw ImageError(interior_->path.string() + ": a frame has " + words(image.width, image.height, image.bits) +
+                         ", the video " + words(shape.width, shape.height, shape.bits));
+    }
+    const PipeSignalHeld held;
+    if (write_all(interior_->pipe, image.rgba.data(), image.rgba.size()) != 0) interior_->fail();
+}
+
+void Video::finish() {
+    if (interior_->process < 0) return;
+    const int status = interior_->wait();
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) interior_->fail();
+    std::error_code error;
+    std::filesystem::rename(interior_->partial, interior_->target, error);
+    if (error) throw ImageError(interior_->path.string() + ": cannot be written: " + error.message());
+    interior_->unfinished.reset();
+}
+
+}  // namespace scree::host

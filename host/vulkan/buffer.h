@@ -1,0 +1,51 @@
+// A buffer on a device, with its memory. Host-visible when the device's memory is (lavapipe), else filled through staging.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+
+#include "host/vulkan/device.h"
+
+namespace scree::host {
+
+// Throws DeviceError, naming the buffer and the limit, if the device cannot bind so much at once.
+void require_bindable(const Device& device, const char* name, std::size_t bytes);
+
+enum class BufferUse {
+    storage,   // device-local; storage, vertex, index and indirect use, transfer both ways
+    readback,  // host-visible and cached, transfer target
+    upload,    // host-visible, transfer source; also storage
+};
+
+class Buffer {
+public:
+    Buffer() = default;
+    // Zero-filled. Throws DeviceError naming `name`, the size and the limit when memory ends, or when it exceeds what can be
+    // bound and the device has no addresses.
+    Buffer(std::shared_ptr<Device> device, const char* name, std::size_t bytes, BufferUse use = BufferUse::storage);
+    ~Buffer();
+    Buffer(Buffer&& other) noexcept;
+    Buffer& operator=(Buffer&& other) noexcept;
+
+    VkBuffer handle() const { return buffer_; }
+    std::size_t bytes() const { return bytes_; }
+    const std::string& name() const { return name_; }
+    VkDeviceAddress address() const;  // 0 of an empty one, and where the device has none
+    explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
+    void* mapped() const { return mapped_; }  // null unless host-visible
+
+    // Copies now, waiting for the queue. The range must lie inside the buffer (std::out_of_range).
+    void write(const void* data, std::size_t bytes, std::size_t offset = 0);
+    void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
+
+private:
+    std::shared_ptr<Device> device_;
+    VkBuffer buffer_ = VK_NULL_HANDLE;
+    VkDeviceMemory memory_ = VK_NULL_HANDLE;
+    std::size_t bytes_ = 0;
+    std::string name_;
+    void* mapped_ = nullptr;
+};
+
+}  // namespace scree::host

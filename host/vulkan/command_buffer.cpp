@@ -1,0 +1,175 @@
+// A recorded command buffer: dispatches, barriers, copies and timestamps, to be submitted once or many times.
+#include "host/vulkan/command_buffer.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace scree::host {
+namespace {
+
+void check_range(const Buffer& buffer, std::size_t bytes, std::size_t offset) {
+    if (offset <= buffer.bytes() && bytes <= buffer.bytes() - offset) return;
+    throw std::out_of_range("recording bytes " + std::to_string(offset) + " and the next " + std::to_string(bytes) +
+                            " of a buffer of " + std::to_string(buffer.bytes()));
+}
+
+// One barrier for all memory. A stage writes several buffers and the next reads most of them.
+void all_memory(const VulkanFunctions& vk, VkCommandBuffer commands, VkPipelineStageFlags more_stages,
+                VkAccessFlags more_access) {
+    VkMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
+    barrier.srcAccessMask = VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.dstAccessMask = VK_ACCESS_SHADER_READ_BIT | VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_UNIFORM_READ_BIT |
+                            VK_ACCESS_INDIRECT_COMMAND_READ_BIT | VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
+                            VK_ACCESS_TRANSFER_READ_BIT | VK_ACCESS_TRANSFER_WRITE_BIT | more_access;
+    vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,
+                            VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_DRAW_INDIRECT_BIT |
+                                VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
+                                VK_PIPELINE_STAGE_TRANSFER_BIT | more_stages,
+                            0, 1, &barrier, 0, nullptr, 0, nullptr);
+}
+
+}  // namespace
+
+Recording::Recording(std::shared_ptr<Device> device, std::uint32_t timestamps)
+    : device_(std::move(device)), timestamps_(timestamps) {
+    const VulkanFunctions& vk = device_->vk();
+    VkCommandPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    pool.queueFamilyIndex = device_->queue_family();
+    VkCommandBufferAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    info.commandBufferCount = 1;
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    begin.flags = VK_COMMAND_BUFFER_USAGE_SIMULTANEOUS_USE_BIT;
+    VkQueryPoolCreateInfo queries{};
+    queries.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO;
+    queries.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    queries.queryCount = timestamps;
+    const bool timed = timestamps > 0 && device_->timestamp_bits() > 0;
+
+    VkResult result = vk.vkCreateCommandPool(device_->handle(), &pool, nullptr, &pool_);
+    info.commandPool = pool_;
+    if (result == VK_SUCCESS) result = vk.vkAllocateCommandBuffers(device_->handle(), &info, &commands_);
+    if (result == VK_SUCCESS) result = vk.vkBeginCommandBuffer(commands_, &begin);
+    if (result == VK_SUCCESS && timed) result = vk.vkCreateQueryPool(device_->handle(), &queries, nullptr, &queries_);
+    if (result != VK_SUCCESS && pool_) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
+    check(result, "beginning a recording");
+    device_->set_name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "recording");
+    device_->set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "recording");
+    if (!queries_) return;
+    device_->set_name(VK_OBJECT_TYPE_QUERY_POOL, queries_, "timestamps");
+    vk.vkCmdResetQueryPool(commands_, queries_, 0, timestamps);
+}
+
+Recording::~Recording() {
+    if (!pool_) return;
+    device_->vk().vkDestroyCommandPool(device_->handle(), pool_, nullptr);
+    if (queries_) device_->vk().vkDestroyQueryPool(device_->handle(), queries_, nullptr);
+}
+
+Recording::Recording(Recording&& other) noexcept {
+    *this = std::move(other);
+}
+
+Recording& Recording::operator=(Recording&& other) noexcept {
+    std::swap(device_, other.device_);
+    std::swap(pool_, other.pool_);
+    std::swap(commands_, other.commands_);
+    std::swap(queries_, other.queries_);
+    std::swap(bound_pipeline_, other.bound_pipeline_);
+    std::swap(bound_set_, other.bound_set_);
+    std::swap(bound_layout_, other.bound_layout_);
+    std::swap(timestamps_, other.timestamps_);
+    std::swap(timestamps_written_, other.timestamps_written_);
+    std::swap(push_bytes_, other.push_bytes_);
+    return *this;
+}
+
+void Recording::bind(const Pipeline& pipeline, const Table& table) {
+    const VulkanFunctions& vk = device_->vk();
+    if (pipeline.handle() != bound_pipeline_) {
+        vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
+    }
+    const VkDescriptorSet set = table.set();
+    if (set != bound_set_ || pipeline.layout() != bound_layout_) {
+        vk.vkCmdBindDescriptorSets(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.layout(), 0, 1, &set, 0, nullptr);
+    }
+    bound_pipeline_ = pipeline.handle();
+    bound_set_ = set;
+    bound_layout_ = pipeline.layout();
+    push_bytes_ = pipeline.push_bytes();
+}
+
+void Recording::push(const void* data, std::uint32_t bytes) {
+    if (!bound_layout_) throw std::logic_error("push constants before a pipeline is bound");
+    if (bytes > push_bytes_ || bytes % 4 != 0) {
+        throw std::invalid_argument(std::to_string(bytes) + " bytes of push constants, where the layout has " +
+                                    std::to_string(push_bytes_));
+    }
+    if (bytes > 0) device_->vk().vkCmdPushConstants(commands_, bound_layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, data);
+}
+
+void Recording::dispatch(std::uint32_t groups) {
+    const std::uint32_t limit = device_->limits().maxComputeWorkGroupCount[0];
+    if (groups > limit) {
+        throw DeviceError("a dispatch of " + std::to_string(groups) + " workgroups, where " + device_->report().name + " takes " +
+                          std::to_string(limit));
+    }
+    device_->vk().vkCmdDispatch(commands_, groups, 1, 1);
+}
+
+void Recording::dispatch_indirect(const Buffer& arguments, std::size_t offset) {
+    check_range(arguments, sizeof(VkDispatchIndirectCommand), offset);
+    device_->vk().vkCmdDispatchIndirect(commands_, arguments.handle(), offset);
+}
+
+void Recording::barrier() {
+    all_memory(device_->vk(), commands_, 0, 0);
+}
+
+void Recording::zero(const Buffer& buffer) {
+    device_->vk().vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
+}
+
+void Recording::copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset, std::size_t to_offset) {
+    check_range(from, bytes, from_offset);
+    check_range(to, bytes, to_offset);
+    const VkBufferCopy region{from_offset, to_offset, bytes};
+    if (bytes > 0) device_->vk().vkCmdCopyBuffer(commands_, from.handle(), to.handle(), 1, &region);
+}
+
+void Recording::timestamp() {
+    if (timestamps_written_ >= timestamps_) {
+        throw std::out_of_range("more than the " + std::to_string(timestamps_) + " timestamps of a recording");
+    }
+    const std::uint32_t query = timestamps_written_++;
+    if (queries_) device_->vk().vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_, query);
+}
+
+void Recording::end() {
+    // The host is left out of the barriers between stages: on a card it costs a flush of its caches each time.
+    all_memory(device_->vk(), commands_, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
+    check(device_->vk().vkEndCommandBuffer(commands_), "ending a recording");
+}
+
+std::vector<double> Recording::timestamp_seconds() const {
+    if (!queries_ || timestamps_written_ < 2) return {};
+    std::vector<std::uint64_t> ticks(timestamps_written_);
+    check(device_->vk().vkGetQueryPoolResults(device_->handle(), queries_, 0, timestamps_written_, ticks.size() * sizeof ticks[0],
+                                              ticks.data(), sizeof ticks[0], VK_QUERY_RESULT_64_BIT),
+          "reading timestamps (the recording must have run)");
+    const std::uint32_t bits = device_->timestamp_bits();
+    const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+    std::vector<double> seconds;
+    for (std::size_t i = 1; i < ticks.size(); ++i) {
+        seconds.push_back(static_cast<double>((ticks[i] - ticks[i - 1]) & mask) * device_->timestamp_period_ns() * 1e-9);
+    }
+    return seconds;
+}
+
+}  // namespace scree::host

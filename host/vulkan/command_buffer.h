@@ -1,0 +1,49 @@
+// A recorded command buffer: dispatches, barriers, copies and timestamps, to be submitted once or many times.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "host/vulkan/buffer.h"
+#include "host/vulkan/pipeline.h"
+
+namespace scree::host {
+
+class Recording {
+public:
+    // `timestamps`: how many timestamp() calls it may hold. Recording begins at once.
+    explicit Recording(std::shared_ptr<Device> device, std::uint32_t timestamps = 0);
+    ~Recording();
+    Recording(Recording&& other) noexcept;
+    Recording& operator=(Recording&& other) noexcept;
+
+    void bind(const Pipeline& pipeline, const Table& table);  // skips what is bound already
+    void push(const void* data, std::uint32_t bytes);
+    void dispatch(std::uint32_t groups);
+    void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`
+    void barrier();  // compute and transfer writes become visible to compute, indirect arguments, vertex shaders and transfers
+    void zero(const Buffer& buffer);  // all of it
+    void copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset = 0, std::size_t to_offset = 0);
+    void timestamp();
+    void end();  // before the first submission. Makes all writes visible to the host and to later submissions
+
+    VkCommandBuffer handle() const { return commands_; }
+    // Seconds between consecutive timestamps of the last submission (which must have been waited for); empty if the queue has no
+    // timestamps.
+    std::vector<double> timestamp_seconds() const;
+
+private:
+    std::shared_ptr<Device> device_;
+    VkCommandPool pool_ = VK_NULL_HANDLE;
+    VkCommandBuffer commands_ = VK_NULL_HANDLE;
+    VkQueryPool queries_ = VK_NULL_HANDLE;
+    VkPipeline bound_pipeline_ = VK_NULL_HANDLE;
+    VkDescriptorSet bound_set_ = VK_NULL_HANDLE;
+    VkPipelineLayout bound_layout_ = VK_NULL_HANDLE;
+    std::uint32_t timestamps_ = 0;
+    std::uint32_t timestamps_written_ = 0;
+    std::uint32_t push_bytes_ = 0;
+};
+
+}  // namespace scree::host

@@ -1,0 +1,288 @@
+// A Vulkan device: found, explained, opened.
+#include "host/vulkan/device.h"
+
+#include <algorithm>
+#include <cctype>
+#include <limits>
+#include <mutex>
+
+#include "host/vulkan/instance.h"
+#include "host/vulkan/pipeline_cache.h"
+
+namespace scree::host {
+namespace {
+
+const char* result_name(VkResult result) {
+    switch (result) {
+        case VK_NOT_READY:
+            return "VK_NOT_READY";
+        case VK_TIMEOUT:
+            return "VK_TIMEOUT";
+        case VK_INCOMPLETE:
+            return "VK_INCOMPLETE";
+        case VK_ERROR_OUT_OF_HOST_MEMORY:
+            return "VK_ERROR_OUT_OF_HOST_MEMORY (the machine's memory is full)";
+        case VK_ERROR_OUT_OF_DEVICE_MEMORY:
+            return "VK_ERROR_OUT_OF_DEVICE_MEMORY (the device's memory is full)";
+        case VK_ERROR_INITIALIZATION_FAILED:
+            return "VK_ERROR_INITIALIZATION_FAILED (the driver does not start)";
+        case VK_ERROR_DEVICE_LOST:
+            return "VK_ERROR_DEVICE_LOST (the driver gave up, mostly because one submission took too long)";
+        case VK_ERROR_MEMORY_MAP_FAILED:
+            return "VK_ERROR_MEMORY_MAP_FAILED";
+        case VK_ERROR_LAYER_NOT_PRESENT:
+            return "VK_ERROR_LAYER_NOT_PRESENT";
+        case VK_ERROR_EXTENSION_NOT_PRESENT:
+            return "VK_ERROR_EXTENSION_NOT_PRESENT";
+        case VK_ERROR_FEATURE_NOT_PRESENT:
+            return "VK_ERROR_FEATURE_NOT_PRESENT";
+        case VK_ERROR_INCOMPATIBLE_DRIVER:
+            return "VK_ERROR_INCOMPATIBLE_DRIVER";
+        case VK_ERROR_TOO_MANY_OBJECTS:
+            return "VK_ERROR_TOO_MANY_OBJECTS";
+        case VK_ERROR_FORMAT_NOT_SUPPORTED:
+            return "VK_ERROR_FORMAT_NOT_SUPPORTED";
+        case VK_ERROR_FRAGMENTED_POOL:
+            return "VK_ERROR_FRAGMENTED_POOL";
+        case VK_ERROR_OUT_OF_POOL_MEMORY:
+            return "VK_ERROR_OUT_OF_POOL_MEMORY";
+        default:
+            return nullptr;
+    }
+}
+
+std::string lower(std::string text) {
+    for (char& c : text) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    return text;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+    std::string text;
+    for (const std::string& part : parts) text += (text.empty() ? "" : ", ") + part;
+    return text;
+}
+
+bool is_number(const std::string& text) {
+    return !text.empty() && text.size() < 9 &&
+           std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
+}
+
+// The device that `which` means (see DeviceOptions), or DeviceError.
+const DeviceReport& choose(const std::vector<DeviceReport>& reports, const std::string& which) {
+    const DeviceReport* chosen = nullptr;
+    if (which.empty()) {
+        for (const DeviceReport& report : reports) {
+            if (!report.lacks.empty()) continue;
+            if (!chosen || (chosen->is_processor && !report.is_processor)) chosen = &report;
+        }
+    } else if (is_number(which)) {
+        const std::size_t index = std::stoul(which);
+        if (index < reports.size()) chosen = &reports[index];
+    } else {
+        for (const DeviceReport& report : reports) {
+            if (lower(report.name).find(lower(which)) == std::string::npos) continue;
+            if (!chosen || (!chosen->lacks.empty() && report.lacks.empty())) chosen = &report;
+        }
+    }
+    std::string all;
+    for (const DeviceReport& report : reports)
+        all += (all.empty() ? "" : ", ") + std::to_string(report.index) + " " + report.name;
+    if (!chosen && which.empty()) {
+        throw DeviceError("no Vulkan device is usable: " + reports.front().name + " lacks " + joined(reports.front().lacks));
+    }
+    if (!chosen) throw DeviceError("no Vulkan device " + which + "; there are: " + all);
+    if (!chosen->lacks.empty()) throw DeviceError("the Vulkan device " + chosen->name + " lacks " + joined(chosen->lacks));
+    return *chosen;
+}
+
+}  // namespace
+
+struct Device::Interior {
+    std::unique_ptr<Instance> instance;
+    VulkanFunctions vk;
+    DeviceReport report;
+    VkPhysicalDevice physical = VK_NULL_HANDLE;
+    VkPhysicalDeviceLimits limits{};
+    VkPhysicalDeviceMemoryProperties memory{};
+    VkDevice device = VK_NULL_HANDLE;
+    std::uint32_t family = 0;
+    std::uint32_t timestamp_bits = 0;
+    VkQueue queue = VK_NULL_HANDLE;
+    std::unique_ptr<PipelineCache> cache;
+    bool staged = false;
+    std::mutex queue_mutex;  // Vulkan leaves it to the caller that one thread at a time uses a queue
+};
+
+void check(VkResult result, const char* what) {
+    if (result == VK_SUCCESS) return;
+    const char* name = result_name(result);
+    throw DeviceError(std::string(what) + ": " + (name ? std::string(name) : "VkResult " + std::to_string(result)));
+}
+
+Device::Device() : interior_(std::make_unique<Interior>()) {}
+
+std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
+    std::shared_ptr<Device> device(new Device);
+    Interior& in = *device->interior_;
+    in.instance = std::make_unique<Instance>(options.validation, options.on_message, options.window_extensions);
+    in.vk = in.instance->vk();
+    in.staged = options.staged;
+    const std::vector<VkPhysicalDevice> physical = in.instance->physical_devices();
+    std::vector<DeviceReport> reports;
+    for (VkPhysicalDevice one : physical) reports.push_back(describe(in.vk, one, static_cast<int>(reports.size())));
+    in.report = choose(reports, options.which);
+    in.physical = physical[static_cast<std::size_t>(in.report.index)];
+    in.family = static_cast<std::uint32_t>(find_queue_family(in.vk, in.physical, &in.timestamp_bits));
+    VkPhysicalDeviceProperties properties;
+    in.vk.vkGetPhysicalDeviceProperties(in.physical, &properties);
+    in.limits = properties.limits;
+    in.vk.vkGetPhysicalDeviceMemoryProperties(in.physical, &in.memory);
+
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue{};
+    queue.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO;
+    queue.queueFamilyIndex = in.family;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    if (options.without_texels) in.report.prefers_texels = false;
+    if (options.largest_binding) in.report.largest_binding = std::min(in.report.largest_binding, options.largest_binding);
+    VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
+    addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
+    addresses.bufferDeviceAddress = in.report.has_addresses;
+    VkDeviceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
+    info.pNext = &addresses;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+    info.enabledExtensionCount = options.window_extensions.empty() ? 0 : 1;
+    info.ppEnabledExtensionNames = &swapchain;
+    check(in.vk.vkCreateDevice(in.physical, &info, nullptr, &in.device), ("opening " + in.report.name).c_str());
+    if (const char* missing = in.vk.load_device(in.device)) {
+        throw DeviceError("the driver of " + in.report.name + " lacks " + missing);
+    }
+    in.vk.vkGetDeviceQueue(in.device, in.family, 0, &in.queue);
+    in.cache = std::make_unique<PipelineCache>(in.vk, in.physical, in.device);
+    return device;
+}
+
+Device::~Device() {
+    Interior& in = *interior_;
+    if (!in.device) return;
+    if (in.vk.vkDeviceWaitIdle) in.vk.vkDeviceWaitIdle(in.device);
+    in.cache.reset();
+    if (in.vk.vkDestroyDevice) in.vk.vkDestroyDevice(in.device, nullptr);
+}
+
+const DeviceReport& Device::report() const {
+    return interior_->report;
+}
+const VulkanFunctions& Device::vk() const {
+    return interior_->vk;
+}
+VkInstance Device::instance() const {
+    return interior_->instance->handle();
+}
+VkPhysicalDevice Device::physical() const {
+    return interior_->physical;
+}
+VkDevice Device::handle() const {
+    return interior_->device;
+}
+VkQueue Device::queue() const {
+    return interior_->queue;
+}
+std::uint32_t Device::queue_family() const {
+    return interior_->family;
+}
+const VkPhysicalDeviceLimits& Device::limits() const {
+    return interior_->limits;
+}
+const VkPhysicalDeviceMemoryProperties& Device::memory() const {
+    return interior_->memory;
+}
+bool Device::staged() const {
+    return interior_->staged;
+}
+std::uint32_t Device::timestamp_bits() const {
+    return interior_->timestamp_bits;
+}
+VkPipelineCache Device::pipeline_cache() const {
+    return interior_->cache->handle();
+}
+double Device::timestamp_period_ns() const {
+    return interior_->limits.timestampPeriod;
+}
+std::vector<std::string> Device::validation_messages() const {
+    return interior_->instance->messages();
+}
+
+std::uint32_t Device::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags properties) const {
+    const VkPhysicalDeviceMemoryProperties& memory = interior_->memory;
+    for (std::uint32_t i = 0; i < memory.memoryTypeCount; ++i) {
+        if ((allowed_bits >> i & 1u) && (memory.memoryTypes[i].propertyFlags & properties) == properties) return i;
+    }
+    throw DeviceError(interior_->report.name + " has no memory with the properties " + std::to_string(properties) +
+                      " that is needed here");
+}
+
+void Device::submit(const std::vector<VkCommandBuffer>& commands, VkFence fence) {
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = static_cast<std::uint32_t>(commands.size());
+    info.pCommandBuffers = commands.data();
+    submit(info, fence);
+}
+
+void Device::submit(const VkSubmitInfo& info, VkFence fence) {
+    const std::lock_guard lock(interior_->queue_mutex);
+    check(interior_->vk.vkQueueSubmit(interior_->queue, 1, &info, fence), "submitting to the device");
+}
+
+VkResult Device::present(const VkPresentInfoKHR& info) {
+    const std::lock_guard lock(interior_->queue_mutex);
+    return interior_->vk.vkQueuePresentKHR(interior_->queue, &info);
+}
+
+void Device::submit_and_wait(const std::vector<VkCommandBuffer>& commands) {
+    Submission(*this, commands).wait();
+}
+
+Submission::Submission(Device& device, const std::vector<VkCommandBuffer>& commands) : device_(device) {
+    VkFenceCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    check(device.vk().vkCreateFence(device.handle(), &info, nullptr, &fence_), "creating a fence");
+    try {
+        device.submit(commands, fence_);
+    } catch (...) {
+        device.vk().vkDestroyFence(device.handle(), fence_, nullptr);
+        throw;
+    }
+}
+
+void Submission::wait() {
+    check(device_.vk().vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
+          "waiting for the device");
+}
+
+Submission::~Submission() {
+    device_.vk().vkWaitForFences(device_.handle(), 1, &fence_, VK_TRUE, std::numeric_limits<std::uint64_t>::max());
+    device_.vk().vkDestroyFence(device_.handle(), fence_, nullptr);
+}
+
+void Device::wait_idle() const {
+    const std::lock_guard lock(interior_->queue_mutex);
+    check(interior_->vk.vkQueueWaitIdle(interior_->queue), "waiting for the device");
+}
+
+void Device::name_object(VkObjectType type, std::uint64_t handle, const std::string& name) const {
+    if (!interior_->vk.vkSetDebugUtilsObjectNameEXT) return;
+    VkDebugUtilsObjectNameInfoEXT info{};
+    info.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT;
+    info.objectType = type;
+    info.objectHandle = handle;
+    info.pObjectName = name.c_str();
+    interior_->vk.vkSetDebugUtilsObjectNameEXT(interior_->device, &info);
+}
+
+}  // namespace scree::host

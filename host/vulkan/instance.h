@@ -1,0 +1,43 @@
+// The Vulkan instance: the loader found, validation switched on, the physical devices described. Interior of Device.
+#pragma once
+
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "host/vulkan/device.h"
+
+namespace scree::host {
+
+class Instance {
+public:
+    // Throws DeviceError, naming the package that brings what is missing.
+    Instance(bool validation, std::function<void(const std::string&)> on_message, const std::vector<const char*>& extensions);
+    ~Instance();
+    Instance(const Instance&) = delete;
+    Instance& operator=(const Instance&) = delete;
+
+    const VulkanFunctions& vk() const { return vk_; }
+    VkInstance handle() const { return instance_; }
+    std::vector<VkPhysicalDevice> physical_devices() const;
+    std::vector<std::string> messages() const;
+    void receive(const std::string& message);  // from the validation layer, on any thread
+
+private:
+    void create(bool validation, std::vector<const char*> extensions);
+
+    VulkanFunctions vk_;
+    VkInstance instance_ = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
+    std::function<void(const std::string&)> on_message_;
+    mutable std::mutex mutex_;
+    std::vector<std::string> messages_;
+};
+
+DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int index);
+
+// The first family with graphics and compute (and so transfer), or -1.
+int find_queue_family(const VulkanFunctions& vk, VkPhysicalDevice physical, std::uint32_t* timestamp_bits);
+
+}  // namespace scree::host

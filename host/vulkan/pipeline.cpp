@@ -1,0 +1,253 @@
+// Compute pipelines over one table of storage buffers.
+#include "host/vulkan/pipeline.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "host/spirv/spirv.h"
+
+namespace scree::host {
+
+namespace {
+
+VkDescriptorType type_of(const TableLayout& layout, std::uint32_t buffer) {
+    return layout.access(buffer).uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
+}
+
+VkFormat format_of(std::uint32_t texel_bytes) {
+    if (texel_bytes == 4) return VK_FORMAT_R32_UINT;
+    return texel_bytes == 8 ? VK_FORMAT_R32G32_UINT : VK_FORMAT_R32G32B32A32_UINT;
+}
+
+}  // namespace
+
+TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach,
+                         std::vector<Access> special)
+    : device_(std::move(device)), buffers_(buffers), reach_(reach), push_bytes_(push_bytes), special_(std::move(special)) {
+    const VulkanFunctions& vk = device_->vk();
+    const VkPhysicalDeviceLimits& limits = device_->limits();
+    const bool far = reach == Reach::far;
+    if (far && !device_->report().has_addresses)
+        throw DeviceError(device_->report().name + " has no addresses of buffers (bufferDeviceAddress)");
+    const auto uniform = static_cast<std::uint32_t>(
+        std::count_if(special_.begin(), special_.end(), [](const Access& access) { return access.uniform; }));
+    if ((!far && buffers - uniform > limits.maxPerStageDescriptorStorageBuffers) || push_bytes > limits.maxPushConstantsSize) {
+        throw DeviceError("a table of " + std::to_string(buffers) + " buffers and " + std::to_string(push_bytes) +
+                          " bytes of push constants is more than " + device_->report().name + " takes (" +
+                          std::to_string(limits.maxPerStageDescriptorStorageBuffers) + ", " +
+                          std::to_string(limits.maxPushConstantsSize) + ")");
+    }
+    std::vector<VkDescriptorSetLayoutBinding> entries;
+    const auto add = [&](std::uint32_t binding, VkDescriptorType type) {
+        entries.push_back({binding, type, 1, VK_SHADER_STAGE_COMPUTE_BIT, nullptr});
+    };
+    if (far) add(0, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    for (std::uint32_t i = 0; !far && i < buffers; ++i) add(i, type_of(*this, i));
+    for (std::uint32_t i = 0; i < special_.size(); ++i)
+        if (special_[i].texel_bytes) add(buffers + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER);
+    for (std::uint32_t i = 0; i < special_.size(); ++i)
+        if (special_[i].changing) add(2 * buffers + i, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER);
+    VkDescriptorSetLayoutCreateInfo set_info{};
+    set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
+    set_info.bindingCount = static_cast<std::uint32_t>(entries.size());
+    set_info.pBindings = entries.data();
+    check(vk.vkCreateDescriptorSetLayout(device_->handle(), &set_info, nullptr, &set_layout_), "creating the layout of a table");
+    const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
+    VkPipelineLayoutCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
+    info.setLayoutCount = 1;
+    info.pSetLayouts = &set_layout_;
+    info.pushConstantRangeCount = push_bytes > 0 ? 1 : 0;
+    info.pPushConstantRanges = &range;
+    const VkResult result = vk.vkCreatePipelineLayout(device_->handle(), &info, nullptr, &pipeline_layout_);
+    if (result != VK_SUCCESS) vk.vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
+    check(result, "creating the layout of a table");
+    device_->set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_layout_, "table");
+    device_->set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, pipeline_layout_, "table");
+}
+
+TableLayout::~TableLayout() {
+    device_->vk().vkDestroyPipelineLayout(device_->handle(), pipeline_layout_, nullptr);
+    device_->vk().vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
+}
+
+bool TableLayout::has_texels() const {
+    return std::any_of(special_.begin(), special_.end(), [](const Access& access) { return access.texel_bytes != 0; });
+}
+
+Table::Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer*>& buffers) : layout_(std::move(layout)) {
+    if (buffers.size() != layout_->buffers()) {
+        throw std::invalid_argument("a table of " + std::to_string(layout_->buffers()) + " buffers was given " +
+                                    std::to_string(buffers.size()));
+    }
+    for (const Buffer* buffer : buffers)
+        if (buffer && layout_->reach() == Reach::bound)
+            require_bindable(*layout_->device(), buffer->name().c_str(), buffer->bytes());
+    try {
+        make_set();
+        fill(buffers);
+    } catch (...) {
+        release();
+        throw;
+    }
+}
+
+void Table::make_set() {
+    const Device& device = *layout_->device();
+    const VulkanFunctions& vk = device.vk();
+    const std::uint32_t most = std::max(1u, layout_->buffers());
+    const VkDescriptorPoolSize sizes[] = {{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, most},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, most},
+                                          {VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER, most},
+                                          {VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER, most}};
+    VkDescriptorPoolCreateInfo pool{};
+    pool.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO;
+    pool.maxSets = 1;
+    pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
+    pool.pPoolSizes = sizes;
+    check(vk.vkCreateDescriptorPool(device.handle(), &pool, nullptr, &pool_), "creating a descriptor pool");
+    device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_POOL, pool_, "table");
+    const VkDescriptorSetLayout set_layout = layout_->set_layout();
+    VkDescriptorSetAllocateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO;
+    info.descriptorPool = pool_;
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &set_layout;
+    check(vk.vkAllocateDescriptorSets(device.handle(), &info, &set_), "creating a table");
+    device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "table");
+}
+
+void Table::view(std::uint32_t i, const Buffer& of) {
+    const Device& device = *layout_->device();
+    const std::uint32_t bytes = layout_->access(i).texel_bytes;
+    if (of.bytes() / bytes > device.limits().maxTexelBufferElements)
+        throw DeviceError("the buffer " + of.name() + " of " + std::to_string(of.bytes()) + " bytes has more texels than " +
+                          device.report().name + " reads, " + std::to_string(device.limits().maxTexelBufferElements));
+    VkBufferViewCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_VIEW_CREATE_INFO;
+    info.buffer = of.handle();
+    info.format = format_of(bytes);
+    info.range = VK_WHOLE_SIZE;
+    check(device.vk().vkCreateBufferView(device.handle(), &info, nullptr, &views_[i]), ("the texels of " + of.name()).c_str());
+    device.set_name(VK_OBJECT_TYPE_BUFFER_VIEW, views_[i], of.name());
+}
+
+void Table::fill(const std::vector<const Buffer*>& buffers) {
+    const Device& device = *layout_->device();
+    const auto is_there = [](const Buffer* buffer) { return buffer && *buffer; };  // else no shader reads its binding
+    std::vector<VkDescriptorBufferInfo> bound(layout_->buffers() + 1);
+    std::vector<VkWriteDescriptorSet> writes;
+    const auto write = [&](std::uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {
+        VkWriteDescriptorSet entry{};
+        entry.sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;
+        entry.dstSet = set_;
+        entry.dstBinding = binding;
+        entry.descriptorCount = 1;
+        entry.descriptorType = type;
+        return writes.emplace_back(entry);
+    };
+    const auto bind = [&](std::uint32_t binding, const Buffer& buffer, VkDescriptorType type) {
+        bound[binding] = {buffer.handle(), 0, buffer.bytes() > 0 ? buffer.bytes() : VK_WHOLE_SIZE};
+        write(binding, type).pBufferInfo = &bound[binding];
+    };
+    if (layout_->reach() == Reach::far) {
+        std::vector<VkDeviceAddress> addresses;
+        for (const Buffer* buffer : buffers) addresses.push_back(buffer ? buffer->address() : 0);
+        addresses_ = Buffer(layout_->device(), "addresses", addresses.size() * sizeof(VkDeviceAddress), BufferUse::upload);
+        addresses_.write(addresses.data(), addresses_.bytes());
+        bind(0, addresses_, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER);
+    } else {
+        for (std::uint32_t i = 0; i < buffers.size(); ++i)
+            if (is_there(buffers[i])) bind(i, *buffers[i], type_of(*layout_, i));
+    }
+    views_.resize(buffers.size());
+    for (std::uint32_t i = 0; i < buffers.size(); ++i) {
+        if (!layout_->access(i).texel_bytes || !is_there(buffers[i])) continue;
+        view(i, *buffers[i]);
+        write(layout_->buffers() + i, VK_DESCRIPTOR_TYPE_UNIFORM_TEXEL_BUFFER).pTexelBufferView = &views_[i];
+        if (layout_->access(i).changing)
+            write(2 * layout_->buffers() + i, VK_DESCRIPTOR_TYPE_STORAGE_TEXEL_BUFFER).pTexelBufferView = &views_[i];
+    }
+    device.vk().vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
+}
+
+void Table::release() {
+    if (!layout_) return;
+    const Device& device = *layout_->device();
+    for (const VkBufferView view : views_)
+        if (view) device.vk().vkDestroyBufferView(device.handle(), view, nullptr);
+    device.vk().vkDestroyDescriptorPool(device.handle(), pool_, nullptr);
+}
+
+Table::~Table() {
+    release();
+}
+
+Table::Table(Table&& other) noexcept {
+    *this = std::move(other);
+}
+
+Table& Table::operator=(Table&& other) noexcept {
+    std::swap(layout_, other.layout_);
+    std::swap(pool_, other.pool_);
+    std::swap(set_, other.set_);
+    std::swap(addresses_, other.addresses_);
+    std::swap(views_, other.views_);
+    return *this;
+}
+
+Pipeline::Pipeline(std::shared_ptr<TableLayout> layout, const char* name, std::span<const std::uint32_t> words,
+                   const std::vector<std::uint32_t>& specialisation)
+    : layout_(std::move(layout)) {
+    const Device& device = *layout_->device();
+    const VulkanFunctions& vk = device.vk();
+    const DeviceReport& report = device.report();
+    std::vector<std::uint32_t> patched;
+    try {
+        patched = with_float_controls(words,
+                                      {report.can_preserve_denormals, report.can_preserve_specials, report.can_round_to_nearest});
+    } catch (const SpirvError& error) {
+        throw DeviceError(std::string(name) + ": " + error.what());
+    }
+    VkShaderModuleCreateInfo module_info{};
+    module_info.sType = VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO;
+    module_info.codeSize = patched.size() * sizeof(std::uint32_t);
+    module_info.pCode = patched.data();
+    VkShaderModule module = VK_NULL_HANDLE;
+    check(vk.vkCreateShaderModule(device.handle(), &module_info, nullptr, &module), (std::string("the shader ") + name).c_str());
+    device.set_name(VK_OBJECT_TYPE_SHADER_MODULE, module, name);
+
+    std::vector<VkSpecializationMapEntry> entries;
+    for (std::uint32_t i = 0; i < specialisation.size(); ++i) entries.push_back({i, 4 * i, 4});
+    const VkSpecializationInfo constants{static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                         specialisation.size() * sizeof(std::uint32_t), specialisation.data()};
+    VkComputePipelineCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO;
+    info.stage.sType = VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO;
+    info.stage.stage = VK_SHADER_STAGE_COMPUTE_BIT;
+    info.stage.module = module;
+    info.stage.pName = "main";
+    info.stage.pSpecializationInfo = specialisation.empty() ? nullptr : &constants;
+    info.layout = layout_->pipeline_layout();
+    const VkResult result = vk.vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline_);
+    vk.vkDestroyShaderModule(device.handle(), module, nullptr);
+    check(result, (std::string("the pipeline ") + name).c_str());
+    device.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline_, name);
+}
+
+Pipeline::~Pipeline() {
+    if (layout_) layout_->device()->vk().vkDestroyPipeline(layout_->device()->handle(), pipeline_, nullptr);
+}
+
+Pipeline::Pipeline(Pipeline&& other) noexcept {
+    *this = std::move(other);
+}
+
+Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
+    std::swap(layout_, other.layout_);
+    std::swap(pipeline_, other.pipeline_);
+    return *this;
+}
+
+}  // namespace scree::host

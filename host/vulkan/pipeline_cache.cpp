@@ -1,0 +1,87 @@
+// Compiled pipelines, kept on disk from one run to the next. Interior of Device.
+#include "host/vulkan/pipeline_cache.h"
+
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+
+#include "host/files/file.h"
+
+namespace scree::host {
+namespace {
+
+std::string hexadecimal(const std::uint8_t* bytes, std::size_t count) {
+    constexpr const char* digits = "0123456789abcdef";
+    std::string text;
+    for (std::size_t i = 0; i < count; ++i) text += {digits[bytes[i] >> 4], digits[bytes[i] & 15]};
+    return text;
+}
+
+// FNV-1a. Drivers check the header of a cache, but not all of them survive damage behind it.
+std::uint64_t hash(std::string_view bytes) {
+    std::uint64_t h = 0xcbf29ce484222325u;
+    for (unsigned char byte : bytes) h = (h ^ byte) * 0x100000001b3u;
+    return h;
+}
+
+// A file is the hash of the driver's bytes, and those.
+std::string read_intact(const std::string& path) {
+    std::error_code ignored;
+    if (path.empty() || !std::filesystem::is_regular_file(path, ignored)) return {};
+    try {
+        const std::string file = read_text(path);
+        std::uint64_t expected = 0;
+        if (file.size() <= sizeof expected) return {};
+        std::memcpy(&expected, file.data(), sizeof expected);
+        std::string bytes = file.substr(sizeof expected);
+        return hash(bytes) == expected ? bytes : std::string();
+    } catch (const FileError&) {
+        return {};
+    }
+}
+
+}  // namespace
+
+PipelineCache::PipelineCache(const VulkanFunctions& vk, VkPhysicalDevice physical, VkDevice device) : vk_(vk), device_(device) {
+    VkPhysicalDeviceIDProperties id{};
+    id.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_ID_PROPERTIES;
+    VkPhysicalDeviceProperties2 properties{};
+    properties.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+    properties.pNext = &id;
+    vk.vkGetPhysicalDeviceProperties2(physical, &properties);
+    if (const std::filesystem::path folder = cache_folder(); !folder.empty()) {
+        path_ =
+            folder / ("pipelines-" + hexadecimal(id.deviceUUID, VK_UUID_SIZE) + "-" + hexadecimal(id.driverUUID, VK_UUID_SIZE) +
+                      "-" + hexadecimal(properties.properties.pipelineCacheUUID, VK_UUID_SIZE));
+    }
+    loaded_ = read_intact(path_);
+    VkPipelineCacheCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO;
+    info.initialDataSize = loaded_.size();
+    info.pInitialData = loaded_.data();
+    if (vk.vkCreatePipelineCache(device, &info, nullptr, &cache_) == VK_SUCCESS) return;
+    info.initialDataSize = 0;
+    if (vk.vkCreatePipelineCache(device, &info, nullptr, &cache_) != VK_SUCCESS) cache_ = VK_NULL_HANDLE;
+}
+
+PipelineCache::~PipelineCache() {
+    if (!cache_) return;
+    try {
+        std::size_t size = 0;
+        std::string bytes;
+        if (!path_.empty() && vk_.vkGetPipelineCacheData(device_, cache_, &size, nullptr) == VK_SUCCESS) bytes.resize(size);
+        const bool got = size > 0 && vk_.vkGetPipelineCacheData(device_, cache_, &size, bytes.data()) == VK_SUCCESS;
+        bytes.resize(got ? size : 0);
+        if (!bytes.empty() && bytes != loaded_) {
+            const std::uint64_t h = hash(bytes);
+            std::string file(reinterpret_cast<const char*>(&h), sizeof h);
+            make_folder(std::filesystem::path(path_).parent_path());
+            write_atomically(path_, file + bytes);
+        }
+    } catch (const std::exception&) {
+        // The next run compiles again.
+    }
+    vk_.vkDestroyPipelineCache(device_, cache_, nullptr);
+}
+
+}  // namespace scree::host

@@ -1,0 +1,58 @@
+// The Vulkan functions that are used, as pointers: looked up at run time, so that the program starts where there is no Vulkan.
+#include "host/vulkan/vulkan_functions.h"
+
+#include <dlfcn.h>
+
+namespace scree::host {
+namespace {
+
+// Never closed: drivers leave threads and exit handlers behind in it.
+void* loader() {
+    static void* const library = [] {
+        void* found = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
+        return found ? found : dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
+    }();
+    return library;
+}
+
+}  // namespace
+
+bool VulkanFunctions::load() {
+    if (!loader()) return false;
+    vkGetInstanceProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(loader(), "vkGetInstanceProcAddr"));
+    if (!vkGetInstanceProcAddr) return false;
+#define SCREE_LOAD(name) name = reinterpret_cast<PFN_##name>(vkGetInstanceProcAddr(nullptr, #name));
+    SCREE_VULKAN_LOADER_FUNCTIONS(SCREE_LOAD)
+#undef SCREE_LOAD
+    // A loader of Vulkan 1.0 lacks vkEnumerateInstanceVersion; callers look at it.
+    return vkCreateInstance && vkEnumerateInstanceLayerProperties && vkEnumerateInstanceExtensionProperties;
+}
+
+const char* VulkanFunctions::load_instance(VkInstance instance) {
+    const char* missing = nullptr;
+#define SCREE_LOAD(name) name = reinterpret_cast<PFN_##name>(vkGetInstanceProcAddr(instance, #name));
+#define SCREE_LOAD_NEEDED(name) \
+    SCREE_LOAD(name)            \
+    if (!name) missing = #name;
+    SCREE_VULKAN_INSTANCE_FUNCTIONS(SCREE_LOAD_NEEDED)
+    SCREE_VULKAN_DEBUG_FUNCTIONS(SCREE_LOAD)
+    SCREE_VULKAN_SURFACE_FUNCTIONS(SCREE_LOAD)
+#undef SCREE_LOAD_NEEDED
+#undef SCREE_LOAD
+    return missing;
+}
+
+const char* VulkanFunctions::load_device(VkDevice device) {
+    const char* missing = nullptr;
+#define SCREE_LOAD(name) name = reinterpret_cast<PFN_##name>(vkGetDeviceProcAddr(device, #name));
+#define SCREE_LOAD_NEEDED(name) \
+    SCREE_LOAD(name)            \
+    if (!name) missing = #name;
+    SCREE_VULKAN_DEVICE_FUNCTIONS(SCREE_LOAD_NEEDED)
+    SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(SCREE_LOAD)
+#undef SCREE_LOAD_NEEDED
+#undef SCREE_LOAD
+    return missing;
+}
+
+}  // namespace scree::host

@@ -1,0 +1,59 @@
+// The pictures that a window shows in turn: made for its size, and anew when that changes or the surface is lost.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "host/canvas/vulkan/vulkan_objects.h"
+#include "host/vulkan/device.h"
+
+namespace scree::host {
+
+class Swapchain {
+public:
+    // `make_surface` is called now, and again when the surface is lost. Throws DeviceError.
+    Swapchain(std::shared_ptr<Device> device, std::function<VkSurfaceKHR()> make_surface);
+    ~Swapchain();
+    Swapchain(const Swapchain&) = delete;
+    Swapchain& operator=(const Swapchain&) = delete;
+
+    VkFormat format() const { return format_.format; }  // sRGB
+    VkExtent2D extent() const { return extent_; }
+    std::uint64_t rebuilds() const { return rebuilds_; }
+
+    struct Target {
+        VkImage image = VK_NULL_HANDLE;
+        VkImageView view = VK_NULL_HANDLE;
+        VkSemaphore acquired = VK_NULL_HANDLE;  // to wait for before writing
+        VkSemaphore written = VK_NULL_HANDLE;   // to be signalled by the writing
+    };
+    // The picture to write next, for a window of that size; nothing if none is to be had now (minimised, or just changed).
+    std::optional<Target> acquire(int width, int height);
+    void present();  // what was acquired last
+
+private:
+    void make_surface();
+    bool build(int width, int height);
+    void clear();
+    VkSwapchainCreateInfoKHR shape(const VkSurfaceCapabilitiesKHR& can, int width, int height) const;
+    void end_surface();
+
+    std::shared_ptr<Device> device_;
+    std::function<VkSurfaceKHR()> new_surface_;
+    VkSurfaceKHR surface_ = VK_NULL_HANDLE;
+    VkSurfaceFormatKHR format_{};
+    VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
+    VkExtent2D extent_{};
+    std::unique_ptr<Objects> objects_;  // views and semaphores of the present pictures
+    std::vector<Target> targets_;
+    std::vector<VkSemaphore> spare_;
+    std::uint32_t index_ = 0;
+    bool stale_ = true;
+    bool lost_ = false;
+    std::uint64_t rebuilds_ = 0;
+};
+
+}  // namespace scree::host

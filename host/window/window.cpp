@@ -1,0 +1,292 @@
+// The window on GLFW: its events, Dear ImGui's context, and what is shown.
+#define GLFW_INCLUDE_NONE
+#include "host/window/window.h"
+
+#include <backends/imgui_impl_glfw.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "host/canvas/vulkan/canvas_vulkan.h"
+#include "host/window/imgui_pass.h"
+#include "host/window/swapchain.h"
+
+// After the Vulkan headers, so that it knows their types.
+#include <GLFW/glfw3.h>
+
+namespace scree::host {
+namespace {
+
+std::string reason() {
+    const char* description = nullptr;
+    glfwGetError(&description);
+    return description ? description : "no reason given";
+}
+
+Key key_of_glfw(int code) {
+    if ((code >= GLFW_KEY_A && code <= GLFW_KEY_Z) || (code >= GLFW_KEY_0 && code <= GLFW_KEY_9)) return static_cast<Key>(code);
+    switch (code) {
+        case GLFW_KEY_SPACE:
+        case GLFW_KEY_PERIOD:
+        case GLFW_KEY_COMMA:
+            return static_cast<Key>(code);
+        case GLFW_KEY_ESCAPE:
+            return Key::escape;
+        case GLFW_KEY_ENTER:
+            return Key::enter;
+        case GLFW_KEY_TAB:
+            return Key::tab;
+        case GLFW_KEY_BACKSPACE:
+            return Key::backspace;
+        case GLFW_KEY_LEFT:
+            return Key::left;
+        case GLFW_KEY_RIGHT:
+            return Key::right;
+        case GLFW_KEY_UP:
+            return Key::up;
+        case GLFW_KEY_DOWN:
+            return Key::down;
+        case GLFW_KEY_PAGE_UP:
+            return Key::page_up;
+        case GLFW_KEY_PAGE_DOWN:
+            return Key::page_down;
+        case GLFW_KEY_HOME:
+            return Key::home;
+        default:
+            return Key::other;
+    }
+}
+
+}  // namespace
+
+Display::Display() {
+    if (glfwInit() != GLFW_TRUE) throw DeviceError("no display: " + reason());
+}
+Display::~Display() {
+    glfwTerminate();
+}
+std::vector<const char*> Display::extensions() const {
+    std::uint32_t count = 0;
+    const char** const names = glfwGetRequiredInstanceExtensions(&count);
+    if (names == nullptr) throw DeviceError("Vulkan cannot show pictures on this display: " + reason());
+    return {names, names + count};
+}
+
+struct Window::Interior {
+    Interior(std::shared_ptr<Device> opened, GLFWwindow* window);
+    ~Interior();
+
+    std::shared_ptr<Device> device;
+    GLFWwindow* handle;
+    std::vector<Event> events;
+    double x = 0, y = 0;  // of the pointer, pixels
+    std::unique_ptr<Swapchain> swapchain;
+    std::unique_ptr<PanelPass> panel;
+    Objects objects;
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    VkFence fence = VK_NULL_HANDLE;
+
+    void make_commands();
+    void listen();
+    void record(VkImage picture, const Swapchain::Target& target, int width, int height);
+    void submit(const Swapchain::Target& target);
+
+    static Interior& of(GLFWwindow* window) { return *static_cast<Interior*>(glfwGetWindowUserPointer(window)); }
+    void moved(double to_x, double to_y);
+    void clicked(int button, int action, int modifiers);
+    void typed(int code, int action, int modifiers);
+};
+
+Window::Interior::Interior(std::shared_ptr<Device> opened, GLFWwindow* window)
+    : device(std::move(opened)), handle(window), objects(device) {
+    ImGui::CreateContext();
+    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    if (std::filesystem::exists(SCREE_FONT)) ImGui::GetIO().Fonts->AddFontFromFileTTF(SCREE_FONT, 15);
+    ImGui::GetStyle().WindowRounding = 5;
+    ImGui::GetStyle().FrameRounding = 3;
+    swapchain = std::make_unique<Swapchain>(device, [this] {
+        VkSurfaceKHR surface = VK_NULL_HANDLE;
+        check(glfwCreateWindowSurface(device->instance(), handle, nullptr, &surface), "making the window's surface");
+        return surface;
+    });
+    panel = std::make_unique<PanelPass>(device, swapchain->format());
+    make_commands();
+    listen();
+    ImGui_ImplGlfw_InitForVulkan(handle, true);  // calls those that listen already
+}
+
+Window::Interior::~Interior() {
+    device->wait_idle();
+    panel.reset();
+    swapchain.reset();
+    if (ImGui::GetIO().BackendPlatformUserData != nullptr) ImGui_ImplGlfw_Shutdown();
+    ImGui::DestroyContext();
+    glfwDestroyWindow(handle);
+}
+
+void Window::Interior::make_commands() {
+    const VulkanFunctions& vk = device->vk();
+    VkCommandPoolCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
+    info.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
+    info.queueFamilyIndex = device->queue_family();
+    pool = objects.make(vk.vkCreateCommandPool, vk.vkDestroyCommandPool, info, "vkCreateCommandPool");
+    VkCommandBufferAllocateInfo allocation{};
+    allocation.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO;
+    allocation.commandPool = pool;
+    allocation.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
+    allocation.commandBufferCount = 1;
+    check(vk.vkAllocateCommandBuffers(device->handle(), &allocation, &commands), "vkAllocateCommandBuffers");
+    VkFenceCreateInfo fence_info{};
+    fence_info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    fence = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence_info, "vkCreateFence");
+}
+
+// Positions come in the window's own units, which are not pixels on every display.
+void Window::Interior::moved(double to_x, double to_y) {
+    int width = 0, height = 0, across = 0, down = 0;
+    glfwGetWindowSize(handle, &width, &height);
+    glfwGetFramebufferSize(handle, &across, &down);
+    x = to_x * across / std::max(1, width);
+    y = to_y * down / std::max(1, height);
+    events.push_back({.kind = EventKind::moved, .x = x, .y = y});
+}
+
+void Window::Interior::clicked(int button, int action, int modifiers) {
+    Event event{.kind = action == GLFW_PRESS ? EventKind::pressed : EventKind::released, .x = x, .y = y};
+    if (event.kind == EventKind::pressed && ImGui::GetIO().WantCaptureMouse) return;
+    event.button = button == GLFW_MOUSE_BUTTON_RIGHT    ? Button::right
+                   : button == GLFW_MOUSE_BUTTON_MIDDLE ? Button::middle
+                                                        : Button::left;
+    event.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+    events.push_back(event);
+}
+
+void Window::Interior::typed(int code, int action, int modifiers) {
+    if (action == GLFW_REPEAT || (action == GLFW_PRESS && ImGui::GetIO().WantTextInput)) return;
+    Event event{.kind = action == GLFW_PRESS ? EventKind::key_pressed : EventKind::key_released, .x = x, .y = y};
+    event.key = key_of_glfw(code);
+    event.shift = (modifiers & GLFW_MOD_SHIFT) != 0;
+    events.push_back(event);
+}
+
+void Window::Interior::listen() {
+    glfwSetWindowUserPointer(handle, this);
+    glfwSetCursorPosCallback(handle, [](GLFWwindow* window, double to_x, double to_y) { of(window).moved(to_x, to_y); });
+    glfwSetMouseButtonCallback(
+        handle, [](GLFWwindow* window, int button, int action, int modifiers) { of(window).clicked(button, action, modifiers); });
+    glfwSetKeyCallback(
+        handle, [](GLFWwindow* window, int code, int, int action, int modifiers) { of(window).typed(code, action, modifiers); });
+    glfwSetScrollCallback(handle, [](GLFWwindow* window, double, double amount) {
+        Interior& in = of(window);
+        if (!ImGui::GetIO().WantCaptureMouse)
+            in.events.push_back({.kind = EventKind::scrolled, .x = in.x, .y = in.y, .amount = amount});
+    });
+    glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* window, int width, int height) {
+        of(window).events.push_back(
+            {.kind = EventKind::resized, .x = static_cast<double>(width), .y = static_cast<double>(height)});
+    });
+}
+
+Window::Window(const Display&, std::shared_ptr<Device> device, const std::string& title, int width, int height) {
+    glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+    GLFWwindow* const window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+    if (window == nullptr) throw DeviceError("the window cannot be opened: " + reason());
+    glfwSetWindowSizeLimits(window, 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
+    interior_ = std::make_unique<Interior>(std::move(device), window);
+}
+Window::~Window() = default;
+
+int Window::width() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(interior_->handle, &width, &height);
+    return width;
+}
+int Window::height() const {
+    int width = 0, height = 0;
+    glfwGetFramebufferSize(interior_->handle, &width, &height);
+    return height;
+}
+bool Window::wants_to_close() const {
+    return glfwWindowShouldClose(interior_->handle) != 0;
+}
+void Window::set_title(const std::string& title) {
+    glfwSetWindowTitle(interior_->handle, title.c_str());
+}
+
+std::vector<Event> Window::poll(double seconds) {
+    if (seconds > 0)
+        glfwWaitEventsTimeout(seconds);
+    else
+        glfwPollEvents();
+    return std::exchange(interior_->events, {});
+}
+
+void Window::begin_panel() {
+    ImGui_ImplGlfw_NewFrame();
+    ImGui::NewFrame();
+}
+void Window::end_panel() {
+    ImGui::Render();
+}
+
+// The picture over the whole of the target, and the panel over that.
+void Window::Interior::record(VkImage picture, const Swapchain::Target& target, int width, int height) {
+    const VulkanFunctions& vk = device->vk();
+    VkCommandBufferBeginInfo begin{};
+    begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
+    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
+    check(vk.vkBeginCommandBuffer(commands, &begin), "vkBeginCommandBuffer");
+    VkImageMemoryBarrier barrier{};
+    barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
+    barrier.dstAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
+    barrier.newLayout = VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL;
+    barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+    barrier.image = target.image;
+    barrier.subresourceRange = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 1, 0, 1};
+    vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
+                            1, &barrier);
+    const VkExtent2D extent = swapchain->extent();
+    VkImageBlit blit{};
+    blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
+    blit.srcOffsets[1] = {width, height, 1};
+    blit.dstOffsets[1] = {static_cast<std::int32_t>(extent.width), static_cast<std::int32_t>(extent.height), 1};
+    vk.vkCmdBlitImage(commands, picture, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
+                      1, &blit, VK_FILTER_NEAREST);
+    panel->record(commands, *ImGui::GetDrawData(), target.view, extent);
+    check(vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer");
+}
+
+void Window::Interior::submit(const Swapchain::Target& target) {
+    const VulkanFunctions& vk = device->vk();
+    const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.waitSemaphoreCount = info.commandBufferCount = info.signalSemaphoreCount = 1;
+    info.pWaitSemaphores = &target.acquired;
+    info.pWaitDstStageMask = &stage;
+    info.pCommandBuffers = &commands;
+    info.pSignalSemaphores = &target.written;
+    device->submit(info, fence);
+    check(vk.vkWaitForFences(device->handle(), 1, &fence, VK_TRUE, ~std::uint64_t{0}), "waiting for the device");
+    check(vk.vkResetFences(device->handle(), 1, &fence), "vkResetFences");
+}
+
+bool Window::show(Canvas& canvas, const View& view) {
+    Interior& in = *interior_;
+    auto& drawing = dynamic_cast<VulkanCanvas&>(canvas);
+    const int across = width(), down = height();
+    if (across == 0 || down == 0 || across != drawing.options().width || down != drawing.options().height) return false;
+    const VkImage picture = drawing.draw_there(view.camera, view.scale, view.caption, view.low, view.high);
+    const std::optional<Swapchain::Target> target = in.swapchain->acquire(across, down);
+    if (!target) return false;
+    in.record(picture, *target, across, down);
+    in.submit(*target);
+    in.swapchain->present();
+    return true;
+}
+
+}  // namespace scree::host

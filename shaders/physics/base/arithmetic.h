@@ -1,0 +1,155 @@
+// Arithmetic whose every bit is the same on every processor: only + - *, comparisons and integer operations.
+//
+// Vulkan rounds + - * correctly, but allows division 2.5 ULP and inverse square root 2 ULP; so those are made here from an
+// integer seed and three Newton steps (relative error 1.5e-7, measured against double over the whole range).
+#ifndef SCREE_PHYSICS_ARITHMETIC_H
+#define SCREE_PHYSICS_ARITHMETIC_H
+
+#include "shaders/physics/base/dialect.h"
+
+// Literal zeros take part in no sum and no product: Mesa folds a * 0.0 and a + 0.0 and with it loses the sign of a zero,
+// NoContraction or not. So a sum begins with its first term, and what is to be 0 or more is made so by a select that never yields
+// -0.
+
+LAWS_BEGIN
+
+// 1/x for 2^-125 < |x| < 2^125. Below that the result grows to infinity, so a caller excludes 0.
+LAW float reciprocal(float x) {
+    float y = uintBitsToFloat(0x7EF311C7u - floatBitsToUint(x));
+    y = y * (2.0f - x * y);
+    y = y * (2.0f - x * y);
+    y = y * (2.0f - x * y);
+    return y;
+}
+
+// 1/sqrt(x) for 2^-125 < x < 2^125.
+LAW float inverse_square_root(float x) {
+    float half_x = 0.5f * x;
+    float y = uintBitsToFloat(0x5F375A86u - (floatBitsToUint(x) >> 1));
+    y = y * (1.5f - half_x * y * y);
+    y = y * (1.5f - half_x * y * y);
+    y = y * (1.5f - half_x * y * y);
+    return y;
+}
+
+// sqrt(x); 0 below 1e-30, where the square of anything the step measures (m, m/s) has vanished.
+LAW float square_root(float x) {
+    return choose(x > 1.0e-30f, x * inverse_square_root(x), 0.0f);
+}
+
+// Explicit selects, because min and max differ between processors on NaN and on -0.
+LAW float smaller(float a, float b) {
+    return choose(a < b, a, b);
+}
+LAW float larger(float a, float b) {
+    return choose(a > b, a, b);
+}
+LAW float clamped(float x, float low, float high) {
+    return choose(x < low, low, choose(x > high, high, x));
+}
+// x, and +0 for all that is not positive.
+LAW float positive(float x) {
+    return choose(x > 0.0f, x, 0.0f);
+}
+LAW vec3 smaller3(vec3 a, vec3 b) {
+    return vec3(smaller(a.x, b.x), smaller(a.y, b.y), smaller(a.z, b.z));
+}
+LAW vec3 larger3(vec3 a, vec3 b) {
+    return vec3(larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z));
+}
+
+// Sums are written out once, so that their order is the same everywhere.
+LAW float dot3(vec3 a, vec3 b) {
+    return (a.x * b.x + a.y * b.y) + a.z * b.z;
+}
+LAW vec3 cross3(vec3 a, vec3 b) {
+    return vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
+}
+LAW vec3 absolute3(vec3 a) {
+    return vec3(abs(a.x), abs(a.y), abs(a.z));
+}
+LAW float length3(vec3 a) {
+    return square_root(dot3(a, a));
+}
+
+// a / |a|, or `otherwise` (a unit vector) when |a| < 1e-12.
+LAW vec3 unit3(vec3 a, vec3 otherwise) {
+    float squared = dot3(a, a);
+    return choose(squared > 1.0e-24f, a * inverse_square_root(squared), otherwise);
+}
+
+// A unit vector perpendicular to the unit vector n, without a jump where n is one of the axes' diagonals
+// (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017). The second tangent is cross3(n, tangent(n)).
+LAW vec3 tangent(vec3 n) {
+    float s = choose(n.z < 0.0f, -1.0f, 1.0f);
+    float a = -reciprocal(s + n.z);
+    return vec3(1.0f + s * n.x * n.x * a, s * (n.x * n.y * a), -s * n.x);
+}
+
+// v, or as much of it as is that long.
+LAW vec3 shortened(vec3 v, float longest) {
+    float squared = dot3(v, v);
+    return choose(squared > longest * longest, v * (longest * inverse_square_root(squared)), v);
+}
+LAW vec3 xyz(vec4 v) {
+    return vec3(v.x, v.y, v.z);
+}
+
+// v turned by the unit quaternion q: v + 2w (q x v) + 2 q x (q x v).
+LAW vec3 rotate(vec4 q, vec3 v) {
+    vec3 u = vec3(q.x, q.y, q.z);
+    vec3 t = cross3(u, v) * 2.0f;
+    return v + t * q.w + cross3(u, t);
+}
+// The body's y axis in the world. Written out, because products with a literal zero are not the same everywhere (above).
+LAW vec3 upright(vec4 q) {
+    return vec3(2.0f * (q.x * q.y - q.w * q.z), 1.0f - 2.0f * (q.x * q.x + q.z * q.z), 2.0f * (q.y * q.z + q.w * q.x));
+}
+LAW vec4 conjugate(vec4 q) {
+    return vec4(-q.x, -q.y, -q.z, q.w);
+}
+LAW vec3 rotate_back(vec4 q, vec3 v) {
+    return rotate(conjugate(q), v);
+}
+// The turn q after the turn p.
+LAW vec4 compose(vec4 q, vec4 p) {
+    return vec4(q.w * p.x + q.x * p.w + q.y * p.z - q.z * p.y, q.w * p.y - q.x * p.z + q.y * p.w + q.z * p.x,
+                q.w * p.z + q.x * p.y - q.y * p.x + q.z * p.w, q.w * p.w - q.x * p.x - q.y * p.y - q.z * p.z);
+}
+LAW vec4 unit_quaternion(vec4 q) {
+    float squared = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
+    return q * inverse_square_root(squared);
+}
+
+// The columns of the rotation matrix of q: the body's axes in the world.
+struct Axes {
+    vec3 x;
+    float pad_x;
+    vec3 y;
+    float pad_y;
+    vec3 z;
+    float pad_z;
+};
+LAW Axes axes_of(vec4 q) {
+    float xx = q.x * q.x, yy = q.y * q.y, zz = q.z * q.z;
+    float xy = q.x * q.y, xz = q.x * q.z, yz = q.y * q.z;
+    float wx = q.w * q.x, wy = q.w * q.y, wz = q.w * q.z;
+    Axes axes;
+    axes.x = vec3(1.0f - 2.0f * (yy + zz), 2.0f * (xy + wz), 2.0f * (xz - wy));
+    axes.y = vec3(2.0f * (xy - wz), 1.0f - 2.0f * (xx + zz), 2.0f * (yz + wx));
+    axes.z = vec3(2.0f * (xz + wy), 2.0f * (yz - wx), 1.0f - 2.0f * (xx + yy));
+    axes.pad_x = 0.0f;
+    axes.pad_y = 0.0f;
+    axes.pad_z = 0.0f;
+    return axes;
+}
+
+// A velocity too small to move anything is zero: denormals cost a hundredfold on some processors and vanish on others.
+LAW vec3 without_dust(vec3 v) {
+    return vec3(choose(abs(v.x) < 1.0e-18f, 0.0f, v.x), choose(abs(v.y) < 1.0e-18f, 0.0f, v.y),
+                choose(abs(v.z) < 1.0e-18f, 0.0f, v.z));
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,31 @@
+// The inverse inertia of a body in the world, and what it makes of a moment.
+#ifndef SCREE_PHYSICS_INERTIA_H
+#define SCREE_PHYSICS_INERTIA_H
+
+#include "shaders/physics/base/arithmetic.h"
+#include "shaders/physics/base/records.h"
+
+LAWS_BEGIN
+
+// R diag(i) R^T, the tensor with principal values i in the axes R.
+LAW Mass tensor_in_world(Axes axes, vec3 i) {
+    vec3 x = axes.x * i.x, y = axes.y * i.y, z = axes.z * i.z;
+    Mass tensor;
+    tensor.xx = (x.x * axes.x.x + y.x * axes.y.x) + z.x * axes.z.x;
+    tensor.xy = (x.x * axes.x.y + y.x * axes.y.y) + z.x * axes.z.y;
+    tensor.xz = (x.x * axes.x.z + y.x * axes.y.z) + z.x * axes.z.z;
+    tensor.yy = (x.y * axes.x.y + y.y * axes.y.y) + z.y * axes.z.y;
+    tensor.yz = (x.y * axes.x.z + y.y * axes.y.z) + z.y * axes.z.z;
+    tensor.zz = (x.z * axes.x.z + y.z * axes.y.z) + z.z * axes.z.z;
+    tensor.inverse_mass = 0.0f;
+    tensor.split = 1.0f;
+    return tensor;
+}
+LAW vec3 turned_by(Mass tensor, vec3 v) {
+    return vec3((tensor.xx * v.x + tensor.xy * v.y) + tensor.xz * v.z, (tensor.xy * v.x + tensor.yy * v.y) + tensor.yz * v.z,
+                (tensor.xz * v.x + tensor.yz * v.y) + tensor.zz * v.z);
+}
+
+LAWS_END
+
+#endif

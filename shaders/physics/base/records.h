@@ -1,0 +1,435 @@
+// The records of a step, in memory alike for the CPU and for std430: what a body is, and what a contact is.
+#ifndef SCREE_PHYSICS_RECORDS_H
+#define SCREE_PHYSICS_RECORDS_H
+
+#include "shaders/physics/base/dialect.h"
+
+LAWS_BEGIN
+
+CONSTANT uint SHAPE_SPHERE = 0u;    // size: radius, -, -                     m
+CONSTANT uint SHAPE_CAPSULE = 1u;   // size: radius, half height, - (along y) m
+CONSTANT uint SHAPE_BOX = 2u;       // size: half extents                     m
+CONSTANT uint SHAPE_PLANE = 3u;     // size: unit normal; the pose's position is a point of it
+CONSTANT uint SHAPE_CYLINDER = 4u;  // size: radius, half height, - (along y) m
+CONSTANT uint SHAPE_CONE = 5u;      // size: radius, height, - (along y, apex up) m
+CONSTANT uint SHAPE_HULL = 6u;      // size: half extents of the box about its centre of mass that holds it, m
+CONSTANT uint SHAPE_TRIANGLE = 7u;  // of a mesh, solid behind it; size: as of a hull. In the table of hulls: triangle.h
+CONSTANT uint SHAPE_NONE = 8u;      // only its parts touch. size: its thinnest part's thickness, how far it reaches, - m
+
+CONSTANT uint MOTION_DYNAMIC = 0u;
+CONSTANT uint MOTION_FIXED = 1u;
+CONSTANT uint MOTION_KINEMATIC = 2u;
+CONSTANT uint MOTION_UNBORN = 3u;  // a piece of a body that is still whole: it is nowhere
+CONSTANT uint MOTION_BROKEN = 4u;  // its pieces are there in its place
+// With one of these: a part of a body that moves so, a row of its own that the solver never moves. Where it lies in its body says
+// its Traits: position inverse_inertia, m; orientation inverse_mass, gravity_scale, linear_damping, angular_damping.
+CONSTANT uint MOTION_OF_PART = 8u;
+
+CONSTANT uint NONE = 0xFFFFFFFFu;
+
+// ---- bodies, written when the scene is described; when one breaks, its motion and that of its pieces change
+struct Traits {
+    vec3 size;  // see SHAPE_*, m
+    uint shape;
+    vec3 inverse_inertia;      // principal, body frame, 1/(kg m^2); 0 if not dynamic
+    float inverse_mass;        // 1/kg; 0 if not dynamic
+    float friction;            // Coulomb coefficient; a pair takes the geometric mean
+    float restitution;         // 0 to 1; a pair takes the larger
+    float rolling_resistance;  // m, lever arm of the normal force that resists rolling; a pair takes the larger
+    float gravity_scale;
+    float linear_damping;   // 1/s
+    float angular_damping;  // 1/s
+    uint motion;
+    // Bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (shape_data.h), or that of its
+    // tyre (tyre.h).
+    uint large;
+    uint owner;     // the body that this one is a part of; itself for a body
+    uint fracture;  // where its fracture's description begins (fracture.h); NONE: it does not break
+    uint joints;    // where the list of its joints begins; NONE: it has none
+    uint strain;    // of a body that breaks, what the step before left of a blow: the bits of a float >= 0 (fracture.h)
+};
+
+// ---- bodies, state
+// A position is the sum of a float and a rest below its last bit (compensated summation, Kahan 1965): a substep moves a body by
+// so little that the rounding of the sum, always to the same side, would else change its speed by 1e-4 and the angular momentum
+// with it. The rest fills the records' gaps.
+struct Pose {
+    vec3 position;     // of the centre of mass, m
+    float rest_x;      // m
+    vec4 orientation;  // unit quaternion, body to world
+};
+struct Velocity {
+    vec3 linear;   // of the centre of mass, m/s
+    float rest_y;  // of the position, m
+    vec3 angular;  // world axes, rad/s
+    float rest_z;  // of the position, m
+};
+
+// What a body's velocity does not remember: the inertia of its present orientation, and what pushes it in this step.
+struct Mass {
+    float xx, xy, xz, yy;  // world inverse inertia tensor, symmetric, 1/(kg m^2)
+    float yz, zz;
+    float inverse_mass;  // 1/kg
+    float split;  // of the mass lent to a contact: a part of 1/split. In the table: how crowded the body is (mass_splitting.h)
+};
+struct Load {
+    vec3 acceleration;  // gravity and forces, m/s^2, over the whole step
+    float kept;  // part of their impulses that the body's contacts keep in this step: less than 1 if it breaks (fracture.h)
+    vec3 angular_acceleration;  // rad/s^2
+    float blows;                // contacts that struck the body in this substep and throw it back
+};
+
+// What the user asks of one body for one step; at most one record a body (the host adds up).
+CONSTANT uint ACTION_SETS_VELOCITY = 1u;
+struct Action {
+    uint body;
+    uint flags;  // ACTION_*
+    float pad0, pad1;
+    vec3 force;  // N, at the centre of mass
+    float pad2;
+    vec3 torque;  // N m
+    float pad3;
+    vec3 impulse;  // N s
+    float pad4;
+    vec3 angular_impulse;  // N m s
+    float pad5;
+    vec3 velocity;  // m/s, with ACTION_SETS_VELOCITY
+    float pad6;
+    vec3 angular_velocity;  // rad/s
+    float pad7;
+};
+
+// A body held at a point and drawn to a place by a damped spring (grab_spring.h), for as long as the user holds it.
+CONSTANT uint MOST_GRIPS = 4u;  // at once
+struct Grip {
+    vec3 anchor;  // where it is held, from the centre, in the body's frame, m
+    uint body;
+    vec3 target;      // where that point shall be, m
+    float bias_rate;  // soft constraint, 1/s (Catto 2011)
+    float mass_scale;
+    float most;       // m/s in a substep: the greatest push, as a change of the centre's velocity
+    float spin_kept;  // part of the spin that a substep leaves
+    float pad0;
+};
+
+// ---- what touches
+// Up to four points in which two bodies touch or are about to.
+struct Manifold {
+    vec3 normal;     // unit, world, from A to B
+    uint features;   // four 8-bit feature ids, point k in bits 8k to 8k + 7
+    vec4 points[4];  // xyz: from A's centre to the point midway between the surfaces, world axes, m; w: separation, m, < 0 inside
+};
+struct Touch {
+    Manifold manifold;
+    uint count;  // points, 0 to 4; unused points are zero
+    uint pad0, pad1, pad2;
+};
+
+// ---- fast bodies
+struct Flight {     // of a body through the step
+    vec3 position;  // at the start, m
+    float pad0;
+    vec4 orientation;  // at the start
+    uint stops[2];     // bits of the fraction of the step at which it is stopped; NEVER for a body that is not. Rounds of search
+                       // read one of them and write the other
+    uint struck;       // 1: something will strike it in this step and change its course
+    uint pad1;
+};
+
+// ---- who is near whom
+struct Bounds {   // of a body over the coming step, with its margin
+    vec3 lower;   // m
+    uint level;   // of the grid; cells of level l are cell * 2^l wide; with STILL (grid.h)
+    vec3 upper;   // m
+    uint bucket;  // of its centre's cell; the last one for a large body
+    Flight flight;
+};
+struct CellEntry {  // the same, in the order of buckets, then of bodies
+    vec3 lower;     // m
+    uint body;
+    vec3 upper;  // m
+    uint level;
+};
+struct Candidate {
+    uint owner;  // the body that found the pair
+    uint other;
+};
+struct Pair {
+    uint a, b;      // rows of bodies or parts, the lower id first
+    uint kind;      // KIND_*
+    uint previous;  // its contact in the last step, or NONE
+};
+
+// ---- contacts: what lasts from step to step
+struct Contact {
+    uint a, b;       // rows of bodies or parts, the lower id first. All that follows speaks of the bodies that parts belong to
+    uint count;      // points, 1 to 4
+    uint features;   // as in Manifold
+    vec3 normal;     // unit, world, from A to B, when the contact was made
+    uint age;        // steps since it was made
+    vec3 d;          // centre of B minus centre of A when it was made, m
+    float load;      // normal impulse of a substep when both bodies were last awake, N s
+    vec4 points[4];  // as in Manifold, when it was made
+    vec4 turn_a;     // orientation of A when it was made
+    vec4 turn_b;     // orientation of B when it was made
+};
+struct Impulse {
+    vec4 normal;      // per point, of one substep, N s, >= 0
+    vec4 separation;  // per point, m
+    vec4 approach;    // per point: normal velocity of an impact to be thrown back, m/s, < 0; else 0
+    vec3 friction;    // in the tangent plane, world, on B, N s
+    float twist;      // about the normal, N m s
+    vec3 rolling;     // world, on B, N m s
+    float slipped;    // way of B along A's surface in this step, m
+    vec3 d;           // centre of B minus centre of A now, m: where both bodies feel the same point
+    float pressed;    // the sum of `normal` as the substep began, N s
+};
+
+// ---- contacts: what the solver needs in this step
+// Which body a contact's points stay with while both move through the substeps of a step.
+CONSTANT uint ANCHOR_A = 0u;
+CONSTANT uint ANCHOR_B = 1u;
+CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the one point lies between two round bodies wherever they go
+
+struct Constraint {
+    uint a, b;            // bodies, never parts
+    uint slot_a, slot_b;  // where their velocity changes go; NONE for a body that contacts do not move
+    vec3 normal;          // unit, world, from A to B
+    float friction;       // Coulomb coefficient of the pair
+    vec4 arms[4];  // xyz: from the anchor's centre to the point, m (ANCHOR_ROUND: from A's centre to the centre of A's curvature)
+    vec3 centre;   // of the friction patch, as the arms, m (ANCHOR_ROUND: of B's curvature, from B's centre)
+    float reach;   // lever arm of twisting friction, m: mean distance of the points from the patch's centre
+    float rolling_resistance;  // of the pair, m
+    float restitution;         // of the pair
+    uint count;                // points
+    uint anchor;               // ANCHOR_*
+    float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m; else radius_a: slip at which a tyre holds best, m/s; 0: no tyre
+    uint pair;                 // whose manifold it is
+    float leave;               // way after which the points have left the body that they slide over, m
+};
+struct Slot {       // what one contact did to one body; a body sums its slots in order
+    vec3 linear;    // m/s
+    float carries;  // 1: the contact pushes, or will in the next substep; it counts in the split
+    vec3 angular;   // rad/s
+    float told;     // the normal impulse, N s; in the last pass what the other body tells of its rest (sleep.h), steps
+};
+
+// ---- joints
+// What a joint may do along or about one of its six axes: along x, y and z of its frame in A, then the twist about x, and the
+// swing about y and z. A place is how far B is from A there.
+CONSTANT uint AXIS_LOCKED = 1u;
+CONSTANT uint AXIS_LIMITED = 2u;
+CONSTANT uint AXIS_MOTOR = 4u;   // driven to a speed; friction is a motor of speed 0
+CONSTANT uint AXIS_SPRING = 8u;  // drawn to a place, or damped
+struct JointAxis {
+    uint mode;           // AXIS_*
+    float lower, upper;  // of the place, m or rad
+    float stiffness;     // N/m or N m/rad
+    float damping;       // N s/m or N m s/rad
+    float rest;          // the spring's place, m or rad
+    float speed;         // of a motor, m/s or rad/s
+    float most;          // of a motor or spring, N or N m
+};
+// An axis in the pass at hand, and its impulses, which last.
+struct JointRow {
+    vec3 direction;  // along or about which B is pushed and A pushed back, world, unit
+    float place;     // m or rad
+    vec3 arm_a;      // what turns A: lever x direction, m, or the direction itself
+    float drift;     // what the place's second derivative adds to its speed until the middle of the substep, m/s or rad/s
+    vec3 arm_b;
+    float give;          // speed that an impulse of 1 brings about in the lent bodies, 1/kg or 1/(kg m^2)
+    float drive, stop;   // impulses of a substep: of lock, motor or spring; of the limit (> 0: of the lower), N s or N m s
+    float drive_change;  // in this pass
+    float stop_change;
+};
+
+CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's, and its place is their distance
+CONSTANT uint JOINT_CONE = 2u;      // axis y of the swing is the one that B has swung about, and its place the whole swing
+CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies may touch
+CONSTANT uint JOINT_SPINS = 8u;  // B spins about its x axis: with its swing's axes as they are at rest, swinging would stop that
+// Each axis has four bits of Joint.pins.
+CONSTANT uint PIN_LOW = 1u;   // the drive pushes as hard as it may, down
+CONSTANT uint PIN_HIGH = 2u;  // and up
+CONSTANT uint STOP_LOW = 4u;  // the lower limit acts
+CONSTANT uint STOP_HIGH = 8u;
+
+// A record holds the i-th joint of a block of joints and the i-th body of it; there are as many as the more numerous has. Joints
+// are in the order in which they are eliminated (compute/step/joint_blocks.h).
+struct Joint {
+    uint a, b;                // bodies; NONE: the world
+    uint member_a, member_b;  // records where the block has them; NONE for what is not dynamic
+    vec3 anchor_a;            // in A's frame, m
+    uint flags;               // JOINT_*
+    vec3 anchor_b;
+    uint next_a;   // joint of body A after this one in its list; NONE: the last
+    vec4 frame_a;  // from the joint's axes to A's
+    vec4 frame_b;
+    JointAxis axes[6];
+    float break_force, break_torque;  // N, N m
+    uint next_b;
+    uint links;        // how many
+    uint links_to[8];  // joints of the block behind this one that its elimination changes, in rising order (MOST_LINKS)
+    // ---- of the block, in its first record
+    uint block_joints, block_members;
+    uint first_of_block;  // in record i: where the i-th block begins
+    uint restless;        // 1: a body of it is, in this step
+    // ---- state
+    uint pins;    // per axis
+    uint broken;  // 1: it has torn
+    uint solved;  // bit per axis that is in the pass's system of equations
+    uint pad0;
+    vec3 force;  // on B, N: sums of impulses within a step, their mean at its end
+    float greatest_force;
+    vec3 torque;  // N m
+    float greatest_torque;
+    // ---- the body of this record
+    uint member;  // NONE: none
+    uint slot;
+    float pressed;      // N s
+    uint blocks;        // that have the body
+    Mass mass;          // lent
+    Velocity velocity;  // lent
+    // ---- the pass's equations
+    JointRow rows[6];
+    float solution[8];    // 6 are in use
+    float diagonal[36];   // 6 rows of 6
+    float coupling[288];  // per link, 6 rows of the later joint by 6 of this one
+};
+CONSTANT uint MOST_LINKS = 8u;
+CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slots' sides: of the block's body in this record
+
+// ---- vehicles (vehicle.h)
+struct VehicleWheel {
+    uint joint;  // its record
+    uint body;
+    float radius;      // m
+    float ahead;       // of the axis that it turns about when the vehicle turns, m; 0 for a wheel that is not steered
+    float aside;       // of the vehicle's middle, to the left, m
+    float torque;      // N m, at full throttle
+    float power;       // W, at full throttle
+    float drag;        // N m, without throttle
+    float brake;       // N m
+    float hand_brake;  // N m
+    float skid;        // part of the steering that is added to its throttle, -1 to 1
+    uint steers;       // 1: its joint is turned
+};
+// How a vehicle is driven: all of it but its wheels.
+struct Handling {
+    uint chassis;
+    uint wheels;
+    uint route;        // where its way points begin in the table of hulls: x, y, z, m, and the speed there, m/s
+    uint points;       // of the route; 0: it has none
+    vec4 frame;        // from its axes (x to the left, y up, z ahead) to those of the chassis
+    float top_speed;   // m/s
+    float back_speed;  // m/s, backwards
+    float tightest;    // curvature of the curve at full lock, 1/m
+    float turning;     // greatest change of that, 1/(m s)
+    float lateral;     // m/s^2, the most that a curve may need at the present speed
+    uint loops;        // 1: the route begins again behind its last point
+    float speed;       // state: ahead, m/s
+    float curvature;   // state: of the curve that its wheels are steered to, 1/m, > 0: to the left
+    // What it is told.
+    float throttle, brake, steer, hand_brake;  // as in scree::Controls
+    uint by_route;                             // 1: the driver follows the route
+    uint next;                                 // state: way point that it drives to; `points`: it has arrived
+    uint passed;                               // state: way points so far
+    uint pad0;
+};
+CONSTANT uint MOST_WHEELS = 8u;
+struct Vehicle {
+    Handling handling;
+    VehicleWheel wheel[8];  // MOST_WHEELS
+};
+
+// ---- the step itself
+struct Parameters {  // the same for every thread of a step
+    vec3 gravity;    // m/s^2
+    float dt;        // of a step, s
+    float h;         // of a substep, s
+    float inverse_h;
+    float bias_rate;  // soft contact, 1/s (Catto 2011)
+    float mass_scale;
+    float impulse_scale;
+    float push_speed;             // m/s
+    float inverse_relaxation;     // 1 / 1.5
+    float speculative;            // m
+    float restitution_threshold;  // m/s
+    float max_speed;              // m/s
+    float max_spin;               // rad/s
+    float cell;                   // width of the grid's finest cells, m
+    float inverse_cell;
+    uint bodies;   // rows of the bodies' tables, parts included
+    uint buckets;  // of the grid, a power of two; one more holds the large bodies
+    uint pair_capacity;
+    uint contact_capacity;
+    uint group_size;          // threads of a workgroup, a power of two
+    uint group_shift;         // its logarithm
+    uint actions;             // records in the list, for the coming step
+    uint redo;                // 1: the step is done again after a buffer grew; impulses have been applied already
+    uint wake_all;            // 1: all sleepers wake as the step begins
+    uint sleep_steps;         // quiet steps after which a body sleeps; sleep.h's NO_SLEEP
+    float sleep_speed;        // m/s, slower is quiet
+    float friction_factor;    // on the friction of every pair
+    float least_restitution;  // of every pair
+    uint held;                // grips in use
+    uint first_part;          // from this row on, rows are parts of bodies
+    uint joint_blocks;
+    uint vehicles;
+    uint pad0, pad1;
+    Grip grips[4];  // MOST_GRIPS
+};
+
+// What there may be in a scene; a device leaves out the rest.
+CONSTANT uint CONTENT_BOUNCES = 1u;  // restitution
+CONSTANT uint CONTENT_ROLLS = 2u;    // resistance to rolling
+CONSTANT uint CONTENT_ROUND = 4u;    // round bodies
+CONSTANT uint CONTENT_TYRES = 8u;
+CONSTANT uint CONTENT_PARTS = 16u;      // bodies of several parts that move
+CONSTANT uint CONTENT_REORDERED = 32u;  // bodies whose rows are in another order than their ids
+
+CONSTANT uint KINDS = 16u;  // of pairs: fourteen of shapes, those whose contact is kept, and those at rest
+CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind
+CONSTANT uint SPAN_SHIFT = 4u;
+CONSTANT uint SCAN_ITEMS = 8u;  // items that one thread of a scan adds up
+CONSTANT uint SCAN_SHIFT = 3u;
+
+// Work that the device counts itself: rows of Counts.arguments.
+CONSTANT uint WORK_PAIRS = 0u;
+CONSTANT uint WORK_SPANS = 1u;
+CONSTANT uint WORK_KIND_BLOCKS = 2u;
+CONSTANT uint WORK_PAIR_BLOCKS = 3u;
+CONSTANT uint WORK_CONTACTS = 4u;
+CONSTANT uint WORK_KIND = 5u;  // and the KINDS - 1 rows after it
+CONSTANT uint WORK_SOLVED = 21u;
+CONSTANT uint WORK_SHAKEN = 22u;
+CONSTANT uint WORK_FLIGHTS = 23u;  // all pairs if some body is fast, else none
+CONSTANT uint WORKS = 24u;
+CONSTANT uint OVERFLOW_PAIRS = 1u;
+CONSTANT uint OVERFLOW_CONTACTS = 2u;
+
+struct Counts {  // what the device counts in a step
+    uint pairs, contacts;
+    uint levels;    // bit l: some body is on level l of the grid
+    uint overflow;  // OVERFLOW_*; while not 0 no stage changes the bodies
+    uint required_pairs, required_contacts;
+    uint steps;            // whole steps done
+    uint pairs_coarse;     // pairs in units of 256, each body's rounded up: it does not wrap where their number does
+    uint levels_stirring;  // bit l: some body that stirs is on level l
+    uint large_stirring;   // 1: some large body stirs
+    uint sleepers;         // 1: some body is asleep as the step begins
+    uint solved;           // contacts that move somebody: those of the solver
+    uint kind_first[20];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint fast;             // 1: some body will be fast in this step
+    uint broken;           // bodies that break in this step
+    uint pad0, pad1;
+    uvec4 arguments[24];  // per WORK_*: workgroups x, y, z, and threads
+};
+
+// Not there at present: it touches nothing and is seen nowhere, only its row is kept.
+LAW bool is_absent(uint motion) {
+    return motion == MOTION_UNBORN || motion == MOTION_BROKEN;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,86 @@
+// What follows from a count: how many workgroups run, and whether the lists have room.
+//
+// A list that would outgrow its buffer is known from its count alone, before anything is written. Then everything after it does
+// nothing, the bodies stay as they were, and the host grows the buffer and runs the step again: no contact is ever dropped.
+#ifndef SCREE_PHYSICS_COUNTS_H
+#define SCREE_PHYSICS_COUNTS_H
+
+#include "shaders/physics/base/records.h"
+
+LAWS_BEGIN
+
+LAW uvec4 work_for(uint threads, Parameters parameters) {
+    return uvec4((threads + parameters.group_size - 1u) >> parameters.group_shift, 1u, 1u, threads);
+}
+// Workgroups of a scan over `items` and the total behind them.
+LAW uvec4 scan_work_for(uint items, Parameters parameters) {
+    uint block = parameters.group_size << SCAN_SHIFT;
+    return uvec4((items + block) >> (parameters.group_shift + SCAN_SHIFT), 1u, 1u, items + 1u);
+}
+LAW uint spans_of(uint pairs) {
+    return (pairs + SPAN - 1u) >> SPAN_SHIFT;
+}
+
+LAW Counts with_pairs(Counts counts, uint total, Parameters parameters) {
+    bool uncountable = counts.pairs_coarse > 0x800000u + parameters.bodies;  // 2^31 pairs; the host refuses to grow that far
+    if (total > parameters.pair_capacity || uncountable) {
+        counts.overflow = counts.overflow | OVERFLOW_PAIRS;
+        counts.required_pairs = uncountable ? 0xFFFFFFFFu : total;
+    }
+    counts.pairs = counts.overflow == 0u ? total : 0u;
+    counts.arguments[WORK_PAIRS] = work_for(counts.pairs, parameters);
+    counts.arguments[WORK_SPANS] = work_for(spans_of(counts.pairs), parameters);
+    counts.arguments[WORK_KIND_BLOCKS] = scan_work_for(KINDS * spans_of(counts.pairs), parameters);
+    counts.arguments[WORK_PAIR_BLOCKS] = scan_work_for(counts.pairs, parameters);
+    counts.arguments[WORK_FLIGHTS] = work_for(counts.fast != 0u ? counts.pairs : 0u, parameters);
+    return counts;
+}
+
+LAW Counts with_kinds(Counts counts, uint kind, uint first, uint last, Parameters parameters) {
+    counts.kind_first[kind] = first;
+    counts.kind_first[kind + 1u] = last;
+    counts.arguments[WORK_KIND + kind] = work_for(last - first, parameters);
+    return counts;
+}
+
+LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
+    if (total > parameters.contact_capacity) {
+        counts.overflow = counts.overflow | OVERFLOW_CONTACTS;
+        counts.required_contacts = total;
+        counts.pairs = 0u;
+        counts.arguments[WORK_PAIRS] = work_for(0u, parameters);
+        counts.arguments[WORK_FLIGHTS] = work_for(0u, parameters);
+    }
+    counts.contacts = counts.overflow == 0u ? total : 0u;
+    counts.arguments[WORK_CONTACTS] = work_for(counts.contacts, parameters);
+    return counts;
+}
+
+// At the start of a step, and with overflow still set: nothing to do for anyone. A scan has its total to say.
+LAW uvec4 empty_work(uint row, Parameters parameters) {
+    return row == WORK_KIND_BLOCKS || row == WORK_PAIR_BLOCKS ? scan_work_for(0u, parameters) : work_for(0u, parameters);
+}
+LAW Counts emptied(Counts counts, Parameters parameters) {
+    counts.pairs = 0u;
+    counts.contacts = 0u;
+    counts.levels = 0u;
+    counts.levels_stirring = 0u;
+    counts.large_stirring = 0u;
+    counts.sleepers = 0u;
+    counts.solved = 0u;
+    counts.pairs_coarse = 0u;
+    counts.fast = 0u;
+    counts.broken = 0u;
+    for (uint k = 0u; k < KINDS + 1u; ++k) counts.kind_first[k] = 0u;
+    for (uint k = 0u; k < WORKS; ++k) counts.arguments[k] = empty_work(k, parameters);
+    return counts;
+}
+
+// Whether any body may move in this step: if not, nobody wakes and no contact is solved.
+LAW bool any_stirs(Counts counts) {
+    return counts.levels_stirring != 0u || counts.large_stirring != 0u;
+}
+
+LAWS_END
+
+#endif

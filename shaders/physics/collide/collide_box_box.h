@@ -1,0 +1,227 @@
+// Where two boxes touch: fifteen separating axes, then face against face or edge against edge.
+#ifndef SCREE_PHYSICS_COLLIDE_BOX_BOX_H
+#define SCREE_PHYSICS_COLLIDE_BOX_BOX_H
+
+#include "shaders/physics/collide/box_axes.h"
+#include "shaders/physics/collide/manifold.h"
+#include "shaders/physics/collide/manifold_reduction.h"
+
+LAWS_BEGIN
+
+// One box seen from another one's frame: x, y, z are its axes there, d is its centre (m).
+struct BoxView {
+    vec3 x;
+    float pad_x;
+    vec3 y;
+    float pad_y;
+    vec3 z;
+    float pad_z;
+    vec3 d;
+    float pad_d;
+};
+
+LAW BoxView view_of(Pose from, Pose to) {
+    Axes axes = axes_of(compose(conjugate(from.orientation), to.orientation));
+    BoxView view;
+    view.x = axes.x;
+    view.y = axes.y;
+    view.z = axes.z;
+    view.d = rotate_back(from.orientation, to.position - from.position);
+    view.pad_x = 0.0f;
+    view.pad_y = 0.0f;
+    view.pad_z = 0.0f;
+    view.pad_d = 0.0f;
+    return view;
+}
+// The first box as the second one sees it.
+LAW BoxView reversed(BoxView view) {
+    BoxView back = view;
+    back.x = vec3(view.x.x, view.y.x, view.z.x);
+    back.y = vec3(view.x.y, view.y.y, view.z.y);
+    back.z = vec3(view.x.z, view.y.z, view.z.z);
+    back.d = -vec3(dot3(view.d, view.x), dot3(view.d, view.y), dot3(view.d, view.z));
+    return back;
+}
+// The view with the seeing frame's coordinates in another order.
+LAW BoxView from_turned(BoxView view, uint k) {
+    view.x = turned(view.x, k);
+    view.y = turned(view.y, k);
+    view.z = turned(view.z, k);
+    view.d = turned(view.d, k);
+    return view;
+}
+// The view with the seen box's axes in another order.
+LAW BoxView of_turned(BoxView view, uint k) {
+    vec3 x = k == 0u ? view.x : (k == 1u ? view.y : view.z);
+    vec3 y = k == 0u ? view.y : (k == 1u ? view.z : view.x);
+    vec3 z = k == 0u ? view.z : (k == 1u ? view.x : view.y);
+    view.x = x;
+    view.y = y;
+    view.z = z;
+    return view;
+}
+
+// The separations (m) along the seeing box's three face normals.
+LAW vec3 face_separations(BoxView view, vec3 own, vec3 other) {
+    vec3 reach = absolute3(view.x) * other.x + absolute3(view.y) * other.y + absolute3(view.z) * other.z;
+    return absolute3(view.d) - own - reach;
+}
+
+// The best of the nine axes across two edges: edge i of A and edge j of B; k = 3i + j.
+struct EdgeAxis {
+    float separation;  // m
+    uint k;
+};
+
+// Edges closer to parallel than 0.005 rad have no axis; the faces' normals are as good there.
+LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
+    EdgeAxis best;
+    best.separation = -1.0e30f;
+    best.k = 0u;
+    for (uint i = 0u; i < 3u; ++i) {
+        for (uint j = 0u; j < 3u; ++j) {
+            // The axis is (1, 0, 0) x view.x.
+            float squared = view.x.y * view.x.y + view.x.z * view.x.z;
+            if (squared > 2.5e-5f) {
+                float own_reach = own.y * abs(view.x.z) + own.z * abs(view.x.y);
+                float other_reach = other.y * abs(view.z.x) + other.z * abs(view.y.x);
+                float along = abs(view.d.z * view.x.y - view.d.y * view.x.z);
+                float separation = (along - (own_reach + other_reach)) * inverse_square_root(squared);
+                if (separation > best.separation) {
+                    best.separation = separation;
+                    best.k = 3u * i + j;
+                }
+            }
+            view = of_turned(view, 1u);
+            other = turned(other, 1u);
+        }
+        view = from_turned(view, 1u);
+        own = turned(own, 1u);
+    }
+    return best;
+}
+
+// One point, between the nearest points of the two edges. Where the edges of two boxes that are apart end before they meet, the
+// way between their ends is the normal: along the axis they would seem nearer than they are.
+LAW Touch touch_of_edges(Pose pose_a, BoxView view, vec3 own, vec3 other, EdgeAxis axis, float margin) {
+    uint i = axis.k >= 6u ? 2u : (axis.k >= 3u ? 1u : 0u);
+    uint j = axis.k - 3u * i;
+    view = of_turned(from_turned(view, i), j);
+    own = turned(own, i);
+    other = turned(other, j);
+    float squared = view.x.y * view.x.y + view.x.z * view.x.z;
+    float scale = inverse_square_root(squared);
+    if (view.d.z * view.x.y - view.d.y * view.x.z < 0.0f) scale = -scale;
+    vec3 normal = vec3(0.0f, -view.x.z * scale, view.x.y * scale);
+
+    // The edges that face each other, from A's centre: middles and directions (1, 0, 0) and view.x.
+    vec3 on_a = vec3(0.0f, normal.y < 0.0f ? -own.y : own.y, normal.z < 0.0f ? -own.z : own.z);
+    vec3 on_b = view.d + view.y * (dot3(normal, view.y) < 0.0f ? other.y : -other.y) +
+                view.z * (dot3(normal, view.z) < 0.0f ? other.z : -other.z);
+    vec3 middle_b = on_b;
+    vec3 r = on_b - on_a;
+    float t = -(view.x.y * r.y + view.x.z * r.z) * (scale * scale);
+    on_b = middle_b + view.x * clamped(t, -other.x, other.x);
+    bool beyond = abs(t) > other.x;
+    float s = on_b.x;
+    on_a.x = clamped(s, -own.x, own.x);
+    if (abs(s) > own.x) {
+        beyond = true;
+        on_b = middle_b + view.x * clamped(dot3(view.x, on_a - middle_b), -other.x, other.x);
+    }
+    float separation = axis.separation;
+    if (beyond && separation > 0.0f) {
+        r = on_b - on_a;
+        separation = length3(r);
+        normal = unit3(r, normal);
+    }
+
+    vec3 world_normal = rotate(pose_a.orientation, turned_back(normal, i));
+    vec3 point = rotate(pose_a.orientation, turned_back((on_a + on_b) * 0.5f, i));
+    return with_point(touch_along(world_normal), point, separation, 64u + axis.k, margin);
+}
+
+// The face `face` of the seeing box (the reference, at `pose`) against the face of the other that looks back at it. Points are
+// from the reference's centre; the normal points away from it. A feature is one of overlay_corner(). Where no part of the other
+// face lies above this one and the touch must hold nevertheless, the face's point nearest to the deepest corner stands in.
+LAW Touch touch_of_faces(Pose pose, BoxView view, vec3 own, vec3 other, uint face, float slop, float margin, bool must_hold) {
+    view = from_turned(view, face);
+    own = turned(own, face);
+    float outward = view.d.x < 0.0f ? -1.0f : 1.0f;
+    uint incident = largest_of(vec3(abs(view.x.x), abs(view.y.x), abs(view.z.x)));
+    view = of_turned(view, incident);
+    other = turned(other, incident);
+    vec3 centre = view.d + view.x * (view.x.x * outward > 0.0f ? -other.x : other.x);
+    vec3 e = view.y * other.y;
+    vec3 f = view.z * other.z;
+    // Heights are counted from the reference face, outwards.
+    centre.x = centre.x * outward - own.x;
+    e.x = e.x * outward;
+    f.x = f.x * outward;
+    float flat_within = 0.1f * slop;
+    Overlay overlay = overlay_of(centre, e, f, own.y, own.z, flat_within);
+    uint chosen = best_four(overlay, margin, flat_within);
+
+    Touch touch = touch_along(rotate(pose.orientation, turned_back(vec3(outward, 0.0f, 0.0f), face)));
+    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
+        bool stands_in = k == 0u && chosen == 0u && must_hold;
+        if (stands_in || (chosen & (1u << k)) != 0u) {
+            vec4 corner = overlay_corner(overlay, k);
+            if (stands_in) {
+                vec3 lowest = centre + e * (e.x < 0.0f ? 1.0f : -1.0f) + f * (f.x < 0.0f ? 1.0f : -1.0f);
+                corner = vec4(lowest.x, clamped(lowest.y, -own.y, own.y), clamped(lowest.z, -own.z, own.z), 31.0f);
+            }
+            vec3 point = vec3(outward * (own.x + 0.5f * corner.x), corner.y, corner.z);
+            point = rotate(pose.orientation, turned_back(point, face));
+            touch = with_point(touch, point, corner.x, uint(corner.w), margin);
+        }
+    }
+    return touch;
+}
+
+// A face of A is preferred, then one of B, then an edge against an edge: what resting boxes do must not hop between them.
+LAW Touch collide_box_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+    BoxView b_from_a = view_of(pose_a, pose_b);
+    BoxView a_from_b = reversed(b_from_a);
+    float slop = smaller(slop_of(a.size), slop_of(b.size));
+    vec3 faces_a = face_separations(b_from_a, a.size, b.size);
+    vec3 faces_b = face_separations(a_from_b, b.size, a.size);
+    uint face_a = largest_of(faces_a);
+    uint face_b = largest_of(faces_b);
+    float best_a = coordinate(faces_a, face_a);
+    float best_b = coordinate(faces_b, face_b);
+    if (larger(best_a, best_b) >= margin) return no_touch();
+    EdgeAxis edge = best_edge_axis(b_from_a, a.size, b.size);
+    if (edge.separation >= margin) return no_touch();
+
+    bool of_b = best_b > best_a + 0.1f * slop;
+    float best_face = of_b ? best_b : best_a;
+    bool edge_serves = edge.separation > best_face - slop;
+    Touch touch = no_touch();
+    if (edge.separation <= best_face + slop) {
+        Pose reference = pose_a;
+        BoxView view = b_from_a;
+        vec3 own = a.size;
+        vec3 other = b.size;
+        uint face = face_a;
+        if (of_b) {
+            reference = pose_b;
+            view = a_from_b;
+            own = b.size;
+            other = a.size;
+            face = face_b;
+        }
+        touch = touch_of_faces(reference, view, own, other, face, slop, margin, best_face < 0.0f && !edge_serves);
+        if (of_b) touch = flipped(touch, pose_a.position - pose_b.position);
+    }
+    // Where the faces do not lie above each other as deep as their planes say, an edge that is no worse serves.
+    if (edge_serves && deepest_of(touch) > best_face + slop) {
+        Touch by_edges = touch_of_edges(pose_a, b_from_a, a.size, b.size, edge, margin);
+        if (by_edges.count > 0u) touch = by_edges;
+    }
+    return touch;
+}
+
+LAWS_END
+
+#endif

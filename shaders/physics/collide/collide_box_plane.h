@@ -1,0 +1,33 @@
+// Where a box touches a plane.
+#ifndef SCREE_PHYSICS_COLLIDE_BOX_PLANE_H
+#define SCREE_PHYSICS_COLLIDE_BOX_PLANE_H
+
+#include "shaders/physics/collide/manifold.h"
+
+LAWS_BEGIN
+
+// The corners of the face that looks at the plane; it holds the deepest one. A feature is a corner of the box: its three signs.
+LAW Touch collide_box_plane(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+    vec3 normal = rotate_back(pose_a.orientation, b.size);
+    float height = -dot3(b.size, pose_b.position - pose_a.position);
+    vec3 slant = absolute3(normal);
+    uint face = slant.y >= slant.x && slant.y >= slant.z ? 1u : (slant.x >= slant.z ? 0u : 2u);
+    Touch touch = touch_along(-b.size);
+    for (uint k = 0u; k < 4u; ++k) {
+        float first = (k & 1u) == 0u ? -1.0f : 1.0f;
+        float second = (k & 2u) == 0u ? -1.0f : 1.0f;
+        vec3 signs = vec3(normal.x > 0.0f ? -1.0f : 1.0f, first, second);
+        if (face == 1u) signs = vec3(first, normal.y > 0.0f ? -1.0f : 1.0f, second);
+        if (face == 2u) signs = vec3(first, second, normal.z > 0.0f ? -1.0f : 1.0f);
+        vec3 corner = signs * a.size;
+        float separation = height + dot3(normal, corner);
+        uint feature = (signs.x > 0.0f ? 1u : 0u) + (signs.y > 0.0f ? 2u : 0u) + (signs.z > 0.0f ? 4u : 0u);
+        vec3 point = rotate(pose_a.orientation, corner) - b.size * (0.5f * separation);
+        touch = with_point(touch, point, separation, feature, margin);
+    }
+    return touch;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,16 @@
+// Where a sphere touches a plane.
+#ifndef SCREE_PHYSICS_COLLIDE_SPHERE_PLANE_H
+#define SCREE_PHYSICS_COLLIDE_SPHERE_PLANE_H
+
+#include "shaders/physics/collide/manifold.h"
+
+LAWS_BEGIN
+
+LAW Touch collide_sphere_plane(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+    float height = -dot3(b.size, pose_b.position - pose_a.position);
+    return touch_of_balls(-b.size, height, a.size.x, 0.0f, margin);
+}
+
+LAWS_END
+
+#endif

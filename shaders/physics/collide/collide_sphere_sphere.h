@@ -1,0 +1,17 @@
+// Where two spheres touch.
+#ifndef SCREE_PHYSICS_COLLIDE_SPHERE_SPHERE_H
+#define SCREE_PHYSICS_COLLIDE_SPHERE_SPHERE_H
+
+#include "shaders/physics/collide/manifold.h"
+
+LAWS_BEGIN
+
+// Coincident centres part upwards.
+LAW Touch collide_sphere_sphere(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+    vec3 d = pose_b.position - pose_a.position;
+    return touch_of_balls(unit3(d, vec3(0.0f, 1.0f, 0.0f)), length3(d), a.size.x, b.size.x, margin);
+}
+
+LAWS_END
+
+#endif

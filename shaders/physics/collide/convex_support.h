@@ -1,0 +1,288 @@
+// What all convex shapes can be asked alike: how far they reach in a direction, and what faces they have.
+#ifndef SCREE_PHYSICS_SOLID_H
+#define SCREE_PHYSICS_SOLID_H
+
+#include "shaders/physics/collide/shape_data.h"
+#include "shaders/physics/extra/sweep.h"
+
+LAWS_BEGIN
+
+// A body as a convex core and a radius around it (of spheres and capsules; else 0). Directions and points are along the world's
+// axes, from the body's centre.
+struct Solid {
+    Axes axes;
+    vec3 size;      // as in Traits
+    uint shape;     // SHAPE_*, but no plane
+    HullHead head;  // of a hull its own; of a box its corners and faces; of others the faces that are flat
+    uint hull;      // its place in the table
+    float radius;   // m
+    float scale;    // its thickness, m; of a triangle its size
+    float pad;
+};
+LAW vec3 in_body(Axes axes, vec3 v) {
+    return vec3(dot3(axes.x, v), dot3(axes.y, v), dot3(axes.z, v));
+}
+LAW vec3 in_world(Axes axes, vec3 v) {
+    return (axes.x * v.x + axes.y * v.y) + axes.z * v.z;
+}
+
+// Across a body's y axis, unit, the way v points; the body's x axis where it points neither way. What rounding leaves along the
+// axis of a v that points almost along it is taken away once more: it would lift a rim by a hundredth of its radius.
+LAW vec3 outward_from_axis(Axes axes, vec3 v) {
+    vec3 across = v - axes.y * dot3(axes.y, v);
+    if (dot3(across, across) <= 1.0e-10f * dot3(v, v)) return axes.x;
+    across = unit3(across, axes.x);
+    return unit3(across - axes.y * dot3(axes.y, across), axes.x);
+}
+
+// A cone's centre of mass lies a quarter of its height above its base. Its side's normal has these parts: outward, and upward.
+LAW float cone_apex(vec3 size) {
+    return 0.75f * size.y;
+}
+LAW float cone_base(vec3 size) {
+    return -0.25f * size.y;
+}
+LAW vec3 cone_normal(Axes axes, vec3 size, vec3 outward) {
+    float scale = inverse_square_root(size.x * size.x + size.y * size.y);
+    return outward * (size.y * scale) + axes.y * (size.x * scale);
+}
+
+LAW vec3 rim_point(Solid solid, vec3 outward, float height) {
+    return outward * solid.size.x + solid.axes.y * height;
+}
+
+// The core reaches at least so far from its centre, in any direction, m; that of a hull the table knows.
+LAW float inner_radius(uint shape, vec3 size) {
+    if (shape == SHAPE_BOX) return smaller(size.x, smaller(size.y, size.z));
+    if (shape == SHAPE_CYLINDER) return smaller(size.x, size.y);
+    if (shape != SHAPE_CONE) return size.x - size.x;
+    float slope = size.x * inverse_square_root(size.x * size.x + size.y * size.y);
+    return smaller(-cone_base(size), slope * cone_apex(size));
+}
+
+// A device that knows both to be hulls (ONLY_HULLS) leaves out what is asked of other shapes.
+LAW Solid solid_of(Traits traits, vec4 orientation, Hulls hulls) {
+    Solid solid;
+    solid.axes = axes_of(orientation);
+    solid.size = traits.size;
+#ifdef ONLY_HULLS
+    solid.shape = SHAPE_HULL;
+#else
+    solid.shape = traits.shape == SHAPE_TRIANGLE ? SHAPE_HULL : traits.shape;
+#endif
+    solid.hull = hull_of(traits);
+    solid.radius = traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE ? traits.size.x : 0.0f;
+    solid.scale = thickness(traits);
+    if (traits.shape == SHAPE_TRIANGLE) solid.scale = larger(traits.size.x, larger(traits.size.y, traits.size.z));
+    solid.pad = 0.0f;
+    solid.head.vertices = solid.shape == SHAPE_BOX ? 8u : 0u;
+    solid.head.faces = solid.shape == SHAPE_BOX ? 6u : (solid.shape == SHAPE_CYLINDER ? 2u : 0u);
+    if (solid.shape == SHAPE_CONE) solid.head.faces = 1u;
+    solid.head.across = 0u;
+    solid.head.inner = inner_radius(solid.shape, solid.size);
+    if (solid.shape == SHAPE_HULL) solid.head = hull_head(hulls, solid.hull);
+    return solid;
+}
+
+// Some of the corners of a box or a hull, or all.
+struct Corners {
+    uvec4 list;  // their numbers, from the second byte on; unused when all are meant
+    uint count;
+    bool all;
+    uint pad0, pad1;
+};
+// At least those that reach farthest in a direction (in the body's frame) or in one that differs from it by less than 1.8
+// degrees: a hull's cell lists few, and of two hulls of 32 corners an eighth is read of what would be.
+LAW Corners corners_towards(Solid solid, vec3 local, Hulls hulls) {
+    Corners corners;
+    corners.list = uvec4(0u);
+    corners.count = solid.head.vertices;
+    corners.all = true;
+    corners.pad0 = 0u;
+    corners.pad1 = 0u;
+    if (solid.head.across > 0u) {
+        corners.list = hull_record(hulls, hull_first_cell(solid.hull, solid.head) + 2u * cell_of(local, solid.head.across));
+        uint listed = byte_of(corners.list, 0u);
+        corners.all = listed == 0u;
+        if (listed > 0u) corners.count = listed;
+    }
+    return corners;
+}
+LAW uint corner_in(Corners corners, uint k) {
+    return corners.all ? k : byte_of(corners.list, k + 1u);
+}
+// The first of a hull's vertices that reach farthest in a direction, in the hull's frame. That cells list few matters twice:
+// lavapipe ends a shader's loops after 65,535 rounds in all, without a word, and two hulls of 30 corners that spin beside each
+// other came to more when each asked all of its corners one by one.
+LAW vec3 farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
+    Corners corners = corners_towards(solid, local, hulls);
+    vec3 farthest = local;
+    float reach = -1.0e30f;
+    for (uint k = 0u; k < corners.count; ++k) {
+        vec3 vertex = hull_vertex(hulls, solid.hull, corner_in(corners, k));
+        float so_far = dot3(vertex, local);
+        if (so_far > reach) {
+            reach = so_far;
+            farthest = vertex;
+        }
+    }
+    return farthest;
+}
+
+// The point of the core farthest in a direction (of any length but 0).
+LAW vec3 support_of(Solid solid, vec3 direction, Hulls hulls) {
+    if (solid.shape == SHAPE_HULL) return in_world(solid.axes, farthest_vertex(solid, in_body(solid.axes, direction), hulls));
+    float along = dot3(solid.axes.y, direction);
+    if (solid.shape == SHAPE_BOX) {
+        vec3 x = solid.axes.x * (dot3(solid.axes.x, direction) < 0.0f ? -solid.size.x : solid.size.x);
+        vec3 y = solid.axes.y * (along < 0.0f ? -solid.size.y : solid.size.y);
+        vec3 z = solid.axes.z * (dot3(solid.axes.z, direction) < 0.0f ? -solid.size.z : solid.size.z);
+        return (x + y) + z;
+    }
+    if (solid.shape == SHAPE_CYLINDER)
+        return rim_point(solid, outward_from_axis(solid.axes, direction), along < 0.0f ? -solid.size.y : solid.size.y);
+    if (solid.shape == SHAPE_CONE) {
+        vec3 apex = solid.axes.y * cone_apex(solid.size);
+        vec3 rim = rim_point(solid, outward_from_axis(solid.axes, direction), cone_base(solid.size));
+        return dot3(apex - rim, direction) > 0.0f ? apex : rim;
+    }
+    return solid.axes.y * (along < 0.0f ? -solid.size.y : solid.size.y);  // of a sphere 0, of a capsule half its axis
+}
+
+// xyz: outward, unit; w: distance of the face from the centre, m. Faces 2k and 2k + 1 of a box look down and up axis k; a
+// cylinder's look down and up y.
+LAW vec4 plane_of(Solid solid, uint face, Hulls hulls) {
+    if (solid.shape == SHAPE_HULL) {
+        vec4 plane = hull_plane(hulls, solid.hull, solid.head, face);
+        vec3 normal = in_world(solid.axes, vec3(plane.x, plane.y, plane.z));
+        return vec4(normal.x, normal.y, normal.z, plane.w);
+    }
+    vec3 axis = solid.axes.y;
+    float reach = solid.size.y;
+    if (solid.shape == SHAPE_BOX && face < 2u) {
+        axis = solid.axes.x;
+        reach = solid.size.x;
+    }
+    if (solid.shape == SHAPE_BOX && face > 3u) {
+        axis = solid.axes.z;
+        reach = solid.size.z;
+    }
+    if (solid.shape == SHAPE_CONE) reach = -cone_base(solid.size);
+    if ((face & 1u) == 0u) axis = -axis;
+    return vec4(axis.x, axis.y, axis.z, reach);
+}
+
+// Some of a body's faces, or all.
+struct Faces {
+    uvec4 list;  // their numbers, from the third byte on; unused when all are meant
+    uint count;
+    bool all;
+    float beyond;  // so much, at most, do the normals of all others point in the direction asked for
+    float pad;
+};
+LAW Faces all_faces(Solid solid) {
+    Faces faces;
+    faces.list = uvec4(0u);
+    faces.count = solid.head.faces;
+    faces.all = true;
+    faces.beyond = -2.0f;
+    faces.pad = 0.0f;
+    return faces;
+}
+// At least those that look most in a direction (in the body's frame).
+LAW Faces faces_towards(Solid solid, vec3 local, Hulls hulls) {
+    Faces faces = all_faces(solid);
+    if (solid.head.across == 0u) return faces;
+    faces.list = hull_record(hulls, hull_first_cell(solid.hull, solid.head) + 2u * cell_of(local, solid.head.across) + 1u);
+    if (byte_of(faces.list, 0u) == solid.head.faces) return faces;
+    faces.count = byte_of(faces.list, 0u);
+    faces.all = false;
+    faces.beyond = cosine_of(byte_of(faces.list, 1u));
+    return faces;
+}
+LAW uint face_at(Faces faces, uint k) {
+    return faces.all ? k : byte_of(faces.list, k + 2u);
+}
+
+// What of a body looks in a direction: a face, a line or a point. A face of many corners is taken as one of every second, or
+// third ... of them, at most MOST_SIDES.
+CONSTANT uint MOST_SIDES = 16u;
+struct Feature {
+    vec3 first;   // of a line or point, m
+    uint points;  // 1, 2, or corners of the face
+    vec3 second;  // of a line, m; of a disc the way from its middle to the first corner, unit
+    uint face;
+    uint stride;        // from corner to corner
+    uint first_corner;  // of a hull's face, in the hull's list
+    uint pad0, pad1;
+};
+LAW Feature line_between(vec3 first, vec3 second) {
+    Feature feature;
+    feature.first = first;
+    feature.second = second;
+    feature.points = 2u;
+    feature.face = 0u;
+    feature.stride = 1u;
+    feature.first_corner = 0u;
+    feature.pad0 = 0u;
+    feature.pad1 = 0u;
+    return feature;
+}
+LAW Feature point_at(vec3 point) {
+    Feature feature = line_between(point, point);
+    feature.points = 1u;
+    return feature;
+}
+// A disc's corners begin where it reaches farthest in the direction, so that what rolls on a rim has its lowest point; as long as
+// it leans by less than that (sine, squared: 1.1 degrees), they stay where they are on the body.
+CONSTANT float FLAT_SQUARED = 0.0004f;
+LAW Feature face_as_feature(Solid solid, uint face, vec3 direction, Hulls hulls) {
+    Feature feature = line_between(solid.axes.y, solid.axes.x);
+    feature.face = face;
+    feature.points = 4u;
+    if (solid.shape == SHAPE_HULL) {
+        uvec4 corners = hull_face(hulls, solid.hull, solid.head, face);
+        feature.first_corner = corners.x;
+        for (uint k = 0u; k < 4u; ++k)
+            if (corners.y > MOST_SIDES * feature.stride) feature.stride = feature.stride + 1u;
+        feature.points = 0u;
+        for (uint k = 0u; k < corners.y; k += feature.stride) feature.points = feature.points + 1u;
+    } else if (solid.shape != SHAPE_BOX) {
+        feature.points = MOST_SIDES;
+        vec3 across = direction - solid.axes.y * dot3(solid.axes.y, direction);
+        if (dot3(across, across) > FLAT_SQUARED * dot3(direction, direction)) feature.second = unit3(across, solid.axes.x);
+    }
+    return feature;
+}
+
+// Sines and cosines of a sixteenth of a turn and its multiples.
+LAW vec3 sixteenth(uint k, vec3 from, vec3 quarter) {
+    uint eighth = k & 3u;
+    float along = eighth == 0u ? 1.0f : (eighth == 1u ? 0.92387953f : (eighth == 2u ? 0.70710678f : 0.38268343f));
+    float across = eighth == 1u ? 0.38268343f : (eighth == 2u ? 0.70710678f : 0.92387953f);
+    vec3 v = eighth == 0u ? from : from * along + quarter * across;
+    vec3 w = eighth == 0u ? quarter : quarter * along - from * across;
+    if (k >= 12u) return -w;
+    if (k >= 8u) return -v;
+    return k >= 4u ? w : v;
+}
+// Corner k, counter-clockwise seen from outside.
+LAW vec3 corner_of(Solid solid, Feature feature, uint k, Hulls hulls) {
+    if (feature.points <= 2u) return k == 0u ? feature.first : feature.second;
+    if (solid.shape == SHAPE_HULL)
+        return in_world(solid.axes, hull_corner(hulls, solid.hull, solid.head, feature.first_corner + k * feature.stride));
+    vec4 plane = plane_of(solid, feature.face, hulls);
+    vec3 normal = vec3(plane.x, plane.y, plane.z);
+    if (solid.shape == SHAPE_BOX) {
+        vec3 e = feature.face < 2u ? solid.axes.y * solid.size.y : solid.axes.x * solid.size.x;
+        vec3 f = feature.face > 3u ? solid.axes.y * solid.size.y : solid.axes.z * solid.size.z;
+        if (dot3(cross3(e, f), normal) < 0.0f) f = -f;
+        vec3 side = k == 0u || k == 3u ? e : -e;
+        return (normal * plane.w + side) + (k < 2u ? f : -f);
+    }
+    return normal * plane.w + sixteenth(k * feature.stride, feature.second, cross3(normal, feature.second)) * solid.size.x;
+}
+
+LAWS_END
+
+#endif

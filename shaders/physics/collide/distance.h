@@ -1,0 +1,134 @@
+// How far two bodies are apart, and along which axis: the distance of round shapes, for two boxes a lower bound of it.
+#ifndef SCREE_PHYSICS_GAP_H
+#define SCREE_PHYSICS_GAP_H
+
+#include "shaders/physics/collide/collide_box_box.h"
+#include "shaders/physics/collide/collide_box_plane.h"
+#include "shaders/physics/collide/collide_capsule_box.h"
+#include "shaders/physics/collide/collide_capsule_capsule.h"
+#include "shaders/physics/collide/collide_capsule_plane.h"
+#include "shaders/physics/collide/collide_sphere_box.h"
+#include "shaders/physics/collide/collide_sphere_capsule.h"
+#include "shaders/physics/collide/collide_sphere_plane.h"
+#include "shaders/physics/collide/collide_sphere_sphere.h"
+#include "shaders/physics/collide/shape_data.h"
+// A scene without cylinders, cones and hulls leaves out what takes a second to compile on a processor.
+#ifndef WITHOUT_CONVEX
+#include "shaders/physics/collide/collide_convex.h"
+#include "shaders/physics/collide/triangle.h"
+#endif
+
+LAWS_BEGIN
+
+struct Gap {
+    vec3 normal;     // unit, world, from A to B
+    float distance;  // m, < 0 inside
+};
+
+LAW vec3 axis_towards(vec4 orientation, uint k, float side) {
+    Axes axes = axes_of(orientation);
+    vec3 axis = k == 0u ? axes.x : (k == 1u ? axes.y : axes.z);
+    return side < 0.0f ? -axis : axis;
+}
+
+// The widest of the fifteen separations: no distance is less, and none of them is positive where the boxes overlap.
+LAW Gap gap_of_boxes(Traits a, Pose pose_a, Traits b, Pose pose_b) {
+    BoxView view = view_of(pose_a, pose_b);
+    BoxView back = reversed(view);
+    vec3 faces_a = face_separations(view, a.size, b.size);
+    vec3 faces_b = face_separations(back, b.size, a.size);
+    EdgeAxis edge = best_edge_axis(view, a.size, b.size);
+    uint face_a = largest_of(faces_a);
+    uint face_b = largest_of(faces_b);
+    Gap gap;
+    gap.distance = coordinate(faces_a, face_a);
+    gap.normal = axis_towards(pose_a.orientation, face_a, coordinate(view.d, face_a));
+    if (coordinate(faces_b, face_b) > gap.distance) {
+        gap.distance = coordinate(faces_b, face_b);
+        gap.normal = -axis_towards(pose_b.orientation, face_b, coordinate(back.d, face_b));
+    }
+    if (edge.separation > gap.distance) {
+        gap.distance = edge.separation;
+        uint i = edge.k >= 6u ? 2u : (edge.k >= 3u ? 1u : 0u);
+        vec3 along_a = axis_towards(pose_a.orientation, i, 1.0f);
+        vec3 across = cross3(along_a, axis_towards(pose_b.orientation, edge.k - 3u * i, 1.0f));
+        across = unit3(across, tangent(along_a));
+        gap.normal = dot3(across, pose_b.position - pose_a.position) < 0.0f ? -across : across;
+    }
+    return gap;
+}
+
+LAW Gap gap_of_touch(Touch touch) {
+    Gap gap;
+    gap.normal = touch.manifold.normal;
+    gap.distance = deepest_of(touch);
+    return gap;
+}
+
+#ifndef WITHOUT_CONVEX
+// Of a cylinder, cone, hull or triangle (the second) and any other shape. What lies behind a triangle is far away from it.
+LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
+    Gap gap;
+    Solid of_b = solid_of(b, pose_b.orientation, hulls);
+    vec3 d = pose_b.position - pose_a.position;
+    if (a.shape == SHAPE_PLANE) {
+        gap.normal = a.size;
+        gap.distance = dot3(a.size, d + support_of(of_b, -a.size, hulls));
+        return gap;
+    }
+    Solid of_a = solid_of(a, pose_a.orientation, hulls);
+    if (b.shape == SHAPE_TRIANGLE) {
+        vec4 plane = plane_of(of_b, 0u, hulls);
+        vec3 face = vec3(plane.x, plane.y, plane.z);
+        if (!in_front(-dot3(face, d) - plane.w, of_a.scale)) {
+            gap.normal = -face;
+            gap.distance = 1.0e30f;
+            return gap;
+        }
+    }
+    Separation s = separation_of(of_a, of_b, d, enough, hulls);
+    gap.normal = s.normal;
+    gap.distance = s.distance;
+    return gap;
+}
+#endif
+
+// The simpler shape first, as the laws of touching want it.
+LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
+#ifndef WITHOUT_CONVEX
+    if (b.shape >= SHAPE_CYLINDER) return gap_of_convex(a, pose_a, b, pose_b, enough, hulls);
+#endif
+    float any = 1.0e30f;
+    if (a.shape == SHAPE_SPHERE) {
+        if (b.shape == SHAPE_SPHERE) return gap_of_touch(collide_sphere_sphere(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_CAPSULE) return gap_of_touch(collide_sphere_capsule(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_BOX) return gap_of_touch(collide_sphere_box(a, pose_a, b, pose_b, any));
+        return gap_of_touch(collide_sphere_plane(a, pose_a, b, pose_b, any));
+    }
+    if (a.shape == SHAPE_CAPSULE) {
+        if (b.shape == SHAPE_CAPSULE) return gap_of_touch(collide_capsule_capsule(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_BOX) return gap_of_touch(collide_capsule_box(a, pose_a, b, pose_b, any));
+        return gap_of_touch(collide_capsule_plane(a, pose_a, b, pose_b, any));
+    }
+    if (b.shape == SHAPE_BOX) return gap_of_boxes(a, pose_a, b, pose_b);
+    return gap_of_touch(collide_box_plane(a, pose_a, b, pose_b, any));
+}
+// Of what is at least `enough` (m) apart, an axis and a gap along it of so much are enough.
+LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
+    bool swap = a.shape > b.shape;
+    Traits first = a, second = b;
+    Pose first_pose = pose_a, second_pose = pose_b;
+    if (swap) {
+        first = b;
+        second = a;
+        first_pose = pose_b;
+        second_pose = pose_a;
+    }
+    Gap gap = gap_in_order(first, first_pose, second, second_pose, enough, hulls);
+    if (swap) gap.normal = -gap.normal;
+    return gap;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,148 @@
+// The part of a face that another body's face, edge or corner lies over, and its four points that hold best.
+#ifndef SCREE_PHYSICS_PATCH_H
+#define SCREE_PHYSICS_PATCH_H
+
+#include "shaders/physics/collide/convex_support.h"
+#include "shaders/physics/collide/manifold.h"
+#include "shaders/physics/collide/manifold_reduction.h"
+
+LAWS_BEGIN
+
+// As REDUCE_BIAS (manifold_reduction.h), but nearer to 1: the neighbour of a rim's farthest corner is 4% worse, and must not
+// stand for it.
+CONSTANT float PATCH_BIAS = 0.98f;
+
+CONSTANT uint PATCH_POINTS = 32u;  // 2 * MOST_SIDES: a polygon clipped by each side of another has one more corner for each
+
+// The plane of heights: unit normal, and axes in it.
+struct Ground {
+    vec3 normal;
+    float offset;  // height 0, along the normal, m
+    vec3 u;
+    float pad_u;
+    vec3 v;
+    float pad_v;
+    vec3 middle;  // m
+    float pad_m;
+};
+LAW vec4 over_ground(Ground ground, vec3 point, uint name) {
+    vec3 from = point - ground.middle;
+    return vec4(dot3(ground.normal, point) - ground.offset, dot3(ground.u, from), dot3(ground.v, from), float(name));
+}
+LAW vec3 from_ground(Ground ground, vec4 p, float height) {
+    vec3 flat_part = (ground.middle + ground.u * p.y) + ground.v * p.z;
+    return flat_part + ground.normal * (height - (dot3(ground.normal, ground.middle) - ground.offset));
+}
+LAW Ground ground_of(vec3 normal, float offset, vec3 along, vec3 middle) {
+    Ground ground;
+    ground.normal = normal;
+    ground.offset = offset;
+    ground.u = unit3(along - normal * dot3(along, normal), tangent(normal));
+    ground.v = cross3(normal, ground.u);
+    ground.middle = middle;
+    ground.pad_u = 0.0f;
+    ground.pad_v = 0.0f;
+    ground.pad_m = 0.0f;
+    return ground;
+}
+
+// What lies over a face, or over a plane. `sides`: of the own face, whose corners `own` knows; none (points = 0) of a plane.
+// `corners`: so many of the other's hull, all, instead of those of its feature (`corners` = 0). d: the other's centre, from where
+// points are counted, m.
+//
+// The arrays stay inside this one function: handed from one to another they would be copied, and drivers took a minute to compile
+// that.
+LAW Touch touch_over(Ground ground, Solid own, Feature sides, Solid other, Feature across, uint corners, vec3 d, float ceiling,
+                     float flat_within, float margin, Hulls hulls) {
+    vec4 points[64];  // x: height, y, z: in the plane, m; w: feature. Two lists of PATCH_POINTS, each clipped into the other
+    uint base = 0u;
+    uint count = 0u;
+    uint given = corners > 0u ? corners : across.points;
+    for (uint k = 0u; k < given; ++k) {
+        vec3 corner = across.first;
+        if (corners > 0u)
+            corner = in_world(other.axes, hull_vertex(hulls, other.hull, k));
+        else
+            corner = corner_of(other, across, k, hulls);
+        vec4 p = over_ground(ground, d + corner, k);
+        p.x = p.x - other.radius;
+        if ((sides.points == 0u && p.x >= ceiling) || count >= PATCH_POINTS) continue;
+        points[count] = p;
+        count = count + 1u;
+    }
+    // Clipping by each side (Sutherland and Hodgman 1974); what is on the left of it, or `flat_within` beyond, stays.
+    vec4 from = vec4(0.0f);
+    for (uint k = 0u; k <= sides.points; ++k) {
+        uint side = k == 0u ? sides.points - 1u : k - 1u;  // the last one first: where the first side begins
+        if (sides.points == 0u) break;
+        vec4 start = from;
+        vec4 to = over_ground(ground, corner_of(own, sides, side, hulls), 0u);
+        from = to;
+        if (k == 0u) continue;
+        float run_y = to.y - start.y, run_z = to.z - start.z;
+        float squared = run_y * run_y + run_z * run_z;
+        if (squared < 1.0e-16f) continue;
+        float scale = inverse_square_root(squared);
+        uint left = 0u, there = PATCH_POINTS - base;
+        for (uint i = 0u; i < count; ++i) {
+            vec4 p = points[base + i], q = points[base + (i + 1u < count ? i + 1u : 0u)];
+            float in_p = (run_y * (p.z - start.z) - run_z * (p.y - start.y)) * scale + flat_within;
+            float in_q = (run_y * (q.z - start.z) - run_z * (q.y - start.y)) * scale + flat_within;
+            if (in_p >= 0.0f && left < PATCH_POINTS) {
+                points[there + left] = p;
+                left = left + 1u;
+            }
+            bool cuts = (in_p < 0.0f) != (in_q < 0.0f) && (count > 2u || i == 0u);
+            if (cuts && left < PATCH_POINTS) {
+                vec4 cut = p + (q - p) * (in_p * reciprocal(in_p - in_q));
+                cut.w = float(64u + 2u * side + (in_p < 0.0f ? 1u : 0u));
+                points[there + left] = cut;
+                left = left + 1u;
+            }
+        }
+        count = left;
+        base = there;
+    }
+    // At most four, chosen as best_four() does (manifold_reduction.h): the first by its way from the middle.
+    uint low = 0u;
+    float lowest = ceiling;
+    for (uint k = 0u; k < count; ++k) {
+        vec4 p = points[base + k];
+        if (p.x >= ceiling) continue;
+        points[base + low] = p;
+        low = low + 1u;
+        lowest = smaller(lowest, p.x);
+    }
+    Touch touch = touch_along(ground.normal);
+    float above = larger(lowest, 0.0f);
+    vec4 a = vec4(0.0f), b = a, c = a;
+    float area_abc = 0.0f;
+    for (uint step = 0u; step < 4u; ++step) {
+        bool few = low <= 4u;
+        float best = step == 0u ? -1.0f : flat_within * flat_within;
+        bool found = few && step < low;
+        vec4 next = a;
+        if (found) next = points[base + step];
+        for (uint k = 0u; k < low && !few; ++k) {
+            vec4 p = points[base + k];
+            float score = p.x <= lowest + flat_within ? p.y * p.y + p.z * p.z : -1.0f;
+            if (step > 0u) score = merit(step, a, b, c, area_abc, p) * nearness(p.x - above, flat_within);
+            if (PATCH_BIAS * score > best) {
+                best = score;
+                next = p;
+                found = true;
+            }
+        }
+        if (!found) break;
+        touch = with_point(touch, from_ground(ground, next, 0.5f * next.x), next.x, uint(next.w), margin);
+        if (step == 0u) a = next;
+        if (step <= 1u) b = next;
+        if (step <= 2u) c = next;
+        area_abc = area_right_of(a, b, c);
+    }
+    return touch;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,156 @@
+// The way between two convex cores that are apart: the algorithm of Gilbert, Johnson and Keerthi (IEEE J. Robotics and Automation
+// 4, 1988), with the nearest point of a simplex by its Voronoi regions (Ericson, Real-Time Collision Detection, 2005, 5.1).
+#ifndef SCREE_PHYSICS_NEAREST_H
+#define SCREE_PHYSICS_NEAREST_H
+
+#include "shaders/physics/collide/convex_support.h"
+
+LAWS_BEGIN
+
+// Fewer, and the way between two rims is found to a degree only.
+CONSTANT uint NEAREST_ROUNDS = 24u;
+// Of the squared distance: what counts as no progress. With less, rounding ends the search.
+CONSTANT float NEAREST_PROGRESS = 1.0e-6f;
+
+// Some points of the difference of two bodies, and of what they span the point nearest to 0.
+struct Simplex {
+    vec3 nearest;
+    uint count;  // 1 to 3; while it is made, 4
+    vec3 a;
+    float pad_a;
+    vec3 b;
+    float pad_b;
+    vec3 c;
+    float pad_c;
+};
+LAW Simplex simplex_of(vec3 nearest, uint count, vec3 a, vec3 b, vec3 c) {
+    Simplex simplex;
+    simplex.nearest = nearest;
+    simplex.count = count;
+    simplex.a = a;
+    simplex.b = b;
+    simplex.c = c;
+    simplex.pad_a = 0.0f;
+    simplex.pad_b = 0.0f;
+    simplex.pad_c = 0.0f;
+    return simplex;
+}
+
+LAW Simplex nearest_on_segment(vec3 a, vec3 b) {
+    vec3 ab = b - a;
+    float t = -dot3(a, ab);
+    float whole = dot3(ab, ab);
+    if (t <= 0.0f || whole < 1.0e-24f) return simplex_of(a, 1u, a, a, a);
+    if (t >= whole) return simplex_of(b, 1u, b, b, b);
+    return simplex_of(a + ab * (t * reciprocal(whole)), 2u, a, b, b);
+}
+
+LAW Simplex nearest_on_triangle(vec3 a, vec3 b, vec3 c) {
+    vec3 ab = b - a, ac = c - a;
+    float d1 = -dot3(ab, a), d2 = -dot3(ac, a);
+    float d3 = -dot3(ab, b), d4 = -dot3(ac, b);
+    float d5 = -dot3(ab, c), d6 = -dot3(ac, c);
+    vec3 normal = cross3(ab, ac);
+    float squared = dot3(normal, normal);
+    // Which corner or side; a corner as a side of no length, so that only one site asks for the nearest point of a side.
+    vec3 p = a, q = b;
+    if (d1 <= 0.0f && d2 <= 0.0f) {
+        q = a;
+    } else if (d3 >= 0.0f && d4 <= d3) {
+        p = b;
+    } else if (d6 >= 0.0f && d5 <= d6) {
+        p = c;
+        q = c;
+    } else if (d1 * d4 - d3 * d2 <= 0.0f && d1 >= 0.0f && d3 <= 0.0f) {
+        q = b;
+    } else if (d5 * d2 - d1 * d6 <= 0.0f && d2 >= 0.0f && d6 <= 0.0f) {
+        q = c;
+    } else if (d3 * d6 - d5 * d4 <= 0.0f && d4 >= d3 && d5 >= d6) {
+        p = b;
+        q = c;
+    } else if (squared >= 1.0e-24f) {
+        return simplex_of(normal * (dot3(normal, a) * reciprocal(squared)), 3u, a, b, c);
+    }
+    return nearest_on_segment(p, q);
+}
+
+// What of the points a, b, c and p, seen from 0, has the point nearest to 0, if it has p in it (it has where p brings the points
+// nearer): p, a side, or a face that has 0 before it. By the Voronoi regions around p, all from the products of the ways to the
+// other points (points that are missing are equal to others, and lie beyond nothing).
+LAW Simplex with_corner(Simplex s, vec3 p) {
+    if (s.count == 0u) return simplex_of(p, 1u, p, p, p);
+    vec3 ea = s.a - p, eb = s.b - p, ec = s.c - p;
+    float aa = dot3(ea, ea), bb = dot3(eb, eb), cc = dot3(ec, ec);
+    float ab = dot3(ea, eb), ac = dot3(ea, ec), bc = dot3(eb, ec);
+    float pa = -dot3(p, ea), pb = -dot3(p, eb), pc = -dot3(p, ec);
+    // How far 0 lies beyond the side from p to the first, the way of the second.
+    float a_to_b = aa * pb - ab * pa, b_to_a = bb * pa - ab * pb;
+    float a_to_c = aa * pc - ac * pa, c_to_a = cc * pa - ac * pc;
+    float b_to_c = bb * pc - bc * pb, c_to_b = cc * pb - bc * pc;
+    vec3 n_ab = cross3(ea, eb), n_ac = cross3(ea, ec), n_bc = cross3(eb, ec);
+    float volume = dot3(n_ab, ec);
+    bool no_fourth = s.count < 3u;
+    bool over_ab = a_to_b > 0.0f && b_to_a > 0.0f && (aa * bb - ab * ab) - (a_to_b + b_to_a) > 0.0f;
+    bool over_ac = a_to_c > 0.0f && c_to_a > 0.0f && (aa * cc - ac * ac) - (a_to_c + c_to_a) > 0.0f;
+    bool over_bc = b_to_c > 0.0f && c_to_b > 0.0f && (bb * cc - bc * bc) - (b_to_c + c_to_b) > 0.0f;
+    bool before_ab = no_fourth || (dot3(n_ab, p) >= 0.0f) == (volume >= 0.0f);
+    bool before_ac = (dot3(n_ac, p) <= 0.0f) == (volume >= 0.0f);
+    bool before_bc = (dot3(n_bc, p) >= 0.0f) == (volume >= 0.0f);
+    vec3 normal = n_ab, first = s.a, second = s.b;
+    bool face = over_ab && before_ab;
+    if (!face && over_ac && before_ac) {
+        face = true;
+        normal = n_ac;
+        second = s.c;
+    }
+    if (!face && over_bc && before_bc) {
+        face = true;
+        normal = n_bc;
+        first = s.b;
+        second = s.c;
+    }
+    float squared = dot3(normal, normal);
+    if (face && squared >= 1.0e-24f) return simplex_of(normal * (dot3(normal, p) * reciprocal(squared)), 3u, first, second, p);
+    first = p;
+    if (pa > 0.0f && a_to_b <= 0.0f && a_to_c <= 0.0f) {
+        first = s.a;
+    } else if (pb > 0.0f && b_to_a <= 0.0f && b_to_c <= 0.0f) {
+        first = s.b;
+    } else if (pc > 0.0f && c_to_a <= 0.0f && c_to_b <= 0.0f) {
+        first = s.c;
+    }
+    return nearest_on_segment(first, p);
+}
+
+// The point of B less the point of A that reach farthest against each other along a direction from A to B; d: B's centre less
+// A's.
+LAW vec3 difference_along(Solid a, Solid b, vec3 d, vec3 direction, Hulls hulls) {
+    return (d + support_of(b, -direction, hulls)) - support_of(a, direction, hulls);
+}
+
+// Where the shortest way from A's core to B's is found: its `nearest`, m; `start`: a direction to begin with. Where they overlap,
+// any short way.
+LAW Simplex way_between(Solid a, Solid b, vec3 d, vec3 start, Hulls hulls) {
+    Simplex simplex = simplex_of(start, 0u, start, start, start);
+    bool nearer = true;
+    for (uint k = 0u; k < NEAREST_ROUNDS && nearer; ++k) {
+        vec3 way = simplex.nearest;
+        float squared = dot3(way, way);
+        nearer = squared >= 1.0e-20f;
+        if (nearer) {
+            bool first = simplex.count == 0u;
+            vec3 corner = difference_along(a, b, d, way, hulls);
+            nearer = first || squared - dot3(way, corner) > NEAREST_PROGRESS * squared;
+            if (nearer) {
+                Simplex next = with_corner(simplex, corner);
+                nearer = first || dot3(next.nearest, next.nearest) < squared;
+                if (nearer) simplex = next;
+            }
+        }
+    }
+    return simplex;
+}
+
+LAWS_END
+
+#endif

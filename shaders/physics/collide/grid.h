@@ -1,0 +1,203 @@
+// Where a body is in the uniform grid of several levels, and which bodies are near each other.
+//
+// Cells of level l are cell * 2^l wide. A body lies in the one cell of its bounds' centre, on the lowest level whose cells are at
+// least as wide as its bounds. So what overlaps a body has its centre at most half a cell outside the body's own bounds: in two
+// or three cells along each axis, on its own level and on each coarser one. A row of cells along x is a run of buckets, hence one
+// range of the sorted list. Planes and rare large bodies lie in one bucket more, which every body looks through.
+#ifndef SCREE_PHYSICS_GRID_H
+#define SCREE_PHYSICS_GRID_H
+
+#include "shaders/physics/base/arithmetic.h"
+#include "shaders/physics/base/records.h"
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/extra/sweep.h"
+
+LAWS_BEGIN
+
+CONSTANT uint LEVELS = 32u;
+
+LAW float power_of_two(int exponent) {
+    return uintBitsToFloat(uint(exponent + 127) << 23);
+}
+
+// The lowest level whose cells are 1% wider than `extent`: the spare hides the rounding of positions up to 80,000 cells away.
+LAW uint level_of(float extent, float inverse_cell) {
+    float cells = extent * inverse_cell * 1.01f;
+    if (cells <= 1.0f) return 0u;
+    uint bits = floatBitsToUint(cells);
+    uint level = (bits >> 23) - 127u + ((bits & 0x7FFFFFu) != 0u ? 1u : 0u);
+    return level < LEVELS - 1u ? level : LEVELS - 1u;
+}
+
+LAW ivec3 cell_at(vec3 point, uint level, float inverse_cell) {
+    vec3 scaled = point * (inverse_cell * power_of_two(-int(level)));
+    vec3 far = vec3(1.0e9f);  // all that is lost lies in one cell: an int must hold its number
+    scaled = larger3(smaller3(scaled, far), -far);
+    return ivec3(int(floor(scaled.x)), int(floor(scaled.y)), int(floor(scaled.z)));
+}
+LAW ivec3 cell_of(vec3 lower, vec3 upper, uint level, float inverse_cell) {
+    return cell_at((lower + upper) * 0.5f, level, inverse_cell);
+}
+// Where the centre of a body of that level lies if its bounds reach these: at most half a cell outside them.
+struct CellRange {
+    ivec3 first;
+    int pad0;
+    ivec3 last;
+    int pad1;
+};
+LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters parameters) {
+    vec3 reach = vec3(0.5f * parameters.cell * power_of_two(int(level)));
+    CellRange range;
+    range.first = cell_at(lower - reach, level, parameters.inverse_cell);
+    range.last = cell_at(upper + reach, level, parameters.inverse_cell);
+    range.pad0 = 0;
+    range.pad1 = 0;
+    return range;
+}
+
+// Buckets along x follow each other; rows are scattered by a multiplicative hash (Teschner et al. 2003, other primes, mixed once
+// more).
+LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
+    uint row = uint(cell.y) * 0x9E3779B1u ^ uint(cell.z) * 0x85EBCA77u ^ level * 0xC2B2AE3Du;
+    row = (row ^ (row >> 15)) * 0x2C1B3C6Du;
+    return (uint(cell.x) + (row ^ (row >> 13))) & (buckets - 1u);
+}
+
+LAW bool is_large(Traits traits) {
+    return (traits.large & 1u) != 0u;
+}
+
+// The level of what is nowhere in the grid: a body that touches with its parts only, or is not there.
+CONSTANT uint NOWHERE = 0x40u;
+
+// Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
+// fast may not leave them, so the fall is in them too.
+LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Parameters parameters) {
+    vec3 half_size = half_extents_of(traits, pose.orientation);
+    bool moves = in_motion(velocity);
+    if (traits.shape == SHAPE_PLANE) {
+        half_size = vec3(1.0e30f);
+    } else if (moves && traits.shape != SHAPE_SPHERE) {
+        float reach = farthest_of(traits);
+        // Turning widens the bounds by at most the arc, and never beyond the sphere around the body.
+        float arc = length3(velocity.angular) * parameters.dt * reach;
+        half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
+    }
+    half_size = half_size + vec3(parameters.speculative);
+    if (moves && is_part(traits)) half_size = half_size + vec3(bend_of_way(traits, velocity, parameters));
+    vec3 way = velocity.linear * parameters.dt;
+    Bounds bounds;
+    bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));
+    bounds.upper = pose.position + half_size + larger3(way, vec3(0.0f));
+    if (will_be_fast(traits, velocity, parameters)) {
+        vec3 fall = way + load.acceleration * (parameters.dt * parameters.dt);
+        bounds.lower = smaller3(bounds.lower, pose.position - half_size + fall);
+        bounds.upper = larger3(bounds.upper, pose.position + half_size + fall);
+    }
+    bounds.level = 0u;
+    bounds.bucket = parameters.buckets;
+    bounds.flight = flight_of(pose);
+    if (!is_large(traits)) {
+        vec3 extent = bounds.upper - bounds.lower;
+        bounds.level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);
+        bounds.bucket = bucket_of(cell_of(bounds.lower, bounds.upper, bounds.level, parameters.inverse_cell), bounds.level,
+                                  parameters.buckets);
+    }
+    if (traits.shape == SHAPE_NONE) bounds.level = NOWHERE;
+    return bounds;
+}
+
+// Of a body that is not there: in no bucket.
+LAW Bounds no_bounds(Pose pose) {
+    Bounds bounds;
+    bounds.lower = pose.position;
+    bounds.upper = pose.position;
+    bounds.level = NOWHERE;
+    bounds.bucket = NONE;
+    bounds.flight = flight_of(pose);
+    return bounds;
+}
+
+LAW bool boxes_overlap(vec3 lower_a, vec3 upper_a, vec3 lower_b, vec3 upper_b) {
+    return lower_a.x <= upper_b.x && lower_b.x <= upper_a.x && lower_a.y <= upper_b.y && lower_b.y <= upper_a.y &&
+           lower_a.z <= upper_b.z && lower_b.z <= upper_a.z;
+}
+
+// Whether bounds reach a plane (whose own are infinite): the corner that lies deepest is not in front of it.
+LAW bool reaches_plane(vec3 lower, vec3 upper, vec3 normal, vec3 point) {
+    vec3 corner =
+        vec3(normal.x > 0.0f ? lower.x : upper.x, normal.y > 0.0f ? lower.y : upper.y, normal.z > 0.0f ? lower.z : upper.z);
+    return dot3(corner - point, normal) <= 0.0f;
+}
+
+// A pair of grid bodies is listed once: by the one on the finer level, on the same level by the one with the lower id. Where
+// bodies lie in memory decides nothing here, so that it may change: `body` and `other` are ids.
+LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
+    return level < other_level || (level == other_level && body < other);
+}
+
+// Set in the level of a body's bounds: it does not stir in this step (sleep.h).
+CONSTANT uint STILL = 0x100u;
+
+// Set in the level of a cell's entry: the body is dynamic, or a part of one that is.
+CONSTANT uint MOVES = 0x200u;
+LAW uint level_of_entry(uint level, Traits traits) {
+    return motion_of(traits) == MOTION_DYNAMIC ? level | MOVES : level;
+}
+
+// A pair of grid bodies one of which stirs is listed once. What stirs finds what is still on its own level and on coarser ones;
+// what is still finds what stirs on coarser ones, because nobody looks into finer levels. Pairs of still bodies are not looked
+// for.
+LAW bool finds(uint body, uint level, uint other, uint other_level) {
+    bool still = (level & STILL) != 0u, other_still = (other_level & STILL) != 0u;
+    if (still) return !other_still && level - STILL < other_level;
+    return other_still ? level <= other_level - STILL : owns_pair(body, level, other, other_level);
+}
+// The same in the list of large bodies.
+LAW bool finds_large(uint body, uint level, bool large, uint other, uint other_level) {
+    bool other_still = (other_level & STILL) != 0u;
+    if ((level & STILL) != 0u) return !large && !other_still;
+    return !large || other_still || body < other;
+}
+// Levels on which a body has partners to find.
+LAW uint levels_to_search(uint level, Counts counts) {
+    if ((level & NOWHERE) != 0u) return 0u;
+    if ((level & STILL) != 0u) return counts.levels_stirring & ~((2u << (level - STILL)) - 1u);
+    return counts.levels & ~((1u << level) - 1u);
+}
+
+LAW bool can_touch(Traits a, Traits b) {
+    bool moves = motion_of(a) == MOTION_DYNAMIC || motion_of(b) == MOTION_DYNAMIC;
+    return moves && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE) && a.owner != b.owner;
+}
+
+// The first four shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); with the others all have
+// one law, but for planes and triangles; what two hulls need of it is a kind of its own. KIND_KEPT is a contact that is kept,
+// KIND_STILL one between two bodies that do not stir.
+CONSTANT uint KIND_PLANE_CONVEX = 9u;
+CONSTANT uint KIND_CONVEX = 10u;
+CONSTANT uint KIND_HULL_HULL = 11u;
+CONSTANT uint KIND_SPHERE_TRIANGLE = 12u;
+CONSTANT uint KIND_CONVEX_TRIANGLE = 13u;
+CONSTANT uint KIND_KEPT = 14u;
+CONSTANT uint KIND_STILL = 15u;
+LAW uint kind_of(uint shape_a, uint shape_b) {
+    uint low = shape_a < shape_b ? shape_a : shape_b;
+    uint high = shape_a < shape_b ? shape_b : shape_a;
+    if (high == SHAPE_TRIANGLE) return low == SHAPE_SPHERE ? KIND_SPHERE_TRIANGLE : KIND_CONVEX_TRIANGLE;
+    if (low == SHAPE_HULL) return KIND_HULL_HULL;
+    if (high >= SHAPE_CYLINDER) return low == SHAPE_PLANE ? KIND_PLANE_CONVEX : KIND_CONVEX;
+    return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
+}
+
+// How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step. Those of fast bodies
+// that will not meet are dropped again (time_of_impact.h).
+LAW float margin_of(Traits a, Velocity va, Traits b, Velocity vb, Parameters parameters) {
+    float turning = length3(va.angular) * (a.shape == SHAPE_SPHERE ? 0.0f : length3(a.size)) +
+                    length3(vb.angular) * (b.shape == SHAPE_SPHERE ? 0.0f : length3(b.size));
+    return parameters.speculative + (length3(vb.linear - va.linear) + turning) * parameters.dt;
+}
+
+LAWS_END
+
+#endif

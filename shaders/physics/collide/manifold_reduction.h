@@ -1,0 +1,101 @@
+// Which four of up to eight points hold a body best.
+#ifndef SCREE_PHYSICS_REDUCE_H
+#define SCREE_PHYSICS_REDUCE_H
+
+#include "shaders/physics/collide/rectangle_clipping.h"
+
+LAWS_BEGIN
+
+// A later point must be better by this factor than an earlier one, so that rounding does not change the choice between frames
+// (Box3D's b3ReduceManifoldPoints does so, and chooses in these four steps).
+CONSTANT float REDUCE_BIAS = 0.95f;
+
+// The area (twice, m^2) by which p lies to the right of the way from a to b, in the plane of y and z.
+LAW float area_right_of(vec4 a, vec4 b, vec4 p) {
+    return (p.y - a.y) * (b.z - a.z) - (p.z - a.z) * (b.y - a.y);
+}
+
+// How good p is as the next point after a; after a and b; after a, b and c (area_abc: area_right_of(a, b, c)): far away, a large
+// triangle, far outside of the triangle.
+LAW float merit(uint step, vec4 a, vec4 b, vec4 c, float area_abc, vec4 p) {
+    float y = p.y - a.y;
+    float z = p.z - a.z;
+    float beyond_ab = area_right_of(a, b, p);
+    float beyond_bc = area_right_of(b, c, p);
+    float beyond_ca = area_right_of(c, a, p);
+    if (step == 1u) return y * y + z * z;
+    if (step == 2u) return abs(beyond_ab);
+    if (area_abc > 0.0f) return -smaller(beyond_ab, smaller(beyond_bc, beyond_ca));
+    return larger(beyond_ab, larger(beyond_bc, beyond_ca));
+}
+
+// What a corner counts for: 1 where it touches (or is the lowest of those in the air), a quarter where it is `slop` (m) above,
+// less beyond. Without this, or with ten times the slop, corners that are far out but in the air displaced one that carried, and
+// boxes rocked for ever between two choices.
+LAW float nearness(float height, float slop) {
+    float near = height > 0.0f ? slop * reciprocal(slop + height) : 1.0f;
+    return near * near;
+}
+
+// The bits of the overlay's corners below the ceiling (m) that are worth keeping: the lowest (of those as low to within
+// `flat_within`, m, the farthest from the rectangle's middle), the farthest from it, the one that spans the largest triangle with
+// these, and the one farthest outside of that. All, if there are no more than four. Were the first just any low one, it could be
+// where two sides that are all but parallel cross: in the middle of a face's edge, and a corner would go without support.
+LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
+    uint present = 0u;
+    uint count = 0u;
+    uint chosen = 0u;
+    float lowest = ceiling;
+    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
+        vec4 p = overlay_corner(overlay, k);
+        if (p.w >= 0.0f && p.x < ceiling) {
+            present = present | (1u << k);
+            count = count + 1u;
+            lowest = smaller(lowest, p.x);
+        }
+    }
+    if (count <= 4u) return present;
+    vec4 a = vec4(0.0f);
+    float farthest = -1.0f;
+    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
+        if ((present & (1u << k)) != 0u) {
+            vec4 p = overlay_corner(overlay, k);
+            float away = p.y * p.y + p.z * p.z;
+            if (p.x <= lowest + flat_within && REDUCE_BIAS * away > farthest) {
+                a = p;
+                farthest = away;
+                chosen = 1u << k;
+            }
+        }
+    }
+    float ground = larger(lowest, 0.0f);
+    vec4 b = a;
+    vec4 c = a;
+    float area_abc = 0.0f;
+    for (uint step = 1u; step < 4u; ++step) {
+        float best = flat_within * flat_within;
+        uint bit = 0u;
+        vec4 next = a;
+        for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
+            if ((present & (1u << k)) != 0u) {
+                vec4 p = overlay_corner(overlay, k);
+                float score = merit(step, a, b, c, area_abc, p) * nearness(p.x - ground, flat_within);
+                if (REDUCE_BIAS * score > best) {
+                    best = score;
+                    bit = 1u << k;
+                    next = p;
+                }
+            }
+        }
+        if (bit == 0u) return chosen;
+        chosen = chosen | bit;
+        if (step == 1u) b = next;
+        if (step == 2u) c = next;
+        area_abc = area_right_of(a, b, c);
+    }
+    return chosen;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,95 @@
+// What a parallelogram and a rectangle have in common: one box's face seen against another's.
+#ifndef SCREE_PHYSICS_CLIP_H
+#define SCREE_PHYSICS_CLIP_H
+
+#include "shaders/physics/base/arithmetic.h"
+
+LAWS_BEGIN
+
+// The parallelogram centre +- e +- f, looked down upon the rectangle |y| <= half_y, |z| <= half_z; x is the height over it (m).
+// The rectangle is larger by the slack where the parallelogram's edges are cut, so that equal faces keep the same four corners
+// from frame to frame.
+struct Overlay {
+    vec3 centre;
+    float half_y;  // m
+    vec3 e;
+    float half_z;  // m
+    vec3 f;
+    float slack;         // m
+    vec4 inverse_runs;   // of 2 e.y, 2 e.z, 2 f.y, 2 f.z; 0 where the edge is parallel to that side
+    float inverse_area;  // of e x f, 1/m^2; the parallelogram must not be seen edge on
+    float pad0, pad1, pad2;
+};
+
+LAW float inverse_of_run(float run) {
+    return abs(run) > 1.0e-12f ? reciprocal(run) : 0.0f;
+}
+LAW Overlay overlay_of(vec3 centre, vec3 e, vec3 f, float half_y, float half_z, float slack) {
+    Overlay overlay;
+    overlay.centre = centre;
+    overlay.half_y = half_y;
+    overlay.e = e;
+    overlay.half_z = half_z;
+    overlay.f = f;
+    overlay.slack = slack;
+    overlay.inverse_runs =
+        vec4(inverse_of_run(2.0f * e.y), inverse_of_run(2.0f * e.z), inverse_of_run(2.0f * f.y), inverse_of_run(2.0f * f.z));
+    overlay.inverse_area = reciprocal(e.y * f.z - e.z * f.y);
+    overlay.pad0 = 0.0f;
+    overlay.pad1 = 0.0f;
+    overlay.pad2 = 0.0f;
+    return overlay;
+}
+
+// The part of a run from `from` (m) that lies within +-extent: x, y: where it enters and leaves (0 to 1; y < x: nowhere), z, w:
+// 0 or 1, whether it crosses the border there.
+LAW vec4 within(vec4 part, float from, float inverse, float extent) {
+    if (inverse == 0.0f) return abs(from) > extent ? vec4(0.0f, -1.0f, 0.0f, 0.0f) : part;
+    float low = (-extent - from) * inverse;
+    float high = (extent - from) * inverse;
+    float enter = smaller(low, high);
+    float leave = larger(low, high);
+    return vec4(larger(part.x, enter), smaller(part.y, leave), enter > part.x ? 1.0f : part.z, leave < part.y ? 1.0f : part.w);
+}
+
+// The common area has at most eight corners, all among CLIP_CANDIDATES: candidate 2k is where edge k of the parallelogram comes
+// into the rectangle (its own corner k, if that lies within), 2k + 1 is where it goes out, 8 to 11 are the rectangle's corners
+// within the parallelogram. Recomputing a candidate is cheaper than an array that a GPU must index.
+CONSTANT uint CLIP_CANDIDATES = 12u;
+
+// Candidate k: x: height, y, z: in the plane, m; w: feature, or -1 where there is no such corner. Features 0 to 3 are the
+// parallelogram's corners, 4 to 7 the rectangle's, 8 to 15 crossings. (Edges are cut as by Liang and Barsky, ACM TOG 3(1), 1984.)
+LAW vec4 overlay_corner(Overlay overlay, uint k) {
+    if (k < 8u) {
+        uint edge = k >> 1;
+        bool along_f = (edge & 1u) != 0u;
+        float sign_along = edge < 2u ? 1.0f : -1.0f;
+        float sign_aside = edge == 0u || edge == 3u ? 1.0f : -1.0f;
+        vec3 along = (along_f ? overlay.f : overlay.e) * sign_along;
+        vec3 aside = (along_f ? overlay.e : overlay.f) * sign_aside;
+        float inverse_y = (along_f ? overlay.inverse_runs.z : overlay.inverse_runs.x) * sign_along;
+        float inverse_z = (along_f ? overlay.inverse_runs.w : overlay.inverse_runs.y) * sign_along;
+        vec3 start = overlay.centre - along - aside;
+        vec4 part = vec4(0.0f, 1.0f, 0.0f, 0.0f);
+        part = within(part, start.y, inverse_y, overlay.half_y + overlay.slack);
+        part = within(part, start.z, inverse_z, overlay.half_z + overlay.slack);
+        bool leaves = (k & 1u) != 0u;
+        vec3 corner = start + along * (2.0f * (leaves ? part.y : part.x));
+        // An edge that ends within the rectangle leaves its end to the next edge.
+        bool absent = part.y < part.x || (leaves && part.w == 0.0f);
+        float feature = leaves || part.z != 0.0f ? float(8u + k) : float(edge);
+        return vec4(corner.x, corner.y, corner.z, absent ? -1.0f : feature);
+    }
+    float y = (k & 1u) == 0u ? -overlay.half_y : overlay.half_y;
+    float z = (k & 2u) == 0u ? -overlay.half_z : overlay.half_z;
+    float from_y = y - overlay.centre.y;
+    float from_z = z - overlay.centre.z;
+    float s = (from_y * overlay.f.z - from_z * overlay.f.y) * overlay.inverse_area;
+    float t = (overlay.e.y * from_z - overlay.e.z * from_y) * overlay.inverse_area;
+    float height = overlay.centre.x + s * overlay.e.x + t * overlay.f.x;
+    return vec4(height, y, z, abs(s) < 1.0f && abs(t) < 1.0f ? float(k - 4u) : -1.0f);
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,139 @@
+// A vehicle in one step: what its driver does, how far its wheels are turned, and what drives or brakes each of them.
+//
+// It has no equations of its own: it says what the motors of its wheels' joints do (joint.h), and friction does the rest
+// (tyre.h).
+#ifndef SCREE_PHYSICS_VEHICLE_H
+#define SCREE_PHYSICS_VEHICLE_H
+
+#include "shaders/physics/collide/shape_data.h"
+#include "shaders/physics/solve/joint.h"
+
+LAWS_BEGIN
+
+// The driver looks ahead on the route by the way of that time, but not less than that way: nearer, and he weaves; farther, and he
+// cuts corners.
+CONSTANT float LOOK_TIME = 0.5f;      // s
+CONSTANT float LEAST_LOOK = 4.0f;     // m
+CONSTANT float THROTTLE_GAIN = 0.5f;  // per m/s of speed that is lacking
+CONSTANT float BRAKE_GAIN = 0.25f;    // per m/s above what is wanted, and
+CONSTANT float BRAKE_FROM = 0.5f;     // m/s, so much above
+
+LAW Axes vehicle_axes(Handling v, vec4 orientation) {
+    return axes_of(compose(orientation, v.frame));
+}
+
+// The tightest curve that may be asked for at the present speed, 1/m.
+LAW float tightest_now(Handling v) {
+    return smaller(v.tightest, v.lateral * reciprocal(larger(v.speed * v.speed, 0.01f)));
+}
+
+LAW vec4 way_point(Hulls table, Handling v, uint k) {
+    uvec4 record = hull_record(table, v.route + k);
+    vec3 place = point_in(record);
+    return vec4(place.x, place.y, place.z, uintBitsToFloat(record.w));
+}
+LAW bool has_arrived(Handling v) {
+    return v.next >= v.points;
+}
+LAW uint behind_point(Handling v, uint k) {
+    return k + 1u < v.points ? k + 1u : (v.loops != 0u ? 0u : k);
+}
+// How far along the leg from one way point to the next a place is, 0 to 1 and beyond.
+LAW float part_of_leg(vec4 from, vec4 to, vec3 place) {
+    vec3 leg = xyz(to) - xyz(from);
+    return dot3(place - xyz(from), leg) * reciprocal(larger(dot3(leg, leg), 1.0e-6f));
+}
+
+LAW Handling parked(Handling v) {
+    v.throttle = 0.0f;
+    v.steer = 0.0f;
+    v.brake = 0.5f;
+    v.hand_brake = 1.0f;
+    return v;
+}
+
+// The driver: towards a point of the route that lies ahead, on the circle through it (pure pursuit: Coulter, CMU-RI-TR-92-01,
+// 1992), as fast as the route says.
+LAW Handling by_route(Handling v, Hulls table, Axes axes, vec3 place) {
+    if (has_arrived(v)) return parked(v);
+    vec4 from = way_point(table, v, v.next == 0u ? v.points - 1u : v.next - 1u);
+    vec4 to = way_point(table, v, v.next);
+    float along = part_of_leg(from, to, place);
+    if (along >= 1.0f) {
+        v.passed = v.passed + 1u;
+        v.next = v.loops == 0u && v.next + 1u == v.points ? v.points : behind_point(v, v.next);
+        if (has_arrived(v)) return parked(v);
+        from = to;
+        to = way_point(table, v, v.next);
+        along = part_of_leg(from, to, place);
+    }
+    along = clamped(along, 0.0f, 1.0f);
+    vec3 leg = xyz(to) - xyz(from);
+    float left = length3(leg) * (1.0f - along);
+    float look = larger(LEAST_LOOK, LOOK_TIME * abs(v.speed));
+    vec3 aim = xyz(from) + leg * along;
+    if (look < left) {
+        aim = aim + unit3(leg, axes.z) * look;
+    } else {
+        vec3 after = xyz(way_point(table, v, behind_point(v, v.next))) - xyz(to);
+        aim = xyz(to) + unit3(after, unit3(leg, axes.z)) * smaller(look - left, larger(length3(after), LEAST_LOOK));
+    }
+    vec3 away = aim - place;
+    float ahead = dot3(axes.z, away), aside = dot3(axes.x, away);
+    float curvature = 2.0f * aside * reciprocal(larger(ahead * ahead + aside * aside, 0.01f));
+    if (ahead < 0.0f) curvature = aside < 0.0f ? -v.tightest : v.tightest;
+    v.steer = clamped(curvature * reciprocal(tightest_now(v)), -1.0f, 1.0f);
+    float wanted = (from.w + (to.w - from.w) * along) - v.speed;
+    v.throttle = clamped(wanted * THROTTLE_GAIN, 0.0f, 1.0f);
+    v.brake = clamped((-wanted - BRAKE_FROM) * BRAKE_GAIN, 0.0f, 1.0f);
+    v.hand_brake = 0.0f;
+    return v;
+}
+
+// Once a step: what the driver does, and how the wheels are turned by now.
+LAW Handling driven(Handling v, Hulls table, Pose pose, Velocity velocity, Parameters parameters) {
+    Axes axes = vehicle_axes(v, pose.orientation);
+    v.speed = dot3(axes.z, velocity.linear);
+    if (v.by_route != 0u && v.points != 0u) v = by_route(v, table, axes, pose.position);
+    float wanted = v.steer * tightest_now(v), most = v.turning * parameters.dt;
+    v.curvature = v.curvature + clamped(wanted - v.curvature, -most, most);
+    return v;
+}
+
+// Every wheel's axle points to the middle of the curve (Ackermann): tan(angle) = ahead / (radius - aside).
+LAW float wheel_angle(Handling v, VehicleWheel wheel) {
+    float rise = wheel.ahead * v.curvature;
+    float angle = angle_of(abs(rise), larger(1.0f - wheel.aside * v.curvature, 0.05f));
+    return choose(rise < 0.0f, -angle, angle);
+}
+
+LAW float wheel_throttle(Handling v, VehicleWheel wheel) {
+    return clamped(v.throttle + wheel.skid * v.steer, -1.0f, 1.0f);
+}
+// The motor of a wheel that spins so fast against the chassis, rad/s.
+LAW JointAxis wheel_motor(JointAxis axis, Handling v, VehicleWheel wheel, float spin) {
+    float braking = wheel.brake * v.brake + wheel.hand_brake * v.hand_brake;
+    float throttle = wheel_throttle(v, wheel);
+    axis.speed = 0.0f;
+    axis.most = larger(wheel.drag, braking);
+    bool is_track = wheel.skid != 0.0f && (v.throttle != 0.0f || v.steer != 0.0f);
+    if (braking <= 0.0f && (throttle != 0.0f || is_track)) {
+        float fastest = (throttle < 0.0f ? -v.back_speed : v.top_speed) * reciprocal(wheel.radius);
+        float torque = smaller(wheel.torque, wheel.power * reciprocal(larger(abs(spin), 0.1f)));
+        // The throttle says how hard a car's wheels are driven, and how fast a tank's, of which one side may have to stand.
+        axis.speed = is_track ? fastest * abs(throttle) : fastest;
+        axis.most = is_track ? torque : torque * abs(throttle);
+    }
+    axis.mode = axis.most > 0.0f ? AXIS_MOTOR : 0u;
+    return axis;
+}
+
+// Whether it keeps its bodies awake.
+LAW bool is_under_way(Handling v) {
+    if (v.by_route != 0u && v.points != 0u) return !has_arrived(v);
+    return v.throttle != 0.0f || (v.steer != 0.0f && v.brake <= 0.0f && v.hand_brake <= 0.0f);
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,203 @@
+// One contact made ready for a step: last step's impulses carried over to this step's points, and what the solver needs of it.
+#ifndef SCREE_PHYSICS_CONTACT_H
+#define SCREE_PHYSICS_CONTACT_H
+
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/solve/motion.h"
+
+LAWS_BEGIN
+
+LAW uint feature_of(uint features, uint point) {
+    return (features >> (8u * point)) & 0xFFu;
+}
+
+// How far a point may have wandered on a body and still be the same, m.
+LAW float match_radius(Traits a, Traits b) {
+    return 0.1f * smaller(thickness(a), thickness(b));
+}
+
+LAW Impulse no_impulse(vec3 d) {
+    Impulse impulse;
+    impulse.normal = vec4(0.0f);
+    impulse.separation = vec4(0.0f);
+    impulse.approach = vec4(0.0f);
+    impulse.friction = vec3(0.0f);
+    impulse.twist = 0.0f;
+    impulse.rolling = vec3(0.0f);
+    impulse.slipped = 0.0f;
+    impulse.d = d;
+    impulse.pressed = 0.0f;
+    return impulse;
+}
+
+// For each new point the old one that it was, or NONE: the nearest unused one within `radius`, measured on A; the feature id
+// breaks ties only, because ids flicker while points stay. A single point is its successor wherever it went: a wheel's contact
+// travels round the wheel.
+LAW uvec4 matches_of(Contact now, Contact before, float radius) {
+    uvec4 matches = uvec4(NONE);
+    if (now.count == 1u && before.count == 1u) {
+        matches.x = 0u;
+        return matches;
+    }
+    uint taken = 0u;
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= now.count) break;
+        vec3 anchor = rotate_back(now.turn_a, xyz(now.points[k]));
+        float nearest = radius * radius;
+        for (uint j = 0u; j < 4u; ++j) {
+            if (j >= before.count) break;
+            vec3 apart = anchor - rotate_back(before.turn_a, xyz(before.points[j]));
+            float score = dot3(apart, apart);
+            if (feature_of(now.features, k) != feature_of(before.features, j)) score = score + 1.0e-8f;
+            if (score < nearest && ((taken >> j) & 1u) == 0u) {
+                nearest = score;
+                matches[k] = j;
+            }
+        }
+        if (matches[k] != NONE) taken = taken | (1u << matches[k]);
+    }
+    return matches;
+}
+
+LAW Impulse inherited(Contact now, Impulse was, uvec4 matches) {
+    Impulse impulse = no_impulse(now.d);
+    for (uint k = 0u; k < 4u; ++k) {
+        if (matches[k] == NONE) continue;
+        impulse.normal[k] = was.normal[matches[k]];
+    }
+    float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
+    if (total > 0.0f) {
+        impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
+        // A single point has no patch to twist on: nothing would ever take an old twist back.
+        if (now.count > 1u) impulse.twist = was.twist;
+        impulse.rolling = was.rolling;
+    }
+    return impulse;
+}
+
+LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b) {
+    Contact contact;
+    contact.a = pair.a;
+    contact.b = pair.b;
+    contact.count = count;
+    contact.features = manifold.features;
+    contact.normal = manifold.normal;
+    contact.age = 0u;
+    contact.d = b.position - a.position;
+    contact.load = 0.0f;
+    for (uint k = 0u; k < 4u; ++k) contact.points[k] = manifold.points[k];
+    contact.turn_a = a.orientation;
+    contact.turn_b = b.orientation;
+    return contact;
+}
+
+LAW vec4 separations_of(Manifold manifold) {
+    return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
+}
+
+// The points stay with the rounder body, or with the thinner one: a ball rolls on, a small box slides on over a big one, and the
+// contact goes with it. Between two round bodies the point and the normal follow both.
+LAW bool is_round(Traits traits) {
+    return traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE;
+}
+// What can roll on its side, or on its rim.
+LAW bool rolls(Traits traits) {
+    return is_round(traits) || traits.shape == SHAPE_CYLINDER || traits.shape == SHAPE_CONE;
+}
+LAW uint anchor_of(Contact contact, Traits a, Traits b) {
+    if (is_round(a) && is_round(b) && contact.count == 1u) return ANCHOR_ROUND;
+    if (rolls(a) != rolls(b)) return rolls(a) ? ANCHOR_A : ANCHOR_B;
+    return thickness(b) < thickness(a) ? ANCHOR_B : ANCHOR_A;
+}
+
+// Half the least width of a body along its surface, seen against the normal, m: what slides further has left it.
+LAW float width_along(Traits traits, vec4 orientation, vec3 normal) {
+    if (traits.shape != SHAPE_BOX || is_part(traits)) return thickness(traits);
+    vec3 slant = absolute3(rotate_back(orientation, normal));
+    if (slant.x >= slant.y && slant.x >= slant.z) return smaller(traits.size.y, traits.size.z);
+    return slant.y >= slant.z ? smaller(traits.size.x, traits.size.z) : smaller(traits.size.x, traits.size.y);
+}
+
+// The reach of a corner or a crossing of edges, of the thinner body's half width: a point is a small patch in truth. With none, a
+// box pinched between two points swings about them for ever.
+CONSTANT float POINT_PATCH = 0.01f;
+
+// The friction patch lies where the points touch: those still ahead weigh less, so its centre moves smoothly as a body tips.
+LAW vec3 patch_centre(Contact contact, Parameters parameters) {
+    vec3 centre;
+    float weights = 0.0f;
+    float fade = reciprocal(parameters.speculative);
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= contact.count) break;
+        float weight = clamped(1.0f - contact.points[k].w * fade, 0.05f, 1.0f);
+        vec3 moment = xyz(contact.points[k]) * weight;
+        centre = k == 0u ? moment : centre + moment;
+        weights = weights + weight;
+    }
+    return centre * reciprocal(weights);
+}
+
+LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a, uint slot_b, Parameters parameters) {
+    Constraint c;
+    c.a = contact.a;
+    c.b = contact.b;
+    c.slot_a = slot_a;
+    c.slot_b = slot_b;
+    c.normal = contact.normal;
+    c.friction = parameters.friction_factor * square_root(ta.friction * tb.friction);
+    c.rolling_resistance = larger(ta.rolling_resistance, tb.rolling_resistance);
+    c.restitution = larger(parameters.least_restitution, larger(ta.restitution, tb.restitution));
+    c.count = contact.count;
+    c.pair = NONE;
+    c.anchor = anchor_of(contact, ta, tb);
+    c.radius_a = c.anchor == ANCHOR_ROUND ? ta.size.x : 0.0f;
+    c.radius_b = c.anchor == ANCHOR_ROUND ? tb.size.x : 0.0f;
+    c.leave = c.anchor == ANCHOR_ROUND ? 1.0e30f : width_along(ta, contact.turn_a, contact.normal);
+    if (c.anchor == ANCHOR_A) c.leave = width_along(tb, contact.turn_b, contact.normal);
+    vec3 centre = patch_centre(contact, parameters);
+    float reach = 0.0f;
+    for (uint k = 0u; k < 4u; ++k) {
+        c.arms[k] = vec4(0.0f);
+        if (k >= contact.count) continue;
+        vec3 arm = xyz(contact.points[k]);
+        c.arms[k] = vec4(c.anchor == ANCHOR_B ? arm - contact.d : arm, 0.0f);
+        reach = reach + length3(arm - centre);
+    }
+    c.reach = reach * reciprocal(float(contact.count));
+    if (contact.count == 1u) c.reach = rolls(ta) || rolls(tb) ? 0.0f : POINT_PATCH * smaller(thickness(ta), thickness(tb));
+    c.centre = c.anchor == ANCHOR_B ? centre - contact.d : centre;
+    if (c.anchor == ANCHOR_ROUND) {
+        vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
+        c.arms[0] = vec4(centre - half_gap - contact.normal * c.radius_a, 0.0f);
+        c.centre = (centre - contact.d) + half_gap + contact.normal * c.radius_b;
+    }
+    return c;
+}
+
+// Of a contact that moves nobody in this step: only statistics look at it.
+LAW Constraint idle_constraint(Contact contact) {
+    Constraint c;
+    c.a = contact.a;
+    c.b = contact.b;
+    c.slot_a = NONE;
+    c.slot_b = NONE;
+    c.normal = contact.normal;
+    c.friction = 0.0f;
+    for (uint k = 0u; k < 4u; ++k) c.arms[k] = vec4(0.0f);
+    c.centre = vec3(0.0f);
+    c.reach = 0.0f;
+    c.rolling_resistance = 0.0f;
+    c.restitution = 0.0f;
+    c.count = contact.count;
+    c.anchor = ANCHOR_A;
+    c.radius_a = 0.0f;
+    c.radius_b = 0.0f;
+    c.pair = NONE;
+    c.leave = 1.0e30f;
+    return c;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,92 @@
+// How two bodies push each other at a point: lever arms, what a push does to either, and with what mass they meet it.
+#ifndef SCREE_PHYSICS_ROW_H
+#define SCREE_PHYSICS_ROW_H
+
+#include "shaders/physics/base/inertia.h"
+
+LAWS_BEGIN
+
+struct Couple {
+    Velocity a, b;
+};
+LAW Couple choose(bool condition, Couple v, Couple w) {
+    w.a.linear = choose(condition, v.a.linear, w.a.linear);
+    w.a.angular = choose(condition, v.a.angular, w.a.angular);
+    w.b.linear = choose(condition, v.b.linear, w.b.linear);
+    w.b.angular = choose(condition, v.b.angular, w.b.angular);
+    return w;
+}
+
+struct Levers {
+    vec3 a;
+    float pad0;
+    vec3 b;
+    float pad1;
+};
+LAW Levers levers_of(Constraint c, vec3 arm, vec3 d) {
+    Levers levers;
+    levers.a = choose(c.anchor == ANCHOR_B, arm + d, arm);
+    levers.b = choose(c.anchor == ANCHOR_B, arm, arm - d);
+    levers.pad0 = 0.0f;
+    levers.pad1 = 0.0f;
+    return levers;
+}
+
+// Velocity of B against A at a point.
+LAW vec3 velocity_at(Levers r, Couple v) {
+    return (v.b.linear - v.a.linear) + (cross3(v.b.angular, r.b) - cross3(v.a.angular, r.a));
+}
+
+// A direction in which the two bodies push each other at a point, with what it does to them. The effective mass and the velocity
+// changes come from the same lever arms, those of now: masses from the step's start would, where a body flies past another,
+// give it more than it can take.
+struct Row {
+    vec3 direction;
+    float give_a;  // 1/mass of A felt along it: 1/m + (r x u).I^-1 (r x u), 1/kg
+    vec3 arm_a;    // r x u, m
+    float give_b;
+    vec3 arm_b;
+    float pad0;
+    vec3 turn_a;  // I^-1 (r x u)
+    float pad1;
+    vec3 turn_b;
+    float pad2;
+};
+LAW Row row_of(Levers r, vec3 direction, Mass a, Mass b) {
+    Row row;
+    row.direction = direction;
+    row.arm_a = cross3(r.a, direction);
+    row.arm_b = cross3(r.b, direction);
+    row.turn_a = turned_by(a, row.arm_a);
+    row.turn_b = turned_by(b, row.arm_b);
+    row.give_a = a.inverse_mass + dot3(row.arm_a, row.turn_a);
+    row.give_b = b.inverse_mass + dot3(row.arm_b, row.turn_b);
+    row.pad0 = 0.0f;
+    row.pad1 = 0.0f;
+    row.pad2 = 0.0f;
+    return row;
+}
+LAW float mass_along(Row row, Mass a, Mass b) {
+    return reciprocal(row.give_a * a.split + row.give_b * b.split);
+}
+// Velocity of B against A along the row.
+LAW float speed_along(Row row, Couple v) {
+    return dot3(row.direction, v.b.linear - v.a.linear) + (dot3(row.arm_b, v.b.angular) - dot3(row.arm_a, v.a.angular));
+}
+// An impulse along the row on B, its opposite on A; the bodies are those lent (split_a, split_b).
+LAW Couple pushed(Couple v, Row row, float impulse, Mass a, float split_a, Mass b, float split_b) {
+    v.a.linear = v.a.linear - row.direction * (impulse * a.inverse_mass * split_a);
+    v.a.angular = v.a.angular - row.turn_a * (impulse * split_a);
+    v.b.linear = v.b.linear + row.direction * (impulse * b.inverse_mass * split_b);
+    v.b.angular = v.b.angular + row.turn_b * (impulse * split_b);
+    return v;
+}
+LAW Couple twisted(Couple v, vec3 impulse, Mass a, float split_a, Mass b, float split_b) {
+    v.a.angular = v.a.angular - turned_by(a, impulse) * split_a;
+    v.b.angular = v.b.angular + turned_by(b, impulse) * split_b;
+    return v;
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,326 @@
+// A joint: where its bodies are along and about its six axes, and what each axis asks of their velocities.
+//
+// All joints of a block (compute/step/joint_blocks.h) are solved together and exactly, by elimination: (J M^-1 J^T + C) dl = -(J
+// v + bias), the rows that are at their bounds left out. So a block is one of those that mass splitting knows (contact_solver.h),
+// however many joints it has, and a chain carries a hundred times its links' weight without stretching. Rows that turn out to be
+// at a bound, or to leave one, are exchanged and the block is solved again (principal pivoting), a few times in a pass.
+//
+// A pendulum whose velocity were merely made to fit its joint where it hangs, moved and made to fit again would lose (h w)^2 of
+// its energy in each substep, half of all in a minute. So the biased pass also reckons with the way in which the joint's
+// direction turns during the substep (the drift): the impulses at either end of a substep are then alike, and what one adds to
+// the speed the other takes back (as in RATTLE: Andersen, J. Comput. Phys. 52, 1983).
+#ifndef SCREE_PHYSICS_JOINT_H
+#define SCREE_PHYSICS_JOINT_H
+
+#include "shaders/physics/solve/jacobian.h"
+#include "shaders/physics/solve/mass_splitting.h"
+
+LAWS_BEGIN
+
+// Part of a gap that a substep closes. With 1, a joint that contacts hold open shakes what it holds.
+CONSTANT float JOINT_RATE = 0.25f;
+CONSTANT float JOINT_TURN_SPEED = 6.0f;  // rad/s, greatest speed at which axes are turned together
+// Compliance of rigid rows, of what the lent bodies give themselves: mechanisms have more joints than they need, and without any
+// the surplus has no solution. More, and chains stretch; less, and what is surplus grows in the rounding of a float.
+CONSTANT float JOINT_COMPLIANCE = 1.0e-3f;
+CONSTANT float GENTLE_SPRING = 0.25f;  // of what would throw a body past its place in one substep: weaker ones are forces
+CONSTANT uint JOINT_ROUNDS = 8u;       // times that a block is solved in a pass at most
+CONSTANT uint SETTLING_ROUND = 2u;     // from then on bounds are only let go: with both, some blocks go round in circles
+// The squares of a body's turn in a substep, rad, from which the drift is left out more and more, and wholly: it follows what
+// turns slowly to second order, but the end of a whip it drives.
+CONSTANT float DRIFT_TURN = 0.0025f;
+CONSTANT float DRIFT_FADE = 133.33333f;  // 1 / (0.01 - 0.0025)
+CONSTANT float FARTHEST_SWING = 0.05f;
+
+// tan^-1(y/x) for y, x >= 0, not both 0; error 2e-7 (Abramowitz and Stegun 4.4.49).
+LAW float angle_of(float y, float x) {
+    bool steep = y > x;
+    float t = choose(steep, x, y) * reciprocal(larger(choose(steep, y, x), 1.0e-30f));
+    float s = t * t;
+    float p = 0.0028662257f;
+    p = p * s - 0.0161657367f;
+    p = p * s + 0.0429096138f;
+    p = p * s - 0.0752896400f;
+    p = p * s + 0.1065626393f;
+    p = p * s - 0.1420889944f;
+    p = p * s + 0.1999355085f;
+    p = p * s - 0.3333314528f;
+    p = t + t * (p * s);
+    return choose(steep, 1.5707963f - p, p);
+}
+
+// A joint as its bodies lie.
+struct JointPlace {
+    vec3 x;       // its axes in A
+    float twist;  // rad
+    vec3 y;
+    float swing_y;
+    vec3 z;
+    float swing_z;
+    vec3 arm_a;  // from A's centre to its anchor, m
+    float pad0;
+    vec3 arm_b;
+    float pad1;
+    vec3 gap;  // from A's anchor to B's, m
+    float pad2;
+    vec3 twist_axis;
+    float swing;  // the whole, rad
+    vec3 swing_axis;
+    float pad3;
+    vec3 x_b;  // B's own x axis
+    float pad4;
+};
+
+LAW JointPlace joint_place(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, vec4 frame_b, Pose b) {
+    JointPlace at;
+    vec4 turn_a = compose(a.orientation, frame_a), turn_b = compose(b.orientation, frame_b);
+    Axes axes = axes_of(turn_a);
+    at.x = axes.x;
+    at.y = axes.y;
+    at.z = axes.z;
+    at.arm_a = rotate(a.orientation, anchor_a);
+    at.arm_b = rotate(b.orientation, anchor_b);
+    at.gap = ((b.position - a.position) + at.arm_b) - at.arm_a;
+    // q = swing after twist, the twist about x (the swing's own part of x is 0).
+    vec4 q = compose(conjugate(turn_a), turn_b);
+    q = choose(q.w < 0.0f, -q, q);
+    float along = square_root(q.x * q.x + q.w * q.w);
+    float half_twist = angle_of(abs(q.x), q.w);
+    at.twist = choose(q.x < 0.0f, -2.0f * half_twist, 2.0f * half_twist);
+    float unit = reciprocal(larger(along, 1.0e-6f));
+    float sy = (q.w * q.y - q.x * q.z) * unit, sz = (q.w * q.z + q.x * q.y) * unit;
+    vec3 clean = without_dust(vec3(sy, sz, along));  // a zero's sign is not the same everywhere
+    sy = clean.x;
+    sz = clean.y;
+    float across = square_root(sy * sy + sz * sz);
+    at.swing = 2.0f * angle_of(across, larger(along, 1.0e-6f));
+    bool swings = across > 1.0e-6f;
+    float scale = choose(swings, at.swing * reciprocal(larger(across, 1.0e-6f)), 2.0f);
+    at.swing_y = sy * scale;
+    at.swing_z = sz * scale;
+    vec3 about = at.y * sy + at.z * sz;
+    at.swing_axis = choose(swings, unit3(about, at.y), at.y);
+    // The twist's rate is w.(xA + xB) / (1 + cos swing).
+    vec3 x_b = axes_of(turn_b).x;
+    at.x_b = x_b;
+    at.twist_axis = (at.x + x_b) * reciprocal(larger(1.0f + dot3(at.x, x_b), FARTHEST_SWING));
+    at.pad0 = 0.0f;
+    at.pad1 = 0.0f;
+    at.pad2 = 0.0f;
+    at.pad3 = 0.0f;
+    at.pad4 = 0.0f;
+    return at;
+}
+
+// Acceleration of B's anchor against A's that comes of their turning, m/s^2.
+LAW vec3 turning_of(JointPlace at, Couple v) {
+    return cross3(v.b.angular, cross3(v.b.angular, at.arm_b)) - cross3(v.a.angular, cross3(v.a.angular, at.arm_a));
+}
+LAW vec3 anchors_apart(JointPlace at, Couple v) {
+    return (v.b.linear - v.a.linear) + (cross3(v.b.angular, at.arm_b) - cross3(v.a.angular, at.arm_a));
+}
+
+// How much of the drift counts, times half a substep.
+LAW float drift_part(Couple v, float h) {
+    float fastest = larger(dot3(v.a.angular, v.a.angular), dot3(v.b.angular, v.b.angular)) * (h * h);
+    return 0.5f * h * clamped(1.0f - (fastest - DRIFT_TURN) * DRIFT_FADE, 0.0f, 1.0f);
+}
+
+// The row of one of the axes along which the joint moves; `row` brings its impulses.
+LAW JointRow linear_row(JointRow row, JointPlace at, uint axis, uint flags, Couple v, float h) {
+    vec3 speed = anchors_apart(at, v);
+    vec3 turning = turning_of(at, v);
+    if ((flags & JOINT_RADIAL) != 0u) {
+        row.direction = unit3(at.gap, at.x);
+        row.place = length3(at.gap);
+        row.arm_a = cross3(at.arm_a, row.direction);
+        vec3 around = speed - row.direction * dot3(speed, row.direction);
+        float curve = dot3(around, around) * reciprocal(larger(row.place, 1.0e-3f));
+        row.drift = drift_part(v, h) * (dot3(row.direction, turning) + curve);
+    } else {
+        vec3 u = axis == 0u ? at.x : (axis == 1u ? at.y : at.z);
+        row.direction = u;
+        row.place = dot3(u, at.gap);
+        row.arm_a = cross3(at.arm_a + at.gap, u);
+        vec3 rate = cross3(v.a.angular, u);
+        row.drift = drift_part(v, h) * ((dot3(u, turning) + 2.0f * dot3(rate, speed)) + dot3(cross3(v.a.angular, rate), at.gap));
+    }
+    row.arm_b = cross3(at.arm_b, row.direction);
+    return row;
+}
+// And of one about which it turns: 0 the twist, 1 and 2 the swing.
+LAW JointRow angular_row(JointRow row, JointPlace at, uint axis, uint flags, Couple v, float h) {
+    bool cone = (flags & JOINT_CONE) != 0u;
+    vec3 u = axis == 0u ? at.twist_axis : (axis == 1u ? (cone ? at.swing_axis : at.y) : at.z);
+    // What spins about its own x axis does not swing, however far it has swung: a steered wheel.
+    if (axis != 0u && (flags & JOINT_SPINS) != 0u) u = u - at.twist_axis * dot3(u, at.x_b);
+    row.direction = u;
+    row.place = axis == 0u ? at.twist : (axis == 1u ? (cone ? at.swing : at.swing_y) : at.swing_z);
+    row.arm_a = u;
+    row.arm_b = u;
+    row.drift = drift_part(v, h) * dot3(cross3(v.a.angular, u), v.b.angular - v.a.angular);
+    return row;
+}
+
+LAW bool is_linear(uint axis) {
+    return axis < 3u;
+}
+// Speed of the place.
+LAW float row_speed(JointRow row, bool linear, Couple v) {
+    float turning = dot3(row.arm_b, v.b.angular) - dot3(row.arm_a, v.a.angular);
+    return linear ? dot3(row.direction, v.b.linear - v.a.linear) + turning : turning;
+}
+// What an impulse of 1 along one row does to another on the same body, whose arms they are.
+LAW float give_between(vec3 direction, vec3 arm, vec3 other_direction, vec3 other_arm, bool both_linear, Mass mass) {
+    float turning = dot3(arm, turned_by(mass, other_arm));
+    return (both_linear ? dot3(direction, other_direction) * mass.inverse_mass + turning : turning) * mass.split;
+}
+LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
+    if (linear) v.linear = v.linear + direction * (impulse * mass.inverse_mass * mass.split);
+    v.angular = v.angular + turned_by(mass, arm) * (impulse * mass.split);
+    return v;
+}
+
+// ---- what an axis asks
+struct Demand {  // row speed + bias + compliance * impulse's change = 0
+    float bias;
+    float compliance;
+};
+
+LAW float joint_push(float place, uint axis, Parameters parameters) {
+    float fastest = is_linear(axis) ? parameters.push_speed : JOINT_TURN_SPEED;
+    return clamped(place * (JOINT_RATE * parameters.inverse_h), -fastest, fastest);
+}
+
+// A spring so weak that it may act as the force that it is at the substep's start, which takes no energy out of its swinging.
+LAW bool is_gentle(JointAxis axis, float give, Parameters parameters) {
+    float h = parameters.h;
+    return h * h * axis.stiffness * give < GENTLE_SPRING && h * axis.damping * give < GENTLE_SPRING;
+}
+
+LAW float most_impulse(JointAxis axis, Parameters parameters) {
+    return axis.most * parameters.h;
+}
+LAW float spring_impulse(JointAxis axis, float place, float speed, Parameters parameters) {
+    float force = axis.stiffness * (axis.rest - place) + axis.damping * (axis.speed - speed);
+    return clamped(force * parameters.h, -most_impulse(axis, parameters), most_impulse(axis, parameters));
+}
+
+// Whether the drive is an unknown of the block's equations; if not, its impulse is held_drive().
+LAW bool drive_is_solved(JointAxis axis, JointRow row, uint pin, bool biased, Parameters parameters) {
+    if ((pin & (STOP_LOW | STOP_HIGH)) != 0u) return false;
+    if ((axis.mode & AXIS_LOCKED) != 0u) return true;
+    if ((pin & (PIN_LOW | PIN_HIGH)) != 0u) return false;
+    if ((axis.mode & AXIS_SPRING) != 0u) return biased && !is_gentle(axis, row.give, parameters);
+    return (axis.mode & AXIS_MOTOR) != 0u;
+}
+// `speed`: of the row as the pass begins.
+LAW float held_drive(JointAxis axis, JointRow row, uint pin, float speed, bool biased, Parameters parameters) {
+    float most = most_impulse(axis, parameters);
+    bool stopped = (pin & (STOP_LOW | STOP_HIGH)) != 0u;
+    if ((axis.mode & AXIS_SPRING) != 0u) {
+        if (!biased) return row.drive;
+        if (stopped || is_gentle(axis, row.give, parameters))
+            return spring_impulse(axis, row.place, stopped ? 0.0f : speed, parameters);
+    }
+    if ((axis.mode & AXIS_MOTOR) != 0u && stopped)
+        return axis.speed > 0.0f ? most : (axis.speed < 0.0f ? -most : clamped(row.drive, -most, most));
+    if ((pin & PIN_LOW) != 0u) return -most;
+    if ((pin & PIN_HIGH) != 0u) return most;
+    return 0.0f;
+}
+LAW Demand drive_demand(JointAxis axis, JointRow row, uint index, bool biased, Parameters parameters) {
+    Demand demand;
+    demand.compliance = JOINT_COMPLIANCE * row.give;
+    if ((axis.mode & AXIS_LOCKED) != 0u) {
+        demand.bias = 0.0f;
+        if (biased)
+            demand.bias = (joint_push(row.place - axis.rest, index, parameters) + row.drift) + demand.compliance * row.drive;
+    } else if ((axis.mode & AXIS_SPRING) != 0u) {
+        float resisting = axis.damping + parameters.h * axis.stiffness;
+        float yielding = reciprocal(resisting);
+        demand.compliance = yielding * parameters.inverse_h;
+        demand.bias =
+            (axis.stiffness * (row.place - axis.rest) - axis.damping * axis.speed) * yielding + demand.compliance * row.drive;
+    } else {
+        demand.bias = -axis.speed;
+    }
+    return demand;
+}
+LAW float stop_bias_for(float room, float drift, uint index, bool biased, Parameters parameters) {
+    if (room > 0.0f) return room * parameters.inverse_h + (biased ? drift : 0.0f);
+    return biased ? joint_push(room, index, parameters) + drift : 0.0f;
+}
+// Of the lower limit if `low`, else of the upper, whose speed and impulse are negative.
+LAW Demand stop_demand(JointAxis axis, JointRow row, uint index, bool low, bool biased, Parameters parameters) {
+    Demand demand;
+    demand.compliance = JOINT_COMPLIANCE * row.give;
+    demand.bias = low ? stop_bias_for(row.place - axis.lower, row.drift, index, biased, parameters)
+                      : -stop_bias_for(axis.upper - row.place, -row.drift, index, biased, parameters);
+    if (biased) demand.bias = demand.bias + demand.compliance * row.stop;
+    return demand;
+}
+
+// The bits of an axis after a solution: which bounds act. `speed`: of the row afterwards; `solution`: of the row, if it was
+// solved.
+LAW uint pins_after(JointAxis axis, JointRow row, uint index, uint pin, bool solved, float solution, float speed, bool biased,
+                    bool settling, Parameters parameters) {
+    if ((pin & STOP_LOW) != 0u) {
+        if (row.stop + solution < 0.0f) return pin & ~STOP_LOW;
+        return pin;
+    }
+    if ((pin & STOP_HIGH) != 0u) {
+        if (row.stop + solution > 0.0f) return pin & ~STOP_HIGH;
+        return pin;
+    }
+    if ((axis.mode & AXIS_LIMITED) != 0u && !settling) {
+        Demand low = stop_demand(axis, row, index, true, biased, parameters);
+        if (speed + low.bias < 0.0f) return STOP_LOW;
+        Demand high = stop_demand(axis, row, index, false, biased, parameters);
+        if (speed + high.bias > 0.0f) return STOP_HIGH;
+    }
+    if ((axis.mode & AXIS_LOCKED) != 0u || (axis.mode & (AXIS_MOTOR | AXIS_SPRING)) == 0u) return pin;
+    float most = most_impulse(axis, parameters);
+    if (solved) {
+        if (row.drive + solution < -most) return PIN_LOW;
+        if (row.drive + solution > most) return PIN_HIGH;
+        return 0u;
+    }
+    if (pin != 0u && !settling) {
+        float error = speed + drive_demand(axis, row, index, biased, parameters).bias;
+        if ((axis.mode & AXIS_SPRING) != 0u && !biased) return pin;
+        if ((pin & PIN_LOW) != 0u && error < 0.0f) return 0u;
+        if ((pin & PIN_HIGH) != 0u && error > 0.0f) return 0u;
+    }
+    return pin;
+}
+LAW uint pins_of(uint pins, uint axis) {
+    return (pins >> (4u * axis)) & 15u;
+}
+LAW uint with_pins(uint pins, uint axis, uint pin) {
+    return (pins & ~(15u << (4u * axis))) | (pin << (4u * axis));
+}
+
+// Impulses within their bounds, whatever the last solution said.
+LAW JointRow row_after(JointRow row, JointAxis axis, uint pin, bool solved, float solution, Parameters parameters) {
+    bool stopped = (pin & (STOP_LOW | STOP_HIGH)) != 0u;
+    if (solved && stopped) {
+        float after = row.stop + solution;
+        after = (pin & STOP_LOW) != 0u ? positive(after) : -positive(-after);
+        row.stop_change = after - row.stop;
+    } else if (solved) {
+        float after = row.drive + solution;
+        if ((axis.mode & AXIS_LOCKED) == 0u)
+            after = clamped(after, -most_impulse(axis, parameters), most_impulse(axis, parameters));
+        row.drive_change = after - row.drive;
+    }
+    return row;
+}
+
+LAW bool joint_tears(vec3 force, float break_force, vec3 torque, float break_torque) {
+    return length3(force) > break_force || length3(torque) > break_torque;
+}
+
+LAWS_END
+
+#endif

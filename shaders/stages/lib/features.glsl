@@ -1,0 +1,27 @@
+// What cannot be in this scene: the driver leaves out what is said for it. A software device runs through both branches of every
+// `if`; a GPU needs registers for both.
+#ifndef SCREE_STAGES_CONTENT_GLSL
+#define SCREE_STAGES_CONTENT_GLSL
+
+#include "shaders/physics/base/records.h"
+
+layout(constant_id = 1) const uint CONTENT = 0xFFFFFFFFu;
+const bool BOUNCES = (CONTENT & CONTENT_BOUNCES) != 0u;
+const bool PARTS = (CONTENT & CONTENT_PARTS) != 0u;
+const bool ROLLS = (CONTENT & CONTENT_ROLLS) != 0u;
+const bool REORDERED = (CONTENT & CONTENT_REORDERED) != 0u;
+
+// Only members that the laws compare are replaced: a zero in a sum would be folded away, and the sign of a zero with it.
+Constraint narrowed(Constraint c) {
+    if (!BOUNCES) c.restitution = 0.0f;
+    if (!ROLLS) c.rolling_resistance = 0.0f;
+    if ((CONTENT & CONTENT_ROUND) == 0u) c.anchor = c.anchor == ANCHOR_B ? ANCHOR_B : ANCHOR_A;
+    if ((CONTENT & (CONTENT_ROUND | CONTENT_TYRES)) == 0u) c.radius_a = 0.0f;
+    return c;
+}
+Impulse narrowed(Impulse impulse) {
+    if (!BOUNCES) impulse.approach = vec4(0.0f);
+    return impulse;
+}
+
+#endif

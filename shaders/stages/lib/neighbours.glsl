@@ -1,0 +1,96 @@
+// The bodies whose pairs one body owns: those whose bounds overlap its own, and between bodies that do not stir those that it
+// touched in the last step; each is handed to found(), which the stage defines.
+#ifndef SCREE_STAGES_NEIGHBOURS_GLSL
+#define SCREE_STAGES_NEIGHBOURS_GLSL
+
+#include "shaders/physics/collide/grid.h"
+#include "shaders/stages/lib/ids.glsl"
+
+#ifdef WITH_JOINTS
+// Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
+bool kept_apart(uint body, uint other) {
+    uint listed = READ(traits, body).joints != NONE ? body : other;
+    uint partner = listed == body ? other : body;
+    for (uint j = READ(traits, listed).joints; j != NONE;) {
+        bool is_a = joints.at[j].a == listed;
+        if ((is_a ? joints.at[j].b : joints.at[j].a) == partner && joints.at[j].broken == 0u &&
+            (joints.at[j].flags & JOINT_COLLIDES) == 0u)
+            return true;
+        j = is_a ? joints.at[j].next_a : joints.at[j].next_b;
+    }
+    return false;
+}
+void meets(uint body, uint other) {
+    if (!kept_apart(body_of(body), body_of(other))) found(other);
+}
+#else
+#define meets(body, other) found(other)
+#endif
+
+void look_through_large(uint body, Traits own, Bounds around) {
+    for (uint k = READ(cells, PARAMETERS.buckets - 1u); k < READ(cells, PARAMETERS.buckets); ++k) {
+        uint other = READ(cell_entries, k).body;
+        CellEntry entry = READ(cell_entries, k);
+        if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
+        if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
+        Traits theirs = READ(traits, other);
+        if (!can_touch(own, theirs)) continue;
+        bool near = true;
+        if (theirs.shape == SHAPE_PLANE)
+            near = reaches_plane(around.lower, around.upper, theirs.size, READ(poses, other).position);
+        else if (own.shape == SHAPE_PLANE)
+            near = reaches_plane(entry.lower, entry.upper, own.size, READ(poses, body).position);
+        if (near) meets(body, other);
+    }
+}
+
+// The cells along x are one run of buckets, which may wrap round the end of the grid's entries.
+void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last_x, uint level) {
+    uint low = bucket_of(from, level, PARAMETERS.buckets);
+    uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
+    uint end = READ(cells, PARAMETERS.buckets - 1u);
+    uint first = low == 0u ? 0u : READ(cells, low - 1u);
+    uint id = id_of(body);
+    uint entries = low <= high ? READ(cells, high) - first : end - first + READ(cells, high);
+    for (uint k = 0u; k < entries; ++k) {
+        uint place = first + k < end ? first + k : first + k - end;
+        CellEntry entry = READ(cell_entries, place);
+        if ((entry.level & ~(STILL | MOVES)) != level) continue;
+        if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
+        if (!finds(id, around.level, id_of(entry.body), entry.level & ~MOVES)) continue;
+        ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
+        if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
+        if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(traits, entry.body).owner == own.owner) continue;
+        if (motion_of(own) == MOTION_DYNAMIC || (entry.level & MOVES) != 0u) meets(body, entry.body);
+    }
+}
+
+void carry_over(uint body) {
+    uint last = READ(first_contacts_before, body + 1u);
+    for (uint k = READ(first_contacts_before, body); k < last; ++k) {
+        uint a = READ(contacts_before, k).a;
+        uint other = a == body ? READ(contacts_before, k).b : a;
+        if ((READ(bounds, other).level & STILL) != 0u) found(other);
+    }
+}
+
+void look_around(uint body) {
+    Bounds around = READ(bounds, body);
+    if ((around.level & NOWHERE) != 0u) return;
+    bool still = (around.level & STILL) != 0u;
+    if (still) carry_over(body);
+    uint levels = levels_to_search(around.level, COUNTED);
+    if (still && levels == 0u && COUNTED.large_stirring == 0u) return;
+    Traits own = READ(traits, body);
+    look_through_large(body, own, around);
+    if (is_large(own)) return;
+    for (uint level = 0u; level < LEVELS && (levels >> level) != 0u; ++level) {
+        if (((levels >> level) & 1u) == 0u) continue;
+        CellRange range = cells_in_reach(around.lower, around.upper, level, PARAMETERS);
+        for (int z = range.first.z; z <= range.last.z; ++z)
+            for (int y = range.first.y; y <= range.last.y; ++y)
+                look_through_row(body, own, around, ivec3(range.first.x, y, z), range.last.x, level);
+    }
+}
+
+#endif

@@ -1,0 +1,51 @@
+// What a substep does with one body: before the biased pass, and between it and the one without bias.
+#ifndef SCREE_STAGES_PASS_BODIES_GLSL
+#define SCREE_STAGES_PASS_BODIES_GLSL
+
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/extra/grab_spring.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/motion.h"
+#include "shaders/stages/lib/stage.glsl"
+
+// after the tables that it sums
+#include "shaders/stages/lib/gather.glsl"
+
+// Gathers warm starts (and the last substep's relaxation), adds forces, pulls what the user holds, and splits the body among the
+// contacts that carry.
+void begin_body(uint i, bool first) {
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ(rests, i), PARAMETERS.sleep_steps)) return;
+    Traits body = READ(traits, i);
+    if (body.motion != MOTION_DYNAMIC) return;
+    Gathered sum = gather(i);
+    Velocity velocity = accelerated(READ(velocities, i), sum.change, READ(loads, i), body, PARAMETERS);
+    for (uint k = 0u; k < PARAMETERS.held; ++k) {
+        if (PARAMETERS.grips[k].body == i)
+            velocity = pulled(velocity, READ(poses, i), READ(masses, i), PARAMETERS.grips[k], PARAMETERS);
+    }
+    velocities.at[i] = velocity;
+    float crowd = READ(masses, i).split;
+    if (first) crowd = drifted(crowd, sum.carrying, COUNTED.steps);
+    masses.at[i].split = crowd_after(crowd, sum.carrying, sum.pressing);
+}
+
+// Gathers the biased pass and moves the body by a substep.
+void move_body(uint i) {
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ(rests, i), PARAMETERS.sleep_steps)) return;
+    Traits body = READ(traits, i);
+    if (body.motion == MOTION_FIXED || is_part(body) || is_absent(body.motion)) return;
+    Velocity velocity = READ(velocities, i);
+    if (body.motion == MOTION_DYNAMIC) {
+        Gathered sum = gather(i);
+        velocity.linear = velocity.linear + sum.change.linear;
+        velocity.angular = velocity.angular + sum.change.angular;
+        loads.at[i].blows = sum.carrying;
+    }
+    Moved after = moved(READ(poses, i), velocity, body, PARAMETERS.h);
+    poses.at[i] = after.pose;
+    velocities.at[i] = after.velocity;
+    if (!turns_evenly(body)) masses.at[i] = mass_in_world(body, after.pose.orientation, READ(masses, i).split);
+}
+
+#endif

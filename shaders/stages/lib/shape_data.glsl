@@ -1,0 +1,12 @@
+// The table of hulls, as the laws ask for it.
+#ifndef SCREE_STAGES_HULLS_GLSL
+#define SCREE_STAGES_HULLS_GLSL
+
+#include "shaders/physics/collide/shape_data.h"
+#include "shaders/stages/lib/stage.glsl"
+
+uvec4 hull_record(Hulls table, uint place) {
+    return READ(hulls, place);
+}
+
+#endif

@@ -1,0 +1,65 @@
+// What every stage begins with: the tables of a step, and a workgroup whose size the host chooses. Item i of a table is
+// name.at[i].
+//
+// Each stage is compiled for every way of reaching them: for tables that are bound, and (SCREE_FAR) for tables found by their
+// addresses, which may be longer and more than a device binds; and either with SCREE_TEXELS, where what a stage only reads comes
+// from texel buffers (read.glsl). NAME, NAME.far, NAME.texels and NAME.far.texels are the names of the four.
+#ifndef SCREE_STAGES_STAGE_GLSL
+#define SCREE_STAGES_STAGE_GLSL
+
+#include "shaders/physics/base/records.h"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/stages/lib/tables.h"
+
+layout(local_size_x_id = 0) in;
+
+// A stage that is several in turn (SCREE_FUSED) is one workgroup, whose threads read what the others wrote before a barrier.
+#ifdef SCREE_FUSED
+#define SCREE_SHARED coherent
+#else
+#define SCREE_SHARED
+#endif
+
+#ifdef SCREE_FAR
+#extension GL_EXT_buffer_reference : require
+#define SCREE_DECLARE(index, name, block, record, length)                                     \
+    layout(std430, buffer_reference, buffer_reference_align = 16) SCREE_SHARED buffer block { \
+        record at[];                                                                          \
+    };
+SCREE_TABLES(SCREE_DECLARE)
+#define SCREE_POINT(index, name, block, record, length) block name;
+layout(std140, set = 0, binding = 0) uniform Addresses{SCREE_TABLES(SCREE_POINT)};
+#else
+layout(std140, set = 0, binding = 0) uniform ParametersTable {
+    Parameters at[1];
+}
+parameters;
+#define SCREE_DECLARE(index, name, block, record, length)                \
+    layout(std430, set = 0, binding = index) SCREE_SHARED buffer block { \
+        record at[];                                                     \
+    }                                                                    \
+    name;
+SCREE_CHANGING_TABLES(SCREE_DECLARE)
+#endif
+
+layout(push_constant) uniform Push {
+    uint pass;
+}
+push;
+
+#define PARAMETERS parameters.at[0]
+#define COUNTS counts.at[0]       // to be changed
+#define COUNTED READ(counts, 0u)  // to be read: all but the arguments
+
+#include "shaders/stages/lib/read.glsl"
+
+// The body that a row belongs to.
+uint body_of(uint row) {
+    return row < PARAMETERS.first_part ? row : READ(traits, row).owner;
+}
+
+uint thread() {
+    return gl_GlobalInvocationID.x;
+}
+
+#endif

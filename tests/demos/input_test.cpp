@@ -1,0 +1,194 @@
+// What a user did, written down and done again.
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <limits>
+
+#include "demos/play/session.h"
+#include "demos/program/exit_status.h"
+
+using namespace scree;
+using namespace scree::demos;
+
+namespace {
+
+SceneOptions options_of(const std::string& name) {
+    SceneOptions options;
+    options.name = name;
+    return options;
+}
+std::unique_ptr<Runner> on_cpu() {
+    return make_reference_runner(1);
+}
+
+// A run of 90 steps in which everything is done that can be done.
+void play(Session& session) {
+    for (int step = 0; step < 90; ++step) {
+        if (step == 0) session.perform(Turn{.sleeping = true});
+        if (step == 4) session.perform(Grab{0, 5, vec3(0.1f, 0.2f, 0.3f), vec3(1.0f / 3, 2, 0)});
+        if (step > 4 && step < 30) {
+            session.perform(Drag{0, vec3(0, 2, 0)});  // of these only the second counts
+            session.perform(Drag{0, vec3(0.1f * static_cast<float>(step), 2.7182818f, 1e-9f)});
+        }
+        if (step == 30) session.perform(Release{0});
+        if (step == 33) {
+            Body ball;
+            ball.shape = Sphere{0.3f};
+            ball.position = vec3(4, 1, 0.1f);
+            ball.velocity = vec3(-12.3456789f, 3, -0.0f);
+            session.perform(Add{ball});
+        }
+        if (step == 36) {
+            Joint rope;
+            rope.name = "a rope";
+            rope.kind = Distance{0.1f, 10.0f / 3, Spring{1e3f / 3, 1.1f, 0.7f}};
+            rope.a = 3;
+            rope.b = 6;
+            rope.anchor_a = vec3(0.1f, 1.0f / 3, -0.0f);
+            rope.break_force = 1e7f / 3;
+            session.perform(Join{rope});
+        }
+        if (step == 70) session.perform(Unjoin{0});
+        if (step > 40 && step < 45) session.perform(Push{5, vec3(3e4f, 1, -2)});
+        if (step == 50) session.perform(Explode{vec3(0.3f, 0, 0), 4, 7});
+        if (step == 60)
+            session.perform(Turn{.gravity = vec3(1, -5, 0), .substeps = 5, .friction_factor = 0.3f, .least_restitution = 0.7f});
+        session.step();
+    }
+}
+
+std::uint64_t replayed(const Input& input, const SceneOptions& options) {
+    const Subject subject = load_subject(options);
+    World world(subject.scene, subject.settings(options), on_cpu());
+    const Script script = replay(input, "played.json", subject.before_step);
+    while (world.steps() < input.steps) {
+        script(world);
+        world.step();
+    }
+    script(world);
+    return world.state_hash();
+}
+
+std::string wrong(const std::string& acts, const std::string& rest = "") {
+    try {
+        input_from_json(R"({"scree_input": 1, "scene": "stack", "steps": 9)" + rest + R"(, "acts": [)" + acts + "]}");
+    } catch (const SceneError& error) {
+        return error.what();
+    }
+    return "nothing";
+}
+
+}  // namespace
+
+TEST_CASE("what a user did, written as JSON and read again, leads to the same state") {
+    for (const char* name : {"stack", "dominoes"}) {  // a script acts in the second
+        Session session(options_of(name), on_cpu);
+        play(session);
+        const Input input = session.input();
+        REQUIRE(input.steps == 90);
+        const Input read = input_from_json(json_of(input));
+        REQUIRE(json_of(read) == json_of(input));
+        REQUIRE(read.acts.size() == input.acts.size());
+        REQUIRE(replayed(read, session.options()) == session.world().state_hash());
+        REQUIRE(read.end_hash == session.world().state_hash());
+
+        Input less = read;
+        less.acts.pop_back();
+        REQUIRE(replayed(less, session.options()) != session.world().state_hash());
+    }
+}
+
+TEST_CASE("of the places that a body is drawn to before one step only the last is recorded") {
+    Session session(options_of("stack"), on_cpu);
+    session.perform(Grab{0, 5, vec3(0), vec3(0, 5, 0)});
+    for (int i = 0; i < 10; ++i) session.perform(Drag{0, vec3(0, static_cast<float>(i), 0)});
+    session.step();
+    session.perform(Drag{0, vec3(1)});
+    const Input input = session.input();
+    REQUIRE(input.acts.size() == 3);
+    REQUIRE(std::get<Drag>(input.acts[1].act).target.y == 9);
+    REQUIRE(input.acts[2].step == 1);
+}
+
+TEST_CASE("what was done after the last step is done again") {
+    Session session(options_of("stack"), on_cpu);
+    session.step();
+    const std::uint64_t before = session.world().state_hash();
+    session.perform(Add{});
+    REQUIRE(session.world().state_hash() != before);
+    REQUIRE(replayed(session.input(), session.options()) == session.world().state_hash());
+}
+
+TEST_CASE("an act that the world refuses is not recorded") {
+    Session session(options_of("stack"), on_cpu);
+    REQUIRE_THROWS_AS(session.perform(Drag{0, vec3(0)}), std::out_of_range);
+    REQUIRE_THROWS_AS(session.perform(Push{999, vec3(0)}), std::out_of_range);
+    REQUIRE_THROWS_AS(session.perform(Grab{1, 5, vec3(0), vec3(0)}), std::invalid_argument);  // 0 is free
+    REQUIRE_THROWS_AS(session.perform(Turn{.substeps = 65}), std::invalid_argument);
+    REQUIRE(session.input().acts.empty());
+    session.perform(Grab{0, 5, vec3(0), vec3(0)});  // the wrong one has let go
+}
+
+TEST_CASE("to begin again is a new recording of the same scene, to open another one a recording of that") {
+    Session session(options_of("stack"), on_cpu);
+    const std::uint64_t start = session.world().state_hash();
+    session.perform(Explode{vec3(0), 10, 5});
+    session.step();
+    session.reset();
+    REQUIRE(session.world().state_hash() == start);
+    REQUIRE(session.input().acts.empty());
+    REQUIRE(session.beginnings() == 2);
+    session.open("wall");
+    REQUIRE(session.input().scene == "wall");
+    REQUIRE_THROWS_WITH(session.open("wal"), Catch::Contains("wall"));
+    REQUIRE(session.subject().name == "wall");
+}
+
+TEST_CASE("a recording of another scene is refused") {
+    Session session(options_of("stack"), on_cpu);
+    session.step();
+    Input input = session.input();
+    REQUIRE_THROWS_WITH(replayed(input, options_of("wall")), Catch::Contains("/start_hash"));
+    input.start_hash.reset();
+    input.acts.push_back({0, Push{500, vec3(1)}});
+    REQUIRE_THROWS_WITH(replayed(input, options_of("stack")), Catch::Contains("played.json: /acts/0: body 500"));
+    input.acts.back().act = Unjoin{3};
+    REQUIRE_THROWS_WITH(replayed(input, options_of("stack")), Catch::Contains("played.json: /acts/0: joint 3 of 0"));
+    Joint joint;
+    joint.a = 500;
+    input.acts.back().act = Join{joint};
+    REQUIRE_THROWS_WITH(replayed(input, options_of("stack")), Catch::Contains("there is no body 500"));
+}
+
+TEST_CASE("a mistake in a recording is told with its place") {
+    using Catch::Contains;
+    CHECK_THAT(wrong("", ", \"seeds\": 3"), Contains("/seeds: unknown key \"seeds\"; nearest: \"seed\""));
+    CHECK_THAT(wrong("", ", \"rate\": 5"), Contains("/rate: must be between 10 and 1000"));
+    CHECK_THAT(wrong("", ", \"substeps\": 0"), Contains("/substeps"));
+    CHECK_THAT(wrong("", ", \"start_hash\": \"12\""), Contains("/start_hash: must be 16 hexadecimal digits"));
+    CHECK_THAT(wrong("3"), Contains("/acts/0: must be an object"));
+    CHECK_THAT(wrong(R"({"step": 1})"), Contains("/acts/0: must have \"step\" and one act"));
+    CHECK_THAT(wrong(R"({"step": -1, "release": {"grip": 0}})"), Contains("/acts/0/step: must be a whole number"));
+    CHECK_THAT(wrong(R"({"step": 10, "release": {"grip": 0}})"), Contains("/acts/0/step: lies beyond /steps"));
+    CHECK_THAT(wrong(R"({"step": 5, "release": {"grip": 0}}, {"step": 4, "release": {"grip": 0}})"), Contains("/acts/1/step"));
+    CHECK_THAT(wrong(R"({"step": 1, "relese": {"grip": 0}})"),
+               Contains("/acts/0/relese: unknown act \"relese\"; nearest: \"release\""));
+    CHECK_THAT(wrong(R"({"step": 1, "release": {"grip": 0.5}})"), Contains("/acts/0/release/grip: must be a whole number"));
+    CHECK_THAT(wrong(R"({"step": 1, "drag": {"grip": 0}})"), Contains("/acts/0/drag: lacks \"target\""));
+    CHECK_THAT(wrong(R"({"step": 1, "drag": {"grip": 0, "target": [1, 2]}})"),
+               Contains("/acts/0/drag/target: must be an array of 3"));
+    CHECK_THAT(wrong(R"({"step": 1, "add": {"shape": {"torus": {}}}})"), Contains("/acts/0/add/shape: unknown shape"));
+    CHECK_THAT(wrong(R"({"step": 1, "add": {"shape": {"sphere": {"radius": 0}}}})"),
+               Contains("/acts/0/add/shape/sphere/radius: must be"));
+    CHECK_THAT(wrong(R"({"step": 1, "join": {"kind": {"ball": {}}, "a": 1, "anchor": [0, 0, 0]}})"),
+               Contains("/acts/0/join/anchor: its bodies move: say \"anchor_a\""));
+    CHECK_THAT(wrong(R"({"step": 1, "join": {"kind": {"rope": {}}, "a": 1}})"), Contains("/acts/0/join/kind: unknown kind"));
+    CHECK_THAT(wrong(R"({"step": 1, "unjoin": {"joint": -1}})"), Contains("/acts/0/unjoin/joint: must be a whole number"));
+    CHECK_THAT(wrong(R"({"step": 1, "turn": {}})"), Contains("/acts/0/turn: turns nothing"));
+    CHECK_THAT(wrong(R"({"step": 1, "turn": {"substeps": 65}})"), Contains("/acts/0/turn/substeps"));
+    CHECK_THAT(wrong(R"({"step": 1, "push": {"body": 1, "force": [1, 1e99, 0]}})"), Contains("/acts/0/push/force/1"));
+    CHECK_THAT(wrong("{,}"), Contains("line 1, column"));
+    CHECK_THAT(wrong(R"({"step": 1, "release": {"grip": 0}})"), Contains("nothing"));
+    REQUIRE_THROWS_WITH(input_from_json("{}"), Contains("lacks \"scree_input\""));
+    REQUIRE_THROWS_WITH(input_from_json(R"({"scree_input": 2, "scene": "stack", "steps": 1, "acts": []})"),
+                        Contains("/scree_input"));
+}

@@ -1,0 +1,67 @@
+// Every demo, small: the same bits on both processors, and nothing overlapping at its start.
+#include <catch2/catch.hpp>
+
+#include "compute/device/lockstep.h"
+#include "compute/world.h"
+#include "demos/scenes/demos.h"
+#include "host/vulkan/device.h"
+
+using namespace scree;
+
+namespace {
+
+demos::DemoScene small(const demos::Demo& demo) {
+    demos::DemoOptions options;
+    options.bodies = demo.takes_bodies ? 120 : 0;
+    return demos::build(demo, options);
+}
+
+void check_lockstep(bool trial, bool takes_bodies) {
+    host::DeviceOptions options;
+    options.validation = true;
+    const auto device = host::Device::open(options);
+    for (const demos::Demo& demo : demos::all_demos()) {
+        if (demo.trial != trial || demo.takes_bodies != takes_bodies) continue;
+        if (demo.name == std::string("rollmesh")) continue;                   // its 10,000 triangles are those of others
+        if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and made of what the others are made of
+        const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, device, 1, 40);
+        INFO(demo.name << ": step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element
+                       << "], " << result.detail);
+        CHECK(result.equal);
+    }
+    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
+
+}  // namespace
+
+TEST_CASE("every demo gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(false, false);
+}
+
+TEST_CASE("every demo of any size gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(false, true);
+}
+
+TEST_CASE("every trial gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(true, false);
+}
+
+TEST_CASE("every trial of any size gives the same bits on both processors, and validation stays silent") {
+    check_lockstep(true, true);
+}
+
+TEST_CASE("no demo but one begins with bodies inside each other or inside what holds them") {
+    for (const demos::Demo& demo : demos::all_demos()) {
+        if (demo.name == std::string("overlap")) continue;  // that is what it is about
+        for (const std::size_t bodies : {std::size_t{0}, std::size_t{2000}}) {
+            demos::DemoOptions options;
+            options.bodies = demo.takes_bodies ? bodies : 0;
+            Scene scene = demos::build(demo, options).scene;
+            for (Body& body : scene.bodies) body.velocity = vec3(0);  // in a step a shot is far from where it began
+            World world(scene, {}, 1);
+            world.step();
+            INFO(demo.name << " with " << world.scene().bodies.size() << " bodies");
+            CHECK(world.statistics().penetration_max < 0.01);
+        }
+    }
+}

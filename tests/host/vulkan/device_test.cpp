@@ -1,0 +1,295 @@
+// Devices, buffers, pipelines and recordings, on every way a buffer is reached, with validation on.
+#include <stdlib.h>
+
+#include <catch2/catch.hpp>
+#include <cctype>
+#include <cstring>
+#include <numeric>
+
+#include "host/files/file.h"
+#include "host/spirv/spirv.h"
+#include "host/vulkan/command_buffer.h"
+#include "tests/host/vulkan/compiled.h"
+
+using namespace scree::host;
+
+namespace {
+
+// A device with validation that must stay silent for as long as the test lasts.
+class Watched {
+public:
+    explicit Watched(bool staged = false)
+        : device_(Device::open({.which = "", .validation = true, .staged = staged, .on_message = {}})) {}
+    ~Watched() {
+        for (const std::string& message : device_->validation_messages()) FAIL_CHECK(message);
+    }
+    Watched(const Watched&) = delete;
+    Watched& operator=(const Watched&) = delete;
+    const std::shared_ptr<Device>& get() const { return device_; }
+    const std::shared_ptr<Device>& operator->() const { return device_; }
+
+private:
+    std::shared_ptr<Device> device_;
+};
+
+constexpr std::uint32_t group = 64;
+
+const std::vector<std::uint32_t>& affine() {
+    static const std::vector<std::uint32_t> words = without_contraction(compiled(R"(
+layout(local_size_x = 64) in;
+layout(constant_id = 0) const uint addend = 1u;
+layout(push_constant) uniform Push { uint count; uint factor; };
+layout(std430, binding = 0) buffer Input { uint inputs[]; };
+layout(std430, binding = 1) buffer Output { uint outputs[]; };
+void main() {
+    uint i = gl_GlobalInvocationID.x;
+    if (i >= count) return;
+    outputs[i] = inputs[i] * factor + addend;
+}
+)"));
+    return words;
+}
+
+struct Push {
+    std::uint32_t count, factor;
+};
+
+}  // namespace
+
+TEST_CASE("devices are listed with what they are and what they lack") {
+    const std::vector<DeviceReport> reports = list_devices();
+    REQUIRE_FALSE(reports.empty());
+    for (std::size_t i = 0; i < reports.size(); ++i) {
+        REQUIRE(reports[i].index == static_cast<int>(i));
+        REQUIRE_FALSE(reports[i].name.empty());
+        REQUIRE_FALSE(reports[i].driver.empty());
+        REQUIRE(reports[i].memory_bytes > 0);
+        REQUIRE(reports[i].largest_binding >= (1u << 27));
+    }
+}
+
+TEST_CASE("a device that does not exist is refused with the list of those that do") {
+    const std::string first = list_devices().front().name;
+    for (const char* which : {"7777", "no such card", "99999999999999999999"}) {
+        REQUIRE_THROWS_WITH(Device::open({.which = which, .validation = false, .staged = false, .on_message = {}}),
+                            Catch::Contains(std::string("no Vulkan device ") + which + "; there are: 0 " + first));
+    }
+}
+
+TEST_CASE("a device is found by index and by part of its name in any case") {
+    DeviceReport usable;
+    for (const DeviceReport& report : list_devices()) {
+        if (report.lacks.empty()) usable = report;
+    }
+    std::string part = usable.name.substr(0, 5);
+    for (char& c : part) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    for (const std::string& which : {std::to_string(usable.index), part}) {
+        const auto device = Device::open({.which = which, .validation = false, .staged = false, .on_message = {}});
+        REQUIRE(device->report().name.substr(0, 5) == usable.name.substr(0, 5));
+    }
+}
+
+TEST_CASE("validation notices a mistake and forwards it") {
+    std::string forwarded;
+    const auto device =
+        Device::open({.which = "", .validation = true, .staged = false, .on_message = [&](const std::string& message) {
+                          forwarded += message;
+                      }});
+    VkBufferCreateInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;  // of size 0, which is forbidden
+    info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
+    VkBuffer buffer = VK_NULL_HANDLE;
+    device->vk().vkCreateBuffer(device->handle(), &info, nullptr, &buffer);
+    if (buffer) device->vk().vkDestroyBuffer(device->handle(), buffer, nullptr);
+    REQUIRE_THAT(forwarded, Catch::Contains("VUID-VkBufferCreateInfo-size"));
+    REQUIRE_FALSE(device->validation_messages().empty());
+}
+
+TEST_CASE("synchronisation validation notices a missing barrier") {
+    const auto device = Device::open({.which = "", .validation = true, .staged = false, .on_message = {}});
+    const Buffer a(device, "a", 256), b(device, "b", 256), c(device, "c", 256);
+    Recording recording(device);
+    recording.copy(a, b, 256);
+    recording.copy(b, c, 256);
+    recording.end();
+    REQUIRE(device->validation_messages().size() == 1);
+    REQUIRE_THAT(device->validation_messages()[0], Catch::Contains("READ_AFTER_WRITE") || Catch::Contains("READ-AFTER-WRITE"));
+}
+
+TEST_CASE("buffers begin as zero and give back what was written") {
+    const bool staged = GENERATE(false, true);
+    const BufferUse use = GENERATE(BufferUse::storage, BufferUse::upload, BufferUse::readback);
+    CAPTURE(staged, static_cast<int>(use));
+    const Watched device(staged);
+    for (std::size_t bytes :
+         {std::size_t{0}, std::size_t{1}, std::size_t{63}, std::size_t{64}, std::size_t{4097}, (std::size_t{33} << 20) + 5}) {
+        Buffer buffer(device.get(), "round trip", bytes, use);
+        REQUIRE(buffer.bytes() == bytes);
+        REQUIRE((buffer.mapped() == nullptr) == (staged && use == BufferUse::storage));
+        std::vector<unsigned char> got(bytes, 0xAB);
+        buffer.read(got.data(), bytes);
+        REQUIRE(got == std::vector<unsigned char>(bytes, 0));
+        std::vector<unsigned char> values(bytes);
+        std::iota(values.begin(), values.end(), static_cast<unsigned char>(1));
+        buffer.write(values.data(), bytes);
+        buffer.read(got.data(), bytes);
+        REQUIRE(got == values);
+        if (bytes < 64) continue;
+        const unsigned char middle[3] = {200, 201, 202};
+        buffer.write(middle, 3, 31);
+        std::memcpy(values.data() + 31, middle, 3);
+        buffer.read(got.data(), bytes - 7, 7);
+        REQUIRE(std::memcmp(got.data(), values.data() + 7, bytes - 7) == 0);
+    }
+}
+
+TEST_CASE("a range outside a buffer is refused") {
+    const Watched device;
+    Buffer buffer(device.get(), "small", 16);
+    char data[32] = {};
+    REQUIRE_THROWS_AS(buffer.write(data, 17), std::out_of_range);
+    REQUIRE_THROWS_AS(buffer.read(data, 1, 16), std::out_of_range);
+    REQUIRE_THROWS_AS(buffer.read(data, 2, ~std::size_t{0}), std::out_of_range);
+    Recording recording(device.get());
+    REQUIRE_THROWS_AS(recording.copy(buffer, buffer, 8, 12, 0), std::out_of_range);
+    REQUIRE_THROWS_AS(recording.dispatch_indirect(buffer, 8), std::out_of_range);
+    recording.end();
+}
+
+TEST_CASE("a buffer larger than a binding is refused by name where it is to be bound, and found by its address") {
+    DeviceOptions options;
+    options.largest_binding = 1000;
+    const auto device = Device::open(options);
+    const Buffer buffer(device, "pairs", 1001);
+    const auto bound = std::make_shared<TableLayout>(device, 1, 0);
+    REQUIRE_THROWS_WITH(Table(bound, {&buffer}), Catch::Contains("the buffer pairs of 1001") && Catch::Contains("once, 1000"));
+    REQUIRE(device->report().has_addresses);
+    REQUIRE(buffer.address() != 0);
+    const auto far = std::make_shared<TableLayout>(device, 1, 0, Reach::far);
+    REQUIRE_NOTHROW(Table(far, {&buffer}));
+}
+
+TEST_CASE("a moved buffer keeps its bytes and leaves an empty one") {
+    const Watched device;
+    Buffer first(device.get(), "first", 16);
+    first.write("moved", 6);
+    Buffer second = std::move(first);
+    char text[6] = {};
+    second.read(text, 6);
+    REQUIRE(std::string(text) == "moved");
+    REQUIRE_FALSE(static_cast<bool>(first));
+    second = Buffer();
+    REQUIRE_FALSE(static_cast<bool>(second));
+}
+
+TEST_CASE("a dispatch with push constants reaches every item and no other") {
+    const bool staged = GENERATE(false, true);
+    const bool indirect = GENERATE(false, true);
+    const std::uint32_t count = GENERATE(0u, 1u, group - 1, group, group + 1, 1234u);
+    CAPTURE(staged, indirect, count);
+    const Watched device(staged);
+    const std::uint32_t room = 2000, poison = 0xDEADBEEFu;
+    Buffer inputs(device.get(), "inputs", room * 4), outputs(device.get(), "outputs", room * 4),
+        arguments(device.get(), "arguments", 28);
+    std::vector<std::uint32_t> values(room), got(room, poison);
+    std::iota(values.begin(), values.end(), 3u);
+    inputs.write(values.data(), room * 4);
+    outputs.write(got.data(), room * 4);
+    const VkDispatchIndirectCommand groups{(count + group - 1) / group, 1, 1};
+    arguments.write(&groups, sizeof groups, 16);
+
+    auto layout = std::make_shared<TableLayout>(device.get(), 3, 8);
+    const Table table(layout, {&inputs, &outputs, nullptr});
+    const Pipeline pipeline(layout, "affine", affine(), {5});
+    Recording recording(device.get(), 3);
+    recording.bind(pipeline, table);
+    const Push push{count, 7};
+    recording.push(&push, sizeof push);
+    recording.timestamp();
+    indirect ? recording.dispatch_indirect(arguments, 16) : recording.dispatch(groups.x);
+    recording.barrier();
+    recording.timestamp();
+    recording.copy(outputs, inputs, 4, 4 * (room - 1), 4 * (room - 1));
+    recording.timestamp();
+    recording.end();
+    for (int again = 0; again < 2; ++again) device->submit_and_wait({recording.handle()});
+    device->submit_and_wait({recording.handle(), recording.handle()});
+
+    outputs.read(got.data(), room * 4);
+    for (std::uint32_t i = 0; i < room; ++i) REQUIRE(got[i] == (i < count ? values[i] * 7 + 5 : poison));
+    inputs.read(got.data(), 4, 4 * (room - 1));
+    REQUIRE(got[0] == poison);
+    const std::vector<double> seconds = recording.timestamp_seconds();
+    REQUIRE(seconds.size() == (device->timestamp_bits() > 0 ? 2u : 0u));
+    for (double s : seconds) REQUIRE((s >= 0 && s < 10));
+}
+
+TEST_CASE("stages that feed each other through a barrier run in order") {
+    const Watched device;
+    const std::uint32_t count = 1000;
+    Buffer a(device.get(), "a", count * 4), b(device.get(), "b", count * 4);
+    auto layout = std::make_shared<TableLayout>(device.get(), 2, 8);
+    const Table there(layout, {&a, &b}), back(layout, {&b, &a});
+    const Pipeline pipeline(layout, "affine", affine(), {1});
+    Recording recording(device.get());
+    const Push push{count, 2};
+    for (int i = 0; i < 10; ++i) {
+        recording.bind(pipeline, i % 2 == 0 ? there : back);
+        if (i == 0) recording.push(&push, sizeof push);
+        recording.dispatch((count + group - 1) / group);
+        recording.barrier();
+    }
+    recording.zero(b);
+    recording.end();
+    device->submit_and_wait({recording.handle()});
+    std::vector<std::uint32_t> got(count);
+    a.read(got.data(), count * 4);
+    REQUIRE(got == std::vector<std::uint32_t>(count, 1023));
+    b.read(got.data(), count * 4);
+    REQUIRE(got == std::vector<std::uint32_t>(count, 0));
+}
+
+TEST_CASE("wrong use of a table, a pipeline and a recording is refused with its reason") {
+    const Watched device;
+    const Buffer buffer(device.get(), "buffer", 16);
+    REQUIRE_THROWS_AS(TableLayout(device.get(), 1u << 30, 0), DeviceError);
+    REQUIRE_THROWS_AS(TableLayout(device.get(), 1, 1u << 20), DeviceError);
+    auto layout = std::make_shared<TableLayout>(device.get(), 2, 8);
+    REQUIRE_THROWS_AS(Table(layout, {&buffer}), std::invalid_argument);
+    REQUIRE_THROWS_WITH(Pipeline(layout, "broken", std::vector<std::uint32_t>{1, 2, 3}),
+                        Catch::Contains("broken: not a SPIR-V module"));
+    Recording recording(device.get(), 1);
+    const Push push{1, 1};
+    REQUIRE_THROWS_AS(recording.push(&push, sizeof push), std::logic_error);
+    const Pipeline pipeline(layout, "affine", affine());
+    const Table table(layout, {&buffer, &buffer});
+    recording.bind(pipeline, table);
+    REQUIRE_THROWS_AS(recording.push(&push, 12), std::invalid_argument);
+    recording.timestamp();
+    REQUIRE_THROWS_AS(recording.timestamp(), std::out_of_range);
+    if (device->limits().maxComputeWorkGroupCount[0] < ~0u) {
+        REQUIRE_THROWS_AS(recording.dispatch(~0u), DeviceError);
+    }
+}
+
+TEST_CASE("a damaged pipeline cache is ignored and replaced") {
+    const TemporaryFolder folder;
+    const char* before = getenv("XDG_CACHE_HOME");
+    const std::string kept = before ? before : "";
+    setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);
+    std::vector<std::filesystem::path> files;
+    { const Watched device; }
+    if (std::filesystem::exists(folder.path() / "scree")) {
+        for (const auto& entry : std::filesystem::directory_iterator(folder.path() / "scree")) files.push_back(entry.path());
+    }
+    CHECK(files.size() == 1);
+    for (const std::filesystem::path& file : files) {
+        const std::string whole = read_text(file);
+        for (const std::string& damaged : {std::string(), std::string("junk"), whole.substr(0, whole.size() - 1), whole + "x"}) {
+            write_atomically(file, damaged);
+            { const Watched device; }
+            REQUIRE(read_text(file) == whole);
+        }
+    }
+    before ? setenv("XDG_CACHE_HOME", kept.c_str(), 1) : unsetenv("XDG_CACHE_HOME");
+}

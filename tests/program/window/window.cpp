@@ -1,0 +1,266 @@
+// The window itself, on a display without a screen, with a mouse and keys made by xdotool; pictures of it stay in the build
+// folder.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+#include <csignal>
+#include <nlohmann/json.hpp>
+
+#include "host/vulkan/device.h"
+#include "host/window/window.h"
+#include "shaders/physics/base/records.h"
+#include "tests/program/window/hands.h"
+
+using nlohmann::json;
+using namespace scree::program;
+
+namespace {
+
+bool can_show() {
+    for (const char* program : {"Xvfb", "xdotool"}) {
+        if (is_installed(program)) continue;
+        WARN("skipped: " << program << " is not installed");
+        return false;
+    }
+    return true;
+}
+
+// A box of 1 m on the ground, in the middle of the window.
+constexpr const char* scene = R"({"bodies": [
+  {"name": "ground", "motion": "fixed", "shape": {"plane": {}}},
+  {"name": "box", "shape": {"box": {"half_extents": [0.5, 0.5, 0.5]}}, "position": [0, 0.5, 0]},
+  {"shape": {"capsule": {"radius": 0.3, "half_height": 0.4}}, "position": [2.5, 0.7, -1]},
+  {"shape": {"sphere": {"radius": 0.4}}, "position": [-2, 0.4, -1]}],
+  "camera": {"eye": [0, 2, 8], "target": [0, 0.5, 0], "vertical_fov": 40}})";
+
+void drag_the_box(const Viewer& viewer) {
+    viewer.point(400, 225);
+    viewer.hand("mousedown 1");
+    for (int i = 1; i <= 10; ++i) {
+        viewer.point(400 + 15 * i, 225 - 8 * i);
+        wait_for(0.05);
+    }
+    viewer.shoot("2_pulled");
+    // 150 pixels are about 2 m here.
+    REQUIRE(viewer.until([](const json& now) {
+        const json& grabbed = now.at("grabbed");
+        return grabbed.size() == 1 && grabbed[0].at("body") == 1 && grabbed[0].at("to")[0] > 1.2 && grabbed[0].at("to")[1] > 0.8;
+    }));
+    viewer.shoot("2_held");
+    viewer.hand("mouseup 1");
+    REQUIRE(viewer.until([](const json& now) { return now.at("selected") == 1 && now.at("selected_position")[1] < 0.8; }));
+    REQUIRE(viewer.report().at("bodies") == 4);
+}
+
+void throw_a_ball(const Viewer& viewer) {
+    viewer.point(330, 230);
+    viewer.strike("space");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 5 && now.at("thrown") == 1; }));
+    viewer.shoot("3_thrown");
+}
+
+void stop_the_clock(const Viewer& viewer) {
+    viewer.strike("p");
+    REQUIRE(viewer.until([](const json& now) { return now.at("paused") == true; }));
+    const json before = viewer.next(), after = viewer.next();
+    REQUIRE(after.at("steps") == before.at("steps"));
+    REQUIRE(after.at("pictures") > before.at("pictures"));
+    viewer.strike("period");
+    REQUIRE(viewer.until([&](const json& now) { return now.at("steps") == before.at("steps").get<int>() + 1; }));
+    viewer.shoot("4_paused");
+    viewer.strike("p");
+    REQUIRE(viewer.until([&](const json& now) { return now.at("steps") > before.at("steps").get<int>() + 5; }));
+}
+
+void change_the_size(const Viewer& viewer) {
+    for (const auto& [width, height] : {std::pair(1000, 620), {420, 300}, {800, 450}}) {
+        viewer.hand("windowsize " + viewer.window() + " " + std::to_string(width) + " " + std::to_string(height));
+        REQUIRE(viewer.until([&, w = width](const json& now) { return now.at("width") == w; }));
+        const json before = viewer.next();
+        REQUIRE(viewer.until([&](const json& now) { return now.at("pictures") > before.at("pictures").get<int>() + 1; }));
+        viewer.shoot("5_" + std::to_string(width));
+    }
+    viewer.hand("windowunmap " + viewer.window());
+    const json hidden = viewer.next();
+    viewer.hand("windowmap " + viewer.window());
+    REQUIRE(viewer.until([&](const json& now) { return now.at("pictures") > hidden.at("pictures").get<int>() + 1; }));
+    viewer.hand("windowfocus --sync " + viewer.window());
+}
+
+// A click on the panel is not one on the scene behind it.
+void use_the_panel(const Viewer& viewer) {
+    const std::size_t grabbed = viewer.report().at("grabbed").size();
+    viewer.point(38, 135);  // "Pause"
+    wait_for(0.3);
+    viewer.hand("mousedown 1");
+    wait_for(0.3);
+    viewer.hand("mouseup 1");
+    REQUIRE(viewer.until([](const json& now) { return now.at("paused") == true; }));
+    REQUIRE(viewer.report().at("grabbed").size() == grabbed);
+    viewer.strike("p");
+    REQUIRE(viewer.until([](const json& now) { return now.at("paused") == false; }));
+}
+
+}  // namespace
+
+TEST_CASE(
+    "in the window a drag moves the body that was grabbed, space throws, pause stops the clock, and a resize keeps drawing") {
+    if (!can_show()) return;
+    const Screen screen;
+    REQUIRE_FALSE(screen.name().empty());
+    for (const std::string backend : {"vulkan", "cpu"}) {
+        CAPTURE(backend);
+        const Place place;
+        const std::string file = place.write("box.json", scene), recording = (place / "played.json").string();
+        Viewer viewer(screen, place, backend,
+                      {file, "--backend", backend, "--validate", "--size", "800x450", "--record", recording});
+        viewer.find_window();
+        viewer.shoot("1_begun");
+        drag_the_box(viewer);
+        throw_a_ball(viewer);
+        stop_the_clock(viewer);
+        change_the_size(viewer);
+        use_the_panel(viewer);
+        viewer.strike("q");
+        const int status = viewer.process().end(30);
+        INFO(viewer.errors());
+        REQUIRE(status == 0);
+        REQUIRE(viewer.errors().empty());
+
+        for (const std::string other : {"cpu", "vulkan"}) {
+            const Outcome outcome = run_scree("run --input '" + recording + "' --backend " + other);
+            INFO(outcome.output << outcome.errors);
+            REQUIRE(outcome.status == 0);
+            REQUIRE(says(outcome.output, "as recorded"));
+            REQUIRE(says(outcome.output, viewer.report().at("state_hash").get<std::string>()));
+        }
+    }
+}
+
+TEST_CASE("in the window keys drive a car and put it on its wheels, and a recording of it leads to the same state") {
+    if (!can_show()) return;
+    const Screen screen;
+    const Place place;
+    const std::string recording = (place / "driven.json").string();
+    Viewer viewer(screen, place, "drive", {"drive", "--backend", "cpu", "--size", "640x360", "--record", recording});
+    viewer.find_window();
+    REQUIRE(viewer.until([](const json& now) { return now.at("vehicle").at("by_route") == true && now.at("steps") > 5; }));
+    viewer.hand("keydown w");
+    REQUIRE(viewer.until(
+        [](const json& now) { return now.at("vehicle").at("by_route") == false && now.at("vehicle").at("speed") > 2; }));
+    viewer.hand("keydown Left");
+    REQUIRE(viewer.until([](const json& now) { return now.at("vehicle").at("steer") == 1; }));
+    viewer.shoot("driving");
+    viewer.hand("keyup Left");
+    viewer.hand("keyup w");
+    viewer.hand("keydown space");
+    REQUIRE(viewer.until([](const json& now) { return std::abs(now.at("vehicle").at("speed").get<double>()) < 0.1; }));
+    viewer.hand("keyup space");
+    viewer.strike("BackSpace");
+    wait_for(0.5);
+    viewer.strike("q");
+    REQUIRE(viewer.process().end(30) == 0);
+    const json recorded = json::parse(place.read("driven.json"));
+    REQUIRE(recorded.at("acts").size() >= 5);
+    const json& acts = recorded.at("acts");
+    REQUIRE(std::any_of(acts.begin(), acts.end(), [](const json& act) { return act.contains("righten"); }));
+    const Outcome outcome = run_scree("run --input '" + recording + "' --backend cpu");
+    INFO(outcome.output << outcome.errors);
+    REQUIRE(outcome.status != 2);  // a promise is no matter here
+    REQUIRE(says(outcome.output, "as recorded"));
+}
+
+TEST_CASE("the window goes through the demos, closes at a signal, and leaves its recording") {
+    if (!can_show()) return;
+    const Screen screen;
+    const Place place;
+    const std::string recording = (place / "played.json").string();
+    Viewer viewer(screen, place, "demos", {"stack", "--size", "640x400", "--record", recording});
+    viewer.find_window();
+    viewer.strike("Tab");
+    REQUIRE(viewer.until([](const json& now) { return now.at("demo") != "stack"; }));
+    const json before = viewer.report();
+    const std::string second = before.at("demo");
+    viewer.strike("r");
+    viewer.strike("3");
+    // The steps of a report without the new body may be those from before the demo began again.
+    const int bodies = before.at("bodies").get<int>() + 1;
+    REQUIRE(viewer.until([&](const json& now) { return now.at("bodies") == bodies && now.at("steps") > 10; }));
+    viewer.shoot("second");
+    viewer.process().signal(SIGTERM);
+    REQUIRE(viewer.process().end(30) == 130);
+    const json recorded = json::parse(place.read("played.json"));
+    REQUIRE(recorded.at("scene") == second);
+    REQUIRE(recorded.at("steps") > 10);
+    REQUIRE(recorded.at("acts").size() == 1);
+}
+
+namespace {
+
+// Stand in for the functions of Vulkan: the call goes through, and its answer is that of a surface that was lost.
+PFN_vkQueuePresentKHR present = nullptr;
+PFN_vkAcquireNextImageKHR acquire = nullptr;
+int losses = 0;
+
+VKAPI_ATTR VkResult VKAPI_CALL present_and_lose(VkQueue queue, const VkPresentInfoKHR* info) {
+    const VkResult result = present(queue, info);
+    return losses-- > 0 ? VK_ERROR_SURFACE_LOST_KHR : result;
+}
+VKAPI_ATTR VkResult VKAPI_CALL lose_instead(VkDevice device, VkSwapchainKHR swapchain, std::uint64_t timeout,
+                                            VkSemaphore semaphore, VkFence fence, std::uint32_t* index) {
+    if (losses-- > 0) return VK_ERROR_SURFACE_LOST_KHR;
+    return acquire(device, swapchain, timeout, semaphore, fence, index);
+}
+
+}  // namespace
+
+TEST_CASE("a window whose surface is lost makes another and shows on") {
+    if (!can_show()) return;
+    using namespace scree::host;
+    const Screen screen;
+    ::setenv("DISPLAY", screen.name().c_str(), 1);
+    const Display display;
+    std::vector<std::string> messages;
+    const auto device = Device::open({.validation = true,
+                                      .window_extensions = display.extensions(),
+                                      .on_message = [&](const std::string& message) { messages.push_back(message); }});
+    {
+        Window window(display, device, "lost", 320, 200);
+        CanvasOptions options;
+        options.width = window.width();
+        options.height = window.height();
+        const auto canvas = make_vulkan_canvas(device, {}, options);
+        const std::vector<scree::physics::Traits> traits(1);
+        const std::vector<scree::physics::Pose> poses(1);
+        const std::vector<scree::physics::Velocity> velocities(1);
+        canvas->set_tables({traits, poses, velocities});
+        const auto shown = [&] {
+            window.poll(0);
+            window.begin_panel();
+            window.end_panel();
+            return window.show(*canvas, {});
+        };
+        REQUIRE(shown());
+        auto& vulkan = const_cast<VulkanFunctions&>(device->vk());
+        present = std::exchange(vulkan.vkQueuePresentKHR, present_and_lose);
+        losses = 1;
+        REQUIRE(shown());  // as far as it knew
+        for (int i = 0; i < 5; ++i) REQUIRE(shown());
+        acquire = std::exchange(vulkan.vkAcquireNextImageKHR, lose_instead);
+        losses = 1;
+        REQUIRE_FALSE(shown());
+        for (int i = 0; i < 5; ++i) REQUIRE(shown());
+    }
+    for (const std::string& message : messages) FAIL_CHECK(message);
+}
+
+TEST_CASE("without a display view says how to make pictures") {
+    for (const char* display : {"env -u DISPLAY -u WAYLAND_DISPLAY", "env -u WAYLAND_DISPLAY DISPLAY=:4711"}) {
+        const Outcome outcome = run_scree("view wall", display);
+        INFO(outcome.errors);
+        REQUIRE(outcome.status == 2);
+        REQUIRE(says(outcome.errors, "no display"));
+        REQUIRE(says(outcome.errors, "scree run wall --frames"));
+        REQUIRE(says(run_scree("view wal", display).errors, "unknown demo \"wal\", nearest: \"wall\""));
+    }
+}
