@@ -116,10 +116,11 @@ std::vector<Cell> cells_of(const Region& region, const std::vector<dvec3>& point
     return cells;
 }
 
-// Points in the region. They move to the middle of their cells twice (Lloyd, 1982): cells of raw random points are slivers.
+// Points in the region; fewer where next to nothing of the box around it is in it. They move to the middle of their cells twice
+// (Lloyd, 1982): cells of raw random points are slivers.
 std::vector<dvec3> scattered(const Region& region, std::size_t count, Random& random) {
     std::vector<dvec3> points;
-    while (points.size() < count) {
+    for (std::size_t tries = 0; points.size() < count && tries < 10'000 * count; ++tries) {
         const dvec3 half = region.half;
         const dvec3 point(random.between(-half.x, half.x), random.between(-half.y, half.y), random.between(-half.z, half.z));
         if (region.holds(point)) points.push_back(point);
@@ -303,6 +304,10 @@ void require_sense(const Shape& shape, const Fracture& f) {
     if (!(f.momentum >= 0)) throw FractureError("momentum", "must be positive");
     if (by_impulse == by_momentum)
         throw FractureError("", "needs one threshold that is positive: \"impulse\" or \"momentum\", N s");
+    if (!simple_shape(shape) || std::holds_alternative<Plane>(shape))
+        throw FractureError("",
+                            "only a body of one convex shape can break: box, capsule, cone, cylinder, hull, sphere; make the "
+                            "parts bodies of their own, held together by joints that break");
     if (f.pieces < 2 || f.pieces > most_pieces)
         throw FractureError("pieces", "must be between 2 and 256, is " + std::to_string(f.pieces));
     if (f.depth < 1 || f.depth > most_depth)

@@ -114,10 +114,10 @@ Frame frame_of(const Scene& scene, std::size_t body) {
 }  // namespace
 
 void check_joints(Scene& scene) {
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) check_joint(scene, i);
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) check_joint(scene, scene.joints[i], i);
 }
-void check_joint(Scene& scene, std::size_t index) {
-    examine(Examination("joints", "joint", index, scene.joints[index].name), scene.joints[index], scene);
+void check_joint(const Scene& scene, Joint& joint, std::size_t index) {
+    examine(Examination("joints", "joint", index, joint.name), joint, scene);
 }
 
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes) {

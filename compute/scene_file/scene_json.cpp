@@ -66,16 +66,21 @@ static void read(const json& value, const Place& place, std::vector<float>& numb
 
 static void read(const json& value, const Place& place, Shape& out);
 
+static const char* const not_a_part = "a part must be one convex shape; put the parts of a compound into this one";
+
 static void read(const json& value, const Place& place, std::vector<Part>& parts) {
     if (!value.is_array()) refuse(place, "must be an array of parts, is " + kind(value));
     for (std::size_t i = 0; i < value.size(); ++i) {
         const Place here = place / i;
         only(value[i], here, {"shape", "position", "orientation", "density"});
         Part& part = parts.emplace_back();
+        // Before its parts are read, and theirs: a file may nest compounds deeper than a stack reaches.
+        if (const auto nested = value[i].find("shape"); nested != value[i].end() && nested->contains("compound"))
+            refuse(here / "shape", not_a_part);
         Shape shape;
         required(value[i], here, "shape", shape);
         const std::optional<SimpleShape> simple = simple_shape(shape);
-        if (!simple) refuse(here / "shape", "a part must be one convex shape; put the parts of a compound into this one");
+        if (!simple) refuse(here / "shape", not_a_part);
         part.shape = *simple;
         optional(value[i], here, "position", part.position);
         optional(value[i], here, "orientation", part.orientation);
