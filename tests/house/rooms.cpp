@@ -123,13 +123,13 @@ TEST_CASE("house: the rules themselves tell right from wrong", "[house]") {
     };
     CHECK(verdict("compute/world/world.cpp", "\"shaders/physics/base/records.h\""));
     CHECK(verdict("compute/device/device_runner.cpp", "\"host/vulkan/buffer.h\""));
-    CHECK(verdict("demos/program/main.cpp", "\"host/canvas/canvas.h\""));
+    CHECK(verdict("demos/main.cpp", "\"host/canvas/canvas.h\""));
     CHECK_FALSE(verdict("compute/world/world.cpp", "\"host/vulkan/buffer.h\""));
     CHECK_FALSE(verdict("compute/world/world.cpp", "\"world.h\""));
     CHECK_FALSE(verdict("compute/world/world.cpp", "<vulkan/vulkan.h>"));
     CHECK_FALSE(verdict("host/canvas.cpp", "\"compute/world.h\""));
     CHECK_FALSE(verdict("shaders/physics/solve/contact.h", "\"compute/scene.h\""));
-    CHECK_FALSE(verdict("demos/program/main.cpp", "\"tests/house/tree.h\""));
+    CHECK_FALSE(verdict("demos/main.cpp", "\"tests/house/tree.h\""));
     CHECK(scree::house::without_comments("a /* b\n */ c // d") == "a     \n    c     ");
     CHECK(scree::house::without_comments_and_strings("a \"//\" '\"' b") == "a \"  \" ' ' b");
 }
