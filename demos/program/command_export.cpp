@@ -3,12 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "compute/scene_file/scene_schema.h"
 #include "demos/program/commands.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/loaded_scene.h"
 #include "host/files/file.h"
-
-extern const char* const scree_scene_schema;  // the text of compute/scene_file/scene.schema.json
 
 namespace scree::demos {
 
@@ -23,8 +22,10 @@ struct Options {
 void write_out(const Options& options) {
     if (options.scene.name.empty() && !options.schema)
         throw UsageError("export: name a demo (scree list), or ask for the --schema");
-    std::string text = scree_scene_schema;
-    if (!options.schema) {
+    std::string text;
+    if (options.schema) {
+        text = scene_schema();
+    } else {
         const Subject subject = load_subject(options.scene);
         text = scene_to_json(subject.scene, subject.viewpoint);
     }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compute/fields/range_text.h"
+#include "compute/fields/settings.h"
 #include "demos/program/option_parsing.h"
 
 namespace scree::demos {
@@ -61,6 +63,15 @@ std::vector<std::size_t> counts_of(const std::string& list) {
     return counts;
 }
 
+// An option whose text, range and default are those of a setting (compute/fields/settings.h).
+template <class Value>
+static CLI::Option* add_setting(CLI::App& command, const char* option, Value& value, Value Settings::*setting) {
+    const auto field = fields::field_of(setting);
+    const std::string range = text_of(field.range, field.unit);
+    return command.add_option(option, value, fmt::format("{}, {} (default {})", field.about, range, Settings{}.*setting))
+        ->check(between(field.range.low, field.range.high));
+}
+
 void add_options(CLI::App& command, MachineOptions& options) {
     command
         .add_option("--backend", options.backend,
@@ -85,12 +96,8 @@ void add_options(CLI::App& command, SceneOptions& options) {
         ->check(between(1e-3, 1e6))
         ->excludes(steps)
         ->group("Simulation");
-    command.add_option("--rate", options.rate, "Steps per simulated second, Hz. Default: 60.")
-        ->check(between(10.0, 1000.0))
-        ->group("Simulation");
-    command.add_option("--substeps", options.substeps, "Substeps per step; more keeps taller stacks stable. Default: 8.")
-        ->check(CLI::Range(1, 64))
-        ->group("Simulation");
+    add_setting(command, "--rate", options.rate, &Settings::rate)->group("Simulation");
+    add_setting(command, "--substeps", options.substeps, &Settings::substeps)->group("Simulation");
     command.add_flag("!--no-sleep", options.sleeping, "Keep bodies at rest awake.")->group("Simulation");
     command
         .add_option_function<std::string>(
