@@ -10,7 +10,7 @@ template <>
 inline constexpr auto table<Settings> = table_of(
     "settings", "The settings of a step",  //
     field("rate", &Settings::rate, between(10, 1000), "Hz", "Steps per second of simulated time"),
-    field("substeps", &Settings::substeps, between(1, 64), "", "Substeps per step; more keep taller stacks stable"),
+    field("substeps", &Settings::substeps, between(1, 64), "", "Substeps per step; more keeps taller stacks stable"),
     field("contact_hertz", &Settings::contact_hertz, above(0, 0.5), "", "Contact frequency as a part of the substep rate"),
     field("contact_damping_ratio", &Settings::contact_damping_ratio, between(1, 40), "", "Damping ratio of contacts"),
     field("push_speed", &Settings::push_speed, above(0, 100), "m/s",

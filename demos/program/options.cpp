@@ -68,7 +68,7 @@ template <class Value>
 static CLI::Option* add_setting(CLI::App& command, const char* option, Value& value, Value Settings::*setting) {
     const auto field = fields::field_of(setting);
     const std::string range = text_of(field.range, field.unit);
-    return command.add_option(option, value, fmt::format("{}, {} (default {})", field.about, range, Settings{}.*setting))
+    return command.add_option(option, value, fmt::format("{}, {}. Default: {}.", field.about, range, Settings{}.*setting))
         ->check(between(field.range.low, field.range.high));
 }
 
