@@ -136,13 +136,13 @@ std::uint32_t DeviceRunner::fused_group_size() const {
 }
 
 std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const {
-    if (stage.reference) return {group_size(), stage.content};
-    return {fused_group_size(), stage.content, is_one_subgroup() ? 1u : 0u};
+    return {stage.reference ? group_size() : fused_group_size(), stage.content, is_one_subgroup() ? 1u : 0u,
+            shaders::variant_of(stage.name)};
 }
 
 void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
     const std::string variant =
-        std::string(layout_->reach() == host::Reach::far ? ".far" : "") + (layout_->has_texels() ? ".texels" : "");
+        std::string(layout_->reach() == host::Reach::far ? ".bda" : "") + (layout_->has_texels() ? ".texels" : "");
     // Drivers take up to a tenth of a second for each, on one core.
     std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
     for (const Stage& stage : stages)

@@ -11,6 +11,9 @@ const bool PARTS = (CONTENT & CONTENT_PARTS) != 0u;
 const bool ROLLS = (CONTENT & CONTENT_ROLLS) != 0u;
 const bool REORDERED = (CONTENT & CONTENT_REORDERED) != 0u;
 
+// Which of the stages that share a module this is: the lines `variants` of its file.
+layout(constant_id = 3) const uint VARIANT = 0u;
+
 // Only members that the laws compare are replaced: a zero in a sum would be folded away, and the sign of a zero with it.
 Constraint narrowed(Constraint c) {
     if (!BOUNCES) c.restitution = 0.0f;
