@@ -65,7 +65,7 @@ public:
     }
 
     void place(bool biased) {
-        restart(biased);
+        take_velocities(biased);
         for_each_whole([&](Joint& joint) {
             const physics::JointPlace at =
                 physics::joint_place(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
@@ -85,8 +85,9 @@ public:
         lend(biased);
         for (Joint& joint : joints_) joint.solved = 0;
         place(biased);
-        for (physics::uint round = 0; round < physics::JOINT_ROUNDS; ++round) {
-            restart(biased);
+        bool others = true;
+        for (physics::uint round = 0; round < physics::JOINT_ROUNDS && others; ++round) {
+            for (Joint& record : members_) record.velocity = record.velocity_before;
             for_each_whole([&](Joint& joint) { apply_given(joint, biased); });
             for_each_whole([&](Joint& joint) { set_up(joint, biased); });
             for_each_whole([&](Joint& joint) {
@@ -100,10 +101,10 @@ public:
                 for (physics::uint k = 0; k < 6; ++k)
                     if (unknown(joint, k)) push(joint, k, joint.solution[k]);
             });
-            bool others = false;
+            others = false;
             for_each_whole([&](Joint& joint) { others |= other_bounds(joint, biased, round >= physics::SETTLING_ROUND); });
-            if (!others) break;
         }
+        joints_[0].unsettled = others;
     }
 
     // What whole bodies feel of `impulse(row)` of every row, handed to their slots.
@@ -160,16 +161,18 @@ private:
     }
     physics::Couple speeds(const Joint& joint) const { return {speed(joint.a, joint.member_a), speed(joint.b, joint.member_b)}; }
     // In the biased pass with what the contacts have done, whose slots come before those of the blocks.
-    void restart(bool biased) {
+    void take_velocities(bool biased) {
         for (Joint& record : members_) {
             const physics::uint body = record.member;
-            record.velocity = state_.velocities[body];
-            if (!biased || record.slot == NONE) continue;
-            const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1], end = state_.slot_ends[body] - record.blocks;
-            for (std::size_t k = first; k < end; ++k) {
-                record.velocity.linear += state_.slots[k].linear;
-                record.velocity.angular += state_.slots[k].angular;
+            physics::Velocity velocity = state_.velocities[body];
+            if (biased && record.slot != NONE) {
+                const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1];
+                for (std::size_t k = first; k < state_.slot_ends[body] - record.blocks; ++k) {
+                    velocity.linear += state_.slots[k].linear;
+                    velocity.angular += state_.slots[k].angular;
+                }
             }
+            record.velocity = record.velocity_before = velocity;
         }
     }
 

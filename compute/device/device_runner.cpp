@@ -160,7 +160,10 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
 
 // A world that has grown may be small no more.
 void DeviceRunner::fuse() {
-    std::vector<Stage> recorded = fused(plan_, state_->fixed(), fused_group_size());
+    std::vector<Stage> recorded;
+    joint_rounds_ = joint_rounds_at_once(state_->joints, state_->fixed().joint_blocks);
+    for (const Stage& stage : fused(plan_, state_->fixed(), fused_group_size()))
+        for (Stage& dispatch : dispatches_of(stage, joint_rounds_)) recorded.push_back(std::move(dispatch));
     const bool as_before = std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),
                                       [](const Stage& a, const Stage& b) { return a.name == b.name && a.pass == b.pass; });
     recorded_ = std::move(recorded);
@@ -307,8 +310,10 @@ void DeviceRunner::run_stage(std::size_t index) {
         make_pipelines(plan_);
         for (const Stage& stage : plan_) {
             auto recording = std::make_unique<host::Recording>(device_, 0);
-            record_stage(*recording, stage);
-            recording->barrier();
+            for (const Stage& dispatch : dispatches_of(stage, joint_rounds_)) {
+                record_stage(*recording, dispatch);
+                recording->barrier();
+            }
             recording->end();
             alone.push_back(std::move(recording));
         }

@@ -1,6 +1,7 @@
 // The device runner: the plan's stages as compute dispatches on a Vulkan device, recorded once and submitted every step.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -63,7 +64,9 @@ public:
     void read(Table table, std::span<std::byte> bytes) const;
     void write(Table table, std::span<const std::byte> bytes);
     // Whether stages run as one because the world is small.
-    bool is_fused() const { return recorded_.size() < plan_.size(); }
+    bool is_fused() const {
+        return std::any_of(recorded_.begin(), recorded_.end(), [](const Stage& stage) { return !stage.reference; });
+    }
     // Whether the tables are bound or, too long or too many for this device, found by address.
     host::Reach reach() const { return layout_->reach(); }
     // Fills with 0xCD every table that the step now begun must not read before it has written it.
@@ -92,7 +95,8 @@ private:
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
-    std::vector<Stage> recorded_;  // the plan, in a small world with stages fused
+    std::vector<Stage> recorded_;     // the plan, in a small world with stages fused
+    std::uint32_t joint_rounds_ = 1;  // that a dispatch may do
     int planned_substeps_ = 0;
     Content planned_content_;
     StageClock clock_;

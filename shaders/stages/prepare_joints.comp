@@ -12,7 +12,7 @@ void main() {
     if (!enter_block(thread())) return;
     note_pressing();
     lend(true);
-    begin_velocities(false);
+    take_velocities(false);
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
         joints.at[j].force = vec3(0.0f);

@@ -1,5 +1,6 @@
 // The pass without bias over all blocks of joints at once; it also hands out the next substep's warm start, or after the last one
-// (push.pass 1) what the bodies of a block tell each other of their rest, and says what each joint carried and whether it tears.
+// (the first bit of push.pass) what the bodies of a block tell each other of their rest, and says what each joint carried and
+// whether it tears.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -16,7 +17,7 @@ void take_stock(uint j) {
     }
     vec3 force = joints.at[j].force + force_impulse(j);
     vec3 torque = joints.at[j].torque + torque_impulse(j);
-    if (push.pass != 0u) {
+    if (is_last_substep()) {
         float inverse_dt = reciprocal(PARAMETERS.dt);
         force = force * inverse_dt;
         torque = torque * inverse_dt;
@@ -49,19 +50,23 @@ float told_by_block() {
     return told;
 }
 
-void main() {
-    if (!enter_block(thread())) return;
-    solve_block(false);
+void end_pass() {
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
-        share_out(j, true, push.pass == 0u);
+        share_out(j, true, !is_last_substep());
         take_stock(j);
     }
     float told = FOREVER;
-    if (push.pass != 0u) told = told_by_block();
+    if (is_last_substep()) told = told_by_block();
     note_pressing();
     for (uint m = block_first; m < block_members; ++m)
         if (joints.at[m].slot != NONE)
-            slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, push.pass != 0u ? told : joints.at[m].pressed);
+            slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, is_last_substep() ? told : joints.at[m].pressed);
+}
+
+void main() {
+    if (!enter_block(thread())) return;
+    solve_block(false);
+    if (is_last_dispatch()) end_pass();
 }

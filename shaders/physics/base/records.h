@@ -274,21 +274,22 @@ struct Joint {
     uint first_of_block;  // in record i: where the i-th block begins
     uint restless;        // 1: a body of it is, in this step
     // ---- state
-    uint pins;    // per axis
-    uint broken;  // 1: it has torn
-    uint solved;  // bit per axis that is in the pass's system of equations
-    uint pad0;
-    vec3 force;  // on B, N: sums of impulses within a step, their mean at its end
+    uint pins;       // per axis
+    uint broken;     // 1: it has torn
+    uint solved;     // bit per axis that is in the pass's system of equations
+    uint unsettled;  // of the block, in its first record. 1: in the last round of the pass bounds turned out to act otherwise
+    vec3 force;      // on B, N: sums of impulses within a step, their mean at its end
     float greatest_force;
     vec3 torque;  // N m
     float greatest_torque;
     // ---- the body of this record
     uint member;  // NONE: none
     uint slot;
-    float pressed;      // N s
-    uint blocks;        // that have the body
-    Mass mass;          // lent
-    Velocity velocity;  // lent
+    float pressed;             // N s
+    uint blocks;               // that have the body
+    Mass mass;                 // lent
+    Velocity velocity;         // lent
+    Velocity velocity_before;  // as each round of the pass begins
     // ---- the pass's equations
     JointRow rows[6];
     float solution[8];    // 6 are in use

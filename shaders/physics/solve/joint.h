@@ -170,10 +170,14 @@ LAW float row_speed(JointRow row, bool linear, Couple v) {
     float turning = dot3(row.arm_b, v.b.angular) - dot3(row.arm_a, v.a.angular);
     return linear ? dot3(row.direction, v.b.linear - v.a.linear) + turning : turning;
 }
-// What an impulse of 1 along one row does to another on the same body, whose arms they are.
+// What an impulse of 1 along one row does to another on the same body, whose arms they are; it turns the body by `other_turn`.
+LAW float give_of(vec3 direction, vec3 arm, vec3 other_direction, vec3 other_turn, bool both_linear, float inverse_mass,
+                  float split) {
+    float turning = dot3(arm, other_turn);
+    return (both_linear ? dot3(direction, other_direction) * inverse_mass + turning : turning) * split;
+}
 LAW float give_between(vec3 direction, vec3 arm, vec3 other_direction, vec3 other_arm, bool both_linear, Mass mass) {
-    float turning = dot3(arm, turned_by(mass, other_arm));
-    return (both_linear ? dot3(direction, other_direction) * mass.inverse_mass + turning : turning) * mass.split;
+    return give_of(direction, arm, other_direction, turned_by(mass, other_arm), both_linear, mass.inverse_mass, mass.split);
 }
 LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
     if (linear) v.linear = v.linear + direction * (impulse * mass.inverse_mass * mass.split);

@@ -1,9 +1,15 @@
 // A pass over one block of joints, by one thread: its equations, their elimination, and what its bodies go through.
+//
+// Lavapipe ends a shader's loops after 65,535 rounds in all, without a word. As loops in loops the elimination of nine joints in
+// a ring came to more; so what a pair of joints has six or 36 of is written out (EACH_OF_SIX), and rounds of a block that would
+// still come to more are left to further dispatches (compute/fusing.h, which knows how many rounds each loop here takes).
 #ifndef SCREE_STAGES_JOINTS_GLSL
 #define SCREE_STAGES_JOINTS_GLSL
 
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/joint.h"
+
+#define EACH_OF_SIX(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u)
 
 uint block_first, block_joints, block_members;
 
@@ -13,9 +19,9 @@ bool enter_block(uint index) {
     block_first = joints.at[index].first_of_block;
     block_joints = block_first + joints.at[block_first].block_joints;
     block_members = block_first + joints.at[block_first].block_members;
-    for (uint m = block_first; m < block_members; ++m)
-        if (joints.at[m].slot != NONE) return true;
-    return false;
+    bool moves = false;
+    for (uint m = block_first; m < block_members && !moves; ++m) moves = joints.at[m].slot != NONE;
+    return moves;
 }
 
 bool holds(uint j) {
@@ -58,7 +64,7 @@ void lend(bool biased) {
 }
 
 // `biased`: with what the contacts have just done to them, which is in the slots before those of the blocks.
-void begin_velocities(bool biased) {
+void take_velocities(bool biased) {
     for (uint m = block_first; m < block_members; ++m) {
         uint body = joints.at[m].member;
         Velocity velocity = velocities.at[body];
@@ -69,8 +75,12 @@ void begin_velocities(bool biased) {
                 velocity.angular = velocity.angular + slots.at[k].angular;
             }
         }
+        joints.at[m].velocity_before = velocity;
         joints.at[m].velocity = velocity;
     }
+}
+void restore_velocities() {
+    for (uint m = block_first; m < block_members; ++m) joints.at[m].velocity = joints.at[m].velocity_before;
 }
 
 void place_rows(uint j) {
@@ -143,8 +153,13 @@ void choose_unknowns(uint j, bool biased) {
     joints.at[j].solved = unknowns;
 }
 
+#define UP_TO(n) ((2u << n) - 1u)  // of a set of six axes, a bit each
+
+bool has(uint axes, uint k) {
+    return (axes >> k & 1u) != 0u;
+}
 bool unknown(uint j, uint k) {
-    return (joints.at[j].solved >> k & 1u) != 0u;
+    return has(joints.at[j].solved, k);
 }
 
 Demand demand_of(uint j, uint k, bool biased) {
@@ -154,97 +169,178 @@ Demand demand_of(uint j, uint k, bool biased) {
     return drive_demand(joints.at[j].axes[k], joints.at[j].rows[k], k, biased, PARAMETERS);
 }
 
-// What row k of joint j does to row n of joint i, through the bodies that they share.
-float between(uint i, uint n, uint j, uint k) {
-    JointRow left = joints.at[i].rows[n], right = joints.at[j].rows[k];
-    bool linear = is_linear(n) && is_linear(k);
+// Row k of joint j as the rows that share a body with it feel it.
+struct Pushing {
+    JointRow row;
+    bool linear;
+    uint member_a, member_b;
+    vec3 turn_a, turn_b;  // what an impulse of 1 turns its bodies by
+    float inverse_mass_a, inverse_mass_b, split_a, split_b;
+};
+Pushing pushing_of(uint j, uint k) {
+    Pushing p;
+    p.row = joints.at[j].rows[k];
+    p.member_a = joints.at[j].member_a;
+    p.member_b = joints.at[j].member_b;
+    p.turn_a = vec3(0.0f);
+    p.turn_b = vec3(0.0f);
+    p.inverse_mass_a = 0.0f;
+    p.inverse_mass_b = 0.0f;
+    p.split_a = 0.0f;
+    p.split_b = 0.0f;
+    p.linear = is_linear(k);
+    if (p.member_a != NONE) {
+        Mass mass = joints.at[p.member_a].mass;
+        p.turn_a = turned_by(mass, p.row.arm_a);
+        p.inverse_mass_a = mass.inverse_mass;
+        p.split_a = mass.split;
+    }
+    if (p.member_b != NONE) {
+        Mass mass = joints.at[p.member_b].mass;
+        p.turn_b = turned_by(mass, p.row.arm_b);
+        p.inverse_mass_b = mass.inverse_mass;
+        p.split_b = mass.split;
+    }
+    return p;
+}
+
+// What it does to row n of joint i, through the bodies that they share: at most two.
+float felt_by(uint i, uint n, Pushing p) {
+    uint member_a = joints.at[i].member_a, member_b = joints.at[i].member_b;
+    vec3 direction = joints.at[i].rows[n].direction, arm_a = joints.at[i].rows[n].arm_a, arm_b = joints.at[i].rows[n].arm_b;
+    bool linear = is_linear(n) && p.linear, any = false;
     float sum = 0.0f;
-    bool any = false;
-    for (uint s = 0u; s < 4u; ++s) {
-        bool left_is_b = s >= 2u, right_is_b = (s & 1u) != 0u;
-        uint member = left_is_b ? joints.at[i].member_b : joints.at[i].member_a;
-        if (member == NONE || member != (right_is_b ? joints.at[j].member_b : joints.at[j].member_a)) continue;
-        float give = give_between(left.direction, left_is_b ? left.arm_b : left.arm_a, right.direction,
-                                  right_is_b ? right.arm_b : right.arm_a, linear, joints.at[member].mass);
-        if (left_is_b != right_is_b) give = -give;
+    if (member_a != NONE && member_a == p.member_a) {
+        sum = give_of(direction, arm_a, p.row.direction, p.turn_a, linear, p.inverse_mass_a, p.split_a);
+        any = true;
+    }
+    if (member_a != NONE && member_a == p.member_b) {
+        float give = -give_of(direction, arm_a, p.row.direction, p.turn_b, linear, p.inverse_mass_b, p.split_b);
         sum = any ? sum + give : give;
         any = true;
+    }
+    if (member_b != NONE && member_b == p.member_a) {
+        float give = -give_of(direction, arm_b, p.row.direction, p.turn_a, linear, p.inverse_mass_a, p.split_a);
+        sum = any ? sum + give : give;
+        any = true;
+    }
+    if (member_b != NONE && member_b == p.member_b) {
+        float give = give_of(direction, arm_b, p.row.direction, p.turn_b, linear, p.inverse_mass_b, p.split_b);
+        sum = any ? sum + give : give;
     }
     return sum;
 }
 
-void set_up_equations(uint j, bool biased) {
-    Couple v = couple_of(j);
-    for (uint k = 0u; k < 6u; ++k) {
-        if (!unknown(j, k)) continue;
-        Demand demand = demand_of(j, k, biased);
-        joints.at[j].solution[k] = -(row_speed(joints.at[j].rows[k], is_linear(k), v) + demand.bias);
-        for (uint n = k; n < 6u; ++n)
-            if (unknown(j, n)) joints.at[j].diagonal[6u * n + k] = between(j, n, j, k);
-        joints.at[j].diagonal[7u * k] = joints.at[j].diagonal[7u * k] + demand.compliance;
-        for (uint l = 0u; l < joints.at[j].links; ++l) {
-            uint i = joints.at[j].links_to[l];
-            for (uint n = 0u; n < 6u; ++n)
-                if (unknown(i, n)) joints.at[j].coupling[36u * l + 6u * n + k] = between(i, n, j, k);
-        }
+void set_up_equation(uint j, uint k, Couple v, bool biased) {
+    Demand demand = demand_of(j, k, biased);
+    joints.at[j].solution[k] = -(row_speed(joints.at[j].rows[k], is_linear(k), v) + demand.bias);
+    Pushing pushing = pushing_of(j, k);
+    uint own = joints.at[j].solved;
+#define SET_UP_OWN(n) \
+    if (n >= k && has(own, n)) joints.at[j].diagonal[6u * n + k] = felt_by(j, n, pushing);
+    EACH_OF_SIX(SET_UP_OWN)
+    joints.at[j].diagonal[7u * k] = joints.at[j].diagonal[7u * k] + demand.compliance;
+    uint links = joints.at[j].links;
+    for (uint l = 0u; l < links; ++l) {
+        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+#define SET_UP_LINK(n) \
+    if (has(theirs, n)) joints.at[j].coupling[36u * l + 6u * n + k] = felt_by(i, n, pushing);
+        EACH_OF_SIX(SET_UP_LINK)
     }
 }
+void set_up_equations(uint j, bool biased) {
+    Couple v = couple_of(j);
+    for (uint k = 0u; k < 6u; ++k)
+        if (unknown(j, k)) set_up_equation(j, k, v, biased);
+}
 
-// Where joint j keeps its coupling with joint i.
+// Where joint j keeps its coupling with joint i: its links are in rising order.
 uint coupling_with(uint i, uint j) {
-    uint l = 0u;
-    while (l + 1u < joints.at[j].links && joints.at[j].links_to[l] != i) ++l;
-    return 36u * l;
+    uint links = joints.at[j].links, before = 0u;
+#define COUNT_BEFORE(l) \
+    if (l < links && joints.at[j].links_to[l] < i) ++before;
+    EACH_OF_SIX(COUNT_BEFORE)
+    COUNT_BEFORE(6u)
+    COUNT_BEFORE(7u)
+    return 36u * before;
+}
+
+// What unknown k of joint j does to its own six rows, and to those of the joint of its link l.
+struct Column {
+    float at[6];
+};
+Column own_column(uint j, uint k) {
+    Column column;
+#define TAKE_OWN(n) column.at[n] = joints.at[j].diagonal[6u * n + k];
+    EACH_OF_SIX(TAKE_OWN)
+    return column;
+}
+Column column_of_link(uint j, uint l, uint k) {
+    Column column;
+#define TAKE_LINK(n) column.at[n] = joints.at[j].coupling[36u * l + 6u * n + k];
+    EACH_OF_SIX(TAKE_LINK)
+    return column;
+}
+
+// Less a part of a column, in those unknowns of a row that are in `of`.
+void lessen_diagonal(uint j, uint row, uint of, float part, Column by) {
+#define LESSEN_DIAGONAL(c) \
+    if (has(of, c)) joints.at[j].diagonal[row + c] = joints.at[j].diagonal[row + c] - part * by.at[c];
+    EACH_OF_SIX(LESSEN_DIAGONAL)
+}
+void lessen_coupling(uint j, uint row, uint of, float part, Column by) {
+#define LESSEN_COUPLING(c) \
+    if (has(of, c)) joints.at[j].coupling[row + c] = joints.at[j].coupling[row + c] - part * by.at[c];
+    EACH_OF_SIX(LESSEN_COUPLING)
 }
 
 // Takes unknown k of joint j out of all equations behind it.
 void eliminate(uint j, uint k) {
+    Column own = own_column(j, k);
     float inverse = reciprocal(joints.at[j].diagonal[7u * k]);
     float known = joints.at[j].solution[k];
     joints.at[j].diagonal[7u * k] = inverse;
-    for (uint n = k + 1u; n < 6u; ++n) {
-        if (!unknown(j, n)) continue;
-        float part = joints.at[j].diagonal[6u * n + k] * inverse;
-        joints.at[j].solution[n] = joints.at[j].solution[n] - part * known;
-        for (uint c = k + 1u; c <= n; ++c)
-            if (unknown(j, c))
-                joints.at[j].diagonal[6u * n + c] = joints.at[j].diagonal[6u * n + c] - part * joints.at[j].diagonal[6u * c + k];
+    uint behind = joints.at[j].solved >> (k + 1u) << (k + 1u);
+#define ELIMINATE_OWN(n)                                                    \
+    if (has(behind, n)) {                                                   \
+        float part = own.at[n] * inverse;                                   \
+        joints.at[j].solution[n] = joints.at[j].solution[n] - part * known; \
+        lessen_diagonal(j, 6u * n, behind & UP_TO(n), part, own);           \
     }
+    EACH_OF_SIX(ELIMINATE_OWN)
     uint links = joints.at[j].links;
     for (uint l = 0u; l < links; ++l) {
-        uint i = joints.at[j].links_to[l];
-        for (uint n = 0u; n < 6u; ++n) {
-            if (!unknown(i, n)) continue;
-            uint row = 36u * l + 6u * n;
-            float part = joints.at[j].coupling[row + k] * inverse;
-            joints.at[i].solution[n] = joints.at[i].solution[n] - part * known;
-            for (uint c = k + 1u; c < 6u; ++c)
-                if (unknown(j, c))
-                    joints.at[j].coupling[row + c] = joints.at[j].coupling[row + c] - part * joints.at[j].diagonal[6u * c + k];
-            for (uint c = 0u; c <= n; ++c)
-                if (unknown(i, c))
-                    joints.at[i].diagonal[6u * n + c] =
-                        joints.at[i].diagonal[6u * n + c] - part * joints.at[j].coupling[36u * l + 6u * c + k];
-            for (uint e = 0u; e < l; ++e) {
-                uint to = joints.at[j].links_to[e];
-                uint target = coupling_with(i, to) + 6u * n;
-                for (uint c = 0u; c < 6u; ++c)
-                    if (unknown(to, c))
-                        joints.at[to].coupling[target + c] =
-                            joints.at[to].coupling[target + c] - part * joints.at[j].coupling[36u * e + 6u * c + k];
-            }
+        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+        Column pushed = column_of_link(j, l, k);
+#define ELIMINATE_LINK(n)                                                   \
+    if (has(theirs, n)) {                                                   \
+        float part = pushed.at[n] * inverse;                                \
+        joints.at[i].solution[n] = joints.at[i].solution[n] - part * known; \
+        lessen_coupling(j, 36u * l + 6u * n, behind, part, own);            \
+        lessen_diagonal(i, 6u * n, theirs & UP_TO(n), part, pushed);        \
+    }
+        EACH_OF_SIX(ELIMINATE_LINK)
+        for (uint e = 0u; e < l; ++e) {
+            uint to = joints.at[j].links_to[e], between = joints.at[to].solved, target = coupling_with(i, to);
+            Column other = column_of_link(j, e, k);
+#define ELIMINATE_BETWEEN(n) \
+    if (has(theirs, n)) lessen_coupling(to, target + 6u * n, between, pushed.at[n] * inverse, other);
+            EACH_OF_SIX(ELIMINATE_BETWEEN)
         }
     }
 }
 
 void substitute(uint j, uint k) {
     float sum = joints.at[j].solution[k];
-    for (uint n = k + 1u; n < 6u; ++n)
-        if (unknown(j, n)) sum = sum - joints.at[j].diagonal[6u * n + k] * joints.at[j].solution[n];
-    for (uint l = 0u; l < joints.at[j].links; ++l) {
-        uint i = joints.at[j].links_to[l];
-        for (uint n = 0u; n < 6u; ++n)
-            if (unknown(i, n)) sum = sum - joints.at[j].coupling[36u * l + 6u * n + k] * joints.at[i].solution[n];
+    uint own = joints.at[j].solved, links = joints.at[j].links;
+#define SUBSTITUTE_OWN(n) \
+    if (n > k && has(own, n)) sum = sum - joints.at[j].diagonal[6u * n + k] * joints.at[j].solution[n];
+    EACH_OF_SIX(SUBSTITUTE_OWN)
+    for (uint l = 0u; l < links; ++l) {
+        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+#define SUBSTITUTE_LINK(n) \
+    if (has(theirs, n)) sum = sum - joints.at[j].coupling[36u * l + 6u * n + k] * joints.at[i].solution[n];
+        EACH_OF_SIX(SUBSTITUTE_LINK)
     }
     joints.at[j].solution[k] = sum * joints.at[j].diagonal[7u * k];
 }
@@ -283,16 +379,34 @@ bool look_at_bounds(uint j, bool biased, bool settling) {
     return others;
 }
 
+// push.pass: 1 in the last substep; from bit 8 on the first round of the pass that this dispatch does, from 16 on how many it
+// does (dispatches_of() in compute/fusing.cpp).
+uint first_round() {
+    return push.pass >> 8 & 255u;
+}
+uint rounds_end() {
+    return first_round() + (push.pass >> 16);
+}
+bool is_last_dispatch() {
+    return rounds_end() >= JOINT_ROUNDS;
+}
+bool is_last_substep() {
+    return (push.pass & 1u) != 0u;
+}
+
 void solve_block(bool biased) {
-    lend(biased);
-    begin_velocities(biased);
-    for (uint j = block_first; j < block_joints; ++j) {
-        joints.at[j].solved = 0u;
-        if (holds(j)) place_rows(j);
+    if (first_round() == 0u) {
+        lend(biased);
+        take_velocities(biased);
+        for (uint j = block_first; j < block_joints; ++j) {
+            joints.at[j].solved = 0u;
+            if (holds(j)) place_rows(j);
+        }
+        joints.at[block_first].unsettled = 1u;
     }
-    bool others = true;
-    for (uint round = 0u; round < JOINT_ROUNDS && others; ++round) {
-        begin_velocities(biased);
+    bool others = joints.at[block_first].unsettled != 0u;
+    for (uint round = first_round(); round < rounds_end() && others; ++round) {
+        restore_velocities();
         for (uint j = block_first; j < block_joints; ++j)
             if (holds(j)) choose_unknowns(j, biased);
         solve_equations(biased);
@@ -300,6 +414,7 @@ void solve_block(bool biased) {
         for (uint j = block_first; j < block_joints; ++j)
             if (holds(j) && look_at_bounds(j, biased, round >= SETTLING_ROUND)) others = true;
     }
+    joints.at[block_first].unsettled = others ? 1u : 0u;
 }
 
 // Empties what the bodies are about to be told.
