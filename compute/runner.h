@@ -9,7 +9,8 @@
 
 namespace scree {
 
-struct State;  // compute/step/state.h
+struct State;   // compute/step/state.h
+class Threads;  // compute/step/threads.h
 
 using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
 
@@ -19,6 +20,8 @@ public:
     virtual std::string backend() const = 0;       // "cpu" or "vulkan"
     virtual std::string device() const = 0;        // for people: threads, or the name of the Vulkan device
     virtual std::uint32_t group_size() const = 0;  // threads of a workgroup, a power of two up to 256
+
+    virtual const Threads& threads() const = 0;  // of the processor, for what is done between steps
 
     virtual bool in_place() const = 0;  // works on the state's own tables, so all of them need memory
 

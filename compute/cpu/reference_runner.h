@@ -15,6 +15,7 @@ public:
     std::string backend() const override { return "cpu"; }
     std::string device() const override;
     std::uint32_t group_size() const override { return 64; }
+    const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
     void attach(State& state) override;
     bool step() override;

@@ -27,6 +27,7 @@ public:
     std::string backend() const override { return "vulkan"; }
     std::string device() const override;
     std::uint32_t group_size() const override;
+    const Threads& threads() const override { return threads_; }
     bool in_place() const override { return false; }
     void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
     bool step() override;
@@ -95,6 +96,7 @@ private:
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
+    Threads threads_{0};
     std::vector<Stage> recorded_;     // the plan, in a small world with stages fused
     std::uint32_t joint_rounds_ = 1;  // that a dispatch may do
     int planned_substeps_ = 0;

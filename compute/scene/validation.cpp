@@ -8,6 +8,8 @@
 #include <map>
 #include <utility>
 
+#include "compute/fields/check.h"
+#include "compute/fields/document.h"
 #include "compute/scene/compound.h"
 #include "compute/scene/fracture.h"
 #include "compute/scene/hull.h"
@@ -27,12 +29,7 @@ constexpr float smallest_size = 1e-3f;    // m. Below, a body's inverse inertia 
 constexpr float largest_size = 1e5f;      // m
 constexpr float largest_position = 1e6f;  // m. A float resolves 6 cm there
 constexpr float smallest_density = 1e-3f;
-constexpr float largest_density = 1e6f;   // kg/m^3
-constexpr float largest_velocity = 1e4f;  // m/s and rad/s
-constexpr float largest_gravity = 1e4f;   // m/s^2
-constexpr float largest_friction = 100;
-constexpr float largest_damping = 1e4f;  // 1/s
-constexpr float largest_scale = 1e3f;
+constexpr float largest_density = 1e6f;  // kg/m^3
 
 void examine_simple(const Examination& body, SimpleShape& shape, Motion motion) {
     if (auto* sphere = std::get_if<Sphere>(&shape)) {
@@ -200,22 +197,8 @@ Shift examine(const Examination& body, Body& b, Hulls& hulls, std::vector<std::s
         examine_simple(body, *simple, b.motion);
         b.shape = whole_shape(*simple);
     }
-    body.between("/position", b.position, -largest_position, largest_position, " m");
-    body.make_unit("/orientation", b.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
-    body.between("/density", b.density, smallest_density, largest_density, " kg/m^3");
+    fields::check_fields(body, b);
     const Shift shift = examine_whole(body, b, hulls, notes);
-    body.between("/velocity", b.velocity, -largest_velocity, largest_velocity, " m/s");
-    body.between("/angular_velocity", b.angular_velocity, -largest_velocity, largest_velocity, " rad/s");
-    body.between("/friction", b.friction, 0, largest_friction, "");
-    body.between("/restitution", b.restitution, 0, 1, "");
-    body.between("/rolling_resistance", b.rolling_resistance, 0, largest_size, " m");
-    body.between("/linear_damping", b.linear_damping, 0, largest_damping, " 1/s");
-    body.between("/angular_damping", b.angular_damping, 0, largest_damping, " 1/s");
-    body.between("/gravity_scale", b.gravity_scale, -largest_scale, largest_scale, "");
-    if (b.tyre) {
-        body.between("/tyre/best_slip", b.tyre->best_slip, 0.01f, 0.9f, "");
-        body.between("/tyre/sliding", b.tyre->sliding, 0, 1, "");
-    }
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
         body.refuse("/velocity", "a fixed body has no velocity; a body that moves whatever it meets is \"kinematic\"");
     }
@@ -237,11 +220,7 @@ SceneError::SceneError(std::string place, const std::string& reason)
 
 Scene checked(Scene scene, std::vector<std::string>* notes) {
     Hulls hulls;
-    for (int i = 0; i < 3; ++i) {
-        const float g = scene.gravity[i];
-        if (g >= -largest_gravity && g <= largest_gravity) continue;
-        throw SceneError("/gravity/" + std::to_string(i), out_of_range(g, -largest_gravity, largest_gravity, " m/s^2"));
-    }
+    fields::check_field(Examination(), scene, fields::field_of(&Scene::gravity));
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].piece_of != no_body) continue;  // of a scene that was checked before
         const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], hulls, notes);

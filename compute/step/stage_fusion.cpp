@@ -31,7 +31,7 @@ std::uint32_t substeps_at_once(const physics::Parameters& p, std::uint32_t threa
     return std::max(1u, most_rounds / rounds);
 }
 
-// And a block of joints (shaders/stages/joints.glsl) through what is left when its bodies have some thousand contacts.
+// And a block of joints (shaders/stages/lib/joints.glsl) through what is left when its bodies have some thousand contacts.
 constexpr std::uint32_t most_joint_rounds = 50000;
 // A loop over the axes of a joint, with the round of the loop over the joints that it is in.
 constexpr std::uint32_t axis_rounds = 7;

@@ -18,6 +18,8 @@
 
 namespace scree {
 
+class Threads;  // compute/step/threads.h
+
 // What tables are as long as.
 enum class Length {
     one,
@@ -67,9 +69,23 @@ struct Content {
     bool round = false;      // there are spheres or capsules
     bool tyres = false;      // with a vehicle or without
     bool reordered = false;  // rows are in another order than ids
-    static Content everything() { return {true, true, true, true, true, true, true, true, true, true, true, true}; }
+    static Content everything() {
+        return {.convex = true,
+                .hulls = true,
+                .triangles = true,
+                .moving_parts = true,
+                .joints = true,
+                .breaking = true,
+                .vehicles = true,
+                .bounces = true,
+                .rolls = true,
+                .round = true,
+                .tyres = true,
+                .reordered = true};
+    }
     bool operator==(const Content&) const = default;
 };
+static_assert(sizeof(Content) == 12 * sizeof(bool));  // as many as everything() names
 
 // Parameters::sleep_steps.
 physics::uint sleep_steps_of(const Settings& settings);
@@ -104,7 +120,7 @@ struct State {
     // know them). All that lasts from step to step goes with its body, and no bit of what follows changes; what is left of the
     // last step beside it is of no use any more. Everything that lasts must be here, and the runner be attached again. Where
     // memory ends, nothing has changed.
-    void reorder(const std::vector<std::uint32_t>& rows);
+    void reorder(const std::vector<std::uint32_t>& rows, const Threads& threads);
     bool reordered() const {
         return !rows_.empty();
     }

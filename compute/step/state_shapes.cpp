@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "compute/scene/fracture.h"
 #include "compute/scene/hull.h"
@@ -23,7 +25,15 @@ vec3 half_extents_of(const Hull& hull) {
     return half;
 }
 
-// Shape and size.
+template <physics::uint id, class Kind>
+constexpr bool is_shape = std::is_same_v<std::variant_alternative_t<id, SimpleShape>, Kind>&&
+    std::is_same_v<std::variant_alternative_t<id, Shape>, Kind>;
+static_assert(is_shape<physics::SHAPE_SPHERE, Sphere> && is_shape<physics::SHAPE_CAPSULE, Capsule> &&
+              is_shape<physics::SHAPE_BOX, Box> && is_shape<physics::SHAPE_PLANE, Plane> &&
+              is_shape<physics::SHAPE_CYLINDER, Cylinder> && is_shape<physics::SHAPE_CONE, Cone> &&
+              is_shape<physics::SHAPE_HULL, Hull> && std::variant_size_v<SimpleShape> == physics::SHAPE_TRIANGLE);
+
+// Shape and size; the shape's id is its place among the alternatives.
 physics::Traits simple_form(const SimpleShape& shape) {
     physics::Traits made{};
     made.shape = static_cast<physics::uint>(shape.index());

@@ -66,8 +66,7 @@ void World::Interior::set_axis(std::size_t index, JointAxis axis, const std::fun
             "degrees on what is not locked");
     }
     change(*found);
-    Scene alone{scene.gravity, scene.bodies, {changed}};
-    check_joints(alone);
+    check_joint(scene, changed, index);
     joint.kind = changed.kind;
     const std::uint32_t record = state.joint_records[index];
     const auto k = static_cast<std::size_t>(axis);
@@ -118,7 +117,7 @@ std::size_t World::add_joint(const Joint& joint) {
     const std::size_t index = in.scene.joints.size();
     in.scene.joints.push_back(joint);
     try {
-        check_joint(in.scene, index);
+        check_joint(in.scene, in.scene.joints[index], index);
         for (const auto& [key, body] : {std::pair{"/a", joint.a}, std::pair{"/b", joint.b}})
             if (body != the_world && !in.body_state(body).there)
                 throw SceneError(

@@ -29,7 +29,7 @@ bool World::Interior::keeps_order() const {
 void World::Interior::begin_in_order() {
     if (!keeps_order()) return;
     const auto begin = Clock::now();
-    state.reorder(rows_by_place(scene, state));
+    state.reorder(rows_by_place(scene, state, runner->threads()), runner->threads());
     looked = Clock::now();
     seconds_to_look = seconds_since(begin);
 }
@@ -39,10 +39,10 @@ void World::Interior::keep_order() {
     if (!asked && (!keeps_order() || (looked && seconds_since(*looked) * share_of_time < seconds_to_look))) return;
     const auto begin = Clock::now();
     runner->fetch_bodies();
-    const std::vector<std::uint32_t> rows = rows_by_place(scene, state);
+    const std::vector<std::uint32_t> rows = rows_by_place(scene, state, runner->threads());
     if (asked || stride_in_space(scene, state) > worth_it * stride_in_space(scene, state, rows)) {
         runner->fetch();
-        state.reorder(rows);
+        state.reorder(rows, runner->threads());
         runner->attach(state);
         ++reorderings;
     }

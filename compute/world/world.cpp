@@ -217,12 +217,14 @@ Scene World::snapshot() const {
         joint_there[i] = joints.size();
         Joint& joint = joints.emplace_back(scene.joints[i]);
         joint.broken = interior_->joint_state(i).broken;
+        // Renumbers the body; true if it is there no more.
         const auto gone = [&](std::size_t& body) {
             if (body == the_world) return false;
             body = place_there[body];
             return body == no_body;
         };
-        if (gone(joint.a) | gone(joint.b)) {
+        const bool a_gone = gone(joint.a), b_gone = gone(joint.b);
+        if (a_gone || b_gone) {
             joints.pop_back();
             joint_there[i] = no_body;
         }

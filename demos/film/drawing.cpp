@@ -20,7 +20,7 @@ namespace {
 class Instances {
 public:
     void add(std::uint32_t row, const SimpleShape& shape) {
-        // In the order of SimpleShape's alternatives.
+        // In the order of SimpleShape's alternatives (compute/step/state_shapes.cpp holds it).
         std::vector<std::uint32_t>* const lists[] = {&made.spheres, &made.capsules, &made.boxes, &made.planes};
         if (shape.index() < std::size(lists)) {
             lists[shape.index()]->push_back(row);

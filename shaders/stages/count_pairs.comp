@@ -1,4 +1,4 @@
-// variants: count_pairs -DWITHOUT_JOINTS
+// variants: count_pairs
 // variants: count_pairs_joined -DWITH_JOINTS
 // Counts the pairs that each body owns.
 #version 460

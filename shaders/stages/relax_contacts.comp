@@ -1,4 +1,4 @@
-// variants: relax_contacts -DWITHOUT_FRACTURES
+// variants: relax_contacts
 // variants: relax_contacts_felt -DWITH_FRACTURES
 // The pass without bias over all contacts that move somebody at once.
 #version 460

@@ -39,6 +39,7 @@ void choose_color(std::string& color) {
 std::string name_of(const Scene& scene, std::size_t body) {
     static const char* const shapes[] = {"sphere", "capsule", "box",      "plane", "cylinder",
                                          "cone",   "hull",    "compound", "mesh",  "height field"};
+    static_assert(std::size(shapes) == std::variant_size_v<Shape>);
     const Body& b = scene.bodies[body];
     return fmt::format("{} {}{}", shapes[b.shape.index()], body, b.name.empty() ? "" : " \"" + b.name + "\"");
 }

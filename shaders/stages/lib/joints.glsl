@@ -2,7 +2,7 @@
 //
 // Lavapipe ends a shader's loops after 65,535 rounds in all, without a word. As loops in loops the elimination of nine joints in
 // a ring came to more; so what a pair of joints has six or 36 of is written out (EACH_OF_SIX), and rounds of a block that would
-// still come to more are left to further dispatches (compute/fusing.h, which knows how many rounds each loop here takes).
+// still come to more are left to further dispatches (compute/step/stage_fusion.h, which knows how many rounds each loop here takes).
 #ifndef SCREE_STAGES_JOINTS_GLSL
 #define SCREE_STAGES_JOINTS_GLSL
 
@@ -380,7 +380,7 @@ bool look_at_bounds(uint j, bool biased, bool settling) {
 }
 
 // push.pass: 1 in the last substep; from bit 8 on the first round of the pass that this dispatch does, from 16 on how many it
-// does (dispatches_of() in compute/fusing.cpp).
+// does (dispatches_of() in compute/step/stage_fusion.cpp).
 uint first_round() {
     return push.pass >> 8 & 255u;
 }

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "host/spirv.h"
+#include "host/spirv/spirv.h"
 #include "shaders/embedded.h"
 
 namespace {
