@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <string>
 #include <string_view>
@@ -18,8 +19,9 @@ public:
         return *this;
     }
     Text& operator<<(float value);  // finite (SceneError otherwise): JSON has no other
-    template <glm::length_t size>
-    Text& operator<<(const glm::vec<size, float>& v) {
+    Text& operator<<(std::uint32_t value) { return *this << std::string_view(std::to_string(value)); }
+    template <glm::length_t size, class Number>
+    Text& operator<<(const glm::vec<size, Number>& v) {
         for (glm::length_t i = 0; i < size; ++i) *this << (i == 0 ? "[" : ", ") << v[i];
         return *this << "]";
     }

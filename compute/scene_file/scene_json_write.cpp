@@ -4,6 +4,7 @@
 #include "compute/fields/document.h"
 #include "compute/scene_file/fields_write.h"
 #include "compute/scene_file/joints_json.h"
+#include "compute/scene_file/json_text.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/scene_file/shapes_json.h"
 

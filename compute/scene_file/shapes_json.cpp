@@ -1,16 +1,14 @@
-// Shapes of a scene file: reading and writing them.
+// The shapes of a scene file, by the list of shapes (compute/shapes.h).
 #include "compute/scene_file/shapes_json.h"
 
 #include <algorithm>
+#include <array>
 
 #include "compute/scene_file/fields_write.h"
 
 namespace scree {
 
 namespace json_reading {
-
-static const Names shape_names = {"box",          "capsule", "compound", "cone",  "cylinder",
-                                  "height_field", "hull",    "mesh",     "plane", "sphere"};
 
 static void read(const json& value, const Place& place, std::vector<vec3>& points) {
     if (!value.is_array()) refuse(place, "must be an array of points [x, y, z], is " + kind(value));
@@ -56,13 +54,8 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
     }
 }
 
-static void read(const json& sizes, const Place& inside, Mesh& mesh) {
-    if (!sizes.contains("file")) {
-        only(sizes, inside, {"vertices", "triangles"});
-        required(sizes, inside, "vertices", mesh.vertices);
-        required(sizes, inside, "triangles", mesh.triangles);
-        return;
-    }
+// The vertices and triangles themselves, or the file that has them.
+static void read_mesh(const json& sizes, const Place& inside, Mesh& mesh) {
     only(sizes, inside, {"file", "scale"});
     required(sizes, inside, "file", mesh.file);
     optional(sizes, inside, "scale", mesh.scale);
@@ -70,112 +63,95 @@ static void read(const json& sizes, const Place& inside, Mesh& mesh) {
     if (!(mesh.scale >= 1e-6f && mesh.scale <= 1e6f)) refuse(inside / "scale", "must be between 0.000001 and 1000000");
 }
 
+template <class OfShape>
+static void read_fields(const json& sizes, const Place& inside, OfShape& shape) {
+    Names names;
+    for_each_field<OfShape>([&](const auto& field) { names.emplace_back(field.name); });
+    only(sizes, inside, names);
+    for_each_field<OfShape>([&](const auto& field) {
+        if (field.required)
+            required(sizes, inside, field.name, shape.*field.member);
+        else
+            optional(sizes, inside, field.name, shape.*field.member);
+    });
+}
+
+static Names shape_names() {
+    Names names;
+    for_each_shape([&](const auto& shape) {
+        names.emplace_back(shape_name(shape));
+        return true;
+    });
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
 void read(const json& value, const Place& place, Shape& out) {
     if (value.is_string()) refuse(place, "must be an object such as {\"sphere\": {\"radius\": 0.5}}, is " + kind(value));
     if (!value.is_object()) refuse(place, "must be an object with one key, is " + kind(value));
-    if (value.size() != 1) refuse(place, "must have one key (" + listed(shape_names) + "), has " + std::to_string(value.size()));
+    if (value.size() != 1)
+        refuse(place, "must have one key (" + listed(shape_names()) + "), has " + std::to_string(value.size()));
     const std::string& name = value.begin().key();
     const json& sizes = value.begin().value();
-    if (std::find(shape_names.begin(), shape_names.end(), name) == shape_names.end()) {
-        refuse(place, "unknown shape \"" + name + "\"; known: " + listed(shape_names));
-    }
     const Place inside = place / name.c_str();
-    if (name == "sphere") {
-        only(sizes, inside, {"radius"});
-        required(sizes, inside, "radius", out.emplace<Sphere>().radius);
-    } else if (name == "capsule") {
-        only(sizes, inside, {"radius", "half_height"});
-        auto& capsule = out.emplace<Capsule>();
-        required(sizes, inside, "radius", capsule.radius);
-        required(sizes, inside, "half_height", capsule.half_height);
-    } else if (name == "box") {
-        only(sizes, inside, {"half_extents"});
-        required(sizes, inside, "half_extents", out.emplace<Box>().half_extents);
-    } else if (name == "cylinder") {
-        only(sizes, inside, {"radius", "half_height"});
-        auto& cylinder = out.emplace<Cylinder>();
-        required(sizes, inside, "radius", cylinder.radius);
-        required(sizes, inside, "half_height", cylinder.half_height);
-    } else if (name == "cone") {
-        only(sizes, inside, {"radius", "height"});
-        auto& cone = out.emplace<Cone>();
-        required(sizes, inside, "radius", cone.radius);
-        required(sizes, inside, "height", cone.height);
-    } else if (name == "hull") {
-        only(sizes, inside, {"points"});
-        required(sizes, inside, "points", out.emplace<Hull>().points);
-    } else if (name == "compound") {
-        only(sizes, inside, {"parts"});
-        required(sizes, inside, "parts", out.emplace<Compound>().parts);
-    } else if (name == "mesh") {
-        read(sizes, inside, out.emplace<Mesh>());
-    } else if (name == "height_field") {
-        only(sizes, inside, {"columns", "rows", "spacing", "heights"});
-        auto& field = out.emplace<HeightField>();
-        required(sizes, inside, "columns", field.columns);
-        required(sizes, inside, "rows", field.rows);
-        optional(sizes, inside, "spacing", field.spacing);
-        required(sizes, inside, "heights", field.heights);
-    } else {
-        only(sizes, inside, {"normal", "offset"});
-        auto& plane = out.emplace<Plane>();
-        optional(sizes, inside, "normal", plane.normal);
-        optional(sizes, inside, "offset", plane.offset);
-    }
+    const bool unknown_shape = for_each_shape([&](auto shape) {
+        using Kind = decltype(shape);
+        if (name != ShapeInfo<Kind>::name) return true;
+        if constexpr (std::is_same_v<Kind, Mesh>) {
+            if (sizes.contains("file")) {
+                read_mesh(sizes, inside, out.emplace<Mesh>());
+                return false;
+            }
+        }
+        read_fields(sizes, inside, out.emplace<Kind>());
+        return false;
+    });
+    if (unknown_shape) refuse(place, "unknown shape \"" + name + "\"; known: " + listed(shape_names()));
 }
 
 }  // namespace json_reading
 
-static void write(Text& text, const Part& part) {
+namespace {
+
+template <class Value>
+void write_value(Text& text, const Value& value) {
+    text << value;
+}
+template <class Value>
+void write_value(Text& text, const std::vector<Value>& values) {
+    text.list(values);
+}
+void write_value(Text& text, const std::vector<Part>& parts) {
     static const Part by_default;
     const auto unless_default = [&](std::string_view key, const auto& value, const auto& usual) {
         if (!is_default(value, usual)) text << ", \"" << key << "\": " << value;
     };
-    write_shape(text, whole_shape(part.shape));
-    unless_default("position", part.position, by_default.position);
-    unless_default("orientation", part.orientation, by_default.orientation);
-    unless_default("density", part.density, by_default.density);
-    text << "}";
+    const char* between = "[{\"shape\": ";
+    for (const Part& part : parts) {
+        text << between;
+        write_shape(text, whole_shape(part.shape));
+        unless_default("position", part.position, by_default.position);
+        unless_default("orientation", part.orientation, by_default.orientation);
+        unless_default("density", part.density, by_default.density);
+        between = "}, {\"shape\": ";
+    }
+    text << (parts.empty() ? "[]" : "}]");
 }
 
+}  // namespace
+
 void write_shape(Text& text, const Shape& shape) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-        text << "{\"sphere\": {\"radius\": " << sphere->radius;
-    } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
-        text << "{\"capsule\": {\"radius\": " << capsule->radius << ", \"half_height\": " << capsule->half_height;
-    } else if (const auto* box = std::get_if<Box>(&shape)) {
-        text << "{\"box\": {\"half_extents\": " << box->half_extents;
-    } else if (const auto* plane = std::get_if<Plane>(&shape)) {
-        text << "{\"plane\": {\"normal\": " << plane->normal << ", \"offset\": " << plane->offset;
-    } else if (const auto* cylinder = std::get_if<Cylinder>(&shape)) {
-        text << "{\"cylinder\": {\"radius\": " << cylinder->radius << ", \"half_height\": " << cylinder->half_height;
-    } else if (const auto* cone = std::get_if<Cone>(&shape)) {
-        text << "{\"cone\": {\"radius\": " << cone->radius << ", \"height\": " << cone->height;
-    } else if (const auto* hull = std::get_if<Hull>(&shape)) {
-        text << "{\"hull\": {\"points\": ";
-        text.list(hull->points);
-    } else if (const auto* compound = std::get_if<Compound>(&shape)) {
-        text << "{\"compound\": {\"parts\": [";
-        for (std::size_t i = 0; i < compound->parts.size(); ++i) {
-            text << (i == 0 ? "{\"shape\": " : ", {\"shape\": ");
-            write(text, compound->parts[i]);
-        }
-        text << "]";
-    } else if (const auto* mesh = std::get_if<Mesh>(&shape)) {
-        text << "{\"mesh\": {\"vertices\": ";
-        text.list(mesh->vertices);
-        text << ", \"triangles\": [";
-        for (std::size_t i = 0; i < mesh->triangles.size(); ++i) {
-            const glm::uvec3& t = mesh->triangles[i];
-            text << (i == 0 ? "[" : ", [") << std::to_string(t.x) << ", " << std::to_string(t.y) << ", " << std::to_string(t.z)
-                 << "]";
-        }
-        text << "]";
-    } else if (const auto* field = std::get_if<HeightField>(&shape)) {
-        text << "{\"height_field\": {\"columns\": " << std::to_string(field->columns)
-             << ", \"rows\": " << std::to_string(field->rows) << ", \"spacing\": " << field->spacing << ", \"heights\": ";
-        text.list(field->heights);
-    }
+    text << "{\"" << shape_name(shape) << "\": {";
+    std::visit(
+        [&](const auto& one) {
+            const char* between = "\"";
+            for_each_field<decltype(one)>([&](const auto& field) {
+                text << between << field.name << "\": ";
+                write_value(text, one.*field.member);
+                between = ", \"";
+            });
+        },
+        shape);
     text << "}}";
 }
 

@@ -21,9 +21,10 @@ LAW Feature side_facing(Solid solid, vec3 direction, Hulls hulls) {
     float along = dot3(solid.axes.y, direction);
     vec3 outward = outward_from_axis(solid.axes, direction);
     float by_side = dot3(outward, direction), by_cap = abs(along);
-    vec3 first = rim_point(solid, outward, -solid.size.y), second = rim_point(solid, outward, solid.size.y);
+    vec3 first = rim_point(solid.axes, solid.size, outward, -solid.size.y),
+         second = rim_point(solid.axes, solid.size, outward, solid.size.y);
     if (solid.shape == SHAPE_CONE) {
-        first = rim_point(solid, outward, cone_base(solid.size));
+        first = rim_point(solid.axes, solid.size, outward, cone_base(solid.size));
         second = solid.axes.y * cone_apex(solid.size);
         by_side = dot3(cone_normal(solid.axes, solid.size, outward), direction);
         by_cap = -along;
