@@ -34,7 +34,7 @@ public:
     Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads);
     ~Lockstep();
     bool step();  // false: something differs, and result() says what
-    // The same change to the tables of both, between steps (State::tune, State::add, parameters).
+    // The same change to the tables of both, between steps (StateEditor, parameters).
     void change(const std::function<void(State&)>& make);
     const LockstepResult& result() const;
     DeviceRunner& device();

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "compute/scene/fracture.h"
+#include "compute/step/scene_compiler.h"
+#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -133,7 +135,7 @@ void World::Interior::retune(const Settings& changed) {
     }
     if (replan) runner->fetch();
     settings = changed;
-    state.tune(scene.gravity, settings);
+    StateEditor(state).tune(scene.gravity, settings);
     if (replan) runner->attach(state);
 }
 
@@ -176,7 +178,7 @@ std::size_t World::add_body(const Body& body) {
     for (Body& one : added.bodies) {
         if (one.piece_of != no_body) one.piece_of += first;
         if (one.fracture) one.fracture->first_piece += first;
-        in.state.add(one);
+        StateEditor(in.state).add(one);
         in.scene.bodies.push_back(std::move(one));
     }
     in.runner->attach(in.state);

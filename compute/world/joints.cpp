@@ -6,6 +6,7 @@
 
 #include "compute/scene/joint_validation.h"
 #include "compute/step/joint_blocks.h"
+#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/solve/joint.h"
 
@@ -128,7 +129,7 @@ std::size_t World::add_joint(const Joint& joint) {
         in.scene.joints.pop_back();
         throw;
     }
-    in.state.rejoin(in.scene);
+    StateEditor(in.state).rejoin(in.scene);
     in.runner->attach(in.state);
     in.wake(joint);
     return index;
@@ -143,7 +144,7 @@ void World::remove_joint(std::size_t index) {
     for (Vehicle& vehicle : in.scene.vehicles)
         for (Wheel& wheel : vehicle.wheels) wheel.joint -= wheel.joint > index;
     in.scene.joints.erase(in.scene.joints.begin() + static_cast<std::ptrdiff_t>(index));
-    in.state.rejoin(in.scene, index);
+    StateEditor(in.state).rejoin(in.scene, index);
     in.runner->attach(in.state);
 }
 

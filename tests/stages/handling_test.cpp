@@ -3,6 +3,7 @@
 
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
+#include "compute/step/state_editor.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 
@@ -105,11 +106,13 @@ TEST_CASE("every stage gives the same bits on both processors after the dials we
             settings.substeps = 1 + (settings.substeps + 4) % 9;
             settings.friction_factor *= 0.7f;
             settings.least_restitution = 0.1f * static_cast<float>(step / 10);
-            lockstep.change([&](State& state) { state.tune(vec3(0.1f * static_cast<float>(step), -9, 0), settings); });
+            lockstep.change(
+                [&](State& state) { StateEditor(state).tune(vec3(0.1f * static_cast<float>(step), -9, 0), settings); });
         }
         if (step % 7 == 3) {
-            lockstep.change(
-                [&](State& state) { state.add(thrown(Box{vec3(0.3f, 0.2f, 0.25f)}, vec3(0, 3 + step, 0), vec3(0, -10, 0))); });
+            lockstep.change([&](State& state) {
+                StateEditor(state).add(thrown(Box{vec3(0.3f, 0.2f, 0.25f)}, vec3(0, 3 + step, 0), vec3(0, -10, 0)));
+            });
         }
         lockstep.step();
         require_equal(lockstep.result());

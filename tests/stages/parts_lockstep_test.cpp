@@ -4,7 +4,7 @@
 #include <random>
 
 #include "compute/device/lockstep.h"
-#include "compute/step/state.h"
+#include "compute/step/state_editor.h"
 #include "host/vulkan/device.h"
 
 using namespace scree;
@@ -76,7 +76,7 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
     Scene more;
     more.bodies.push_back({.shape = hammer(), .position = {0.1f, 2, 0.1f}});
     const Body added = checked(more).bodies[0];
-    lockstep.change([&](State& state) { state.add(added); });
+    lockstep.change([&](State& state) { StateEditor(state).add(added); });
     go(60);
 }
 
