@@ -115,7 +115,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     state_.vehicles = vehicle_records(scene, state_.joint_records, state_.hulls);
     p.vehicles = static_cast<std::uint32_t>(state_.vehicles.size());
     p.bodies = rows;
-    p.first_part = n;
+    p.first_part = state_.body_count = n;
     p.buckets = State::buckets_for(rows);
     p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving);
     p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2;
@@ -127,6 +127,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
         state_.velocities[i] = start_velocity_of(scene.bodies[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
+    state_.note_content(0, rows);
     state_.counted() = physics::emptied(state_.counted(), p);
 }
 

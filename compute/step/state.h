@@ -116,12 +116,15 @@ struct State {
     Content content() const;
     bool has_joints() const;
     // Whether some body may break.
-    bool has_fractures() const;
+    bool has_fractures() const {
+        return row_content_.breaking;
+    }
     // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : traits[row].owner;
     }
-    std::size_t bytes() const;  // of all tables, wherever they are
+    std::size_t bytes() const;                 // of all tables, wherever they are
+    std::size_t raw_bytes(Table table) const;  // of one that has its memory
 
     std::span<std::byte> raw(Table table);
     std::span<const std::byte> raw(Table table) const;
@@ -153,8 +156,12 @@ struct State {
     std::vector<std::array<std::uint32_t, noted>> partners;
 
     ShapePlaces shape_places;
-    // Every table at its length, for the scene compiler and the editor; and how many buckets so many bodies want.
+    std::uint32_t body_count =
+        0;  // of the scene's bodies; Parameters::first_part has room for more of them where there are parts
+    // For the scene compiler and the editor: every table at its length; what rows that are new bring into the content; how many
+    // buckets so many bodies want.
     void allocate();
+    void note_content(std::uint32_t first_row, std::uint32_t count);
     static std::uint32_t buckets_for(std::uint32_t bodies);
     // One more body, in the row of its id.
     void append_row(std::uint32_t row) {
@@ -164,6 +171,7 @@ struct State {
 private:
     void number_rows();
     std::vector<std::uint32_t> rows_;  // by id; empty: every body is in the row of its id
+    Content row_content_;
     bool all_ = true;
 };
 
