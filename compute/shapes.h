@@ -103,11 +103,12 @@ struct ShapeField {
     Value Owner::*member;
     FieldRange range;      // of each number of it
     const char* unit;      // with a space before it, for messages
+    const char* about = "";
     bool required = true;  // in a scene file; else its default is the struct's own
 
     constexpr ShapeField(const char* called, Value Owner::*field, FieldRange within, const char* measured_in,
-                         bool always_said = true)
-        : name(called), member(field), range(within), unit(measured_in), required(always_said) {}
+                         const char* meaning = "", bool always_said = true)
+        : name(called), member(field), range(within), unit(measured_in), about(meaning), required(always_said) {}
     constexpr bool is_direction() const { return range.least == range.most; }
 };
 
@@ -116,36 +117,42 @@ struct ShapeInfo;
 template <>
 struct ShapeInfo<Sphere> {
     static constexpr const char* name = "sphere";
-    static constexpr std::tuple fields{ShapeField{"radius", &Sphere::radius, size_range, " m"}};
+    static constexpr const char* about = "a ball about the body's position";
+    static constexpr std::tuple fields{ShapeField{"radius", &Sphere::radius, size_range, " m", "m"}};
 };
 template <>
 struct ShapeInfo<Capsule> {
     static constexpr const char* name = "capsule";
-    static constexpr std::tuple fields{ShapeField{"radius", &Capsule::radius, size_range, " m"},
-                                       ShapeField{"half_height", &Capsule::half_height, size_or_none_range, " m"}};
+    static constexpr const char* about = "along the body's y axis";
+    static constexpr std::tuple fields{ShapeField{"radius", &Capsule::radius, size_range, " m", "m"},
+                                       ShapeField{"half_height", &Capsule::half_height, size_or_none_range, " m", "m, from the centre to the centre of a cap"}};
 };
 template <>
 struct ShapeInfo<Box> {
     static constexpr const char* name = "box";
-    static constexpr std::tuple fields{ShapeField{"half_extents", &Box::half_extents, size_range, " m"}};
+    static constexpr const char* about = "along the body's axes";
+    static constexpr std::tuple fields{ShapeField{"half_extents", &Box::half_extents, size_range, " m", "m"}};
 };
 template <>
 struct ShapeInfo<Plane> {
     static constexpr const char* name = "plane";
-    static constexpr std::tuple fields{ShapeField{"normal", &Plane::normal, direction_range, "", false},
-                                       ShapeField{"offset", &Plane::offset, position_range, " m", false}};
+    static constexpr const char* about = "infinite, solid behind the normal; only for \"fixed\" bodies, whose position and orientation it ignores";
+    static constexpr std::tuple fields{ShapeField{"normal", &Plane::normal, direction_range, "", "any length but 0", false},
+                                       ShapeField{"offset", &Plane::offset, position_range, " m", "m, along the normal from the origin", false}};
 };
 template <>
 struct ShapeInfo<Cylinder> {
     static constexpr const char* name = "cylinder";
-    static constexpr std::tuple fields{ShapeField{"radius", &Cylinder::radius, size_range, " m"},
-                                       ShapeField{"half_height", &Cylinder::half_height, size_range, " m"}};
+    static constexpr const char* about = "along the body's y axis";
+    static constexpr std::tuple fields{ShapeField{"radius", &Cylinder::radius, size_range, " m", "m"},
+                                       ShapeField{"half_height", &Cylinder::half_height, size_range, " m", "m, from the centre to an end"}};
 };
 template <>
 struct ShapeInfo<Cone> {
     static constexpr const char* name = "cone";
-    static constexpr std::tuple fields{ShapeField{"radius", &Cone::radius, size_range, " m"},
-                                       ShapeField{"height", &Cone::height, size_range, " m"}};
+    static constexpr const char* about = "along the body's y axis, the apex up; its centre of mass lies a quarter of its height above its base";
+    static constexpr std::tuple fields{ShapeField{"radius", &Cone::radius, size_range, " m", "m, of the base"},
+                                       ShapeField{"height", &Cone::height, size_range, " m", "m"}};
 };
 template <>
 struct ShapeInfo<Hull> {
@@ -168,7 +175,7 @@ struct ShapeInfo<HeightField> {
     static constexpr const char* name = "height_field";
     static constexpr std::tuple fields{ShapeField{"columns", &HeightField::columns, {2, 30000}, ""},
                                        ShapeField{"rows", &HeightField::rows, {2, 30000}, ""},
-                                       ShapeField{"spacing", &HeightField::spacing, size_range, " m", false},
+                                       ShapeField{"spacing", &HeightField::spacing, size_range, " m", "m, between neighbours", false},
                                        ShapeField{"heights", &HeightField::heights, within_shape_range, " m"}};
 };
 

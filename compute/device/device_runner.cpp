@@ -85,15 +85,19 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 }
 
 void DeviceRunner::attach(State& state) {
-    device_->wait_idle();
     state_ = &state;
+    adapt();
+    upload_all();
+}
+
+void DeviceRunner::adapt() {
+    device_->wait_idle();
     make_buffers();
     const host::Reach reach = reach_needed();
-    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() || planned_substeps_ != state.substeps ||
-        planned_content_ != state.content())
+    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() ||
+        planned_substeps_ != state_->substeps || planned_content_ != state_->content())
         make_plan(reach);
     fuse();
-    upload();
     bind_tables();
 }
 

@@ -12,6 +12,7 @@
 #include "compute/runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
+#include "compute/step/table_ranges.h"
 #include "host/vulkan/buffer.h"
 #include "host/vulkan/command_buffer.h"
 #include "host/vulkan/device.h"
@@ -30,16 +31,9 @@ public:
     const Threads& threads() const override { return threads_; }
     bool in_place() const override { return false; }
     void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
+    void adapt() override;               // throws the same
     bool step() override;
     bool steps(int count, std::uint64_t& done) override;
-    void fetch_body(std::size_t index) override;
-    void fetch_bodies() override;
-    void fetch_contacts() override;
-    void fetch_joints() override;
-    void send_joint(std::size_t record) override;
-    void fetch_vehicles() override;
-    void send_vehicle(std::size_t index) override;
-    void fetch() override;
     void time_stages(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
@@ -85,13 +79,15 @@ private:
     std::vector<std::uint32_t> constants_of(const Stage& stage) const;  // for its specialisation
     void make_pipelines(const std::vector<Stage>& stages);
     void make_buffers();
-    void upload();
+    host::Buffer make_buffer(Table table, bool with_room) const;
+    void upload_all();
     void bind_tables();
     const host::Recording& whole_step();
     bool finished(std::size_t parity);  // a step: whether every list had room
     void record_stage(host::Recording& recording, const Stage& stage) const;
     void send_inputs();
-    void fetch_live(Table table);
+    void send(const std::vector<TableRange>& ranges) override;
+    void receive(const std::vector<TableRange>& ranges) override;
 
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;

@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "compute/device/device_runner.h"
+#include "host/vulkan/transfer.h"
 
 namespace scree {
 
@@ -12,10 +13,11 @@ namespace {
 
 std::string what_would_fit(const State& state, const host::DeviceReport& device) {
     // A body brings its parts and the pieces that it may break into: all have rows.
-    const auto pieces = static_cast<std::size_t>(std::count_if(
-        state.traits.begin(), state.traits.end(), [](const physics::Traits& t) { return t.motion == physics::MOTION_UNBORN; }));
+    const auto pieces =
+        static_cast<std::size_t>(std::count_if(state.traits.begin(), state.traits.begin() + state.body_count,
+                                               [](const physics::Traits& t) { return t.motion == physics::MOTION_UNBORN; }));
     const std::size_t parts = state.fixed().bodies - state.fixed().first_part;
-    const auto bodies = static_cast<double>(state.fixed().first_part - pieces);
+    const auto bodies = static_cast<double>(state.body_count - pieces);
     const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
     std::string with;
     if (pieces > 0) with += ", with the " + std::to_string(pieces) + " pieces that they may break into,";
@@ -23,7 +25,48 @@ std::string what_would_fit(const State& state, const host::DeviceReport& device)
     char text[160];
     std::snprintf(text, sizeof text, " take %.3g GB, %s has %.3g: about %.2g bodies like these would fit", needed / 1e9,
                   device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
-    return "All tables of the " + std::to_string(state.fixed().first_part - pieces) + " bodies" + with + text;
+    return "All tables of the " + std::to_string(state.body_count - pieces) + " bodies" + with + text;
+}
+
+// What a table holds from one step to the next, or until a step that was cut short is repeated.
+bool lasts(Table table) {
+    using enum Table;
+    const auto lasting = {parameters,
+                          counts,
+                          traits,
+                          poses,
+                          velocities,
+                          rests,
+                          hulls,
+                          joints,
+                          vehicles,
+                          ids,
+                          masses,
+                          contacts,
+                          impulses,
+                          first_contacts,
+                          contacts_before,
+                          impulses_before,
+                          first_contacts_before};
+    return std::find(lasting.begin(), lasting.end(), table) != lasting.end();
+}
+
+// Records that a table gets beyond those it needs: half as many again of what edits add one by one. Lists have room of their own
+// (State::grow).
+std::size_t room_behind(const State& state, Length length) {
+    switch (length) {
+        case Length::bodies:
+        case Length::entries:
+        case Length::bodies_and_end:
+        case Length::hulls:
+        case Length::joints:
+        case Length::vehicles:
+            return 16 + state.allocated(length) / 2;
+        case Length::slots:
+            return 16 + state.joints.size() / 2;
+        default:
+            return 0;
+    }
 }
 
 }  // namespace
@@ -38,28 +81,49 @@ void DeviceRunner::make_buffers() {
                                 " threads at once: use fewer bodies, or --backend cpu");
     buffers_.resize(table_count);
     for (std::size_t i = 0; i < table_count; ++i) {
-        const TableInfo& info = table_infos()[i];
-        const std::size_t bytes = state_->allocated(info.length) * info.record_bytes;
-        if (buffers_[i].bytes() == bytes) continue;
-        buffers_[i] = {};  // its memory first, then the new one's
+        const auto table = static_cast<Table>(i);
+        if (buffers_[i] && state_->raw_bytes(table) <= buffers_[i].bytes()) continue;
+        host::Buffer before = std::move(buffers_[i]);
+        const bool grows = static_cast<bool>(before);
+        if (!lasts(table)) before = {};  // its memory first, then the new one's
         try {
-            buffers_[i] = host::Buffer(device_, info.name, bytes);
+            buffers_[i] = make_buffer(table, grows);
         } catch (const host::DeviceError& error) {
+            buffers_[i] = std::move(before);
             throw host::DeviceError(std::string(error.what()) + ". " + what_would_fit(*state_, device_->report()));
         }
+        if (!before) continue;
+        host::Recording recording(device_);
+        recording.copy(before, buffers_[i], before.bytes());
+        recording.end();
+        device_->submit_and_wait({recording.handle()});
     }
 }
 
-void DeviceRunner::upload() {
+// Where an edit has made a table longer, others may follow: with room for them, unless there is none.
+host::Buffer DeviceRunner::make_buffer(Table table, bool with_room) const {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    const std::size_t needed = state_->raw_bytes(table);
+    const std::size_t roomy = needed + (with_room ? room_behind(*state_, info.length) * info.record_bytes : 0);
+    if (roomy > needed && roomy <= device_->report().largest_binding) {
+        try {
+            return host::Buffer(device_, info.name, roomy);
+        } catch (const host::DeviceError&) {
+        }
+    }
+    return host::Buffer(device_, info.name, needed);
+}
+
+void DeviceRunner::upload_all() {
     using enum Table;
     parity_ = 0;
-    const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles, ids}) send(table);
-    sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
-    for (const Table table :
-         {masses, contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
-        if (!state_->raw(table).empty()) send(table);
+    TableRanges all;
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles, ids, masses,
+                              contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
+        all.push_back({table, 0, state_->raw(table).size() / table_infos()[static_cast<std::size_t>(table)].record_bytes});
+    upload(all);
+    sent_ = state_->fixed();
 }
 
 void DeviceRunner::send_inputs() {
@@ -92,67 +156,29 @@ void DeviceRunner::poison() {
     }
 }
 
-void DeviceRunner::fetch_body(std::size_t index) {
-    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests}) {
-        const std::size_t bytes = table_infos()[static_cast<std::size_t>(table)].record_bytes;
-        buffer(table).read(state_->raw(table).subspan(index * bytes).data(), bytes, index * bytes);
+void DeviceRunner::send(const TableRanges& ranges) {
+    std::vector<host::Upload> pieces;
+    for (const TableRange& range : ranges) {
+        const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+        pieces.push_back({std::as_const(*state_).raw(range.table).subspan(range.first * bytes, range.count * bytes),
+                          &buffer(range.table), range.first * bytes});
     }
+    host::upload(device_, pieces);
 }
 
-void DeviceRunner::fetch_bodies() {
-    for (const Table table : {Table::counts, Table::poses, Table::velocities, Table::rests}) read(table, state_->raw(table));
-    if (planned_content_.breaking) read(Table::traits, state_->raw(Table::traits));  // who is there
-}
-
-void DeviceRunner::fetch_contacts() {
-    for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
-    if (planned_content_.reordered) fetch_live(Table::first_contacts);  // contacts_by_id
-    if (planned_content_.convex) fetch_live(Table::pairs);              // whose hulls traffic_of counts
+void DeviceRunner::receive(const TableRanges& ranges) {
+    std::vector<host::Download> pieces;
+    for (const TableRange& range : ranges) {
+        const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+        if (state_->raw(range.table).size() < (range.first + range.count) * bytes) state_->make(range.table);
+        pieces.push_back({state_->raw(range.table).subspan(range.first * bytes, range.count * bytes), &buffer(range.table),
+                          range.first * bytes});
+    }
+    host::download(device_, pieces);
 }
 
 std::uint32_t DeviceRunner::joint_records() const {
     return state_->has_joints() ? static_cast<std::uint32_t>(state_->joints.size()) : 0;
-}
-
-void DeviceRunner::fetch_joints() {
-    if (state_->has_joints()) read(Table::joints, state_->raw(Table::joints));
-}
-
-void DeviceRunner::fetch_vehicles() {
-    if (planned_content_.vehicles) read(Table::vehicles, state_->raw(Table::vehicles));
-}
-
-void DeviceRunner::send_vehicle(std::size_t index) {
-    constexpr std::size_t first = offsetof(physics::Handling, throttle);
-    constexpr std::size_t bytes = offsetof(physics::Handling, next) - first;
-    buffer(Table::vehicles).write(&state_->vehicles[index].handling.throttle, bytes, index * sizeof(physics::Vehicle) + first);
-}
-
-void DeviceRunner::send_joint(std::size_t record) {
-    const physics::Joint& joint = state_->joints[record];
-    buffer(Table::joints).write(joint.axes, sizeof joint.axes, record * sizeof joint + offsetof(physics::Joint, axes));
-}
-
-void DeviceRunner::fetch() {
-    fetch_bodies();
-    for (std::size_t i = 0; i < table_count; ++i) {
-        const auto table = static_cast<Table>(i);
-        if (table_infos()[i].length == Length::candidates || table == Table::parameters || table == Table::actions) continue;
-        if (table == Table::contacts_before || table == Table::impulses_before) {
-            state_->make(table);
-            read(table, state_->raw(table));
-        } else {
-            fetch_live(table);
-        }
-    }
-}
-
-// The items that mean something at present. `counts` must be here already.
-void DeviceRunner::fetch_live(Table table) {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    state_->make(table);
-    const std::size_t items = state_->live(info.length);
-    if (items) read(table, state_->raw(table).first(items * info.record_bytes));
 }
 
 }  // namespace scree

@@ -80,10 +80,12 @@ struct Lockstep::Interior {
         there.begin_step();
         there.poison();
         if (here.step([&](const Stage& stage, std::size_t index) { return compare(stage, index); }) || !result.equal) return true;
-        there.fetch();
+        there.download({{Table::counts, 0, 1}});
         image.grow();
         state.grow();
-        attach();
+        there.adapt();
+        there.upload({{Table::counts, 0, 1}});
+        here.adapt();
         return false;
     }
 };
@@ -99,10 +101,23 @@ DeviceRunner& Lockstep::device() {
 }
 
 void Lockstep::change(const std::function<void(State&)>& make) {
-    interior_->there.fetch();
+    interior_->there.download({{Table::counts, 0, 1}});
+    interior_->there.download(lasting_ranges(interior_->image));
     make(interior_->image);
     make(interior_->state);
     interior_->attach();
+}
+
+void Lockstep::edit(const std::function<TableRanges(const StateEditor&)>& needed,
+                    const std::function<TableRanges(StateEditor&)>& make) {
+    StateEditor of_image(interior_->image), of_state(interior_->state);
+    interior_->there.download({{Table::counts, 0, 1}});
+    interior_->there.download(needed(of_image));
+    const TableRanges changed = make(of_image);
+    make(of_state);
+    interior_->there.adapt();
+    interior_->here.adapt();
+    interior_->there.upload(changed);
 }
 
 bool Lockstep::step() {

@@ -1,98 +1,64 @@
-// The JSON Schema of shapes.
+// The JSON Schema of shapes. Shapes whose fields are numbers and vectors follow from the list (compute/shapes.h).
 #include <nlohmann/json.hpp>
+#include <type_traits>
 
 #include "compute/scene_file/shapes_json.h"
 
 namespace scree {
 
-nlohmann::ordered_json shape_schema() {
-    return nlohmann::ordered_json::parse(R"schema({
-    "type": "object",
-    "oneOf": [
-        {
-            "required": ["sphere"],
-            "additionalProperties": false,
-            "properties": {
-                "sphere": {
-                    "type": "object",
-                    "required": ["radius"],
-                    "additionalProperties": false,
-                    "properties": {"radius": {"$ref": "#/$defs/size"}}
-                }
-            }
-        },
-        {
-            "required": ["capsule"],
-            "additionalProperties": false,
-            "description": "along the body's y axis",
-            "properties": {
-                "capsule": {
-                    "type": "object",
-                    "required": ["radius", "half_height"],
-                    "additionalProperties": false,
-                    "properties": {
-                        "radius": {"$ref": "#/$defs/size"},
-                        "half_height": {
-                            "type": "number",
-                            "minimum": 0,
-                            "maximum": 100000,
-                            "description": "m, from the centre to the centre of a cap"
-                        }
-                    }
-                }
-            }
-        },
-        {
-            "required": ["box"],
-            "additionalProperties": false,
-            "properties": {
-                "box": {
-                    "type": "object",
-                    "required": ["half_extents"],
-                    "additionalProperties": false,
-                    "properties": {
-                        "half_extents": {
-                            "type": "array",
-                            "items": {"$ref": "#/$defs/size"},
-                            "minItems": 3,
-                            "maxItems": 3
-                        }
-                    }
-                }
-            }
-        },
-        {
-            "required": ["cylinder"],
-            "additionalProperties": false,
-            "description": "along the body's y axis",
-            "properties": {
-                "cylinder": {
-                    "type": "object",
-                    "required": ["radius", "half_height"],
-                    "additionalProperties": false,
-                    "properties": {
-                        "radius": {"$ref": "#/$defs/size"},
-                        "half_height": {"$ref": "#/$defs/size"}
-                    }
-                }
-            }
-        },
-        {
-            "required": ["cone"],
-            "additionalProperties": false,
-            "description": "along the body's y axis, the apex up; its centre of mass lies a quarter of its height above its base",
-            "properties": {
-                "cone": {
-                    "type": "object",
-                    "required": ["radius", "height"],
-                    "additionalProperties": false,
-                    "properties": {
-                        "radius": {"$ref": "#/$defs/size"},
-                        "height": {"$ref": "#/$defs/size"}
-                    }
-                }
-            }
-        },
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number_schema(FieldRange range) {
+    if (range.least == size_range.least && range.most == size_range.most) return {{"$ref", "#/$defs/size"}};
+    // The shortest digits of the float: 100000, not 99999.9999.
+    return {{"type", "number"}, {"minimum", std::stod(plain(range.least))}, {"maximum", std::stod(plain(range.most))}};
+}
+
+template <class Owner>
+ordered_json field_schema(const ShapeField<Owner, float>& field) {
+    ordered_json schema = number_schema(field.range);
+    if (!field.required) schema["default"] = Owner{}.*field.member;
+    schema["description"] = field.about;
+    return schema;
+}
+
+template <class Owner>
+ordered_json field_schema(const ShapeField<Owner, vec3>& field) {
+    ordered_json schema = {{"$ref", "#/$defs/vector"}};
+    if (!field.is_direction())
+        schema = {{"type", "array"}, {"items", number_schema(field.range)}, {"minItems", 3}, {"maxItems", 3}};
+    const vec3 usual = Owner{}.*field.member;
+    if (!field.required) schema["default"] = {usual.x, usual.y, usual.z};
+    schema["description"] = field.about;
+    return schema;
+}
+
+// Of lists there is more to say than a range.
+template <class OfShape>
+constexpr bool has_lists = std::is_same_v<OfShape, Hull> || std::is_same_v<OfShape, Compound> || std::is_same_v<OfShape, Mesh> ||
+                           std::is_same_v<OfShape, HeightField>;
+
+template <class OfShape>
+ordered_json plain_schema() {
+    ordered_json fields = {{"type", "object"}}, required = ordered_json::array(), properties = ordered_json::object();
+    for_each_field<OfShape>([&](const auto& field) {
+        if (field.required) required.push_back(field.name);
+        properties[field.name] = field_schema(field);
+    });
+    if (!required.empty()) fields["required"] = required;
+    fields["additionalProperties"] = false;
+    fields["properties"] = properties;
+    const char* name = ShapeInfo<OfShape>::name;
+    return {{"required", {name}},
+            {"additionalProperties", false},
+            {"description", ShapeInfo<OfShape>::about},
+            {"properties", {{name, fields}}}};
+}
+
+ordered_json schemas_with_lists() {
+    return ordered_json::parse(R"schema([
         {
             "required": ["hull"],
             "additionalProperties": false,
@@ -247,30 +213,20 @@ nlohmann::ordered_json shape_schema() {
                     }
                 }
             }
-        },
-        {
-            "required": ["plane"],
-            "additionalProperties": false,
-            "description": "infinite, solid behind the normal; only for \"fixed\" bodies, whose position and orientation it ignores",
-            "properties": {
-                "plane": {
-                    "type": "object",
-                    "additionalProperties": false,
-                    "properties": {
-                        "normal": {"$ref": "#/$defs/vector", "default": [0, 1, 0], "description": "any length but 0"},
-                        "offset": {
-                            "type": "number",
-                            "minimum": -1000000,
-                            "maximum": 1000000,
-                            "default": 0,
-                            "description": "m, along the normal from the origin"
-                        }
-                    }
-                }
-            }
         }
-    ]
-})schema");
+])schema");
+}
+
+}  // namespace
+
+ordered_json shape_schema() {
+    ordered_json shapes = schemas_with_lists();
+    for_each_shape([&](const auto& shape) {
+        using OfShape = std::remove_cvref_t<decltype(shape)>;
+        if constexpr (!has_lists<OfShape>) shapes.push_back(plain_schema<OfShape>());
+        return true;
+    });
+    return {{"type", "object"}, {"oneOf", shapes}};
 }
 
 }  // namespace scree

@@ -101,7 +101,7 @@ void State::number_rows() {
 }
 
 void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threads) {
-    const std::uint32_t n = fixed().first_part, all = fixed().bodies;
+    const std::uint32_t n = body_count, all = fixed().bodies;
     std::vector<std::uint32_t> from(all), to(all);  // rows
     std::iota(from.begin(), from.end(), 0u);
     std::iota(to.begin(), to.end(), 0u);

@@ -1,109 +1,25 @@
-// How the tables begin: parameters from settings, traits from shapes and materials, room for a first guess of contacts.
+// How long the tables are, where they are, and how they grow.
 #include "compute/step/state.h"
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
-#include <numbers>
-#include <optional>
+#include <span>
 #include <stdexcept>
 
-#include "compute/scene/fracture.h"
-#include "compute/scene/hull.h"
-#include "compute/scene/mesh.h"
-#include "compute/step/joint_blocks.h"
-#include "compute/step/vehicle_records.h"
+#include "compute/step/scene_compiler.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/compound.h"
-#include "shaders/physics/collide/grid.h"
-#include "shaders/physics/collide/triangle.h"
-#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/extra/tyre.h"
 
 namespace scree {
 
-namespace {
-
-// Levels of the grid with fewer bodies than this are cheaper to look through than to look up.
-constexpr std::size_t few_bodies = 24;
-constexpr std::size_t most_large = 64;
-
-float width_of(const physics::Traits& traits) {
-    return physics::widest(traits.shape, traits.size);
+State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all)
+    : substeps(settings.substeps), all_(all) {
+    SceneCompiler(*this).compile(scene, settings, group_size);
 }
-
-// The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.
-float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
-    std::vector<float> widths;
-    for (const physics::Traits& body : traits)
-        if (!physics::is_large(body) &&
-            (body.motion == physics::MOTION_UNBORN || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
-            body.shape != physics::SHAPE_NONE)
-            widths.push_back(width_of(body));
-    if (widths.empty()) return 1;
-    const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
-    std::nth_element(widths.begin(), tenth, widths.end());
-    return 1.25f * (*tenth + 2 * speculative);
-}
-
-// Bodies of sizes so rare that a level of the grid is not worth it join the planes in the list of large ones.
-void mark_large(std::vector<physics::Traits>& traits, float cell) {
-    std::array<std::size_t, physics::LEVELS> population{};
-    const auto level = [&](const physics::Traits& body) { return physics::level_of(width_of(body), 1 / cell); };
-    const auto listed = [](const physics::Traits& body) { return !physics::is_large(body) && body.shape != physics::SHAPE_NONE; };
-    for (const physics::Traits& body : traits)
-        if (listed(body)) ++population[level(body)];
-    std::size_t room = most_large;
-    for (std::size_t l = population.size(); l-- > 0;) {
-        if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
-        room -= population[l];
-        for (physics::Traits& body : traits)
-            if (listed(body) && level(body) == l) body.large |= 1;
-    }
-}
-
-physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings) {
-    p.gravity = gravity;
-    p.dt = 1 / settings.rate;
-    p.h = p.dt / static_cast<float>(settings.substeps);
-    p.inverse_h = 1 / p.h;
-    // Soft constraint coefficients, Catto, Soft Constraints, GDC 2011.
-    const float omega = 2 * std::numbers::pi_v<float> * settings.contact_hertz * p.inverse_h;
-    const float a1 = 2 * settings.contact_damping_ratio + p.h * omega;
-    const float a2 = p.h * omega * a1;
-    p.bias_rate = omega / a1;
-    p.mass_scale = a2 / (1 + a2);
-    p.impulse_scale = 1 / (1 + a2);
-    p.push_speed = settings.push_speed;
-    p.inverse_relaxation = 1 / settings.split_relaxation;
-    p.speculative = settings.speculative_distance;
-    p.restitution_threshold = settings.restitution_threshold;
-    p.max_speed = settings.max_speed;
-    p.max_spin = settings.max_turn * p.inverse_h;
-    p.sleep_speed = settings.sleep_speed;
-    p.sleep_steps = sleep_steps_of(settings);
-    p.friction_factor = settings.friction_factor;
-    p.least_restitution = settings.least_restitution;
-    return p;
-}
-
-physics::Impulse scaled(physics::Impulse impulse, float factor) {
-    impulse.normal *= factor;
-    impulse.friction *= factor;
-    impulse.twist *= factor;
-    impulse.rolling *= factor;
-    impulse.pressed *= factor;
-    return impulse;
-}
-
-}  // namespace
 
 std::uint32_t State::buckets_for(std::uint32_t bodies) {
     return std::bit_ceil(std::max(64u, 2 * bodies));
-}
-
-physics::uint sleep_steps_of(const Settings& settings) {
-    return settings.sleeping ? std::max(1u, static_cast<physics::uint>(std::ceil(settings.sleep_time * settings.rate)))
-                             : physics::NO_SLEEP;
 }
 
 const std::array<TableInfo, table_count>& table_infos() {
@@ -113,63 +29,6 @@ const std::array<TableInfo, table_count>& table_infos() {
 #undef SCREE_INFO
     }};
     return infos;
-}
-
-State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all)
-    : substeps(settings.substeps), all_(all) {
-    const auto n = static_cast<std::uint32_t>(scene.bodies.size());
-    traits.reserve(n + 1);
-    for (std::uint32_t i = 0; i < n; ++i) traits.push_back(traits_of(scene.bodies[i], i));
-    for (std::uint32_t i = 0; i < n; ++i) append_parts(scene.bodies[i], i);
-    const auto rows = static_cast<std::uint32_t>(traits.size());
-    const auto moving =
-        static_cast<std::uint32_t>(std::count_if(traits.begin() + n, traits.end(), [](const physics::Traits& part) {
-            return physics::motion_of(part) != physics::MOTION_FIXED;
-        }));
-
-    parameters.assign(1, tuned({}, scene.gravity, settings));
-    physics::Parameters& p = fixed();
-    p.cell = cell_width(traits, p.speculative);
-    p.inverse_cell = 1 / p.cell;
-    mark_large(traits, p.cell);
-    JointTables joined = joint_tables(scene, traits);
-    joints = std::move(joined.records);
-    joint_records = std::move(joined.record_of);
-    p.joint_blocks = joined.blocks;
-    vehicles = vehicle_records(scene, joint_records, hulls);
-    p.vehicles = static_cast<std::uint32_t>(vehicles.size());
-    p.bodies = rows;
-    p.first_part = n;
-    p.buckets = buckets_for(rows);
-    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving);
-    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2;
-    p.group_size = group_size;
-    p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
-    allocate();
-    for (std::uint32_t i = 0; i < n; ++i) {
-        poses[i] = start_of(scene.bodies[i]);
-        velocities[i] = start_velocity_of(scene.bodies[i]);
-    }
-    for (std::uint32_t i = n; i < rows; ++i) place(i);
-    counted() = physics::emptied(counted(), p);
-}
-
-void State::tune(vec3 gravity, const Settings& settings) {
-    const float h_before = fixed().h;
-    fixed() = tuned(fixed(), gravity, settings);
-    if (settings.substeps == substeps) return;
-    substeps = settings.substeps;
-    const float factor = fixed().h / h_before;
-    const std::size_t lasting = std::min<std::size_t>(counted().contacts, std::min(contacts.size(), impulses.size()));
-    for (std::size_t i = 0; i < lasting; ++i) {
-        impulses[i] = scaled(impulses[i], factor);
-        contacts[i].load *= factor;
-    }
-    for (physics::Joint& joint : joints)
-        for (physics::JointRow& row : joint.rows) {
-            row.drive *= factor;
-            row.stop *= factor;
-        }
 }
 
 std::size_t State::allocated(Length length) const {
@@ -236,6 +95,30 @@ std::size_t State::live(Length length) const {
     }
 }
 
+Content State::content() const {
+    Content found = row_content_;
+    found.joints = has_joints();
+    found.vehicles = fixed().vehicles != 0;
+    found.reordered = reordered();
+    found.bounces |= fixed().least_restitution > 0;
+    return found;
+}
+
+void State::note_content(std::uint32_t first_row, std::uint32_t count) {
+    Content& found = row_content_;
+    for (const physics::Traits& row : std::span(traits).subspan(first_row, count)) {
+        found.breaking |= row.fracture != physics::NONE;
+        found.bounces |= row.restitution > 0;
+        found.rolls |= row.rolling_resistance > 0;
+        found.tyres |= physics::tyre_of(row) != 0;
+        found.round |= physics::has_round_core(row.shape);
+        found.hulls |= row.shape == physics::SHAPE_HULL;
+        found.convex |= physics::is_general_convex(row.shape);
+        found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
+        found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
+    }
+}
+
 void State::make(Table table) {
     switch (table) {
 #define SCREE_RESIZE(binding, name, block, record, length) \
@@ -248,10 +131,11 @@ void State::make(Table table) {
 }
 
 void State::allocate() {
+    const std::size_t numbered = ids.size();  // rows
     using enum Table;
     for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints, vehicles, ids})
         make(table);
-    number_rows();
+    for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }
@@ -280,8 +164,9 @@ bool State::has_joints() const {
     return parameters[0].joint_blocks != 0;
 }
 
-bool State::has_fractures() const {
-    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.fracture != physics::NONE; });
+std::size_t State::raw_bytes(Table table) const {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    return allocated(info.length) * info.record_bytes;
 }
 
 std::size_t State::bytes() const {

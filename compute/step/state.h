@@ -87,8 +87,12 @@ struct Content {
 };
 static_assert(sizeof(Content) == 12 * sizeof(bool));  // as many as everything() names
 
-// Parameters::sleep_steps.
-physics::uint sleep_steps_of(const Settings& settings);
+// Where the table of hulls holds what several bodies share.
+struct ShapePlaces {
+    std::map<std::shared_ptr<const HullForm>, physics::uint> hulls;
+    std::map<std::pair<float, float>, physics::uint> tyres;
+    std::map<std::shared_ptr<const Cut>, physics::uint> cuts;  // of how bodies come apart
+};
 
 struct State {
 #define SCREE_VECTOR(binding, name, block, record, length) std::vector<physics::record> name;
@@ -105,16 +109,6 @@ struct State {
 
     // Makes room for what the last step asked for and half as much again. What is in the tables stays.
     void grow();
-
-    // What may change between steps, into the parameters (grips, which depend on the substeps, are the caller's to make anew).
-    // Impulses that last are those of a substep; those of the last step are brought to the new length of one. They, and
-    // everything else that lasts, must be here (Runner::fetch), and the runner be attached again, if the substeps change.
-    void tune(vec3 gravity, const Settings& settings);
-    // One more body, the last; the rows of parts move up behind it. Everything that lasts must be here, and the runner be
-    // attached again.
-    void add(const Body& body);
-    // The joints are the scene's: those that were here, but for the one at `without`, and then others. The same holds.
-    void rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
 
     // Puts bodies into other rows, rows[id] being the new one of each. Rows of parts stay, and those of pieces must (their bodies
     // know them). All that lasts from step to step goes with its body, and no bit of what follows changes; what is left of the
@@ -138,12 +132,15 @@ struct State {
     Content content() const;
     bool has_joints() const;
     // Whether some body may break.
-    bool has_fractures() const;
+    bool has_fractures() const {
+        return row_content_.breaking;
+    }
     // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : traits[row].owner;
     }
-    std::size_t bytes() const;  // of all tables, wherever they are
+    std::size_t bytes() const;                 // of all tables, wherever they are
+    std::size_t raw_bytes(Table table) const;  // of one that has its memory
 
     std::span<std::byte> raw(Table table);
     std::span<const std::byte> raw(Table table) const;
@@ -174,25 +171,24 @@ struct State {
     static constexpr std::size_t noted = 15;
     std::vector<std::array<std::uint32_t, noted>> partners;
 
-private:
-    static physics::Pose start_of(const Body& body);
-    static physics::Velocity start_velocity_of(const Body& body);
-    static std::uint32_t buckets_for(std::uint32_t bodies);
+    ShapePlaces shape_places;
+    std::uint32_t body_count =
+        0;  // of the scene's bodies; Parameters::first_part has room for more of them where there are parts
+    // For the scene compiler and the editor: every table at its length; what rows that are new bring into the content; how many
+    // buckets so many bodies want.
     void allocate();
+    void note_content(std::uint32_t first_row, std::uint32_t count);
+    static std::uint32_t buckets_for(std::uint32_t bodies);
+    // One more body, in the row of its id.
+    void append_row(std::uint32_t row) {
+        if (reordered()) rows_.push_back(row);
+    }
+
+private:
     void number_rows();
     std::vector<std::uint32_t> rows_;  // by id; empty: every body is in the row of its id
-    physics::Traits traits_of(const Body& body, std::uint32_t index);
-    physics::Traits form_of(const SimpleShape& shape);
-    physics::Traits form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
-    void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others
-    void place(std::uint32_t part);                            // where its body is
-    physics::uint place_of(const Hull& hull);
-    physics::uint place_of(const Fracture& fracture);
-    physics::uint place_of(const std::optional<Tyre>& tyre);
+    Content row_content_;
     bool all_ = true;
-    std::map<std::shared_ptr<const HullForm>, physics::uint> places_;  // of hulls in the table
-    std::map<std::pair<float, float>, physics::uint> tyres_;           // likewise
-    std::map<std::shared_ptr<const Cut>, physics::uint> cuts_;         // of how bodies come apart, in the same table
 };
 
 }  // namespace scree

@@ -7,6 +7,8 @@
 
 #include "compute/scene/fracture.h"
 #include "compute/scene/shape_geometry.h"
+#include "compute/step/scene_compiler.h"
+#include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -106,17 +108,14 @@ void World::explode(vec3 centre, float radius, float speed) {
 }
 
 void World::Interior::retune(const Settings& changed) {
-    bool replan = changed.substeps != settings.substeps;
-    if ((changed.least_restitution > 0) != (settings.least_restitution > 0)) {
-        Content content = state.content();
-        state.fixed().least_restitution = changed.least_restitution;
-        replan = replan || state.content() != content;
-        state.fixed().least_restitution = settings.least_restitution;
-    }
-    if (replan) runner->fetch();
+    StateEditor editor(state);
+    runner->download(editor.needed_to_tune(changed));
+    const bool other_substeps = changed.substeps != settings.substeps;
+    const Content content = state.content();
     settings = changed;
-    state.tune(scene.gravity, settings);
-    if (replan) runner->attach(state);
+    const TableRanges ranges = editor.tune(scene.gravity, settings);
+    if (other_substeps || state.content() != content) runner->adapt();
+    runner->upload(ranges);
 }
 
 void World::set_gravity(vec3 gravity) {
@@ -154,14 +153,16 @@ std::size_t World::add_body(const Body& body) {
     Interior& in = *interior_;
     Scene added = checked(Scene{in.scene.gravity, {on_its_own(body)}, {}});
     const std::size_t first = in.scene.bodies.size();
-    in.runner->fetch();
+    StateEditor editor(in.state);
     for (Body& one : added.bodies) {
         if (one.piece_of != no_body) one.piece_of += first;
         if (one.fracture) one.fracture->first_piece += first;
-        in.state.add(one);
+        in.runner->download(editor.needed_to_add());
+        const TableRanges changed = editor.add(one);
+        in.runner->adapt();
+        in.runner->upload(changed);
         in.scene.bodies.push_back(std::move(one));
     }
-    in.runner->attach(in.state);
     return first;
 }
 

@@ -10,7 +10,7 @@
 #include "compute/scene/hull_cells.h"
 #include "compute/scene/mesh.h"
 #include "compute/scene/shape_geometry.h"
-#include "compute/step/state.h"
+#include "compute/step/scene_compiler.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/triangle.h"
@@ -84,67 +84,69 @@ vec3 size_of_whole(const Shape& shape) {
 
 }  // namespace
 
-physics::Pose State::start_of(const Body& body) {
+physics::Pose SceneCompiler::start_of(const Body& body) {
     const auto* plane = std::get_if<Plane>(&body.shape);
     return {plane ? plane->normal * plane->offset : body.position, 0, plane ? vec4(0, 0, 0, 1) : body.orientation};
 }
-physics::Velocity State::start_velocity_of(const Body& body) {
+physics::Velocity SceneCompiler::start_velocity_of(const Body& body) {
     const bool moves = body.motion != Motion::fixed && body.piece_of == no_body;
     return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
 }
 // Where the hull's records begin. Equal hulls made one by one are looked for only while the table is small: a long search for
 // each of ten thousand different ones would take minutes.
-physics::uint State::place_of(const Hull& hull) {
+physics::uint SceneCompiler::place_of(const Hull& hull) {
     constexpr std::size_t small_table = 65536;
-    const auto [known, fresh] = places_.try_emplace(hull.form);
+    const auto [known, fresh] = state_.shape_places.hulls.try_emplace(hull.form);
     if (!fresh) return known->second;
     const std::vector<physics::uvec4> records = hull_records(hull);
-    auto found = hulls.end();
-    if (hulls.size() < small_table) found = std::search(hulls.begin(), hulls.end(), records.begin(), records.end());
-    known->second = static_cast<physics::uint>(found - hulls.begin());
-    if (found == hulls.end()) hulls.insert(hulls.end(), records.begin(), records.end());
+    auto found = state_.hulls.end();
+    if (state_.hulls.size() < small_table)
+        found = std::search(state_.hulls.begin(), state_.hulls.end(), records.begin(), records.end());
+    known->second = static_cast<physics::uint>(found - state_.hulls.begin());
+    if (found == state_.hulls.end()) state_.hulls.insert(state_.hulls.end(), records.begin(), records.end());
     return known->second;
 }
 
-physics::Traits State::form_of(const SimpleShape& shape) {
+physics::Traits SceneCompiler::form_of(const SimpleShape& shape) {
     physics::Traits made = simple_form(shape);
     if (const auto* hull = std::get_if<Hull>(&shape)) made.large = place_of(*hull) << 1;
     return made;
 }
 
 // In the form of shaders/physics/extra/fracture.h.
-physics::uint State::place_of(const Fracture& fracture) {
-    const auto [known, fresh] = cuts_.try_emplace(fracture.cut, static_cast<physics::uint>(hulls.size()));
+physics::uint SceneCompiler::place_of(const Fracture& fracture) {
+    const auto [known, fresh] =
+        state_.shape_places.cuts.try_emplace(fracture.cut, static_cast<physics::uint>(state_.hulls.size()));
     if (fresh) {
-        hulls.emplace_back(fracture.cut->pieces.size(), 0, 0, 0);
+        state_.hulls.emplace_back(fracture.cut->pieces.size(), 0, 0, 0);
         for (const Body& piece : fracture.cut->pieces) {
-            hulls.push_back(record_of(piece.position, 0));
-            hulls.push_back(record_of(vec3(piece.orientation), piece.orientation.w));
+            state_.hulls.push_back(record_of(piece.position, 0));
+            state_.hulls.push_back(record_of(vec3(piece.orientation), piece.orientation.w));
         }
     }
     const bool of_momentum = fracture.momentum > 0;
-    hulls.emplace_back(std::bit_cast<physics::uint>(of_momentum ? fracture.momentum : fracture.impulse), of_momentum,
-                       fracture.first_piece, known->second);
-    return static_cast<physics::uint>(hulls.size() - 1);
+    state_.hulls.emplace_back(std::bit_cast<physics::uint>(of_momentum ? fracture.momentum : fracture.impulse), of_momentum,
+                              fracture.first_piece, known->second);
+    return static_cast<physics::uint>(state_.hulls.size() - 1);
 }
 
 // In the form of shaders/physics/extra/tyre.h; 0: none.
-physics::uint State::place_of(const std::optional<Tyre>& tyre) {
+physics::uint SceneCompiler::place_of(const std::optional<Tyre>& tyre) {
     if (!tyre) return 0;
     const physics::uvec4 record(std::bit_cast<physics::uint>(tyre->best_slip), std::bit_cast<physics::uint>(tyre->sliding), 0, 0);
-    const auto [known, fresh] =
-        tyres_.try_emplace({tyre->best_slip, tyre->sliding}, static_cast<physics::uint>(hulls.size() + 1));
-    if (fresh) hulls.push_back(record);
+    const auto [known, fresh] = state_.shape_places.tyres.try_emplace({tyre->best_slip, tyre->sliding},
+                                                                      static_cast<physics::uint>(state_.hulls.size() + 1));
+    if (fresh) state_.hulls.push_back(record);
     return known->second;
 }
 
-physics::Traits State::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
+physics::Traits SceneCompiler::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
     physics::Traits made = form_of(shape);
     if (physics::takes_tyre(made.shape)) made.large = place_of(tyre) << 1;
     return made;
 }
 
-physics::Traits State::traits_of(const Body& body, std::uint32_t index) {
+physics::Traits SceneCompiler::traits_of(const Body& body, std::uint32_t index) {
     physics::Traits made{};
     if (const std::optional<SimpleShape> simple = simple_shape(body.shape)) {
         made = form_of(*simple, body.tyre);
@@ -173,8 +175,8 @@ physics::Traits State::traits_of(const Body& body, std::uint32_t index) {
     return made;
 }
 
-void State::append_parts(const Body& body, std::uint32_t owner) {
-    const physics::Traits whole = traits[owner];
+void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
+    const physics::Traits whole = state_.traits[owner];
     const auto append = [&](physics::Traits part, vec3 place, vec4 turn) {
         part.motion = whole.motion | physics::MOTION_OF_PART;
         part.owner = owner;
@@ -187,86 +189,29 @@ void State::append_parts(const Body& body, std::uint32_t owner) {
         part.gravity_scale = turn.y;
         part.linear_damping = turn.z;
         part.angular_damping = turn.w;
-        traits.push_back(part);
+        state_.traits.push_back(part);
     };
     if (const auto* compound = std::get_if<Compound>(&body.shape))
         for (const Part& part : compound->parts) append(form_of(part.shape, body.tyre), part.position, part.orientation);
     if (const MeshForm* form = mesh_form_of(body.shape)) {
-        hulls.reserve(hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
+        state_.hulls.reserve(state_.hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
         for (const MeshForm::Triangle& triangle : form->triangles) {
             physics::Traits part{};
             part.shape = physics::SHAPE_TRIANGLE;
-            part.large = static_cast<physics::uint>(hulls.size()) << 1;
+            part.large = static_cast<physics::uint>(state_.hulls.size()) << 1;
             part.size = triangle.half_extents;
             const std::vector<physics::uvec4> records = triangle_records(triangle);
-            hulls.insert(hulls.end(), records.begin(), records.end());
+            state_.hulls.insert(state_.hulls.end(), records.begin(), records.end());
             append(part, triangle.middle, vec4(0, 0, 0, 1));
         }
     }
 }
 
-void State::place(std::uint32_t part) {
-    const physics::Traits& own = traits[part];
-    poses[part] = physics::pose_of_part(physics::place_in_body(own), physics::turn_in_body(own), poses[own.owner]);
-    velocities[part] = physics::velocity_of_part(own, poses[own.owner], velocities[own.owner]);
-    rests[part] = 0;
-}
-
-Content State::content() const {
-    Content found;
-    found.joints = has_joints();
-    found.vehicles = fixed().vehicles != 0;
-    found.breaking = has_fractures();
-    found.reordered = reordered();
-    found.bounces = fixed().least_restitution > 0;
-    for (const physics::Traits& row : traits) {
-        found.bounces |= row.restitution > 0;
-        found.rolls |= row.rolling_resistance > 0;
-        found.tyres |= physics::tyre_of(row) != 0;
-        found.round |= physics::has_round_core(row.shape);
-        found.hulls |= row.shape == physics::SHAPE_HULL;
-        found.convex |= physics::is_general_convex(row.shape);
-        found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
-        found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
-    }
-    return found;
-}
-
-void State::add(const Body& body) {
-    physics::Parameters& p = fixed();
-    const std::uint32_t n = p.first_part;
-    if (reordered()) rows_.push_back(n);
-    const auto make_room = [n](auto& table, const auto& record) {
-        if (table.size() >= n) table.insert(table.begin() + n, record);
-    };
-    traits.resize(p.bodies);  // tables of no bodies have a record all the same
-    poses.resize(p.bodies);
-    velocities.resize(p.bodies);
-    rests.resize(p.bodies);
-    make_room(traits, traits_of(body, n));
-    make_room(poses, start_of(body));
-    make_room(velocities, start_velocity_of(body));
-    make_room(rests, 0u);
-    if (!masses.empty()) make_room(masses, physics::Mass{});
-    // It has no contacts yet: where they begin, they end. Those of parts are told by the parts' new rows.
-    for (auto* starts : {&first_contacts, &first_contacts_before})
-        if (starts->size() > n) make_room(*starts, physics::uint{(*starts)[n]});
-    for (auto* list : {&contacts, &contacts_before})
-        for (physics::Contact& contact : *list)
-            for (physics::uint* row : {&contact.a, &contact.b})
-                if (*row >= n) ++*row;
-    p.first_part = n + 1;
-    ++p.bodies;
-    const std::uint32_t old_rows = p.bodies;
-    append_parts(body, n);
-    p.bodies = static_cast<std::uint32_t>(traits.size());
-    p.buckets = std::max(p.buckets, buckets_for(p.bodies));
-    allocate();
-    for (std::uint32_t i = old_rows; i < p.bodies; ++i) {
-        place(i);
-        for (auto* starts : {&first_contacts, &first_contacts_before})
-            if (starts->size() > i + 1) (*starts)[i + 1] = (*starts)[i];
-    }
+void SceneCompiler::place(std::uint32_t part) {
+    const physics::Traits& own = state_.traits[part];
+    state_.poses[part] = physics::pose_of_part(physics::place_in_body(own), physics::turn_in_body(own), state_.poses[own.owner]);
+    state_.velocities[part] = physics::velocity_of_part(own, state_.poses[own.owner], state_.velocities[own.owner]);
+    state_.rests[part] = 0;
 }
 
 }  // namespace scree

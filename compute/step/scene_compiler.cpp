@@ -1,0 +1,130 @@
+// How the tables begin: parameters from settings, traits from shapes and materials, room for a first guess of contacts.
+#include "compute/step/scene_compiler.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <numbers>
+
+#include "compute/step/joint_blocks.h"
+#include "compute/step/vehicle_records.h"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/sleep.h"
+
+namespace scree {
+
+namespace {
+
+// Levels of the grid with fewer bodies than this are cheaper to look through than to look up.
+constexpr std::size_t few_bodies = 24;
+constexpr std::size_t most_large = 64;
+
+float width_of(const physics::Traits& traits) {
+    return physics::widest(traits.shape, traits.size);
+}
+
+// The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.
+float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
+    std::vector<float> widths;
+    for (const physics::Traits& body : traits)
+        if (!physics::is_large(body) &&
+            (body.motion == physics::MOTION_UNBORN || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
+            body.shape != physics::SHAPE_NONE)
+            widths.push_back(width_of(body));
+    if (widths.empty()) return 1;
+    const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
+    std::nth_element(widths.begin(), tenth, widths.end());
+    return 1.25f * (*tenth + 2 * speculative);
+}
+
+// Bodies of sizes so rare that a level of the grid is not worth it join the planes in the list of large ones.
+void mark_large(std::vector<physics::Traits>& traits, float cell) {
+    std::array<std::size_t, physics::LEVELS> population{};
+    const auto level = [&](const physics::Traits& body) { return physics::level_of(width_of(body), 1 / cell); };
+    const auto listed = [](const physics::Traits& body) { return !physics::is_large(body) && body.shape != physics::SHAPE_NONE; };
+    for (const physics::Traits& body : traits)
+        if (listed(body)) ++population[level(body)];
+    std::size_t room = most_large;
+    for (std::size_t l = population.size(); l-- > 0;) {
+        if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
+        room -= population[l];
+        for (physics::Traits& body : traits)
+            if (listed(body) && level(body) == l) body.large |= 1;
+    }
+}
+
+}  // namespace
+
+physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings) {
+    p.gravity = gravity;
+    p.dt = 1 / settings.rate;
+    p.h = p.dt / static_cast<float>(settings.substeps);
+    p.inverse_h = 1 / p.h;
+    // Soft constraint coefficients, Catto, Soft Constraints, GDC 2011.
+    const float omega = 2 * std::numbers::pi_v<float> * settings.contact_hertz * p.inverse_h;
+    const float a1 = 2 * settings.contact_damping_ratio + p.h * omega;
+    const float a2 = p.h * omega * a1;
+    p.bias_rate = omega / a1;
+    p.mass_scale = a2 / (1 + a2);
+    p.impulse_scale = 1 / (1 + a2);
+    p.push_speed = settings.push_speed;
+    p.inverse_relaxation = 1 / settings.split_relaxation;
+    p.speculative = settings.speculative_distance;
+    p.restitution_threshold = settings.restitution_threshold;
+    p.max_speed = settings.max_speed;
+    p.max_spin = settings.max_turn * p.inverse_h;
+    p.sleep_speed = settings.sleep_speed;
+    p.sleep_steps = sleep_steps_of(settings);
+    p.friction_factor = settings.friction_factor;
+    p.least_restitution = settings.least_restitution;
+    return p;
+}
+
+physics::uint sleep_steps_of(const Settings& settings) {
+    return settings.sleeping ? std::max(1u, static_cast<physics::uint>(std::ceil(settings.sleep_time * settings.rate)))
+                             : physics::NO_SLEEP;
+}
+
+void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size) {
+    std::vector<physics::Traits>& traits = state_.traits;
+    const auto n = static_cast<std::uint32_t>(scene.bodies.size());
+    traits.reserve(n + 1);
+    for (std::uint32_t i = 0; i < n; ++i) traits.push_back(traits_of(scene.bodies[i], i));
+    for (std::uint32_t i = 0; i < n; ++i) append_parts(scene.bodies[i], i);
+    const auto rows = static_cast<std::uint32_t>(traits.size());
+    const auto moving =
+        static_cast<std::uint32_t>(std::count_if(traits.begin() + n, traits.end(), [](const physics::Traits& part) {
+            return physics::motion_of(part) != physics::MOTION_FIXED;
+        }));
+
+    state_.parameters.assign(1, tuned({}, scene.gravity, settings));
+    physics::Parameters& p = state_.fixed();
+    p.cell = cell_width(traits, p.speculative);
+    p.inverse_cell = 1 / p.cell;
+    mark_large(traits, p.cell);
+    JointTables joined = joint_tables(scene, traits);
+    state_.joints = std::move(joined.records);
+    state_.joint_records = std::move(joined.record_of);
+    p.joint_blocks = joined.blocks;
+    state_.vehicles = vehicle_records(scene, state_.joint_records, state_.hulls);
+    p.vehicles = static_cast<std::uint32_t>(state_.vehicles.size());
+    p.bodies = rows;
+    p.first_part = state_.body_count = n;
+    p.buckets = State::buckets_for(rows);
+    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving);
+    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2;
+    p.group_size = group_size;
+    p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
+    state_.allocate();
+    for (std::uint32_t i = 0; i < n; ++i) {
+        state_.poses[i] = start_of(scene.bodies[i]);
+        state_.velocities[i] = start_velocity_of(scene.bodies[i]);
+    }
+    for (std::uint32_t i = n; i < rows; ++i) place(i);
+    state_.note_content(0, rows);
+    state_.counted() = physics::emptied(state_.counted(), p);
+}
+
+}  // namespace scree

@@ -1,0 +1,42 @@
+// What a scene becomes in the tables of a state: parameters, bodies and the rows of their parts, shapes, joints, vehicles.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "compute/scene.h"
+#include "compute/settings.h"
+#include "compute/step/state.h"
+
+namespace scree {
+
+// Parameters::sleep_steps.
+physics::uint sleep_steps_of(const Settings& settings);
+// The parameters with gravity and settings as given, and the rest as they are.
+physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings);
+
+class SceneCompiler {
+public:
+    explicit SceneCompiler(State& state) : state_(state) {}
+
+    // The tables of a checked scene before its first step, into a state that has none.
+    void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size);
+
+    // shape_records.cpp
+    physics::Traits traits_of(const Body& body, std::uint32_t index);  // its shapes go into the table of hulls
+    static physics::Pose start_of(const Body& body);
+    static physics::Velocity start_velocity_of(const Body& body);
+    void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others
+    void place(std::uint32_t part);                            // where its body is
+
+private:
+    physics::Traits form_of(const SimpleShape& shape);
+    physics::Traits form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
+    physics::uint place_of(const Hull& hull);
+    physics::uint place_of(const Fracture& fracture);
+    physics::uint place_of(const std::optional<Tyre>& tyre);
+
+    State& state_;
+};
+
+}  // namespace scree
