@@ -11,29 +11,20 @@
 #include "shaders/stages/lib/joints.glsl"
 
 void take_stock(uint j) {
-    for (uint k = 0u; k < 6u; ++k) {
-        joints.at[j].rows[k].drive = joints.at[j].rows[k].drive + joints.at[j].rows[k].drive_change;
-        joints.at[j].rows[k].stop = joints.at[j].rows[k].stop + joints.at[j].rows[k].stop_change;
-    }
-    vec3 force = joints.at[j].force + force_impulse(j);
-    vec3 torque = joints.at[j].torque + torque_impulse(j);
+    JointLoad load = JointLoad(joints.at[j].force + force_impulse(j), joints.at[j].greatest_force,
+                               joints.at[j].torque + torque_impulse(j), joints.at[j].greatest_torque);
     if (is_last_substep()) {
-        float inverse_dt = reciprocal(PARAMETERS.dt);
-        force = force * inverse_dt;
-        torque = torque * inverse_dt;
-        joints.at[j].greatest_force = larger(joints.at[j].greatest_force, length3(force));
-        joints.at[j].greatest_torque = larger(joints.at[j].greatest_torque, length3(torque));
-        if (joint_tears(force, joints.at[j].break_force, torque, joints.at[j].break_torque)) {
+        load = mean_load(load, PARAMETERS);
+        joints.at[j].greatest_force = load.greatest_force;
+        joints.at[j].greatest_torque = load.greatest_torque;
+        if (joint_tears(load.force, joints.at[j].break_force, load.torque, joints.at[j].break_torque)) {
             joints.at[j].broken = 1u;
             joints.at[j].pins = 0u;
-            for (uint k = 0u; k < 6u; ++k) {
-                joints.at[j].rows[k].drive = 0.0f;
-                joints.at[j].rows[k].stop = 0.0f;
-            }
+            for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
         }
     }
-    joints.at[j].force = force;
-    joints.at[j].torque = torque;
+    joints.at[j].force = load.force;
+    joints.at[j].torque = load.torque;
 }
 
 // The least quiet of all that the block joins.
@@ -54,7 +45,8 @@ void end_pass() {
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
-        share_out(j, true, !is_last_substep());
+        share_out(j, !is_last_substep());
+        commit(j);
         take_stock(j);
     }
     float told = FOREVER;

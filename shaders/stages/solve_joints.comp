@@ -13,11 +13,8 @@ void end_pass() {
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j) {
         if (holds(j)) {
-            share_out(j, true, false);
-            for (uint k = 0u; k < 6u; ++k) {
-                joints.at[j].rows[k].drive = joints.at[j].rows[k].drive + joints.at[j].rows[k].drive_change;
-                joints.at[j].rows[k].stop = joints.at[j].rows[k].stop + joints.at[j].rows[k].stop_change;
-            }
+            share_out(j, false);
+            commit(j);
         }
     }
     for (uint m = block_first; m < block_members; ++m)

@@ -13,7 +13,7 @@ namespace {
 
 using glm::dvec3;
 
-// What the step promises of joints (shaders/physics/solve/joint.h states the same numbers, with reasons).
+// What the step promises of joints (shaders/physics/solve/joint_axis.h states the same numbers, with reasons).
 constexpr double closed_part = 0.25;      // of a gap, in a substep
 constexpr double max_turn_speed = 6;      // rad/s, at which turned axes are brought back
 constexpr double compliance_part = 1e-3;  // of a rigid row, of what its bodies give

@@ -8,7 +8,7 @@
 #include "compute/step/state.h"
 #include "compute/world.h"
 #include "host/vulkan/device.h"
-#include "shaders/physics/solve/joint.h"
+#include "shaders/physics/solve/joint_block.h"
 
 using namespace scree;
 
