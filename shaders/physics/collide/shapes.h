@@ -46,9 +46,13 @@ LAW bool takes_tyre(uint shape) {
 LAW bool is_polyhedron(uint shape) {
     return shape == SHAPE_BOX || shape == SHAPE_HULL || shape == SHAPE_TRIANGLE;
 }
+// Has a side of straight lines, which can lie along something.
+LAW bool has_straight_side(uint shape) {
+    return shape == SHAPE_CYLINDER || shape == SHAPE_CONE || shape == SHAPE_CAPSULE;
+}
 // Has a curved side, whose normals are axes to try first (side_normal).
 LAW bool has_side(uint shape) {
-    return shape == SHAPE_CYLINDER || shape == SHAPE_CONE || shape == SHAPE_CAPSULE;
+    return has_straight_side(shape);
 }
 // Flat faces that are known without a table.
 LAW uint flat_faces(uint shape) {
@@ -130,6 +134,10 @@ LAW vec3 world_half_extents(uint shape, vec3 size, vec4 orientation) {
         half_size = absolute3(axes.x) * size.x + absolute3(axes.y) * size.y + absolute3(axes.z) * size.z;
     }
     return half_size;
+}
+// The radii of a ball that may be stretched along its axes.
+LAW vec3 ball_radii(uint shape, vec3 size) {
+    return has_round_core(shape) ? vec3(size.x) : size;
 }
 // m^3; of a hull about half of the box around it.
 LAW float volume_of(uint shape, vec3 size) {
