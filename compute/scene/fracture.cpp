@@ -9,8 +9,8 @@
 #include <string>
 #include <voro++/voro++.hh>
 
-#include "compute/scene/convex_planes.h"
 #include "compute/scene/hull.h"
+#include "compute/scene/shape_geometry.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree {
@@ -280,20 +280,23 @@ std::vector<Body> voronoi(const Shape& shape, const Fracture& fracture) {
     }
 }
 
+template <class Value>
+void add_to_key(std::vector<double>& key, const Value& value) {
+    if constexpr (std::is_same_v<Value, float>) {
+        key.push_back(static_cast<double>(value));
+    } else if constexpr (std::is_same_v<Value, vec3>) {
+        key.insert(key.end(), {static_cast<double>(value.x), static_cast<double>(value.y), static_cast<double>(value.z)});
+    } else if constexpr (std::is_same_v<Value, std::vector<vec3>>) {
+        for (const vec3& point : value) add_to_key(key, point);
+    }
+}
 std::vector<double> key_of(const Shape& shape, const Fracture& f) {
     std::vector<double> key{static_cast<double>(shape.index()), static_cast<double>(f.cutting), static_cast<double>(f.pieces),
                             static_cast<double>(f.depth),       static_cast<double>(f.seed),    static_cast<double>(f.impulse),
                             static_cast<double>(f.momentum)};
-    const auto add = [&](vec3 v) {
-        key.insert(key.end(), {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
-    };
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) add(vec3(sphere->radius));
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) add({capsule->radius, capsule->half_height, 0});
-    if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) add({cylinder->radius, cylinder->half_height, 0});
-    if (const auto* cone = std::get_if<Cone>(&shape)) add({cone->radius, cone->height, 0});
-    if (const auto* hull = std::get_if<Hull>(&shape))
-        for (const vec3& point : hull->points) add(point);
+    std::visit(
+        [&](const auto& one) { for_each_field<decltype(one)>([&](const auto& field) { add_to_key(key, one.*field.member); }); },
+        shape);
     return key;
 }
 

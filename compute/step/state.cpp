@@ -28,11 +28,7 @@ constexpr std::size_t few_bodies = 24;
 constexpr std::size_t most_large = 64;
 
 float width_of(const physics::Traits& traits) {
-    const physics::vec3 size = traits.size;
-    if (traits.shape == physics::SHAPE_SPHERE) return 2 * size.x;
-    if (traits.shape == physics::SHAPE_CAPSULE) return 2 * (size.x + size.y);
-    if (traits.shape == physics::SHAPE_CONE) return std::max(2 * size.x, 1.5f * size.y);
-    return 2 * std::max({size.x, size.y, size.z});
+    return physics::widest(traits.shape, traits.size);
 }
 
 // The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.

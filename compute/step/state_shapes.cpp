@@ -7,6 +7,7 @@
 #include "compute/scene/hull.h"
 #include "compute/scene/hull_cells.h"
 #include "compute/scene/mesh.h"
+#include "compute/scene/shape_geometry.h"
 #include "compute/step/state.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
@@ -17,23 +18,11 @@ namespace scree {
 
 namespace {
 
-vec3 half_extents_of(const Hull& hull) {
-    vec3 half(0);
-    for (const glm::dvec3& v : hull.form->vertices) half = glm::max(half, glm::abs(vec3(v)));
-    return half;
-}
-
 // Shape and size.
 physics::Traits simple_form(const SimpleShape& shape) {
     physics::Traits made{};
     made.shape = static_cast<physics::uint>(shape.index());
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) made.size = vec3(sphere->radius, 0, 0);
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) made.size = vec3(capsule->radius, capsule->half_height, 0);
-    if (const auto* box = std::get_if<Box>(&shape)) made.size = box->half_extents;
-    if (const auto* plane = std::get_if<Plane>(&shape)) made.size = plane->normal;
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) made.size = vec3(cylinder->radius, cylinder->half_height, 0);
-    if (const auto* cone = std::get_if<Cone>(&shape)) made.size = vec3(cone->radius, cone->height, 0);
-    if (const auto* hull = std::get_if<Hull>(&shape)) made.size = half_extents_of(*hull);
+    made.size = record_size(shape);
     return made;
 }
 
@@ -149,9 +138,7 @@ physics::uint State::place_of(const std::optional<Tyre>& tyre) {
 
 physics::Traits State::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
     physics::Traits made = form_of(shape);
-    const bool rolls = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Capsule>(shape) ||
-                       std::holds_alternative<Cylinder>(shape);
-    if (rolls) made.large = place_of(tyre) << 1;
+    if (physics::takes_tyre(made.shape)) made.large = place_of(tyre) << 1;
     return made;
 }
 
@@ -234,9 +221,9 @@ Content State::content() const {
         found.bounces |= row.restitution > 0;
         found.rolls |= row.rolling_resistance > 0;
         found.tyres |= physics::tyre_of(row) != 0;
-        found.round |= row.shape == physics::SHAPE_SPHERE || row.shape == physics::SHAPE_CAPSULE;
+        found.round |= physics::has_round_core(row.shape);
         found.hulls |= row.shape == physics::SHAPE_HULL;
-        found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
+        found.convex |= physics::is_general_convex(row.shape);
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
     }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compute/scene/fracture.h"
+#include "compute/scene/shape_geometry.h"
 #include "compute/world/world_impl.h"
 
 namespace scree {
@@ -20,25 +21,6 @@ void demand(bool condition, const std::string& what) {
 
 bool within(vec3 v, float limit) {
     return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
-}
-
-vec3 half_extents(const Shape& shape) {
-    if (const auto* compound = std::get_if<Compound>(&shape)) {
-        vec3 half(0);
-        for (const Part& part : compound->parts)
-            half = glm::max(half, glm::abs(part.position) + vec3(glm::length(half_extents(whole_shape(part.shape)))));
-        return half;
-    }
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return vec3(sphere->radius);
-    if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents;
-    if (const auto* capsule = std::get_if<Capsule>(&shape))
-        return {capsule->radius, capsule->radius + capsule->half_height, capsule->radius};
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return {cylinder->radius, cylinder->half_height, cylinder->radius};
-    if (const auto* cone = std::get_if<Cone>(&shape)) return {cone->radius, 0.75f * cone->height, cone->radius};
-    vec3 half(0);
-    if (const auto* hull = std::get_if<Hull>(&shape))
-        for (const vec3& point : hull->points) half = glm::max(half, glm::abs(point));
-    return half;
 }
 
 void check(const GripSpring& s) {

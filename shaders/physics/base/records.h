@@ -3,18 +3,9 @@
 #define SCREE_PHYSICS_RECORDS_H
 
 #include "shaders/physics/base/dialect.h"
+#include "shaders/physics/collide/shapes.h"
 
 LAWS_BEGIN
-
-CONSTANT uint SHAPE_SPHERE = 0u;    // size: radius, -, -                     m
-CONSTANT uint SHAPE_CAPSULE = 1u;   // size: radius, half height, - (along y) m
-CONSTANT uint SHAPE_BOX = 2u;       // size: half extents                     m
-CONSTANT uint SHAPE_PLANE = 3u;     // size: unit normal; the pose's position is a point of it
-CONSTANT uint SHAPE_CYLINDER = 4u;  // size: radius, half height, - (along y) m
-CONSTANT uint SHAPE_CONE = 5u;      // size: radius, height, - (along y, apex up) m
-CONSTANT uint SHAPE_HULL = 6u;      // size: half extents of the box about its centre of mass that holds it, m
-CONSTANT uint SHAPE_TRIANGLE = 7u;  // of a mesh, solid behind it; size: as of a hull. In the table of hulls: triangle.h
-CONSTANT uint SHAPE_NONE = 8u;      // only its parts touch. size: its thinnest part's thickness, how far it reaches, - m
 
 CONSTANT uint MOTION_DYNAMIC = 0u;
 CONSTANT uint MOTION_FIXED = 1u;

@@ -20,8 +20,7 @@ LAWS_BEGIN
 // Where the tyre's record (best slip, part of the friction that is left when it slides, -, -) lies in the table of hulls, counted
 // from 1; 0: no tyre.
 LAW uint tyre_of(Traits traits) {
-    bool round = traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE || traits.shape == SHAPE_CYLINDER;
-    return round ? traits.large >> 1u : 0u;
+    return takes_tyre(traits.shape) ? traits.large >> 1u : 0u;
 }
 
 LAW vec3 along_surface(vec3 normal, vec3 v) {
