@@ -135,6 +135,10 @@ LAW vec3 world_half_extents(uint shape, vec3 size, vec4 orientation) {
     }
     return half_size;
 }
+// The radii of a ball that may be stretched along its axes.
+LAW vec3 ball_radii(uint shape, vec3 size) {
+    return has_round_core(shape) ? vec3(size.x) : size;
+}
 // m^3; of a hull about half of the box around it.
 LAW float volume_of(uint shape, vec3 size) {
     float r = size.x;
