@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <set>
 
 #include "compute/device/device_runner.h"
 
@@ -51,15 +52,14 @@ void DeviceRunner::make_buffers() {
 }
 
 void DeviceRunner::upload() {
-    using enum Table;
     parity_ = 0;
-    const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles, ids}) send(table);
     sent_ = state_->fixed();
-    // Before the first step, and for tables that were never brought back, zeros are right.
-    for (const Table table :
-         {masses, contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
-        if (!state_->raw(table).empty()) send(table);
+    // Also what will last under its other name. Before the first step, and for tables that were never brought back, zeros are
+    // right.
+    std::set<Table> sent;
+    for (const Table lasting : lasting_tables()) sent.insert({lasting, other_parity(lasting)});
+    for (const Table table : sent)
+        if (!state_->raw(table).empty()) write(table, state_->raw(table));
 }
 
 void DeviceRunner::send_inputs() {
@@ -80,10 +80,7 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 }
 
 void DeviceRunner::poison() {
-    using enum Table;
-    const auto lasting = {parameters, counts,  traits,          poses,           velocities,
-                          rests,      hulls,   joints,          vehicles,        ids,
-                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
+    const std::vector<Table>& lasting = lasting_tables();
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;

@@ -56,7 +56,6 @@ const std::vector<Run>& runs() {
         {"list_slots", joined(joined({"count_slots"}, scan("slots")), {"fill_slots", "order_slots"})},
         {"scan_slots", scan("slots")},
         {"substeps", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts"}},
-        {"substeps_felt", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts_felt"}},
     };
     return all;
 }
@@ -80,8 +79,15 @@ std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t wh
 }
 
 Stage in_one(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
-    Stage all{.name = run.name, .over = Over::one_group, .reference = nullptr, .writes = {}};
-    for (std::size_t k = 0; k < run.parts.size(); ++k) all.content |= plan[first + k].content;
+    Stage all;
+    all.name = run.name;
+    for (std::size_t k = 0; k < run.parts.size(); ++k) {
+        const Stage& part = plan[first + k];
+        for (const Access& access : part.reads) all.reads.push_back({access.table});
+        for (const Access& access : part.writes) all.writes.push_back({access.table});
+        all.features |= part.features;
+        all.content |= part.content;
+    }
     return all;
 }
 
@@ -103,6 +109,7 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
         }
         i += times * run->parts.size();
     }
+    set_barriers(stages);
     return stages;
 }
 
