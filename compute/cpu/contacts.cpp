@@ -177,9 +177,8 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
-namespace {
-
-void relax(State& state, const Threads& threads, bool last, bool first, bool felt) {
+void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
+    const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
     const auto told = [&](std::uint32_t body) {
         return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
     };
@@ -216,16 +215,6 @@ void relax(State& state, const Threads& threads, bool last, bool first, bool fel
             hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying, {impulse.pressed, impulse.pressed});
         }
     });
-}
-
-}  // namespace
-
-void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
-    relax(state, threads, last != 0, false, false);
-}
-
-void relax_contacts_felt(State& state, const Threads& threads, std::uint32_t pass) {
-    relax(state, threads, (pass & 1) != 0, (pass & 2) != 0, true);
 }
 
 }  // namespace scree::reference

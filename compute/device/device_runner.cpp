@@ -21,27 +21,6 @@ std::uint32_t threads_of_a_group(const host::Device& device) {
     return device.report().is_processor ? 64 : 128;
 }
 
-// contacts <-> contacts_before and so on in the second parity.
-Table other_parity(Table table) {
-    using enum Table;
-    switch (table) {
-        case contacts:
-            return contacts_before;
-        case contacts_before:
-            return contacts;
-        case impulses:
-            return impulses_before;
-        case impulses_before:
-            return impulses;
-        case first_contacts:
-            return first_contacts_before;
-        case first_contacts_before:
-            return first_contacts;
-        default:
-            return table;
-    }
-}
-
 constexpr std::array read_while_changing{Table::poses, Table::velocities, Table::masses,
                                          Table::loads, Table::impulses,   Table::slots};  // shaders/stages/lib/read_coherent.glsl
 
@@ -256,7 +235,7 @@ const host::Recording& DeviceRunner::whole_step() {
     if (timed_) recording->timestamp();
     for (const Stage& stage : recorded_) {
         record_stage(*recording, stage);
-        if (stage.feeds_next) recording->barrier();
+        if (stage.barrier_after) recording->barrier();
         if (timed_) recording->timestamp();
     }
     recording->copy(buffers_[static_cast<std::size_t>(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <set>
 
 #include "compute/device/device_runner.h"
 #include "host/vulkan/transfer.h"
@@ -30,25 +31,8 @@ std::string what_would_fit(const State& state, const host::DeviceReport& device)
 
 // What a table holds from one step to the next, or until a step that was cut short is repeated.
 bool lasts(Table table) {
-    using enum Table;
-    const auto lasting = {parameters,
-                          counts,
-                          traits,
-                          poses,
-                          velocities,
-                          rests,
-                          hulls,
-                          joints,
-                          vehicles,
-                          ids,
-                          masses,
-                          contacts,
-                          impulses,
-                          first_contacts,
-                          contacts_before,
-                          impulses_before,
-                          first_contacts_before};
-    return std::find(lasting.begin(), lasting.end(), table) != lasting.end();
+    const std::vector<Table>& lasting = lasting_tables();
+    return std::any_of(lasting.begin(), lasting.end(), [&](Table one) { return one == table || other_parity(one) == table; });
 }
 
 // Records that a table gets beyond those it needs: half as many again of what edits add one by one. Lists have room of their own
@@ -115,12 +99,13 @@ host::Buffer DeviceRunner::make_buffer(Table table, bool with_room) const {
 }
 
 void DeviceRunner::upload_all() {
-    using enum Table;
     parity_ = 0;
-    // Before the first step, and for tables that were never brought back, zeros are right.
+    // Also what will last under its other name. Before the first step, and for tables that were never brought back, zeros are
+    // right.
+    std::set<Table> lasting;
+    for (const Table table : lasting_tables()) lasting.insert({table, other_parity(table)});
     TableRanges all;
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles, ids, masses,
-                              contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
+    for (const Table table : lasting)
         all.push_back({table, 0, state_->raw(table).size() / table_infos()[static_cast<std::size_t>(table)].record_bytes});
     upload(all);
     sent_ = state_->fixed();
@@ -144,10 +129,7 @@ void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
 }
 
 void DeviceRunner::poison() {
-    using enum Table;
-    const auto lasting = {parameters, counts,  traits,          poses,           velocities,
-                          rests,      hulls,   joints,          vehicles,        ids,
-                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
+    const std::vector<Table>& lasting = lasting_tables();
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;

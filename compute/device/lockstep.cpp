@@ -28,12 +28,12 @@ std::string words_of(const std::byte* cpu, const std::byte* device, std::size_t 
 }
 
 // The first record of the table in which the device differs from the state, into the result.
-bool table_equal(const State& state, const DeviceRunner& device, const Stage& stage, Table table, LockstepResult& result) {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    const auto expected = state.raw(table).first(state.live(stage.as_long_as.value_or(info.length)) * info.record_bytes);
+bool table_equal(const State& state, const DeviceRunner& device, const Compared& compared, LockstepResult& result) {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(compared.table)];
+    const auto expected = state.raw(compared.table).first(state.live(compared.length) * info.record_bytes);
     if (expected.empty()) return true;
     std::vector<std::byte> found(expected.size());
-    device.read(table, found);
+    device.read(compared.table, found);
     const auto [cpu, gpu] = std::mismatch(expected.begin(), expected.end(), found.begin());
     if (cpu == expected.end()) return true;
     const std::size_t word = static_cast<std::size_t>(cpu - expected.begin()) / 4 * 4;
@@ -69,8 +69,9 @@ struct Lockstep::Interior {
         there.run_stage(index);
         result.stage = stage.name;
         // After an overflow nobody writes anything but the counts.
-        return std::all_of(stage.writes.begin(), stage.writes.end(), [&](Table table) {
-            return (state.counted().overflow != 0 && table != Table::counts) || table_equal(state, there, stage, table, result);
+        return std::all_of(stage.compared.begin(), stage.compared.end(), [&](const Compared& compared) {
+            return (state.counted().overflow != 0 && compared.table != Table::counts) ||
+                   table_equal(state, there, compared, result);
         });
     }
 

@@ -62,7 +62,6 @@ const std::vector<Run>& runs() {
         {"list_slots", joined(joined({"count_slots"}, scan("slots")), {"fill_slots", "order_slots"})},
         {"scan_slots", scan("slots")},
         {"substeps", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts"}},
-        {"substeps_felt", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts_felt"}},
     };
     return all;
 }
@@ -86,8 +85,15 @@ std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t wh
 }
 
 Stage in_one(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
-    Stage all{.name = run.name, .over = Over::one_group, .reference = nullptr, .writes = {}};
-    for (std::size_t k = 0; k < run.parts.size(); ++k) all.content |= plan[first + k].content;
+    Stage all;
+    all.name = run.name;
+    for (std::size_t k = 0; k < run.parts.size(); ++k) {
+        const Stage& part = plan[first + k];
+        for (const Access& access : part.reads) all.reads.push_back({access.table});
+        for (const Access& access : part.writes) all.writes.push_back({access.table});
+        all.features |= part.features;
+        all.content |= part.content;
+    }
     return all;
 }
 
@@ -109,6 +115,7 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
         }
         i += times * run->parts.size();
     }
+    set_barriers(stages);
     return stages;
 }
 
@@ -142,9 +149,9 @@ std::vector<Stage> dispatches_of(const Stage& stage, std::uint32_t joint_rounds)
     for (std::uint32_t done = 0; done < physics::JOINT_ROUNDS; done += joint_rounds) {
         dispatches.push_back(stage);
         dispatches.back().pass |= done << 8 | std::min(joint_rounds, physics::JOINT_ROUNDS - done) << 16;
-        dispatches.back().feeds_next = true;
+        dispatches.back().barrier_after = true;
     }
-    dispatches.back().feeds_next = stage.feeds_next;
+    dispatches.back().barrier_after = stage.barrier_after;
     return dispatches;
 }
 

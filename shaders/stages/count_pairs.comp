@@ -1,5 +1,3 @@
-// variants: count_pairs VARIANT=0
-// variants: count_pairs_joined VARIANT=1
 // Counts the pairs that each body owns.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -378,6 +378,8 @@ CONSTANT uint CONTENT_ROUND = 4u;    // round bodies
 CONSTANT uint CONTENT_TYRES = 8u;
 CONSTANT uint CONTENT_PARTS = 16u;      // bodies of several parts that move
 CONSTANT uint CONTENT_REORDERED = 32u;  // bodies whose rows are in another order than their ids
+CONSTANT uint CONTENT_JOINTS = 64u;
+CONSTANT uint CONTENT_BREAKING = 128u;  // bodies that may break
 
 CONSTANT uint KINDS = 16u;  // of pairs: fourteen of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind

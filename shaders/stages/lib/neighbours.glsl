@@ -6,8 +6,6 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/stages/lib/ids.glsl"
 
-const bool JOINED = VARIANT == 1u;
-
 // Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
 bool kept_apart(uint body, uint other) {
     uint listed = READ(traits, body).joints != NONE ? body : other;
@@ -22,7 +20,10 @@ bool kept_apart(uint body, uint other) {
     return false;
 }
 void meets(uint body, uint other) {
-    if (!JOINED || !kept_apart(body_of(body), body_of(other))) found(other);
+    if (JOINTS) {
+        if (kept_apart(body_of(body), body_of(other))) return;
+    }
+    found(other);
 }
 
 void look_through_large(uint body, Traits own, Bounds around) {

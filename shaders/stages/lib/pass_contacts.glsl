@@ -32,7 +32,6 @@ void solve_contact(uint place) {
 }
 
 const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
-const bool BREAKING = VARIANT == 1u;
 
 // Without bias. It also hands out the next substep's warm start, or after the last one what each body tells the other of its
 // rest. Where bodies may break it also adds up what each contact carries in the step.
