@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "compute/scene/shape_geometry.h"
 #include "demos/play/interaction.h"
 
 using namespace scree;
@@ -65,6 +66,10 @@ TEST_CASE("a ray through a pixel meets what is seen there") {
     REQUIRE(upper.along.y > eye.forward().y);
 }
 
+static std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray) {
+    return ray_distance(shape, position, orientation, ray.from, ray.along);
+}
+
 TEST_CASE("a ray meets each kind of shape where its surface is") {
     const Ray down{vec3(0.1f, 5, 0), vec3(0, -1, 0)};
     const vec4 lying(0, 0, std::sqrt(0.5f), std::sqrt(0.5f));  // a quarter turn about z
@@ -101,7 +106,7 @@ TEST_CASE("a ray meets cylinders, cones and hulls where their surface is") {
     for (int k = 0; k < 8; ++k) cube.points.emplace_back(k & 1 ? 9 : 11, k & 2 ? -1 : 1, k & 4 ? -1 : 1);
     scene.bodies.emplace_back().shape = cube;
     const World world(scene, {}, 1);
-    const auto above = [&](float x) { return pick(world.scene(), world.bodies(), {vec3(x, 5, 0), vec3(0, -1, 0)}); };
+    const auto above = [&](float x) { return world.cast_ray({vec3(x, 5, 0), vec3(0, -1, 0)}); };
     REQUIRE(above(10.9f));
     CHECK(above(10.9f)->distance == Approx(4));
     CHECK_FALSE(above(11.1f));

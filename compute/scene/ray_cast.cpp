@@ -1,6 +1,4 @@
 // A ray against each kind of shape, in double precision where squares of distances meet.
-#include "demos/play/picking.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,9 +7,10 @@
 
 #include "compute/scene/hull.h"
 #include "compute/scene/mesh.h"
+#include "compute/scene/shape_geometry.h"
 #include "shaders/physics/base/arithmetic.h"
 
-namespace scree::demos {
+namespace scree {
 
 namespace {
 
@@ -132,9 +131,9 @@ std::optional<double> to_triangles(dvec3 from, dvec3 along, const MeshForm& form
 
 }  // namespace
 
-std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray) {
-    const dvec3 from(physics::rotate_back(orientation, ray.from - position));
-    const dvec3 along(physics::rotate_back(orientation, ray.along));
+std::optional<float> ray_distance(const Shape& shape, vec3 position, vec4 orientation, vec3 ray_from, vec3 ray_along) {
+    const dvec3 from(physics::rotate_back(orientation, ray_from - position));
+    const dvec3 along(physics::rotate_back(orientation, ray_along));
     std::optional<double> at;
     if (const auto* sphere = std::get_if<Sphere>(&shape))
         at = to_sphere(from, along, dvec3(0), static_cast<double>(sphere->radius));
@@ -149,14 +148,14 @@ std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orienta
         at = to_frustum(from, along, -0.25 * cone->height, 0.75 * cone->height, static_cast<double>(cone->radius), 0);
     if (const auto* hull = std::get_if<Hull>(&shape)) at = to_planes(from, along, planes_of(*hull));
     if (const auto* plane = std::get_if<Plane>(&shape)) {
-        const float above = glm::dot(ray.from, plane->normal) - plane->offset, down = -glm::dot(ray.along, plane->normal);
+        const float above = glm::dot(ray_from, plane->normal) - plane->offset, down = -glm::dot(ray_along, plane->normal);
         if (above > 0 && down > 1e-6f) at = static_cast<double>(above / down);
     }
     if (const auto* compound = std::get_if<Compound>(&shape)) {
         for (const Part& part : compound->parts) {
             const std::optional<float> to_part =
-                distance_to(whole_shape(part.shape), position + physics::rotate(orientation, part.position),
-                            physics::compose(orientation, part.orientation), ray);
+                ray_distance(whole_shape(part.shape), position + physics::rotate(orientation, part.position),
+                             physics::compose(orientation, part.orientation), ray_from, ray_along);
             if (to_part && (!at || *to_part < *at)) at = *to_part;
         }
     }
@@ -165,14 +164,4 @@ std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orienta
     return static_cast<float>(*at);
 }
 
-std::optional<Hit> pick(const Scene& scene, const std::vector<BodyState>& states, const Ray& ray) {
-    std::optional<Hit> best;
-    for (std::size_t i = 0; i < states.size(); ++i) {
-        if (!states[i].there) continue;
-        const std::optional<float> at = distance_to(scene.bodies[i].shape, states[i].position, states[i].orientation, ray);
-        if (at && (!best || *at < best->distance)) best = Hit{i, *at, ray.from + ray.along * *at};
-    }
-    return best;
-}
-
-}  // namespace scree::demos
+}  // namespace scree
