@@ -1,12 +1,13 @@
 // The list of shapes against all that follows it: scene files, messages, the published schema, the ids of the step.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/scene_json.h"
-#include "tests/house/tree.h"
 
 using namespace scree;
 using nlohmann::json;
@@ -14,7 +15,7 @@ using nlohmann::json;
 namespace {
 
 json published_schema() {
-    return json::parse(std::ifstream(house::root() / "compute/scene_file/scene.schema.json"));
+    return json::parse(std::ifstream(SCREE_SOURCE_DIR "/compute/scene_file/scene.schema.json"));
 }
 
 // What "$ref" stands for, with what is said beside it.
