@@ -45,13 +45,16 @@ struct Cone {             // along the body's y axis, the apex up; its centre of
     float radius = 0.3f;  // of the base, m
     float height = 0.6f;  // m
 };
+struct Ellipsoid {
+    vec3 radii{0.5f, 0.3f, 0.4f};  // m, along x, y and z
+};
 struct HullForm;                             // compute/scene/hull.h
 struct Hull {                                // the convex hull of points
     std::vector<vec3> points;                // m, at least 4, not in a plane; inner and repeated ones do not matter
     std::shared_ptr<const HullForm> form{};  // made when the scene is checked
 };
 // The convex shapes and the plane. A shape's place here is its id in the step.
-using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull>;
+using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Ellipsoid, Hull>;
 
 struct Part {  // of a compound
     SimpleShape shape = Box{};
@@ -146,6 +149,11 @@ struct ShapeInfo<Cone> {
     static constexpr const char* name = "cone";
     static constexpr std::tuple fields{ShapeField{"radius", &Cone::radius, size_range, " m"},
                                        ShapeField{"height", &Cone::height, size_range, " m"}};
+};
+template <>
+struct ShapeInfo<Ellipsoid> {
+    static constexpr const char* name = "ellipsoid";
+    static constexpr std::tuple fields{ShapeField{"radii", &Ellipsoid::radii, size_range, " m"}};
 };
 template <>
 struct ShapeInfo<Hull> {
