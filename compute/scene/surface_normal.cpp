@@ -75,6 +75,11 @@ dvec3 normal_of(const Cone& cone, const Met& met) {
     face.offer(wall, wall.y * 0.75 * height);
     return face.normal();
 }
+// The gradient of x^2/a^2 + y^2/b^2 + z^2/c^2.
+dvec3 normal_of(const Ellipsoid& ellipsoid, const Met& met) {
+    const dvec3 radii(ellipsoid.radii);
+    return glm::normalize(met.point / (radii * radii));
+}
 dvec3 normal_of(const Hull& hull, const Met& met) {
     Face best(met);
     for (const HullForm::Face& face : hull.form->faces) best.offer(face.normal, face.distance);
