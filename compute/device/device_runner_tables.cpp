@@ -36,14 +36,13 @@ void DeviceRunner::make_buffers() {
                                 " items, but this device runs at most " +
                                 std::to_string(std::uint64_t{most_groups} * p.group_size) +
                                 " threads at once: use fewer bodies, or --backend cpu");
-    buffers_.resize(table_count);
-    for (std::size_t i = 0; i < table_count; ++i) {
-        const TableInfo& info = table_infos()[i];
-        const std::size_t bytes = state_->allocated(info.length) * info.record_bytes;
-        if (buffers_[i].bytes() == bytes) continue;
+    places_ = table_places(*state_);
+    buffers_.resize(buffer_count);
+    for (std::size_t i = 0; i < buffer_count; ++i) {
+        if (buffers_[i].bytes() == places_.bytes[i]) continue;
         buffers_[i] = {};  // its memory first, then the new one's
         try {
-            buffers_[i] = host::Buffer(device_, info.name, bytes);
+            buffers_[i] = host::Buffer(device_, buffer_infos()[i].name, places_.bytes[i]);
         } catch (const host::DeviceError& error) {
             throw host::DeviceError(std::string(error.what()) + ". " + what_would_fit(*state_, device_->report()));
         }
@@ -53,12 +52,13 @@ void DeviceRunner::make_buffers() {
 void DeviceRunner::upload() {
     using enum Table;
     parity_ = 0;
-    const auto send = [&](Table table) { buffer(table).write(state_->raw(table).data(), state_->raw(table).size()); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, hulls, joints, vehicles, ids}) send(table);
+    const auto send = [&](Table table) { write(table, state_->raw(table)); };
+    for (const Table table : {parameters, counts, traits, poses, velocities, rests, strains, hulls, parts, fractures, pieces,
+                              tyres, way_points, joints, vehicles, ids})
+        send(table);
     sent_ = state_->fixed();
     // Before the first step, and for tables that were never brought back, zeros are right.
-    for (const Table table :
-         {masses, contacts, contacts_before, impulses, impulses_before, first_contacts, first_contacts_before})
+    for (const Table table : {masses, contacts, contacts_before, impulses, impulses_before, first_contacts})
         if (!state_->raw(table).empty()) send(table);
 }
 
@@ -71,23 +71,28 @@ void DeviceRunner::send_inputs() {
     if (p.actions) buffer(Table::actions).write(state_->actions.data(), p.actions * sizeof(physics::Action));
 }
 
-void DeviceRunner::read(Table table, std::span<std::byte> bytes) const {
-    buffer(table).read(bytes.data(), bytes.size());
+void DeviceRunner::read(Table table, std::span<std::byte> bytes, std::size_t offset) const {
+    buffer(table).read(bytes.data(), bytes.size(), places_.begin[static_cast<std::size_t>(table)] + offset);
 }
 
 void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
-    buffer(table).write(bytes.data(), bytes.size());
+    if (!bytes.empty()) buffer(table).write(bytes.data(), bytes.size(), places_.begin[static_cast<std::size_t>(table)]);
+}
+
+DeviceRunner::Range DeviceRunner::range(Table table) const {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    return {&buffer(table), places_.begin[static_cast<std::size_t>(table)], state_->allocated(info.length) * info.record_bytes};
 }
 
 void DeviceRunner::poison() {
     using enum Table;
-    const auto lasting = {parameters, counts,  traits,          poses,           velocities,
-                          rests,      hulls,   joints,          vehicles,        ids,
-                          masses,     actions, contacts_before, impulses_before, first_contacts_before};
+    const auto lasting = {parameters, counts, traits,    poses,   velocities,      rests,           strains,
+                          hulls,      parts,  fractures, pieces,  tyres,           way_points,      joints,
+                          vehicles,   ids,    masses,    actions, contacts_before, impulses_before, first_contacts};
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
-        const std::vector<std::byte> garbage(buffer(table).bytes(), std::byte{0xCD});
+        const std::vector<std::byte> garbage(range(table).bytes, std::byte{0xCD});
         write(table, garbage);
     }
 }
@@ -95,7 +100,7 @@ void DeviceRunner::poison() {
 void DeviceRunner::fetch_body(std::size_t index) {
     for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests}) {
         const std::size_t bytes = table_infos()[static_cast<std::size_t>(table)].record_bytes;
-        buffer(table).read(state_->raw(table).subspan(index * bytes).data(), bytes, index * bytes);
+        read(table, state_->raw(table).subspan(index * bytes, bytes), index * bytes);
     }
 }
 
@@ -137,7 +142,8 @@ void DeviceRunner::fetch() {
     fetch_bodies();
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
-        if (table_infos()[i].length == Length::candidates || table == Table::parameters || table == Table::actions) continue;
+        const bool is_input = table == Table::parameters || table == Table::actions;
+        if (table == Table::candidates || table == Table::scan_sums || is_input) continue;
         if (table == Table::contacts_before || table == Table::impulses_before) {
             state_->make(table);
             read(table, state_->raw(table));

@@ -51,16 +51,16 @@ struct Accesses {
 constexpr double line = 32;  // bytes that come at once at least: a sector of a GPU's cache, half a line of a processor's
 
 // clang-format off
-Accesses scan_sums(Table table, Amount amount) { return {{{table, amount}}, {{Table::candidates, Amount::blocks}}}; }
-Accesses scan_spine() { return {{{Table::candidates, Amount::blocks}}, {{Table::candidates, Amount::blocks}}}; }
-Accesses scan_offsets(Table from, Table to, Amount amount) { return {{{from, amount}, {Table::candidates, Amount::blocks}}, {{to, amount}}}; }
+Accesses sums_of_scan(Table table, Amount amount) { return {{{table, amount}}, {{Table::scan_sums, Amount::blocks}}}; }
+Accesses spine_of_scan() { return {{{Table::scan_sums, Amount::blocks}}, {{Table::scan_sums, Amount::blocks}}}; }
+Accesses offsets_of_scan(Table from, Table to, Amount amount) { return {{{from, amount}, {Table::scan_sums, Amount::blocks}}, {{to, amount}}}; }
 
 std::map<std::string, Accesses> all_accesses() {
     using enum Table;
     using A = Amount;
-    const Accesses neighbours{{{bounds, A::bodies, 1}, {traits, A::bodies}, {cells, A::buckets}, {cell_entries, A::bodies}}, {{pair_starts, A::bodies}, {pairs, A::bodies, 2}}};
+    const Accesses neighbours{{{bounds, A::bodies, 1}, {traits, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}}, {{pair_starts, A::bodies}, {pairs, A::bodies, 2}}};
     const Accesses listed{{{pair_starts, A::bodies}, {pairs, A::bodies, 2}}, {{candidates, A::pairs}}};  // few seek again
-    const Accesses collision{{{binned, A::binned}, {pairs, A::binned}, {traits, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
+    const Accesses collision{{{pairs_by_kind, A::binned}, {pairs, A::binned}, {traits, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
                              {{manifolds, A::binned}, {touching, A::binned}}};
     Accesses solid = collision;
     solid.reads.push_back({hulls, A::binned_hulls});
@@ -70,55 +70,55 @@ std::map<std::string, Accesses> all_accesses() {
     const Accesses joint_pass{{{joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {loads, A::joints}},
                               {{joints, A::joints}, {slots, A::joints}}};
     std::map<std::string, Accesses> all = {
-        {"begin_step", {{{traits, A::bodies, 1}}, {{cells, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {loads, A::bodies}}}},
+        {"begin_step", {{{traits, A::bodies, 1}}, {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {loads, A::bodies}}}},
         {"apply_actions", {{{actions, A::actions}, {traits, A::actions}, {poses, A::actions}, {velocities, A::actions}, {loads, A::actions}},
                            {{velocities, A::actions}, {rests, A::actions}, {loads, A::actions}}}},
-        {"bound_bodies", {{{traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}, {loads, A::bodies}, {masses, A::bodies, 1}, {rests, A::bodies}, {cells, A::bodies}},
-                          {{bounds, A::bodies}, {masses, A::bodies}, {cells, A::bodies}}}},
+        {"bound_bodies", {{{traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}, {loads, A::bodies}, {masses, A::bodies, 1}, {rests, A::bodies}, {cell_ends, A::bodies}},
+                          {{bounds, A::bodies}, {masses, A::bodies}, {cell_ends, A::bodies}}}},
         {"drive_vehicles", {{{vehicles, A::vehicles}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}}, {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, {rests, A::joints}}}},
         {"place_parts", {{{traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}}, {{poses, A::bodies}, {velocities, A::bodies}}}},
-        {"scan_cells_sums", scan_sums(cells, A::buckets)},
-        {"scan_cells_spine", scan_spine()},
-        {"scan_cells_offsets", scan_offsets(cells, cells, A::buckets)},
-        {"fill_cells", {{{bounds, A::bodies, 1}, {cells, A::bodies}}, {{cells, A::bodies}, {cell_entries, A::bodies, 1}}}},
-        {"order_cells", {{{cells, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}}, {{cell_entries, A::bodies}}}},
+        {"scan_cells_sums", sums_of_scan(cell_ends, A::buckets)},
+        {"scan_cells_spine", spine_of_scan()},
+        {"scan_cells_offsets", offsets_of_scan(cell_ends, cell_ends, A::buckets)},
+        {"fill_cells", {{{bounds, A::bodies, 1}, {cell_ends, A::bodies}}, {{cell_ends, A::bodies}, {cell_entries, A::bodies, 1}}}},
+        {"order_cells", {{{cell_ends, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}}, {{cell_entries, A::bodies}}}},
         {"count_pairs", neighbours},
         {"count_pairs_joined", neighbours},
-        {"scan_pairs_sums", scan_sums(pair_starts, A::bodies)},
-        {"scan_pairs_spine", scan_spine()},
-        {"scan_pairs_offsets", scan_offsets(pair_starts, pair_starts, A::bodies)},
+        {"scan_pairs_sums", sums_of_scan(pair_starts, A::bodies)},
+        {"scan_pairs_spine", spine_of_scan()},
+        {"scan_pairs_offsets", offsets_of_scan(pair_starts, pair_starts, A::bodies)},
         {"fill_pairs", listed},
         {"fill_pairs_joined", listed},
-        {"match_pairs", {{{candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts_before, A::bodies}, {bounds, A::bodies, 1}, {traits, A::bodies},
+        {"match_pairs", {{{candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {traits, A::bodies},
                           {poses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}},
                          {{pairs, A::pairs}}}},
-        {"count_kinds", {{{pairs, A::pairs}}, {{contact_starts, A::kinds}}}},
-        {"scan_kinds_sums", scan_sums(contact_starts, A::kinds)},
-        {"scan_kinds_spine", scan_spine()},
-        {"scan_kinds_offsets", scan_offsets(contact_starts, contact_starts, A::kinds)},
-        {"fill_kinds", {{{pairs, A::pairs}, {contact_starts, A::kinds}}, {{binned, A::pairs}}}},
-        {"collide_kept", {{{binned, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}},
+        {"count_kinds", {{{pairs, A::pairs}}, {{kind_starts, A::kinds}}}},
+        {"scan_kinds_sums", sums_of_scan(kind_starts, A::kinds)},
+        {"scan_kinds_spine", spine_of_scan()},
+        {"scan_kinds_offsets", offsets_of_scan(kind_starts, kind_starts, A::kinds)},
+        {"fill_kinds", {{{pairs, A::pairs}, {kind_starts, A::kinds}}, {{pairs_by_kind, A::pairs}}}},
+        {"collide_kept", {{{pairs_by_kind, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}},
                           {{manifolds, A::binned}, {touching, A::binned}}}},
-        {"collide_still", {{{binned, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
+        {"collide_still", {{{pairs_by_kind, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
                            {{manifolds, A::binned}, {touching, A::binned}}}},
         {"foresee_impacts", foresight},
         {"foresee_impacts_convex", foresight},
         {"drop_passers", {{{touching, A::flights}}, {}}},
-        {"scan_contacts_sums", scan_sums(touching, A::pairs)},
-        {"scan_contacts_spine", scan_spine()},
-        {"scan_contacts_offsets", scan_offsets(touching, contact_starts, A::pairs)},
+        {"scan_contacts_sums", sums_of_scan(touching, A::pairs)},
+        {"scan_contacts_spine", spine_of_scan()},
+        {"scan_contacts_offsets", offsets_of_scan(touching, contact_starts, A::pairs)},
         {"list_contacts", {{{touching, A::pairs}, {contact_starts, A::pairs}}, {{constraints, A::contacts, 1}}}},
         {"wake_touched", {{{constraints, A::stirred, 1}, {pairs, A::stirred}, {manifolds, A::stirred}, {poses, A::stirred_bodies},
                            {velocities, A::stirred_bodies}, {rests, A::stirred_bodies}}, {}}},
-        {"wake_deserted", {{{bounds, A::stirred_bodies, 1}, {first_contacts_before, A::stirred_bodies}, {contacts_before, A::stirred, 1}}, {}}},
+        {"wake_deserted", {{{bounds, A::stirred_bodies, 1}, {first_contacts, A::stirred_bodies}, {contacts_before, A::stirred, 1}}, {}}},
         {"shake_sleepers", {{{constraints, A::stirred, 1}, {pairs, A::stirred}, {rests, A::stirred_bodies}}, {}}},
         {"count_slots", {{{constraints, A::contacts, 1}, {pairs, A::contacts}, {traits, A::bodies, 1}, {rests, A::bodies}, {slot_ends, A::bodies}},
                          {{slot_ends, A::bodies}}}},
-        {"scan_slots_sums", scan_sums(slot_ends, A::bodies)},
-        {"scan_slots_spine", scan_spine()},
-        {"scan_slots_offsets", scan_offsets(slot_ends, slot_ends, A::bodies)},
+        {"scan_slots_sums", sums_of_scan(slot_ends, A::bodies)},
+        {"scan_slots_spine", spine_of_scan()},
+        {"scan_slots_offsets", offsets_of_scan(slot_ends, slot_ends, A::bodies)},
         {"fill_slots", {{{constraints, A::contacts, 1}, {pairs, A::contacts}, {traits, A::bodies, 1}, {rests, A::bodies}, {slot_ends, A::bodies}},
-                        {{constraints, A::contacts, 1}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {binned, A::solved}}}},
+                        {{constraints, A::contacts, 1}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {solved_contacts, A::solved}}}},
         {"order_slots", {{{contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}},
                          {{slot_sides, A::slots}, {first_contacts, A::bodies}, {constraints, A::contacts, 1}}}},
         {"prepare_contacts", {{{constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {touching, A::contacts}, {traits, A::bodies},
@@ -126,16 +126,16 @@ std::map<std::string, Accesses> all_accesses() {
                               {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, {slots, A::slots}}}},
         {"begin_substep", {{{rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {loads, A::movers}, {masses, A::movers, 1}},
                            {{velocities, A::movers}, {masses, A::movers, 1}}}},
-        {"solve_contacts", {{{binned, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {velocities, A::movers}},
+        {"solve_contacts", {{{solved_contacts, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {velocities, A::movers}},
                             {{impulses, A::solved}, {slots, A::slots}}}},
         {"move_bodies", {{{rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
                          {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {loads, A::movers, 1}}}},
-        {"relax_contacts", {{{binned, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {loads, A::movers}, {velocities, A::movers}},
+        {"relax_contacts", {{{solved_contacts, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {loads, A::movers}, {velocities, A::movers}},
                             {{impulses, A::solved}, {slots, A::slots}}}},
-        {"relax_contacts_felt", {{{binned, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {candidates, A::solved}, {masses, A::movers}, {loads, A::movers}, {velocities, A::movers}},
-                                 {{impulses, A::solved}, {candidates, A::solved}, {slots, A::slots}}}},
-        {"find_broken", {{{traits, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {candidates, A::solved}}, {{traits, A::movers, 1}}}},
-        {"give_back", {{{traits, A::bodies, 1}, {rests, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solved}, {loads, A::bodies, 1}, {candidates, A::solved}, {velocities, A::movers}},
+        {"relax_contacts_felt", {{{solved_contacts, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {carried, A::solved}, {masses, A::movers}, {loads, A::movers}, {velocities, A::movers}},
+                                 {{impulses, A::solved}, {carried, A::solved}, {slots, A::slots}}}},
+        {"find_broken", {{{traits, A::bodies}, {strains, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solved}}, {{strains, A::movers}}}},
+        {"give_back", {{{traits, A::bodies, 1}, {rests, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solved}, {loads, A::bodies, 1}, {carried, A::solved}, {velocities, A::movers}},
                        {{velocities, A::movers}}}},
         {"break_bodies", {{{loads, A::bodies, 1}}, {}}},
         {"end_step", {{{rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
@@ -195,7 +195,7 @@ struct Step {
     void count_hulls(const State& state) {
         std::vector<std::set<physics::uint>> places(physics::KINDS);
         const bool listed =
-            state.counted().overflow == 0;  // else the table of pairs holds notes (shaders/stages/lib/partner_cache.glsl)
+            state.counted().overflow == 0;  // else the partner cache lies there (shaders/stages/lib/partner_cache.glsl)
         const std::size_t looked = listed && state.content().convex ? pairs : 0;
         for (std::size_t i = 0; i < looked; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})

@@ -44,14 +44,14 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     const std::uint32_t bits = content_bits(content);
     std::vector<Stage> s;
     // what pushes the bodies, where they will be
-    s.push_back({"begin_step", Over::buckets, begin_step, {cells, pair_starts, slot_ends, loads, rests, counts}});
+    s.push_back({"begin_step", Over::buckets, begin_step, {cell_ends, pair_starts, slot_ends, loads, rests, counts}});
     s.push_back({"apply_actions", Over::actions, apply_actions, {velocities, loads, rests}});
     if (content.vehicles) s.push_back({"drive_vehicles", Over::vehicles, drive_vehicles, {vehicles, Table::joints, rests}});
     if (content.moving_parts) s.push_back({"place_parts", Over::bodies, place_parts, {poses, velocities}});
-    s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cells, counts}});
+    s.push_back({"bound_bodies", Over::bodies, bound_bodies, {bounds, masses, cell_ends, counts}});
     // broadphase: who is near whom
-    scan(s, "cells", Over::bucket_blocks, cells, scan_nothing, scan_cells_offsets);
-    s.push_back({"fill_cells", Over::bodies, fill_cells, {cells}});
+    scan(s, "cells", Over::bucket_blocks, cell_ends, scan_nothing, scan_cells_offsets);
+    s.push_back({"fill_cells", Over::bodies, fill_cells, {cell_ends}});
     s.push_back({"order_cells", Over::buckets, order_cells, {cell_entries}, 0, true, Length::entries});
     s.push_back({joined ? "count_pairs_joined" : "count_pairs", Over::bodies, count_pairs, {pair_starts, counts}});
     s.back().content = bits & (physics::CONTENT_PARTS | physics::CONTENT_REORDERED);
@@ -61,10 +61,10 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     s.push_back({"match_pairs", Over::pairs, match_pairs, {pairs}});
     s.back().content = bits & physics::CONTENT_REORDERED;
     // narrowphase: who touches whom, and where
-    s.push_back({"count_kinds", Over::spans, count_kinds, {contact_starts}, 0, true, Length::kinds});
-    scan(s, "kinds", Over::kind_blocks, contact_starts, scan_nothing, scan_kinds_offsets);
+    s.push_back({"count_kinds", Over::spans, count_kinds, {kind_starts}, 0, true, Length::kinds});
+    scan(s, "kinds", Over::kind_blocks, kind_starts, scan_nothing, scan_kinds_offsets);
     s.back().as_long_as = Length::kinds;
-    s.push_back({"fill_kinds", Over::spans, fill_kinds, {binned, counts}});
+    s.push_back({"fill_kinds", Over::spans, fill_kinds, {pairs_by_kind, counts}});
     const std::uint32_t kinds = content.triangles ? physics::KIND_KEPT : convex ? physics::KIND_SPHERE_TRIANGLE : physics::KIND_PLANE_CONVEX;
     for (std::uint32_t kind = 0; kind < kinds; ++kind) {
         if (kind == physics::KIND_HULL_HULL && !content.hulls) continue;
@@ -123,9 +123,9 @@ std::vector<Stage> plan(int substeps, const Content& content) {
     if (content.moving_parts) s.push_back({"place_parts", Over::bodies, place_parts, {poses, velocities}});
     if (!breaking) return s;
     // what was struck too hard comes apart
-    s.push_back({"find_broken", Over::bodies, find_broken, {traits, loads, counts}});
+    s.push_back({"find_broken", Over::bodies, find_broken, {strains, loads, counts}});
     s.push_back({"give_back", Over::bodies, give_back, {velocities}});
-    s.push_back({"break_bodies", Over::bodies, break_bodies, {traits, poses, velocities, rests}});
+    s.push_back({"break_bodies", Over::bodies, break_bodies, {traits, strains, poses, velocities, rests}});
     return s;
 }
 // clang-format on

@@ -52,14 +52,16 @@ void StateEditor::add(const Body& body) {
     state_.poses.resize(p.bodies);
     state_.velocities.resize(p.bodies);
     state_.rests.resize(p.bodies);
+    state_.strains.resize(p.bodies);
     make_room(state_.traits, compiler.traits_of(body, n));
     make_room(state_.poses, SceneCompiler::start_of(body));
     make_room(state_.velocities, SceneCompiler::start_velocity_of(body));
     make_room(state_.rests, 0u);
+    make_room(state_.strains, SceneCompiler::start_strain_of(body, state_.traits[n]));
     if (!state_.masses.empty()) make_room(state_.masses, physics::Mass{});
     // It has no contacts yet: where they begin, they end. Those of parts are told by the parts' new rows.
-    for (auto* starts : {&state_.first_contacts, &state_.first_contacts_before})
-        if (starts->size() > n) make_room(*starts, physics::uint{(*starts)[n]});
+    std::vector<physics::uint>& starts = state_.first_contacts;
+    if (starts.size() > n) make_room(starts, physics::uint{starts[n]});
     for (auto* list : {&state_.contacts, &state_.contacts_before})
         for (physics::Contact& contact : *list)
             for (physics::uint* row : {&contact.a, &contact.b})
@@ -73,8 +75,7 @@ void StateEditor::add(const Body& body) {
     state_.allocate();
     for (std::uint32_t i = old_rows; i < p.bodies; ++i) {
         compiler.place(i);
-        for (auto* starts : {&state_.first_contacts, &state_.first_contacts_before})
-            if (starts->size() > i + 1) (*starts)[i + 1] = (*starts)[i];
+        if (starts.size() > i + 1) starts[i + 1] = starts[i];
     }
 }
 

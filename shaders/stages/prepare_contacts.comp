@@ -9,9 +9,6 @@
 #include "shaders/physics/solve/persistence.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it looks into
-#include "shaders/stages/lib/shape_data.glsl"
-
 // Between two bodies that sleep, or one that sleeps and one that never moves.
 void carry_over(uint i, uint pair_index, uint previous) {
     Contact contact = aged(READ(contacts_before, previous));
@@ -39,7 +36,7 @@ void main() {
     bool has_tyre = tyre_of(ta) != 0u || tyre_of(tb) != 0u;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     Contact contact =
-        contact_of(pair, READ(manifolds, pair_index), READ(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
+        contact_of(pair, READ(manifolds, pair_index), READ_WORD(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
     Impulse impulse = no_impulse(contact.d);
     if (pair.kind == KIND_KEPT || pair.kind == KIND_STILL) {
         contact = aged(READ(contacts_before, pair.previous));
@@ -74,9 +71,7 @@ void main() {
     now.b = READ(velocities, of_b);
     if (has_tyre) {
         bool is_a = tyre_of(ta) != 0u;
-        Hulls table;
-        table.bound = 0u;
-        uvec4 tyre = hull_record(table, tyre_of(is_a ? ta : tb) - 1u);
+        Tyre tyre = read_tyre(tyre_of(is_a ? ta : tb) - 1u);
         constraint = on_tyre(constraint, is_a, tyre, contact.d, now);
     }
     constraints.at[i] = constraint;

@@ -13,17 +13,14 @@
 #define READ(table, i) read_##table(i)
 
 #define SCREE_COUNT(index, name, block, record, length) +1
-const int TABLES = 0 SCREE_TABLES(SCREE_COUNT);
+const int BUFFERS = 0 SCREE_BUFFERS(SCREE_COUNT);
 // After the bindings of the tables themselves.
 #define SCREE_DECLARE_TEXELS(index, name, block, record, length) \
-    layout(set = 0, binding = TABLES + index) uniform usamplerBuffer name##_texels;
-SCREE_TABLES(SCREE_DECLARE_TEXELS)
+    layout(set = 0, binding = BUFFERS + index) uniform usamplerBuffer name##_texels;
+SCREE_BUFFERS(SCREE_DECLARE_TEXELS)
 
 vec4 floats_at(usamplerBuffer texels, uint i) {
     return uintBitsToFloat(texelFetch(texels, int(i)));
-}
-uint uint_in(usamplerBuffer texels, uint i) {
-    return texelFetch(texels, int(i)).x;
 }
 
 Traits traits_in(usamplerBuffer texels, uint i) {
@@ -130,9 +127,6 @@ Counts counts_in(usamplerBuffer texels, uint i) {
     counts.broken = d.y;
     return counts;
 }
-uvec4 record_in(usamplerBuffer texels, uint i) {
-    return texelFetch(texels, int(i));
-}
 
 #define SCREE_READ(table, record, reader) \
     record read_##table(uint i) {         \
@@ -160,26 +154,15 @@ SCREE_READ_OF_SOLVER(velocities, Velocity, velocity_in)
 SCREE_READ_OF_SOLVER(masses, Mass, mass_in)
 SCREE_READ_OF_SOLVER(loads, Load, load_in)
 SCREE_READ(bounds, Bounds, bounds_in)
-SCREE_READ_OF_LISTS(cells, uint, uint_in)
 SCREE_READ(cell_entries, CellEntry, cell_entry_in)
-SCREE_READ_OF_LISTS(pair_starts, uint, uint_in)
 SCREE_READ(pairs, Pair, pair_in)
-SCREE_READ_OF_LISTS(binned, uint, uint_in)
 SCREE_READ(manifolds, Manifold, manifold_in)
-SCREE_READ_OF_LISTS(touching, uint, uint_in)
-SCREE_READ_OF_LISTS(contact_starts, uint, uint_in)
 SCREE_READ(contacts_before, Contact, contact_in)
 SCREE_READ_OF_SOLVER(impulses, Impulse, impulse_in)
 SCREE_READ(impulses_before, Impulse, impulse_in)
-SCREE_READ(first_contacts_before, uint, uint_in)
-SCREE_READ_OF_LISTS(slot_ends, uint, uint_in)
-SCREE_READ_OF_LISTS(slot_sides, uint, uint_in)
 SCREE_READ_OF_LISTS(constraints, Constraint, constraint_in)
 SCREE_READ_OF_SOLVER(slots, Slot, slot_in)
 SCREE_READ(candidates, Candidate, candidate_in)
-SCREE_READ_OF_LISTS(rests, uint, uint_in)
-SCREE_READ(hulls, uvec4, record_in)
-SCREE_READ(ids, uint, uint_in)
 #endif
 
 #endif

@@ -10,28 +10,28 @@
 
 #if defined(SCAN_CELLS)
 #define SCAN_ITEMS_OF (PARAMETERS.buckets + 1u)
-#define SCAN_READ(i) READ(cells, i)
-#define SCAN_WRITE(i, sum) cells.at[i] = sum
+#define SCAN_READ(i) READ_WORD(cell_counts, i)
+#define SCAN_WRITE(i, sum) WORD(cell_starts, i) = sum
 #define SCAN_TOTAL(total)
 #elif defined(SCAN_PAIRS)
 #define SCAN_ITEMS_OF PARAMETERS.bodies
-#define SCAN_READ(i) READ(pair_starts, i)
-#define SCAN_WRITE(i, sum) pair_starts.at[i] = sum
+#define SCAN_READ(i) READ_WORD(pair_counts, i)
+#define SCAN_WRITE(i, sum) WORD(pair_starts, i) = sum
 #define SCAN_TOTAL(total) COUNTS = with_pairs(COUNTS, total, PARAMETERS)
 #elif defined(SCAN_KINDS)
 #define SCAN_ITEMS_OF (KINDS * spans_of(COUNTED.pairs))
-#define SCAN_READ(i) READ(contact_starts, i)
-#define SCAN_WRITE(i, sum) contact_starts.at[i] = sum
+#define SCAN_READ(i) READ_WORD(kind_counts, i)
+#define SCAN_WRITE(i, sum) WORD(kind_starts, i) = sum
 #define SCAN_TOTAL(total)
 #elif defined(SCAN_CONTACTS)
 #define SCAN_ITEMS_OF COUNTED.pairs
-#define SCAN_READ(i) (READ(touching, i) > 0u ? 1u : 0u)
-#define SCAN_WRITE(i, sum) contact_starts.at[i] = sum
+#define SCAN_READ(i) (READ_WORD(touching, i) > 0u ? 1u : 0u)
+#define SCAN_WRITE(i, sum) WORD(contact_starts, i) = sum
 #define SCAN_TOTAL(total) COUNTS = with_contacts(COUNTS, total, PARAMETERS)
 #elif defined(SCAN_SLOTS)
 #define SCAN_ITEMS_OF PARAMETERS.bodies
-#define SCAN_READ(i) READ(slot_ends, i)
-#define SCAN_WRITE(i, sum) slot_ends.at[i] = sum
+#define SCAN_READ(i) READ_WORD(slot_counts, i)
+#define SCAN_WRITE(i, sum) WORD(slot_starts, i) = sum
 #define SCAN_TOTAL(total)
 #endif
 

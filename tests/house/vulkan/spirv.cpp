@@ -49,7 +49,7 @@ const std::map<std::string, Record>& records() {
             all["Traits"] = {sizeof(R),
                              {M(size), M(shape), M(inverse_inertia), M(inverse_mass), M(friction), M(restitution),
                               M(rolling_resistance), M(gravity_scale), M(linear_damping), M(angular_damping), M(motion), M(large),
-                              M(owner), M(fracture), M(joints), M(strain)}};
+                              M(owner), M(fracture), M(joints), M(shape_data)}};
         }
         {
             using R = Pose;
@@ -232,8 +232,28 @@ const std::map<std::string, Record>& records() {
                                   M(first_part),
                                   M(joint_blocks),
                                   M(vehicles),
+                                  M(cell_ends_begin),
+                                  M(pair_starts_begin),
+                                  M(slot_ends_begin),
+                                  M(first_contacts_begin),
+                                  M(rests_begin),
+                                  M(ids_begin),
+                                  M(strains_begin),
+                                  M(touching_begin),
+                                  M(pairs_by_kind_begin),
+                                  M(solved_contacts_begin),
+                                  M(kind_starts_begin),
+                                  M(contact_starts_begin),
+                                  M(carried_begin),
+                                  M(slot_sides_begin),
+                                  M(scan_sums_begin),
+                                  M(hulls_begin),
+                                  M(parts_begin),
+                                  M(fractures_begin),
+                                  M(pieces_begin),
+                                  M(tyres_begin),
+                                  M(way_points_begin),
                                   M(pad0),
-                                  M(pad1),
                                   M(grips)}};
         }
         {
@@ -249,7 +269,8 @@ const std::map<std::string, Record>& records() {
     return table;
 }
 
-// The record and binding of each block, from the list that C++ and GLSL share.
+// The record and binding of each block, from the list that C++ and GLSL share, and of what lies in a table until that is made
+// (shaders/stages/lib/partner_cache.glsl).
 struct TableEntry {
     std::uint32_t binding;
     std::string record;
@@ -258,7 +279,9 @@ struct TableEntry {
 std::map<std::string, TableEntry> tables() {
     using namespace physics;
 #define SCREE_ENTRY(binding, name, block, record, length) {#block, {binding, #record, sizeof(record)}},
-    return {SCREE_TABLES(SCREE_ENTRY)};
+    std::map<std::string, TableEntry> all = {SCREE_BUFFERS(SCREE_ENTRY)};
+    all["PartnerCacheTable"] = {all.at("PairsTable").binding, "uvec4", sizeof(uvec4)};
+    return all;
 #undef SCREE_ENTRY
 }
 
