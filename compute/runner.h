@@ -9,7 +9,9 @@
 
 namespace scree {
 
-struct State;  // compute/step/state.h
+struct State;       // compute/step/state.h
+class Threads;      // compute/step/threads.h
+struct TableRange;  // compute/step/table_ranges.h
 
 using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
 
@@ -20,11 +22,15 @@ public:
     virtual std::string device() const = 0;        // for people: threads, or the name of the Vulkan device
     virtual std::uint32_t group_size() const = 0;  // threads of a workgroup, a power of two up to 256
 
+    virtual const Threads& threads() const = 0;  // of the processor, for what is done between steps
+
     virtual bool in_place() const = 0;  // works on the state's own tables, so all of them need memory
 
-    // Takes over the tables: sizes and contents. Called once, and again after the tables have grown or the substeps have changed.
-    // The state outlives the runner.
+    // Takes over the tables: sizes and contents. Called once. The state outlives the runner.
     virtual void attach(State& state) = 0;
+    // Follows the attached state, whose tables have grown, or whose substeps or content have changed. What the runner's tables
+    // hold stays; records that are new are the caller's to upload.
+    virtual void adapt() = 0;
     // Runs one step with the state's parameters and actions. False: a list would have outgrown its buffer; the bodies are as
     // before, and State::counts says what is needed.
     virtual bool step() = 0;
@@ -35,22 +41,24 @@ public:
             if (!step()) return false;
         return true;
     }
-    // Brings back into the attached state: counts, poses, velocities and rests; the contacts of the last step (after the former);
-    // every table.
-    virtual void fetch_body(std::size_t index) = 0;  // pose, velocity and rest of one
-    virtual void fetch_bodies() = 0;
-    virtual void fetch_contacts() = 0;
-    virtual void fetch_joints() = 0;                   // all of them
-    virtual void send_joint(std::size_t record) = 0;   // the axes of a record, which were changed in the attached state
-    virtual void fetch_vehicles() = 0;                 // all of them
-    virtual void send_vehicle(std::size_t index) = 0;  // what it is told, which was changed in the attached state
-    virtual void fetch() = 0;
+    // Ranges of the attached state's tables, brought to the runner's tables and back, all in one transfer. The counts come back
+    // by themselves with every step, the parameters and actions go with it.
+    void upload(const std::vector<TableRange>& ranges);
+    void download(const std::vector<TableRange>& ranges);
+    std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }  // so far, in ranges
+
     // Whether the steps to come are timed stage by stage. At first none is: on a software device a mark between two stages of a
     // small world takes longer than the stages. On the CPU it costs nothing, and all are.
     virtual void time_stages(bool /* on */) {}
     virtual StageTimes stage_times() const = 0;       // means over the timed steps since the stages changed: with the substeps,
                                                       // or when a small world grew
     virtual StageTimes last_stage_times() const = 0;  // of the last timed step alone
+
+private:
+    virtual void send(const std::vector<TableRange>& ranges) = 0;
+    virtual void receive(const std::vector<TableRange>& ranges) = 0;
+
+    std::uint64_t uploaded_bytes_ = 0;
 };
 
 // On the CPU, in `threads` threads (0: one per core). No bit depends on how many.

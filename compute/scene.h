@@ -11,70 +11,9 @@
 #include <variant>
 #include <vector>
 
+#include "compute/shapes.h"
+
 namespace scree {
-
-using glm::vec3;
-using glm::vec4;
-
-struct Sphere {
-    float radius = 0.5f;  // m
-};
-struct Capsule {               // along the body's y axis
-    float radius = 0.3f;       // m
-    float half_height = 0.3f;  // m, from the centre to the centre of a cap; 0 is a sphere
-};
-struct Box {
-    vec3 half_extents{0.5f};  // m
-};
-struct Plane {             // infinite, solid behind the normal; fixed bodies only, whose position and orientation it ignores
-    vec3 normal{0, 1, 0};  // normalised when the scene is checked
-    float offset = 0;      // m, along the normal from the origin
-};
-struct Cylinder {              // along the body's y axis
-    float radius = 0.3f;       // m
-    float half_height = 0.3f;  // m
-};
-struct Cone {             // along the body's y axis, the apex up; its centre of mass is a quarter of its height above its base
-    float radius = 0.3f;  // of the base, m
-    float height = 0.6f;  // m
-};
-struct HullForm;                             // compute/scene/hull.h
-struct Hull {                                // the convex hull of points
-    std::vector<vec3> points;                // m, at least 4, not in a plane; inner and repeated ones do not matter
-    std::shared_ptr<const HullForm> form{};  // made when the scene is checked
-};
-using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull>;
-
-struct Part {  // of a compound
-    SimpleShape shape = Box{};
-    vec3 position{0};              // of the shape's centre of mass in the body's frame, m; of a hull as of a body
-    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
-    float density = 0;             // kg/m^3; 0: the body's own
-};
-struct Compound {             // several shapes on one body, which moves as one
-    std::vector<Part> parts;  // at least one; no planes. Where two overlap, the mass of both counts
-};
-struct MeshForm;  // compute/scene/mesh.h
-// Triangles, solid behind their faces; for fixed and kinematic bodies. What comes from behind passes through.
-struct Mesh {
-    std::vector<vec3> vertices;              // m, in the body's frame
-    std::vector<glm::uvec3> triangles;       // their corners, counter-clockwise seen from outside
-    std::string file{};                      // where they come from, for a scene file; may be empty
-    float scale = 1;                         // of what the file says; the vertices here have it already
-    std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
-};
-// Ground over a grid, solid below; for fixed and kinematic bodies. Its middle is the body's origin.
-struct HeightField {
-    std::uint32_t columns = 2, rows = 2;     // of the grid, along x and along z; at least 2 each
-    float spacing = 1;                       // m, between neighbours
-    std::vector<float> heights;              // m, along y: columns * rows of them, row by row
-    std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
-};
-using Shape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull, Compound, Mesh, HeightField>;
-
-// The shape if it is a single convex one, or a plane.
-std::optional<SimpleShape> simple_shape(const Shape& shape);
-Shape whole_shape(const SimpleShape& shape);
 
 // Rubber: a wheel's friction with slip (shaders/physics/extra/tyre.h). The friction of a Body is that at the best slip.
 struct Tyre {

@@ -114,7 +114,7 @@ Statistics statistics_of(const Scene& scene, const State& state) {
 
 std::uint64_t hash_of(const State& state) {
     constexpr std::size_t floats = 13;
-    const std::size_t bodies = state.fixed().first_part;  // parts are where their bodies are
+    const std::size_t bodies = state.body_count;  // parts are where their bodies are
     std::vector<float> values(floats * bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
         float* body = values.data() + floats * i;
@@ -127,7 +127,8 @@ std::uint64_t hash_of(const State& state) {
     const std::uint64_t hash = XXH64(values.data(), values.size() * sizeof(float), 0);
     if (!state.has_fractures()) return hash;
     std::vector<physics::uint> there;  // and who is there at all
-    for (std::size_t i = 0; i < state.traits.size(); ++i) there.push_back(state.traits[state.row_of(i)].motion);
+    for (std::size_t i = 0; i < bodies; ++i) there.push_back(state.traits[state.row_of(i)].motion);
+    for (std::size_t row = state.fixed().first_part; row < state.fixed().bodies; ++row) there.push_back(state.traits[row].motion);
     return XXH64(there.data(), there.size() * sizeof(physics::uint), hash);
 }
 

@@ -9,21 +9,22 @@
 #include "demos/program/commands.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
+#include "demos/program/help_formatter.h"
 #include "demos/program/interrupt.h"
 
 namespace {
 
 constexpr const char* examples = R"(Examples:
-  scree list                                            what there is to see
-  scree run avalanche --frames out --video out.mp4      pictures, without a display
-  scree view wall                                       in a window: take hold of the bodies (scree view --help)
-  scree run pile --bodies 10k --steps 300 --report -    numbers, as JSON
-  scree export wall -o wall.json                        a scene as a file, to change
+  scree list                                            the demos
+  scree run avalanche --frames out --video out.mp4      frames and a video, without a display
+  scree view wall                                       a window: grab and throw bodies
+  scree run pile --bodies 10k --steps 300 --report -    a report as JSON
+  scree export wall -o wall.json                        a scene as a file, to edit
   scree run wall.json --seconds 5                       and to run
-  scree compare mix --steps 60                          processor and GPU, bit by bit
-  scree check                                           does everything that should stand, stand?
+  scree compare mix --steps 60                          CPU against GPU, bit by bit
+  scree check                                           the stability suite
 
-Exit status: 0 done, 1 the work failed or missed its promise, 2 wrong usage or input, 130 interrupted.)";
+Exit status: 0 done, 1 failed or missed a promise, 2 wrong usage or input, 130 interrupted.)";
 
 int tell(const std::string& message, int status = scree::demos::wrong_usage) {
     scree::demos::say("scree: {}\n", scree::demos::printable(message));
@@ -52,9 +53,10 @@ int main(int argc, char** argv) {
     occupy_closed_streams();
     demos::listen_for_interrupt();
     int status = demos::done;
-    CLI::App program(
-        "scree simulates very large scenes of colliding solid bodies: the same bits on every GPU and on the processor.", "scree");
+    CLI::App program("scree simulates very large scenes of rigid bodies, with the same bits on every GPU and on the CPU.",
+                     "scree");
     program.set_version_flag("--version", "scree " SCREE_VERSION);
+    program.formatter(std::make_shared<demos::HelpFormatter>());
     program.require_subcommand(1);
     program.footer(examples);
     demos::add_list(program, status);

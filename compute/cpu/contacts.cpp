@@ -7,11 +7,7 @@
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
-#include "shaders/physics/collide/grid.h"
-#include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/extra/tyre.h"
-#include "shaders/physics/solve/contact_solver.h"
-#include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/solve/contact_preparation.h"
 
 namespace scree::reference {
 
@@ -126,60 +122,37 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
         const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
         const physics::Manifold& manifold = state.manifolds[index];
-        physics::Contact& contact = state.contacts[i];
-        physics::Impulse& impulse = state.impulses[i];
-        const bool idle = c.slot_a == physics::NONE && c.slot_b == physics::NONE;
-        const bool tyre_is_a = physics::tyre_of(ta) != 0;
-        const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb);
-        if (idle && pair.kind == physics::KIND_STILL) {
-            contact = physics::aged(state.contacts_before[pair.previous]);
-            impulse = physics::continued(contact, state.impulses_before[pair.previous]);
-            impulse.separation = physics::separations_of(manifold);
-            c = physics::idle_constraint(contact);
-            c.a = a;
-            c.b = b;
-            return;
-        }
-        if (pair.kind >= physics::KIND_KEPT) {
-            contact = physics::aged(state.contacts_before[pair.previous]);
-            impulse = physics::continued(contact, state.impulses_before[pair.previous]);
+        physics::PreparedContact prepared;
+        if (physics::is_carried_forward(pair.kind)) {
+            prepared =
+                physics::carried_forward(state.contacts_before[pair.previous], state.impulses_before[pair.previous], manifold);
         } else {
-            contact = physics::contact_of(pair, manifold, state.touching[index], state.poses[a], state.poses[b]);
-            impulse = physics::no_impulse(contact.d);
-            if (pair.previous != physics::NONE) {
-                const physics::Contact& before = state.contacts_before[pair.previous];
-                const physics::uvec4 matches =
-                    tyre ? physics::matches_of_tyre(contact, before, tyre_is_a,
-                                                    std::min(physics::thickness(ta), physics::thickness(tb)))
-                         : physics::matches_of(contact, before, physics::match_radius(ta, tb));
-                impulse = physics::inherited(contact, state.impulses_before[pair.previous], matches);
-            }
+            prepared = physics::newly_found(pair, manifold, state.touching[index], state.poses[a], state.poses[b]);
+            if (pair.previous != physics::NONE)
+                prepared = physics::warm_started(prepared, state.contacts_before[pair.previous],
+                                                 state.impulses_before[pair.previous], ta, tb);
         }
-        impulse.separation = physics::separations_of(manifold);
-        const bool sleeps_a = physics::motion_of(ta) == physics::MOTION_DYNAMIC && c.slot_a == physics::NONE;
-        const bool sleeps_b = physics::motion_of(tb) == physics::MOTION_DYNAMIC && c.slot_b == physics::NONE;
-        if (pair.previous != physics::NONE)
-            contact.load = physics::load_of(sleeps_a || sleeps_b, state.contacts_before[pair.previous],
-                                            state.impulses_before[pair.previous]);
+        const bool idle = physics::is_idle(c.slot_a, c.slot_b);
+        // Between two that sleep nothing is new.
+        if (pair.previous != physics::NONE && !(idle && pair.kind == physics::KIND_STILL))
+            prepared.contact.load = physics::load_since(state.contacts_before[pair.previous],
+                                                        state.impulses_before[pair.previous], ta, c.slot_a, tb, c.slot_b);
+        if (!idle) prepared.impulse.pressed = physics::pressing(prepared.impulse);
+        state.contacts[i] = prepared.contact;
+        state.impulses[i] = prepared.impulse;
         if (idle) {
-            c = physics::idle_constraint(contact);
-            c.a = a;
-            c.b = b;
+            c = physics::idle_between(prepared.contact, a, b);
             return;
         }
-        c = physics::constraint_of(contact, ta, tb, c.slot_a, c.slot_b, p);
-        c.a = a;
-        c.b = b;
-        c.pair = index;
-        if (tyre) c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], contact.d, velocities_of(state, c));
-
-        impulse.pressed = physics::pressing(impulse);
+        c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, p);
+        const bool tyre_is_a = physics::tyre_of(ta) != 0;
+        if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
+            c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.d, velocities_of(state, c));
         if (wide) return;
-        const physics::Mass ma = physics::lent(state.masses[c.a], impulse, p), mb = physics::lent(state.masses[c.b], impulse, p);
-        const physics::Couple now = velocities_of(state, c);
-        const float carrying = physics::carries(c, impulse, now, p);
-        hand_out(state, c, physics::warm_start(c, impulse, physics::shares_of(now, now, ma, mb), ma, mb), carrying,
-                 {impulse.pressed, impulse.pressed});
+        const physics::ContactShare share =
+            physics::first_share(c, prepared.impulse, velocities_of(state, c), state.masses[a], state.masses[b], p);
+        const float pressed = prepared.impulse.pressed;
+        hand_out(state, c, share.change, share.carrying, {pressed, pressed});
     });
     if (!wide) return;
     const WideTables tables = wide_tables(state, state.solved_contacts);
@@ -204,9 +177,8 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
-namespace {
-
-void relax(State& state, const Threads& threads, bool last, bool first, bool felt) {
+void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
+    const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
     const auto told = [&](std::uint32_t body) {
         return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
     };
@@ -242,16 +214,6 @@ void relax(State& state, const Threads& threads, bool last, bool first, bool fel
             hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying, {impulse.pressed, impulse.pressed});
         }
     });
-}
-
-}  // namespace
-
-void relax_contacts(State& state, const Threads& threads, std::uint32_t last) {
-    relax(state, threads, last != 0, false, false);
-}
-
-void relax_contacts_felt(State& state, const Threads& threads, std::uint32_t pass) {
-    relax(state, threads, (pass & 1) != 0, (pass & 2) != 0, true);
 }
 
 }  // namespace scree::reference

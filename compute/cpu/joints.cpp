@@ -1,9 +1,8 @@
 // Reference joint stages: each block of joints as a sparse system of linear equations that is solved at once.
-#include "shaders/physics/solve/joint.h"
+#include "shaders/physics/solve/joint_block.h"
 
 #include <algorithm>
 #include <atomic>
-#include <optional>
 #include <span>
 
 #include "compute/cpu/stages.h"
@@ -48,36 +47,27 @@ public:
     template <class Visit>
     static void for_each_axis(Joint& joint, const Visit& visit) {
         for (physics::uint k = 0; k < 6; ++k)
-            if (joint.axes[k].mode != 0 && joint.rows[k].give > 0) visit(k, joint.axes[k], joint.rows[k]);
+            if (physics::row_acts(joint.axes[k], joint.rows[k])) visit(k, joint.axes[k], joint.rows[k]);
     }
 
     void lend(bool biased) {
         for (Joint& record : members_) {
-            physics::Mass mass{};
-            if (record.slot != NONE) mass = state_.masses[record.member];
-            const float blows = state_.loads[record.member].blows;
-            if (biased)
-                mass.split = std::max(1.0f, static_cast<float>(record.blocks) * p_.inverse_relaxation);
-            else
-                mass.split = blows > 1 ? blows : physics::split_for(state_.masses[record.member].split, record.pressed, p_);
-            record.mass = mass;
+            record.mass = physics::mass_of_member(state_.masses[record.member], record.slot != NONE, record.blocks,
+                                                  state_.loads[record.member].blows, record.pressed, biased, p_);
         }
     }
 
     void place(bool biased) {
-        restart(biased);
+        take_velocities(biased);
         for_each_whole([&](Joint& joint) {
             const physics::JointPlace at =
                 physics::joint_place(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
             const physics::Couple v = speeds(joint);
-            for (physics::uint k = 0; k < 6; ++k) {
-                if (joint.axes[k].mode == 0) continue;
-                JointRow& row = joint.rows[k];
-                row = k < 3 ? physics::linear_row(row, at, k, joint.flags, v, p_.h)
-                            : physics::angular_row(row, at, k - 3, joint.flags, v, p_.h);
-                row.give = between(joint, k, joint, k, /* same_ends */ true);
-                row.drive_change = row.stop_change = 0;
-            }
+            const physics::uint ends = shared(joint, joint);
+            for (physics::uint k = 0; k < 6; ++k)
+                if (joint.axes[k].mode != 0)
+                    joint.rows[k] = physics::placed_row(joint.rows[k], at, k, joint.flags, v, mass(joint.member_a),
+                                                        mass(joint.member_b), ends, p_.h);
         });
     }
 
@@ -85,8 +75,9 @@ public:
         lend(biased);
         for (Joint& joint : joints_) joint.solved = 0;
         place(biased);
-        for (physics::uint round = 0; round < physics::JOINT_ROUNDS; ++round) {
-            restart(biased);
+        bool others = true;
+        for (physics::uint round = 0; round < physics::JOINT_ROUNDS && others; ++round) {
+            for (Joint& record : members_) record.velocity = record.velocity_before;
             for_each_whole([&](Joint& joint) { apply_given(joint, biased); });
             for_each_whole([&](Joint& joint) { set_up(joint, biased); });
             for_each_whole([&](Joint& joint) {
@@ -100,10 +91,10 @@ public:
                 for (physics::uint k = 0; k < 6; ++k)
                     if (unknown(joint, k)) push(joint, k, joint.solution[k]);
             });
-            bool others = false;
+            others = false;
             for_each_whole([&](Joint& joint) { others |= other_bounds(joint, biased, round >= physics::SETTLING_ROUND); });
-            if (!others) break;
         }
+        joints_[0].unsettled = others;
     }
 
     // What whole bodies feel of `impulse(row)` of every row, handed to their slots.
@@ -129,7 +120,7 @@ public:
     static vec3 impulse_of(const Joint& joint, physics::uint from) {
         vec3 sum(0);
         for (physics::uint k = from; k < from + 3; ++k)
-            if (joint.axes[k].mode != 0) sum += joint.rows[k].direction * (joint.rows[k].drive + joint.rows[k].stop);
+            if (joint.axes[k].mode != 0) sum += physics::row_push(joint.rows[k]);
         return sum;
     }
     void note_pressing() {
@@ -141,10 +132,7 @@ public:
         });
     }
     static void commit(Joint& joint) {
-        for (JointRow& row : joint.rows) {
-            row.drive += row.drive_change;
-            row.stop += row.stop_change;
-        }
+        for (JointRow& row : joint.rows) row = physics::committed(row);
     }
 
 private:
@@ -158,18 +146,22 @@ private:
         if (member != NONE) return all_[member].velocity;
         return body == NONE ? physics::Velocity{} : state_.velocities[body];
     }
+    physics::Mass mass(physics::uint member) const { return member == NONE ? physics::Mass{} : all_[member].mass; }
+    static physics::uint shared(const Joint& left, const Joint& right) {
+        return physics::shared_ends(left.member_a, left.member_b, right.member_a, right.member_b);
+    }
     physics::Couple speeds(const Joint& joint) const { return {speed(joint.a, joint.member_a), speed(joint.b, joint.member_b)}; }
     // In the biased pass with what the contacts have done, whose slots come before those of the blocks.
-    void restart(bool biased) {
+    void take_velocities(bool biased) {
         for (Joint& record : members_) {
             const physics::uint body = record.member;
-            record.velocity = state_.velocities[body];
-            if (!biased || record.slot == NONE) continue;
-            const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1], end = state_.slot_ends[body] - record.blocks;
-            for (std::size_t k = first; k < end; ++k) {
-                record.velocity.linear += state_.slots[k].linear;
-                record.velocity.angular += state_.slots[k].angular;
+            physics::Velocity velocity = state_.velocities[body];
+            if (biased && record.slot != NONE) {
+                const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1];
+                for (std::size_t k = first; k < state_.slot_ends[body] - record.blocks; ++k)
+                    velocity = physics::changed_by(velocity, state_.slots[k]);
             }
+            record.velocity = record.velocity_before = velocity;
         }
     }
 
@@ -183,20 +175,10 @@ private:
         }
     }
 
-    float between(const Joint& left, physics::uint n, const Joint& right, physics::uint k, bool same_ends = false) const {
-        const bool linear = n < 3 && k < 3;
-        std::optional<float> sum;
-        for (const End x : {End{left.member_a, false}, End{left.member_b, true}}) {
-            for (const End y : {End{right.member_a, false}, End{right.member_b, true}}) {
-                if (x.member == NONE || x.member != y.member || (same_ends && x.is_b != y.is_b)) continue;
-                const float give =
-                    physics::give_between(left.rows[n].direction, arm(left.rows[n], x.is_b), right.rows[k].direction,
-                                          arm(right.rows[k], y.is_b), linear, all_[x.member].mass);
-                const float felt = x.is_b == y.is_b ? give : -give;
-                sum = sum ? *sum + felt : felt;
-            }
-        }
-        return sum.value_or(0);
+    // The entry of row n of a joint and a row of another, of that response.
+    static float entry(const Joint& left, physics::uint n, const Joint& right, const physics::RowResponse& to) {
+        const JointRow& row = left.rows[n];
+        return physics::row_entry(row.direction, row.arm_a, row.arm_b, n, to, shared(left, right));
     }
 
     void apply_given(Joint& joint, bool biased) {
@@ -204,39 +186,28 @@ private:
         const physics::Couple before{speed(joint.a, NONE), speed(joint.b, NONE)};
         for_each_axis(joint, [&](physics::uint k, const physics::JointAxis& axis, JointRow& row) {
             const physics::uint pin = physics::pins_of(joint.pins, k);
-            const bool stopped = (pin & (physics::STOP_LOW | physics::STOP_HIGH)) != 0;
-            const bool driven = physics::drive_is_solved(axis, row, pin, biased, p_);
-            row.stop_change = stopped ? 0 : -row.stop;
-            row.drive_change = 0;
-            if (!driven)
-                row.drive_change =
-                    physics::held_drive(axis, row, pin, physics::row_speed(row, k < 3, before), biased, p_) - row.drive;
-            if (stopped || driven) joint.solved |= 1u << k;
-            const float given = row.drive_change + row.stop_change;
+            if (physics::row_is_unknown(axis, row, pin, biased, p_)) joint.solved |= 1u << k;
+            row = physics::row_given(axis, row, pin, physics::row_speed(row, k < 3, before), biased, p_);
+            const float given = physics::given_change(row);
             if (given != 0) push(joint, k, given);
         });
-    }
-
-    physics::Demand demand(const Joint& joint, physics::uint k, bool biased) const {
-        const physics::uint pin = physics::pins_of(joint.pins, k);
-        if ((pin & (physics::STOP_LOW | physics::STOP_HIGH)) == 0)
-            return physics::drive_demand(joint.axes[k], joint.rows[k], k, biased, p_);
-        return physics::stop_demand(joint.axes[k], joint.rows[k], k, (pin & physics::STOP_LOW) != 0, biased, p_);
     }
 
     void set_up(Joint& joint, bool biased) {
         const physics::Couple v = speeds(joint);
         for (physics::uint k = 0; k < 6; ++k) {
             if (!unknown(joint, k)) continue;
-            const physics::Demand wants = demand(joint, k, biased);
-            joint.solution[k] = -(physics::row_speed(joint.rows[k], k < 3, v) + wants.bias);
+            const JointRow& row = joint.rows[k];
+            const physics::Demand wants = physics::row_demand(joint.axes[k], row, k, physics::pins_of(joint.pins, k), biased, p_);
+            const physics::RowResponse to = physics::row_response(row, k, mass(joint.member_a), mass(joint.member_b));
+            joint.solution[k] = physics::right_hand_side(physics::row_speed(row, k < 3, v), wants);
             for (physics::uint n = k; n < 6; ++n)
-                if (unknown(joint, n)) joint.diagonal[6 * n + k] = between(joint, n, joint, k);
-            joint.diagonal[7 * k] += wants.compliance;
+                if (unknown(joint, n)) joint.diagonal[6 * n + k] = entry(joint, n, joint, to);
+            joint.diagonal[7 * k] = physics::softened(joint.diagonal[7 * k], wants);
             for (physics::uint l = 0; l < joint.links; ++l)
                 for (physics::uint n = 0; n < 6; ++n)
                     if (const Joint& later = all_[joint.links_to[l]]; unknown(later, n))
-                        joint.coupling[36 * l + 6 * n + k] = between(later, n, joint, k);
+                        joint.coupling[36 * l + 6 * n + k] = entry(later, n, joint, to);
         }
     }
 
@@ -250,27 +221,33 @@ private:
         joint.diagonal[7 * k] = inverse;
         for (physics::uint n = k + 1; n < 6; ++n) {
             if (!unknown(joint, n)) continue;
-            const float part = joint.diagonal[6 * n + k] * inverse;
-            joint.solution[n] -= part * joint.solution[k];
+            const float multiplier = physics::multiplier_of(joint.diagonal[6 * n + k], inverse);
+            joint.solution[n] = physics::less_multiple(joint.solution[n], multiplier, joint.solution[k]);
             for (physics::uint c = k + 1; c <= n; ++c)
-                if (unknown(joint, c)) joint.diagonal[6 * n + c] -= part * joint.diagonal[6 * c + k];
+                if (unknown(joint, c))
+                    joint.diagonal[6 * n + c] =
+                        physics::less_multiple(joint.diagonal[6 * n + c], multiplier, joint.diagonal[6 * c + k]);
         }
         for (physics::uint l = 0; l < joint.links; ++l) {
             Joint& later = all_[joint.links_to[l]];
             float* own = joint.coupling + 36 * l;
             for (physics::uint n = 0; n < 6; ++n) {
                 if (!unknown(later, n)) continue;
-                const float part = own[6 * n + k] * inverse;
-                later.solution[n] -= part * joint.solution[k];
+                const float multiplier = physics::multiplier_of(own[6 * n + k], inverse);
+                later.solution[n] = physics::less_multiple(later.solution[n], multiplier, joint.solution[k]);
                 for (physics::uint c = k + 1; c < 6; ++c)
-                    if (unknown(joint, c)) own[6 * n + c] -= part * joint.diagonal[6 * c + k];
+                    if (unknown(joint, c))
+                        own[6 * n + c] = physics::less_multiple(own[6 * n + c], multiplier, joint.diagonal[6 * c + k]);
                 for (physics::uint c = 0; c <= n; ++c)
-                    if (unknown(later, c)) later.diagonal[6 * n + c] -= part * own[6 * c + k];
+                    if (unknown(later, c))
+                        later.diagonal[6 * n + c] = physics::less_multiple(later.diagonal[6 * n + c], multiplier, own[6 * c + k]);
                 for (physics::uint e = 0; e < l; ++e) {
                     Joint& middle = all_[joint.links_to[e]];
                     float* theirs = coupling(middle, joint.links_to[l]);
                     for (physics::uint c = 0; c < 6; ++c)
-                        if (unknown(middle, c)) theirs[6 * n + c] -= part * joint.coupling[36 * e + 6 * c + k];
+                        if (unknown(middle, c))
+                            theirs[6 * n + c] =
+                                physics::less_multiple(theirs[6 * n + c], multiplier, joint.coupling[36 * e + 6 * c + k]);
                 }
             }
         }
@@ -279,12 +256,12 @@ private:
     void substitute(Joint& joint, physics::uint k) {
         float sum = joint.solution[k];
         for (physics::uint n = k + 1; n < 6; ++n)
-            if (unknown(joint, n)) sum -= joint.diagonal[6 * n + k] * joint.solution[n];
+            if (unknown(joint, n)) sum = physics::less_multiple(sum, joint.diagonal[6 * n + k], joint.solution[n]);
         for (physics::uint l = 0; l < joint.links; ++l)
             for (physics::uint n = 0; n < 6; ++n)
                 if (const Joint& later = all_[joint.links_to[l]]; unknown(later, n))
-                    sum -= joint.coupling[36 * l + 6 * n + k] * later.solution[n];
-        joint.solution[k] = sum * joint.diagonal[7 * k];
+                    sum = physics::less_multiple(sum, joint.coupling[36 * l + 6 * n + k], later.solution[n]);
+        joint.solution[k] = physics::substituted(sum, joint.diagonal[7 * k]);
     }
 
     bool other_bounds(Joint& joint, bool biased, bool settling) {
@@ -294,10 +271,10 @@ private:
             const physics::uint pin = physics::pins_of(joint.pins, k);
             const bool solved = unknown(joint, k);
             const float solution = solved ? joint.solution[k] : 0;
-            const physics::uint now =
-                physics::pins_after(axis, row, k, pin, solved, solution, physics::row_speed(row, k < 3, v), biased, settling, p_);
-            row = physics::row_after(row, axis, pin, solved, solution, p_);
-            joint.pins = physics::with_pins(joint.pins, k, now);
+            const physics::RowAfter after =
+                physics::row_after_round(axis, row, k, pin, solved, solution, v, biased, settling, p_);
+            row = after.row;
+            joint.pins = physics::with_pins(joint.pins, k, after.pin);
         });
         return joint.pins != before;
     }
@@ -326,15 +303,16 @@ void for_each_block(State& state, const Threads& threads, const Work& work) {
 }
 
 void take_stock(Joint& joint, const State& state) {
-    const float inverse_dt = physics::reciprocal(state.fixed().dt);
-    joint.force *= inverse_dt;
-    joint.torque *= inverse_dt;
-    joint.greatest_force = std::max(joint.greatest_force, physics::length3(joint.force));
-    joint.greatest_torque = std::max(joint.greatest_torque, physics::length3(joint.torque));
+    const physics::JointLoad load =
+        physics::mean_load({joint.force, joint.greatest_force, joint.torque, joint.greatest_torque}, state.fixed());
+    joint.force = load.force;
+    joint.greatest_force = load.greatest_force;
+    joint.torque = load.torque;
+    joint.greatest_torque = load.greatest_torque;
     if (!physics::joint_tears(joint.force, joint.break_force, joint.torque, joint.break_torque)) return;
     joint.broken = 1;
     joint.pins = 0;
-    for (JointRow& row : joint.rows) row.drive = row.stop = 0;
+    for (JointRow& row : joint.rows) row = physics::torn(row);
 }
 
 }  // namespace
@@ -389,7 +367,7 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
         block.lend(true);
         block.place(false);
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
-        block.gather([](const JointRow& row) { return row.drive + row.stop; });
+        block.gather(physics::row_impulse);
         block.hand_out([](const Joint& record) { return record.pressed; });
     });
 }
@@ -398,7 +376,7 @@ void solve_joints(State& state, const Threads& threads, std::uint32_t) {
     for_each_block(state, threads, [](Block block) {
         if (!block.moves()) return;
         block.solve(true);
-        block.gather([](const JointRow& row) { return row.drive_change + row.stop_change; });
+        block.gather([](const JointRow& row) { return physics::handed_impulse(row, /* warms */ false); });
         block.for_each_whole(Block::commit);
         block.hand_out([](const Joint&) { return 0.0f; });
     });
@@ -408,10 +386,7 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
     for_each_block(state, threads, [&](Block block) {
         if (!block.moves()) return;
         block.solve(false);
-        block.gather([&](const JointRow& row) {
-            const float change = row.drive_change + row.stop_change;
-            return last ? change : ((row.drive + row.stop) + change) + change;
-        });
+        block.gather([&](const JointRow& row) { return physics::handed_impulse(row, /* warms */ !last); });
         float told = physics::FOREVER;
         block.for_each_whole([&](Joint& joint) {
             Block::commit(joint);

@@ -11,9 +11,13 @@ std::string ReferenceRunner::device() const {
 
 void ReferenceRunner::attach(State& state) {
     state_ = &state;
-    if (planned_substeps_ == state.substeps && planned_content_ == state.content()) return;
-    planned_substeps_ = state.substeps;
-    planned_content_ = state.content();
+    adapt();
+}
+
+void ReferenceRunner::adapt() {
+    if (planned_substeps_ == state_->substeps && planned_content_ == state_->content()) return;
+    planned_substeps_ = state_->substeps;
+    planned_content_ = state_->content();
     plan_ = plan(planned_substeps_, planned_content_);
     clock_ = StageClock(plan_);
 }

@@ -15,17 +15,11 @@ public:
     std::string backend() const override { return "cpu"; }
     std::string device() const override;
     std::uint32_t group_size() const override { return 64; }
+    const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
     void attach(State& state) override;
+    void adapt() override;
     bool step() override;
-    void fetch_body(std::size_t) override {}
-    void fetch_bodies() override {}
-    void fetch_contacts() override {}
-    void fetch_joints() override {}
-    void send_joint(std::size_t) override {}
-    void fetch_vehicles() override {}
-    void send_vehicle(std::size_t) override {}
-    void fetch() override {}
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
@@ -33,6 +27,10 @@ public:
     bool step(const std::function<bool(const Stage&, std::size_t index)>& look);
 
 private:
+    // In place: what is in the state is where it is needed.
+    void send(const std::vector<TableRange>&) override {}
+    void receive(const std::vector<TableRange>&) override {}
+
     Threads threads_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;

@@ -49,9 +49,7 @@ SCREE_STAGE(fill_slots);
 SCREE_STAGE(order_slots);
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
-SCREE_STAGE(relax_contacts);
-
-SCREE_STAGE(relax_contacts_felt);
+SCREE_STAGE(relax_contacts);  // pass: 1 in the step's last substep, 2 in its first, 4 if what contacts carry is added up
 
 // joints.cpp
 SCREE_STAGE(wake_joined);

@@ -21,23 +21,6 @@ std::uint32_t threads_of_a_group(const host::Device& device) {
     return device.report().is_processor ? 64 : 128;
 }
 
-// contacts <-> contacts_before and so on in the second parity.
-Table other_parity(Table table) {
-    using enum Table;
-    switch (table) {
-        case contacts:
-            return contacts_before;
-        case contacts_before:
-            return contacts;
-        case impulses:
-            return impulses_before;
-        case impulses_before:
-            return impulses;
-        default:
-            return table;
-    }
-}
-
 std::size_t buffer_of(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].buffer;
 }
@@ -85,15 +68,19 @@ host::Buffer& DeviceRunner::buffer(Table table) {
 }
 
 void DeviceRunner::attach(State& state) {
-    device_->wait_idle();
     state_ = &state;
+    adapt();
+    upload_all();
+}
+
+void DeviceRunner::adapt() {
+    device_->wait_idle();
     make_buffers();
     const host::Reach reach = reach_needed();
-    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() || planned_substeps_ != state.substeps ||
-        planned_content_ != state.content())
+    if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() ||
+        planned_substeps_ != state_->substeps || planned_content_ != state_->content())
         make_plan(reach);
     fuse();
-    upload();
     bind_tables();
 }
 
@@ -136,13 +123,13 @@ std::uint32_t DeviceRunner::fused_group_size() const {
 }
 
 std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const {
-    if (stage.reference) return {group_size(), stage.content};
-    return {fused_group_size(), stage.content, is_one_subgroup() ? 1u : 0u};
+    return {stage.reference ? group_size() : fused_group_size(), stage.content, is_one_subgroup() ? 1u : 0u,
+            shaders::variant_of(stage.name)};
 }
 
 void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
     const std::string variant =
-        std::string(layout_->reach() == host::Reach::far ? ".far" : "") + (layout_->has_texels() ? ".texels" : "");
+        std::string(layout_->reach() == host::Reach::far ? ".bda" : "") + (layout_->has_texels() ? ".texels" : "");
     // Drivers take up to a tenth of a second for each, on one core.
     std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
     for (const Stage& stage : stages)
@@ -160,7 +147,10 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
 
 // A world that has grown may be small no more.
 void DeviceRunner::fuse() {
-    std::vector<Stage> recorded = fused(plan_, state_->fixed(), fused_group_size());
+    std::vector<Stage> recorded;
+    joint_rounds_ = joint_rounds_at_once(state_->joints, state_->fixed().joint_blocks);
+    for (const Stage& stage : fused(plan_, state_->fixed(), fused_group_size()))
+        for (Stage& dispatch : dispatches_of(stage, joint_rounds_)) recorded.push_back(std::move(dispatch));
     const bool as_before = std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),
                                       [](const Stage& a, const Stage& b) { return a.name == b.name && a.pass == b.pass; });
     recorded_ = std::move(recorded);
@@ -249,7 +239,7 @@ const host::Recording& DeviceRunner::whole_step() {
     if (timed_) recording->timestamp();
     for (const Stage& stage : recorded_) {
         record_stage(*recording, stage);
-        if (stage.feeds_next) recording->barrier();
+        if (stage.barrier_after) recording->barrier();
         if (timed_) recording->timestamp();
     }
     recording->copy(buffers_[buffer_of(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
@@ -307,8 +297,10 @@ void DeviceRunner::run_stage(std::size_t index) {
         make_pipelines(plan_);
         for (const Stage& stage : plan_) {
             auto recording = std::make_unique<host::Recording>(device_, 0);
-            record_stage(*recording, stage);
-            recording->barrier();
+            for (const Stage& dispatch : dispatches_of(stage, joint_rounds_)) {
+                record_stage(*recording, dispatch);
+                recording->barrier();
+            }
             recording->end();
             alone.push_back(std::move(recording));
         }

@@ -1,6 +1,7 @@
 // The device runner: the plan's stages as compute dispatches on a Vulkan device, recorded once and submitted every step.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -12,6 +13,7 @@
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
 #include "compute/step/table_layout.h"
+#include "compute/step/table_ranges.h"
 #include "host/vulkan/buffer.h"
 #include "host/vulkan/command_buffer.h"
 #include "host/vulkan/device.h"
@@ -27,18 +29,12 @@ public:
     std::string backend() const override { return "vulkan"; }
     std::string device() const override;
     std::uint32_t group_size() const override;
+    const Threads& threads() const override { return threads_; }
     bool in_place() const override { return false; }
     void attach(State& state) override;  // throws host::DeviceError when the device has no room, saying for how many there is
+    void adapt() override;               // throws the same
     bool step() override;
     bool steps(int count, std::uint64_t& done) override;
-    void fetch_body(std::size_t index) override;
-    void fetch_bodies() override;
-    void fetch_contacts() override;
-    void fetch_joints() override;
-    void send_joint(std::size_t record) override;
-    void fetch_vehicles() override;
-    void send_vehicle(std::size_t index) override;
-    void fetch() override;
     void time_stages(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
@@ -57,7 +53,9 @@ public:
     void read(Table table, std::span<std::byte> bytes, std::size_t offset = 0) const;
     void write(Table table, std::span<const std::byte> bytes);
     // Whether stages run as one because the world is small.
-    bool is_fused() const { return recorded_.size() < plan_.size(); }
+    bool is_fused() const {
+        return std::any_of(recorded_.begin(), recorded_.end(), [](const Stage& stage) { return !stage.reference; });
+    }
     // Whether the tables are bound or, too long or too many for this device, found by address.
     host::Reach reach() const { return layout_->reach(); }
     // Fills with 0xCD every table that the step now begun must not read before it has written it.
@@ -75,24 +73,29 @@ private:
     std::vector<std::uint32_t> constants_of(const Stage& stage) const;  // for its specialisation
     void make_pipelines(const std::vector<Stage>& stages);
     void make_buffers();
-    void upload();
+    void make_buffer(std::size_t index);
+    void move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index);
+    void upload_all();
     void bind_tables();
     const host::Recording& whole_step();
     bool finished(std::size_t parity);  // a step: whether every list had room
     void record_stage(host::Recording& recording, const Stage& stage) const;
     void send_inputs();
-    void fetch_live(Table table);
+    void send(const std::vector<TableRange>& ranges) override;
+    void receive(const std::vector<TableRange>& ranges) override;
 
     std::shared_ptr<host::Device> device_;
     State* state_ = nullptr;
     std::vector<Stage> plan_;
-    std::vector<Stage> recorded_;  // the plan, in a small world with stages fused
+    Threads threads_{0};
+    std::vector<Stage> recorded_;     // the plan, in a small world with stages fused
+    std::uint32_t joint_rounds_ = 1;  // that a dispatch may do
     int planned_substeps_ = 0;
     Content planned_content_;
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
     std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
-    TablePlaces places_;                                                         // of the tables in the buffers
+    TableOffsets offsets_;                                                       // of the tables in the buffers
     std::vector<host::Buffer> buffers_;        // by binding; contacts and those before change places with the parity
     std::array<host::Buffer, 2> counts_back_;  // per parity
     // Per parity: the table, and (made when asked for) the whole step, without and with times, and each stage alone.

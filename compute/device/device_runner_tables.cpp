@@ -3,8 +3,10 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <set>
 
 #include "compute/device/device_runner.h"
+#include "host/vulkan/transfer.h"
 
 namespace scree {
 
@@ -12,10 +14,11 @@ namespace {
 
 std::string what_would_fit(const State& state, const host::DeviceReport& device) {
     // A body brings its parts and the pieces that it may break into: all have rows.
-    const auto pieces = static_cast<std::size_t>(std::count_if(
-        state.traits.begin(), state.traits.end(), [](const physics::Traits& t) { return t.motion == physics::MOTION_UNBORN; }));
+    const auto pieces =
+        static_cast<std::size_t>(std::count_if(state.traits.begin(), state.traits.begin() + state.body_count,
+                                               [](const physics::Traits& t) { return t.motion == physics::MOTION_UNBORN; }));
     const std::size_t parts = state.fixed().bodies - state.fixed().first_part;
-    const auto bodies = static_cast<double>(state.fixed().first_part - pieces);
+    const auto bodies = static_cast<double>(state.body_count - pieces);
     const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
     std::string with;
     if (pieces > 0) with += ", with the " + std::to_string(pieces) + " pieces that they may break into,";
@@ -23,7 +26,52 @@ std::string what_would_fit(const State& state, const host::DeviceReport& device)
     char text[160];
     std::snprintf(text, sizeof text, " take %.3g GB, %s has %.3g: about %.2g bodies like these would fit", needed / 1e9,
                   device.name.c_str(), memory / 1e9, std::min(bodies, bodies * memory / needed));
-    return "All tables of the " + std::to_string(state.fixed().first_part - pieces) + " bodies" + with + text;
+    return "All tables of the " + std::to_string(state.body_count - pieces) + " bodies" + with + text;
+}
+
+// What a table holds from one step to the next, or until a step that was cut short is repeated.
+bool lasts(Table table) {
+    const std::vector<Table>& lasting = lasting_tables();
+    return std::any_of(lasting.begin(), lasting.end(), [&](Table one) { return one == table || other_parity(one) == table; });
+}
+
+// The same of some table in a buffer.
+bool lasts(std::size_t buffer) {
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (table_infos()[i].buffer == buffer && lasts(static_cast<Table>(i))) return true;
+    return false;
+}
+
+// Of the tables in one buffer.
+void take_offsets(TableOffsets& offsets, const TableOffsets& wanted, std::size_t buffer) {
+    offsets.bytes[buffer] = wanted.bytes[buffer];
+    for (std::size_t i = 0; i < table_count; ++i) {
+        if (table_infos()[i].buffer != buffer) continue;
+        offsets.begin[i] = wanted.begin[i];
+        offsets.room[i] = wanted.room[i];
+    }
+}
+
+// Records that a table gets beyond those it needs: half as many again of what edits add one by one. Lists have room of their own
+// (State::grow).
+std::size_t room_behind(const State& state, Length length) {
+    switch (length) {
+        case Length::bodies:
+        case Length::entries:
+        case Length::bodies_and_end:
+        case Length::hulls:
+        case Length::parts:
+        case Length::fractures:
+        case Length::pieces:
+        case Length::tyres:
+        case Length::joints:
+        case Length::vehicles:
+            return 16 + state.allocated(length) / 2;
+        case Length::slots:
+            return 16 + state.joints.size() / 2;
+        default:
+            return 0;
+    }
 }
 
 }  // namespace
@@ -36,30 +84,60 @@ void DeviceRunner::make_buffers() {
                                 " items, but this device runs at most " +
                                 std::to_string(std::uint64_t{most_groups} * p.group_size) +
                                 " threads at once: use fewer bodies, or --backend cpu");
-    places_ = table_places(*state_);
     buffers_.resize(buffer_count);
-    for (std::size_t i = 0; i < buffer_count; ++i) {
-        if (buffers_[i].bytes() == places_.bytes[i]) continue;
-        buffers_[i] = {};  // its memory first, then the new one's
+    for (std::size_t i = 0; i < buffer_count; ++i)
+        if (!buffers_[i] || !have_room(offsets_, i, *state_)) make_buffer(i);
+    tell_offsets(offsets_, state_->fixed());
+}
+
+// Where an edit has made a table longer, others may follow: with room for them, unless there is none. What lasts goes along.
+void DeviceRunner::make_buffer(std::size_t index) {
+    const TableOffsets were = offsets_;
+    host::Buffer before = std::move(buffers_[index]);
+    const bool keeps = before && lasts(index);
+    const TableOffsets exact = table_offsets(*state_),
+                       roomy = table_offsets(*state_, [&](Length length) { return room_behind(*state_, length); });
+    const bool with_room = before && roomy.bytes[index] <= device_->report().largest_binding;
+    if (!keeps) before = {};  // its memory first, then the new one's
+    const auto make = [&](const TableOffsets& wanted) {
+        buffers_[index] = host::Buffer(device_, buffer_infos()[index].name, wanted.bytes[index]);
+        take_offsets(offsets_, wanted, index);
+    };
+    try {
+        make(with_room ? roomy : exact);
+    } catch (const host::DeviceError&) {
         try {
-            buffers_[i] = host::Buffer(device_, buffer_infos()[i].name, places_.bytes[i]);
+            make(exact);
         } catch (const host::DeviceError& error) {
+            buffers_[index] = std::move(before);
             throw host::DeviceError(std::string(error.what()) + ". " + what_would_fit(*state_, device_->report()));
         }
     }
+    if (keeps) move_lasting(before, were, index);
 }
 
-void DeviceRunner::upload() {
-    using enum Table;
+void DeviceRunner::move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index) {
+    host::Recording recording(device_);
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const std::size_t bytes = std::min(were.room[i], offsets_.room[i]);
+        if (table_infos()[i].buffer == index && lasts(static_cast<Table>(i)) && bytes > 0)
+            recording.copy(before, buffers_[index], bytes, were.begin[i], offsets_.begin[i]);
+    }
+    recording.end();
+    device_->submit_and_wait({recording.handle()});
+}
+
+void DeviceRunner::upload_all() {
     parity_ = 0;
-    const auto send = [&](Table table) { write(table, state_->raw(table)); };
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, strains, hulls, parts, fractures, pieces,
-                              tyres, way_points, joints, vehicles, ids})
-        send(table);
+    // Also what will last under its other name. Before the first step, and for tables that were never brought back, zeros are
+    // right.
+    std::set<Table> lasting;
+    for (const Table table : lasting_tables()) lasting.insert({table, other_parity(table)});
+    TableRanges all;
+    for (const Table table : lasting)
+        all.push_back({table, 0, state_->raw(table).size() / table_infos()[static_cast<std::size_t>(table)].record_bytes});
+    upload(all);
     sent_ = state_->fixed();
-    // Before the first step, and for tables that were never brought back, zeros are right.
-    for (const Table table : {masses, contacts, contacts_before, impulses, impulses_before, first_contacts})
-        if (!state_->raw(table).empty()) send(table);
 }
 
 void DeviceRunner::send_inputs() {
@@ -72,23 +150,20 @@ void DeviceRunner::send_inputs() {
 }
 
 void DeviceRunner::read(Table table, std::span<std::byte> bytes, std::size_t offset) const {
-    buffer(table).read(bytes.data(), bytes.size(), places_.begin[static_cast<std::size_t>(table)] + offset);
+    buffer(table).read(bytes.data(), bytes.size(), range(table).offset + offset);
 }
 
 void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
-    if (!bytes.empty()) buffer(table).write(bytes.data(), bytes.size(), places_.begin[static_cast<std::size_t>(table)]);
+    buffer(table).write(bytes.data(), bytes.size(), range(table).offset);
 }
 
 DeviceRunner::Range DeviceRunner::range(Table table) const {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    return {&buffer(table), places_.begin[static_cast<std::size_t>(table)], state_->allocated(info.length) * info.record_bytes};
+    const auto place = static_cast<std::size_t>(table);
+    return {&buffer(table), offsets_.begin[place], offsets_.room[place]};
 }
 
 void DeviceRunner::poison() {
-    using enum Table;
-    const auto lasting = {parameters, counts, traits,    poses,   velocities,      rests,           strains,
-                          hulls,      parts,  fractures, pieces,  tyres,           way_points,      joints,
-                          vehicles,   ids,    masses,    actions, contacts_before, impulses_before, first_contacts};
+    const std::vector<Table>& lasting = lasting_tables();
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
@@ -97,68 +172,29 @@ void DeviceRunner::poison() {
     }
 }
 
-void DeviceRunner::fetch_body(std::size_t index) {
-    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests}) {
-        const std::size_t bytes = table_infos()[static_cast<std::size_t>(table)].record_bytes;
-        read(table, state_->raw(table).subspan(index * bytes, bytes), index * bytes);
+void DeviceRunner::send(const TableRanges& ranges) {
+    std::vector<host::Upload> pieces;
+    for (const TableRange& range : ranges) {
+        const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+        pieces.push_back({std::as_const(*state_).raw(range.table).subspan(range.first * bytes, range.count * bytes),
+                          &buffer(range.table), this->range(range.table).offset + range.first * bytes});
     }
+    host::upload(device_, pieces);
 }
 
-void DeviceRunner::fetch_bodies() {
-    for (const Table table : {Table::counts, Table::poses, Table::velocities, Table::rests}) read(table, state_->raw(table));
-    if (planned_content_.breaking) read(Table::traits, state_->raw(Table::traits));  // who is there
-}
-
-void DeviceRunner::fetch_contacts() {
-    for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) fetch_live(table);
-    if (planned_content_.reordered) fetch_live(Table::first_contacts);  // contacts_by_id
-    if (planned_content_.convex) fetch_live(Table::pairs);              // whose hulls traffic_of counts
+void DeviceRunner::receive(const TableRanges& ranges) {
+    std::vector<host::Download> pieces;
+    for (const TableRange& range : ranges) {
+        const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+        if (state_->raw(range.table).size() < (range.first + range.count) * bytes) state_->make(range.table);
+        pieces.push_back({state_->raw(range.table).subspan(range.first * bytes, range.count * bytes), &buffer(range.table),
+                          this->range(range.table).offset + range.first * bytes});
+    }
+    host::download(device_, pieces);
 }
 
 std::uint32_t DeviceRunner::joint_records() const {
     return state_->has_joints() ? static_cast<std::uint32_t>(state_->joints.size()) : 0;
-}
-
-void DeviceRunner::fetch_joints() {
-    if (state_->has_joints()) read(Table::joints, state_->raw(Table::joints));
-}
-
-void DeviceRunner::fetch_vehicles() {
-    if (planned_content_.vehicles) read(Table::vehicles, state_->raw(Table::vehicles));
-}
-
-void DeviceRunner::send_vehicle(std::size_t index) {
-    constexpr std::size_t first = offsetof(physics::Handling, throttle);
-    constexpr std::size_t bytes = offsetof(physics::Handling, next) - first;
-    buffer(Table::vehicles).write(&state_->vehicles[index].handling.throttle, bytes, index * sizeof(physics::Vehicle) + first);
-}
-
-void DeviceRunner::send_joint(std::size_t record) {
-    const physics::Joint& joint = state_->joints[record];
-    buffer(Table::joints).write(joint.axes, sizeof joint.axes, record * sizeof joint + offsetof(physics::Joint, axes));
-}
-
-void DeviceRunner::fetch() {
-    fetch_bodies();
-    for (std::size_t i = 0; i < table_count; ++i) {
-        const auto table = static_cast<Table>(i);
-        const bool is_input = table == Table::parameters || table == Table::actions;
-        if (table == Table::candidates || table == Table::scan_sums || is_input) continue;
-        if (table == Table::contacts_before || table == Table::impulses_before) {
-            state_->make(table);
-            read(table, state_->raw(table));
-        } else {
-            fetch_live(table);
-        }
-    }
-}
-
-// The items that mean something at present. `counts` must be here already.
-void DeviceRunner::fetch_live(Table table) {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    state_->make(table);
-    const std::size_t items = state_->live(info.length);
-    if (items) read(table, state_->raw(table).first(items * info.record_bytes));
 }
 
 }  // namespace scree

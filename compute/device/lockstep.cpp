@@ -28,12 +28,12 @@ std::string words_of(const std::byte* cpu, const std::byte* device, std::size_t 
 }
 
 // The first record of the table in which the device differs from the state, into the result.
-bool table_equal(const State& state, const DeviceRunner& device, const Stage& stage, Table table, LockstepResult& result) {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    const auto expected = state.raw(table).first(state.live(stage.as_long_as.value_or(info.length)) * info.record_bytes);
+bool table_equal(const State& state, const DeviceRunner& device, const Compared& compared, LockstepResult& result) {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(compared.table)];
+    const auto expected = state.raw(compared.table).first(state.live(compared.length) * info.record_bytes);
     if (expected.empty()) return true;
     std::vector<std::byte> found(expected.size());
-    device.read(table, found);
+    device.read(compared.table, found);
     const auto [cpu, gpu] = std::mismatch(expected.begin(), expected.end(), found.begin());
     if (cpu == expected.end()) return true;
     const std::size_t word = static_cast<std::size_t>(cpu - expected.begin()) / 4 * 4;
@@ -69,8 +69,9 @@ struct Lockstep::Interior {
         there.run_stage(index);
         result.stage = stage.name;
         // After an overflow nobody writes anything but the counts.
-        return std::all_of(stage.writes.begin(), stage.writes.end(), [&](Table table) {
-            return (state.counted().overflow != 0 && table != Table::counts) || table_equal(state, there, stage, table, result);
+        return std::all_of(stage.compared.begin(), stage.compared.end(), [&](const Compared& compared) {
+            return (state.counted().overflow != 0 && compared.table != Table::counts) ||
+                   table_equal(state, there, compared, result);
         });
     }
 
@@ -80,10 +81,12 @@ struct Lockstep::Interior {
         there.begin_step();
         there.poison();
         if (here.step([&](const Stage& stage, std::size_t index) { return compare(stage, index); }) || !result.equal) return true;
-        there.fetch();
+        there.download({{Table::counts, 0, 1}});
         image.grow();
         state.grow();
-        attach();
+        there.adapt();
+        there.upload({{Table::counts, 0, 1}});
+        here.adapt();
         return false;
     }
 };
@@ -99,10 +102,23 @@ DeviceRunner& Lockstep::device() {
 }
 
 void Lockstep::change(const std::function<void(State&)>& make) {
-    interior_->there.fetch();
+    interior_->there.download({{Table::counts, 0, 1}});
+    interior_->there.download(lasting_ranges(interior_->image));
     make(interior_->image);
     make(interior_->state);
     interior_->attach();
+}
+
+void Lockstep::edit(const std::function<TableRanges(const StateEditor&)>& needed,
+                    const std::function<TableRanges(StateEditor&)>& make) {
+    StateEditor of_image(interior_->image), of_state(interior_->state);
+    interior_->there.download({{Table::counts, 0, 1}});
+    interior_->there.download(needed(of_image));
+    const TableRanges changed = make(of_image);
+    make(of_state);
+    interior_->there.adapt();
+    interior_->here.adapt();
+    interior_->there.upload(changed);
 }
 
 bool Lockstep::step() {

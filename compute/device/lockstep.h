@@ -8,6 +8,7 @@
 
 #include "compute/scene.h"
 #include "compute/settings.h"
+#include "compute/step/state_editor.h"
 
 namespace scree {
 
@@ -15,7 +16,6 @@ namespace host {
 class Device;
 }
 class DeviceRunner;  // compute/device/device_runner.h
-struct State;        // compute/step/state.h
 
 struct LockstepResult {
     bool equal = true;
@@ -34,7 +34,9 @@ public:
     Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads);
     ~Lockstep();
     bool step();  // false: something differs, and result() says what
-    // The same change to the tables of both, between steps (StateEditor, parameters).
+    // The same edit of both, between steps; the device is sent what the editor says.
+    void edit(const std::function<TableRanges(const StateEditor&)>& needed, const std::function<TableRanges(StateEditor&)>& make);
+    // Any other change to the tables of both: the device gives all that lasts, and is attached anew.
     void change(const std::function<void(State&)>& make);
     const LockstepResult& result() const;
     DeviceRunner& device();

@@ -1,4 +1,4 @@
-// Shapes as the inside of planes, for cutting: exactly where they have flat faces, else as a polytope around them.
+// Planes that touch a shape in many directions, so that it can be cut as the inside of them.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,11 +8,21 @@
 
 namespace scree {
 
-// How far a checked shape reaches from its centre in a direction (of unit length), m. Not of a plane.
-double reach_along(const Shape& shape, glm::dvec3 direction);
+class TouchingPlanes {
+public:
+    explicit TouchingPlanes(const Shape& shape) : shape_(shape) {}
 
-// xyz: outward, unit; w: distance from the centre, m. The wall of a cylinder or cone has 24 planes, a ball 42, or where it
-// shall be `fine` 162.
-std::vector<glm::dvec4> planes_of(const Shape& shape, bool fine);
+    void touch(glm::dvec3 direction);
+    void touch_along_axes();
+    void touch_around(double slope);  // the y axis: what rises by `slope` for each metre outward
+    // In 42 directions, or 162 where it shall be `fine`; each divided by the stretch, as normals are of what is a ball before it
+    // is stretched.
+    void touch_all_over(bool fine, glm::dvec3 stretch = glm::dvec3(1));
+
+    std::vector<glm::dvec4> planes;  // xyz: outward, unit; w: distance from the centre, m
+
+private:
+    const Shape& shape_;
+};
 
 }  // namespace scree

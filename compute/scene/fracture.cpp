@@ -9,8 +9,8 @@
 #include <string>
 #include <voro++/voro++.hh>
 
-#include "compute/scene/convex_planes.h"
 #include "compute/scene/hull.h"
+#include "compute/scene/shape_geometry.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree {
@@ -20,8 +20,6 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr std::size_t most_pieces = 256;
-constexpr std::size_t most_depth = 4;
 constexpr std::size_t most_in_all =
     10000;  // pieces of one body, those of pieces included: a scene of a few bodies fills no memory
 
@@ -116,10 +114,11 @@ std::vector<Cell> cells_of(const Region& region, const std::vector<dvec3>& point
     return cells;
 }
 
-// Points in the region. They move to the middle of their cells twice (Lloyd, 1982): cells of raw random points are slivers.
+// Points in the region; fewer where next to nothing of the box around it is in it. They move to the middle of their cells twice
+// (Lloyd, 1982): cells of raw random points are slivers.
 std::vector<dvec3> scattered(const Region& region, std::size_t count, Random& random) {
     std::vector<dvec3> points;
-    while (points.size() < count) {
+    for (std::size_t tries = 0; points.size() < count && tries < 10'000 * count; ++tries) {
         const dvec3 half = region.half;
         const dvec3 point(random.between(-half.x, half.x), random.between(-half.y, half.y), random.between(-half.z, half.z));
         if (region.holds(point)) points.push_back(point);
@@ -280,33 +279,35 @@ std::vector<Body> voronoi(const Shape& shape, const Fracture& fracture) {
     }
 }
 
+template <class Value>
+void add_to_key(std::vector<double>& key, const Value& value) {
+    if constexpr (std::is_same_v<Value, float>) {
+        key.push_back(static_cast<double>(value));
+    } else if constexpr (std::is_same_v<Value, vec3>) {
+        key.insert(key.end(), {static_cast<double>(value.x), static_cast<double>(value.y), static_cast<double>(value.z)});
+    } else if constexpr (std::is_same_v<Value, std::vector<vec3>>) {
+        for (const vec3& point : value) add_to_key(key, point);
+    }
+}
 std::vector<double> key_of(const Shape& shape, const Fracture& f) {
     std::vector<double> key{static_cast<double>(shape.index()), static_cast<double>(f.cutting), static_cast<double>(f.pieces),
                             static_cast<double>(f.depth),       static_cast<double>(f.seed),    static_cast<double>(f.impulse),
                             static_cast<double>(f.momentum)};
-    const auto add = [&](vec3 v) {
-        key.insert(key.end(), {static_cast<double>(v.x), static_cast<double>(v.y), static_cast<double>(v.z)});
-    };
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) add(vec3(sphere->radius));
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) add({capsule->radius, capsule->half_height, 0});
-    if (const auto* box = std::get_if<Box>(&shape)) add(box->half_extents);
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) add({cylinder->radius, cylinder->half_height, 0});
-    if (const auto* cone = std::get_if<Cone>(&shape)) add({cone->radius, cone->height, 0});
-    if (const auto* hull = std::get_if<Hull>(&shape))
-        for (const vec3& point : hull->points) add(point);
+    std::visit(
+        [&](const auto& one) { for_each_field<decltype(one)>([&](const auto& field) { add_to_key(key, one.*field.member); }); },
+        shape);
     return key;
 }
 
+// What no range can say (compute/fields/body.h).
 void require_sense(const Shape& shape, const Fracture& f) {
     const bool by_impulse = f.impulse > 0 && std::isfinite(f.impulse), by_momentum = f.momentum > 0 && std::isfinite(f.momentum);
-    if (!(f.impulse >= 0)) throw FractureError("impulse", "must be positive");
-    if (!(f.momentum >= 0)) throw FractureError("momentum", "must be positive");
     if (by_impulse == by_momentum)
         throw FractureError("", "needs one threshold that is positive: \"impulse\" or \"momentum\", N s");
-    if (f.pieces < 2 || f.pieces > most_pieces)
-        throw FractureError("pieces", "must be between 2 and 256, is " + std::to_string(f.pieces));
-    if (f.depth < 1 || f.depth > most_depth)
-        throw FractureError("depth", "must be between 1 and 4, is " + std::to_string(f.depth));
+    if (!simple_shape(shape) || std::holds_alternative<Plane>(shape))
+        throw FractureError("",
+                            "only a body of one convex shape can break: box, capsule, cone, cylinder, hull, sphere; make the "
+                            "parts bodies of their own, held together by joints that break");
     if (f.cutting == Cutting::boxes && !std::holds_alternative<Box>(shape))
         throw FractureError("cutting", "only a box can be cut into boxes; others: \"voronoi\", \"splinters\"");
     if (std::pow(static_cast<double>(f.pieces), static_cast<double>(f.depth)) > most_in_all)

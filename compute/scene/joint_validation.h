@@ -11,7 +11,8 @@ namespace scree {
 // Makes frames unit quaternions. Throws SceneError, naming the joint, for a body that is missing, a joint of a body with itself
 // or between two that never move, an axis or frame without length, limits reversed, and what is not finite or out of range.
 void check_joints(Scene& scene);
-void check_joint(Scene& scene, std::size_t index);  // one of them
+// One joint, as if it were the scene's at that index.
+void check_joint(const Scene& scene, Joint& joint, std::size_t index);
 
 // A body's own frame has moved: its origin to `centre`, its axes along `axes` (in the old frame). Anchors stay where they are.
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes);

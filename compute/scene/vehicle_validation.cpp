@@ -5,6 +5,8 @@
 #include <map>
 #include <string>
 
+#include "compute/fields/check.h"
+#include "compute/fields/vehicle.h"
 #include "compute/scene/validator.h"
 #include "compute/step/vehicle_records.h"
 
@@ -12,10 +14,7 @@ namespace scree {
 
 namespace {
 
-constexpr float most_torque = 1e9f;    // N m
-constexpr float most_power = 1e12f;    // W
-constexpr float most_speed = 1e3f;     // m/s
-constexpr float farthest = 1e6f;       // m, as of bodies
+static_assert(fields::field_of(&Vehicle::wheels).range.high == physics::MOST_WHEELS);
 constexpr float least_cosine = 0.99f;  // between two axles
 
 // Which vehicle has what, by its number.
@@ -50,21 +49,12 @@ void examine_joint(const Examination& vehicle, const std::string& key, const Whe
 }
 
 void examine_wheels(const Examination& vehicle, std::size_t index, const Vehicle& v, const Scene& scene, Owners& wheels) {
-    if (v.wheels.empty() || v.wheels.size() > physics::MOST_WHEELS)
-        vehicle.refuse("/wheels", "a vehicle has 1 to " + std::to_string(physics::MOST_WHEELS) + " wheels, not " +
-                                      std::to_string(v.wheels.size()));
     for (std::size_t k = 0; k < v.wheels.size(); ++k) {
         const Wheel& wheel = v.wheels[k];
         const std::string key = "/wheels/" + std::to_string(k);
         examine_joint(vehicle, key, wheel, v.chassis, scene);
         take(vehicle, wheels, index, scene.joints[wheel.joint].b, key + "/joint",
              "body " + std::to_string(scene.joints[wheel.joint].b) + " is a wheel");
-        if (!(wheel.radius > 0)) vehicle.refuse(key + "/radius", "must be positive, m, is " + text_of(wheel.radius));
-        vehicle.between(key + "/radius", wheel.radius, 1e-3f, 1e3f, " m");
-        vehicle.between(key + "/drive", wheel.drive, 0, 1e6f, "");
-        vehicle.between(key + "/brake", wheel.brake, 0, most_torque, " N m");
-        vehicle.between(key + "/hand_brake", wheel.hand_brake, 0, most_torque, " N m");
-        vehicle.between(key + "/skid", wheel.skid, -1, 1, "");
         if (glm::dot(axle_of(scene.joints[v.wheels[0].joint]), axle_of(scene.joints[wheel.joint])) < least_cosine)
             vehicle.refuse(key + "/joint", "its axle does not point the way of the first wheel's: all point to the left");
     }
@@ -72,40 +62,26 @@ void examine_wheels(const Examination& vehicle, std::size_t index, const Vehicle
 
 void examine_route(const Examination& vehicle, const Vehicle& v) {
     if (v.route.empty()) return;
-    if (v.route.size() < 2) vehicle.refuse("/route", "a route has at least 2 points: where it begins, and where it leads");
     if (v.next > v.route.size())
         vehicle.refuse("/next",
                        "there is no way point " + std::to_string(v.next) + "; the route has " + std::to_string(v.route.size()));
-    for (std::size_t k = 0; k < v.route.size(); ++k) {
-        const std::string key = "/route/" + std::to_string(k);
-        for (int i = 0; i < 3; ++i)
-            vehicle.between(key + "/position/" + std::to_string(i), v.route[k].position[i], -farthest, farthest, " m");
-        vehicle.between(key + "/speed", v.route[k].speed, 0.1f, most_speed, " m/s");
-        if (k > 0 && glm::distance(v.route[k].position, v.route[k - 1].position) < 0.01f)
-            vehicle.refuse(key + "/position", "lies on the way point before it; leave one of them out");
-    }
+    for (std::size_t k = 1; k < v.route.size(); ++k)
+        if (glm::distance(v.route[k].position, v.route[k - 1].position) < 0.01f)
+            refuse(vehicle / "route" / k / "position", "lies on the way point before it; leave one of them out");
 }
 
 void examine(std::size_t index, const Vehicle& v, const Scene& scene, Owners& chassis, Owners& wheels) {
     const Examination vehicle("vehicles", "vehicle", index, v.name);
+    for (std::size_t k = 0; k < v.wheels.size(); ++k)
+        if (v.wheels[k].radius <= 0)
+            refuse(vehicle / "wheels" / k / "radius", "must be positive, m, is " + text_of(v.wheels[k].radius));
+    fields::check_fields(vehicle, v);
     if (v.chassis >= scene.bodies.size())
         vehicle.refuse("/chassis", "there is no body " + std::to_string(v.chassis) + "; the scene has " +
                                        std::to_string(scene.bodies.size()));
     if (scene.bodies[v.chassis].motion != Motion::dynamic) vehicle.refuse("/chassis", "must be a dynamic body");
     take(vehicle, chassis, index, v.chassis, "/chassis", "body " + std::to_string(v.chassis) + " is the chassis");
     examine_wheels(vehicle, index, v, scene, wheels);
-    vehicle.between("/engine/torque", v.engine.torque, 0, most_torque, " N m");
-    vehicle.between("/engine/power", v.engine.power, 0, most_power, " W");
-    vehicle.between("/engine/top_speed", v.engine.top_speed, 0.01f, most_speed, " m/s");
-    vehicle.between("/engine/back_speed", v.engine.back_speed, 0.01f, most_speed, " m/s");
-    vehicle.between("/engine/drag", v.engine.drag, 0, most_torque, " N m");
-    vehicle.between("/steering/angle", v.steering.angle, 0.01f, 1.2f, " rad");
-    vehicle.between("/steering/time", v.steering.time, 0.01f, 100, " s");
-    vehicle.between("/steering/lateral", v.steering.lateral, 0.1f, 1e4f, " m/s^2");
-    vehicle.between("/controls/throttle", v.controls.throttle, -1, 1, "");
-    vehicle.between("/controls/brake", v.controls.brake, 0, 1, "");
-    vehicle.between("/controls/steer", v.controls.steer, -1, 1, "");
-    vehicle.between("/controls/hand_brake", v.controls.hand_brake, 0, 1, "");
     examine_route(vehicle, v);
 }
 

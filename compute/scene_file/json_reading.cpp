@@ -92,6 +92,19 @@ void read(const json& value, const Place& place, std::size_t& out) {
     out = value.get<std::size_t>();
 }
 
+void read(const json& value, const Place& place, std::uint32_t& out) {
+    std::size_t number = 0;
+    read(value, place, number);
+    if (number > 0xFFFFFFFFu) refuse(place, "must be below 4294967296");
+    out = static_cast<std::uint32_t>(number);
+}
+
+std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place) {
+    const auto found = std::find(known.begin(), known.end(), word);
+    if (found == known.end()) refuse(place, unknown(what, word, known));
+    return static_cast<std::size_t>(found - known.begin());
+}
+
 void only(const json& object, const Place& place, const Names& known) {
     if (!object.is_object()) refuse(place, "must be an object, is " + kind(object));
     for (const auto& [key, value] : object.items()) {

@@ -1,6 +1,8 @@
 // Reading JSON that people write: every mistake with its place, and unknown words with the nearest that is known.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -35,6 +37,9 @@ void read(const json& value, const Place& place, bool& out);
 void read(const json& value, const Place& place, float& out);  // finite
 void read(const json& value, const Place& place, std::string& out);
 void read(const json& value, const Place& place, std::size_t& out);
+void read(const json& value, const Place& place, std::uint32_t& out);
+// Where a word is among those that are known. `what`: of what, for messages.
+std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place);
 Body body_of(const json& value, const Place& place);  // of a scene
 
 template <glm::length_t size>

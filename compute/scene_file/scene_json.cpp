@@ -4,247 +4,58 @@
 #include <algorithm>
 #include <vector>
 
+#include "compute/fields/document.h"
+#include "compute/scene_file/fields_read.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_reading.h"
-#include "compute/scene_file/vehicles_json.h"
+#include "compute/scene_file/shapes_json.h"
 
 namespace scree {
 
-namespace {
-
-using namespace json_reading;
-using Event = json::parse_event_t;
-
-const Names scene_keys = {"gravity", "bodies", "joints", "vehicles", "camera"};
-const Names body_keys = {
-    "name",    "motion",   "shape",       "position",           "orientation",    "velocity",        "angular_velocity",
-    "density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale",
-    "tyre",    "fracture"};
-const Names shape_names = {"box", "capsule", "compound", "cone", "cylinder", "height_field", "hull", "mesh", "plane", "sphere"};
-
-}  // namespace
-
 namespace json_reading {
 
-static void read(const json& value, const Place& place, Motion& out) {
-    std::string word;
-    read(value, place, word);
-    const Names known = {"dynamic", "fixed", "kinematic"};
-    const auto found = std::find(known.begin(), known.end(), word);
-    if (found == known.end()) refuse(place, unknown("motion", word, known));
-    out = static_cast<Motion>(found - known.begin());
-}
-
-static void read(const json& value, const Place& place, std::vector<vec3>& points) {
-    if (!value.is_array()) refuse(place, "must be an array of points [x, y, z], is " + kind(value));
-    points.resize(value.size());
-    for (std::size_t i = 0; i < value.size(); ++i) read(value[i], place / i, points[i]);
-}
-
-static void read(const json& value, const Place& place, std::uint32_t& out) {
-    std::size_t number = 0;
-    read(value, place, number);
-    if (number > 0xFFFFFFFFu) refuse(place, "must be below 2^32");
-    out = static_cast<std::uint32_t>(number);
-}
-
-static void read(const json& value, const Place& place, std::vector<glm::uvec3>& triangles) {
-    if (!value.is_array()) refuse(place, "must be an array of triangles [i, j, k], is " + kind(value));
-    triangles.resize(value.size());
-    for (std::size_t i = 0; i < value.size(); ++i) {
-        if (!value[i].is_array() || value[i].size() != 3)
-            refuse(place / i, "must be an array of 3 numbers of vertices, is " + kind(value[i]));
-        for (std::size_t k = 0; k < 3; ++k) read(value[i][k], place / i / k, triangles[i][static_cast<int>(k)]);
-    }
-}
-
-static void read(const json& value, const Place& place, std::vector<float>& numbers) {
-    if (!value.is_array()) refuse(place, "must be an array of numbers, is " + kind(value));
-    numbers.resize(value.size());
-    for (std::size_t i = 0; i < value.size(); ++i) read(value[i], place / i, numbers[i]);
-}
-
-static void read(const json& value, const Place& place, Shape& out);
-
-static void read(const json& value, const Place& place, std::vector<Part>& parts) {
-    if (!value.is_array()) refuse(place, "must be an array of parts, is " + kind(value));
-    for (std::size_t i = 0; i < value.size(); ++i) {
-        const Place here = place / i;
-        only(value[i], here, {"shape", "position", "orientation", "density"});
-        Part& part = parts.emplace_back();
-        Shape shape;
-        required(value[i], here, "shape", shape);
-        const std::optional<SimpleShape> simple = simple_shape(shape);
-        if (!simple) refuse(here / "shape", "a part must be one convex shape; put the parts of a compound into this one");
-        part.shape = *simple;
-        optional(value[i], here, "position", part.position);
-        optional(value[i], here, "orientation", part.orientation);
-        optional(value[i], here, "density", part.density);
-    }
-}
-
-static void read(const json& sizes, const Place& inside, Mesh& mesh) {
-    if (!sizes.contains("file")) {
-        only(sizes, inside, {"vertices", "triangles"});
-        required(sizes, inside, "vertices", mesh.vertices);
-        required(sizes, inside, "triangles", mesh.triangles);
-        return;
-    }
-    only(sizes, inside, {"file", "scale"});
-    required(sizes, inside, "file", mesh.file);
-    optional(sizes, inside, "scale", mesh.scale);
-    if (mesh.file.empty()) refuse(inside / "file", "must name a file");
-    if (!(mesh.scale >= 1e-6f && mesh.scale <= 1e6f)) refuse(inside / "scale", "must be between 0.000001 and 1000000");
-}
-
-static void read(const json& value, const Place& place, Shape& out) {
-    if (value.is_string()) refuse(place, "must be an object such as {\"sphere\": {\"radius\": 0.5}}, is " + kind(value));
-    if (!value.is_object()) refuse(place, "must be an object with one key, is " + kind(value));
-    if (value.size() != 1) refuse(place, "must have one key (" + listed(shape_names) + "), has " + std::to_string(value.size()));
-    const std::string& name = value.begin().key();
-    const json& sizes = value.begin().value();
-    if (std::find(shape_names.begin(), shape_names.end(), name) == shape_names.end()) {
-        refuse(place, "unknown shape \"" + name + "\"; known: " + listed(shape_names));
-    }
-    const Place inside = place / name.c_str();
-    if (name == "sphere") {
-        only(sizes, inside, {"radius"});
-        required(sizes, inside, "radius", out.emplace<Sphere>().radius);
-    } else if (name == "capsule") {
-        only(sizes, inside, {"radius", "half_height"});
-        auto& capsule = out.emplace<Capsule>();
-        required(sizes, inside, "radius", capsule.radius);
-        required(sizes, inside, "half_height", capsule.half_height);
-    } else if (name == "box") {
-        only(sizes, inside, {"half_extents"});
-        required(sizes, inside, "half_extents", out.emplace<Box>().half_extents);
-    } else if (name == "cylinder") {
-        only(sizes, inside, {"radius", "half_height"});
-        auto& cylinder = out.emplace<Cylinder>();
-        required(sizes, inside, "radius", cylinder.radius);
-        required(sizes, inside, "half_height", cylinder.half_height);
-    } else if (name == "cone") {
-        only(sizes, inside, {"radius", "height"});
-        auto& cone = out.emplace<Cone>();
-        required(sizes, inside, "radius", cone.radius);
-        required(sizes, inside, "height", cone.height);
-    } else if (name == "hull") {
-        only(sizes, inside, {"points"});
-        required(sizes, inside, "points", out.emplace<Hull>().points);
-    } else if (name == "compound") {
-        only(sizes, inside, {"parts"});
-        required(sizes, inside, "parts", out.emplace<Compound>().parts);
-    } else if (name == "mesh") {
-        read(sizes, inside, out.emplace<Mesh>());
-    } else if (name == "height_field") {
-        only(sizes, inside, {"columns", "rows", "spacing", "heights"});
-        auto& field = out.emplace<HeightField>();
-        required(sizes, inside, "columns", field.columns);
-        required(sizes, inside, "rows", field.rows);
-        optional(sizes, inside, "spacing", field.spacing);
-        required(sizes, inside, "heights", field.heights);
-    } else {
-        only(sizes, inside, {"normal", "offset"});
-        auto& plane = out.emplace<Plane>();
-        optional(sizes, inside, "normal", plane.normal);
-        optional(sizes, inside, "offset", plane.offset);
-    }
-}
-
-static void read(const json& value, const Place& place, Cutting& out) {
-    std::string word;
-    read(value, place, word);
-    const Names known = {"voronoi", "boxes", "splinters"};
-    const auto found = std::find(known.begin(), known.end(), word);
-    if (found == known.end()) refuse(place, unknown("cutting", word, known));
-    out = static_cast<Cutting>(found - known.begin());
-}
-
-static void read(const json& value, const Place& place, std::optional<Fracture>& out) {
-    only(value, place, {"impulse", "momentum", "cutting", "pieces", "depth", "seed"});
-    Fracture& fracture = out.emplace();
-    std::size_t seed = fracture.seed;
-    for (const char* threshold : {"impulse", "momentum"}) {
-        float& limit = threshold[0] == 'i' ? fracture.impulse : fracture.momentum;
-        optional(value, place, threshold, limit);
-        if (value.contains(threshold) && !(limit > 0)) refuse(place / threshold, "must be positive, N s");
-    }
-    optional(value, place, "cutting", fracture.cutting);
-    optional(value, place, "pieces", fracture.pieces);
-    optional(value, place, "depth", fracture.depth);
-    optional(value, place, "seed", seed);
-    if (seed > 0xFFFFFFFFu) refuse(place / "seed", "must be below 4294967296");
-    fracture.seed = static_cast<std::uint32_t>(seed);
-}
-
-static void read(const json& value, const Place& place, std::optional<Tyre>& out) {
-    only(value, place, {"best_slip", "sliding"});
-    Tyre& tyre = out.emplace();
-    optional(value, place, "best_slip", tyre.best_slip);
-    optional(value, place, "sliding", tyre.sliding);
-}
-
 Body body_of(const json& value, const Place& place) {
-    only(value, place, body_keys);
     Body body;
-    optional(value, place, "name", body.name);
-    optional(value, place, "motion", body.motion);
-    required(value, place, "shape", body.shape);
-    optional(value, place, "position", body.position);
-    optional(value, place, "orientation", body.orientation);
-    optional(value, place, "velocity", body.velocity);
-    optional(value, place, "angular_velocity", body.angular_velocity);
-    optional(value, place, "density", body.density);
-    optional(value, place, "friction", body.friction);
-    optional(value, place, "restitution", body.restitution);
-    optional(value, place, "rolling_resistance", body.rolling_resistance);
-    optional(value, place, "linear_damping", body.linear_damping);
-    optional(value, place, "angular_damping", body.angular_damping);
-    optional(value, place, "gravity_scale", body.gravity_scale);
-    optional(value, place, "tyre", body.tyre);
-    optional(value, place, "fracture", body.fracture);
+    read_value(value, place, body, "", {});
+    const auto fracture = value.find("fracture");
+    if (fracture == value.end()) return body;
+    for (const char* threshold : {"impulse", "momentum"})
+        if (fracture->contains(threshold) && fracture->at(threshold) == 0)
+            refuse(place / "fracture" / threshold, "must be positive, N s, is 0");
     return body;
-}
-
-// What a view that stands still and a moment of one that moves have alike.
-template <class View>
-static void read_view(const json& value, const Place& place, View& view) {
-    required(value, place, "eye", view.eye);
-    required(value, place, "target", view.target);
-    optional(value, place, "vertical_fov", view.vertical_fov);
-    if (!(view.vertical_fov >= 1 && view.vertical_fov <= 170))
-        refuse(place / "vertical_fov", "must be between 1 and 170 degrees");
-    if (view.eye == view.target) refuse(place / "target", "must differ from the eye");
-}
-
-static void read(const json& value, const Place& place, std::vector<ViewKey>& path) {
-    if (!value.is_array() || value.empty()) refuse(place, "must be an array of at least one moment, is " + kind(value));
-    for (std::size_t i = 0; i < value.size(); ++i) {
-        const Place here = place / i;
-        only(value[i], here, {"time", "eye", "target", "vertical_fov"});
-        ViewKey& key = path.emplace_back();
-        required(value[i], here, "time", key.time);
-        read_view(value[i], here, key);
-        if (!(key.time >= 0 && key.time <= 1e6f)) refuse(here / "time", "must be between 0 and 1000000 s");
-        if (i > 0 && !(key.time > path[i - 1].time)) refuse(here / "time", "must be later than that of the moment before");
-    }
 }
 
 }  // namespace json_reading
 
 namespace {
 
+using namespace json_reading;
+using Event = json::parse_event_t;
+
+template <class View>
+void check_view(const Place& place, const View& view) {
+    fields::check_fields(place, view);
+    if (view.eye == view.target) refuse(place / "target", "must differ from the eye");
+}
+
 Viewpoint viewpoint_of(const json& value, const Place& place) {
-    only(value, place, {"eye", "target", "vertical_fov", "orthographic", "path"});
     Viewpoint view;
-    optional(value, place, "orthographic", view.orthographic);
-    optional(value, place, "path", view.path);
-    if (view.path.empty()) {
-        read_view(value, place, view);
+    read_value(value, place, view, "", {});
+    if (!value.contains("path")) {
+        for (const char* key : {"eye", "target"})
+            if (!value.contains(key)) refuse(place, std::string("lacks \"") + key + "\"");
+        check_view(place, view);
         return view;
     }
     for (const char* key : {"eye", "target", "vertical_fov"}) {
         if (value.contains(key)) refuse(place / key, "the path has its own, for each moment; leave it or the path out");
+    }
+    const Place path = place / "path";
+    if (view.path.empty()) refuse(path, "must be an array of at least one moment, is " + kind(value["path"]));
+    for (std::size_t i = 0; i < view.path.size(); ++i) {
+        check_view(path / i, view.path[i]);
+        if (i > 0 && !(view.path[i].time > view.path[i - 1].time))
+            refuse(path / i / "time", "must be later than that of the moment before");
     }
     view.eye = view.path[0].eye;
     view.target = view.path[0].target;
@@ -304,13 +115,16 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
         refuse_number(text, error);
     }
     const Place root{nullptr, nullptr, 0};
-    only(rest, root, scene_keys);
+    only(rest, root, keys_of<SceneDocument>());
     if (!rest.contains("bodies")) refuse(root, "a scene needs \"bodies\", an array");
     if (!rest["bodies"].is_array()) refuse(root / "bodies", "must be an array, is " + kind(rest["bodies"]));
-    optional(rest, root, "gravity", document.scene.gravity);
+    Scene& scene = document.scene;
+    read_field(rest, root, fields::field_of(&Scene::gravity), scene, {});
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera");
-    if (rest.contains("joints")) read_joints(rest["joints"], document.scene);
-    if (rest.contains("vehicles")) read_vehicles(rest["vehicles"], document.scene);
+    NamedThings named{numbers_of(scene.bodies), {}};
+    if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
+    named.joints = numbers_of(scene.joints);
+    read_field(rest, root, fields::field_of(&Scene::vehicles), scene, named);
     return document;
 }
 

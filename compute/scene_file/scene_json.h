@@ -33,9 +33,9 @@ struct SceneDocument {
     std::optional<Viewpoint> viewpoint;
 };
 
-// Reads the text of a scene file (the format: compute/scene_file/scene.schema.json). Throws SceneError: with the JSON pointer of
-// what is wrong with a value, or with line and column when it is no JSON. Refuses more than `most_bodies` bodies before they fill
-// the memory.
+// Reads the text of a scene file (the format: scene_schema(), of compute/scene_file/scene_schema.h). Throws SceneError: with the
+// JSON pointer of what is wrong with a value, or with line and column when it is no JSON. Refuses more than `most_bodies` bodies
+// before they fill the memory.
 SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies = static_cast<std::size_t>(-1));
 
 // One body a line. Keys that have their default value are left out. Finite values only (SceneError otherwise): JSON has no other.

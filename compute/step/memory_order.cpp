@@ -10,8 +10,6 @@
 #include <numeric>
 #include <utility>
 
-#include "compute/step/threads.h"
-
 namespace scree {
 
 namespace {
@@ -44,15 +42,18 @@ std::uint64_t place_on_curve(vec3 position, float inverse_cell) {
 
 }  // namespace
 
-std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state) {
+std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state, const Threads& threads) {
     const std::size_t n = scene.bodies.size();
     std::vector<std::pair<std::uint64_t, std::uint32_t>> order(n);
-    Threads().for_each(n, [&](std::size_t id) {
+    threads.for_each(n, [&](std::size_t id) {
         order[id] = {place_on_curve(state.poses[state.row_of(id)].position, state.fixed().inverse_cell),
                      static_cast<std::uint32_t>(id)};
     });
     std::erase_if(order, [&](const auto& one) { return !may_move(scene.bodies[one.second]); });
-    tbb::parallel_sort(order.begin(), order.end());
+    if (threads.count() == 1)
+        std::sort(order.begin(), order.end());
+    else
+        threads.run([&] { tbb::parallel_sort(order.begin(), order.end()); });
     std::vector<std::uint32_t> rows(n);
     std::iota(rows.begin(), rows.end(), 0u);
     auto next = order.begin();
@@ -99,8 +100,8 @@ void State::number_rows() {
     for (std::uint32_t id = 0; id < rows_.size(); ++id) ids[rows_[id]] = id;
 }
 
-void State::reorder(const std::vector<std::uint32_t>& rows) {
-    const std::uint32_t n = fixed().first_part, all = fixed().bodies;
+void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threads) {
+    const std::uint32_t n = body_count, all = fixed().bodies;
     std::vector<std::uint32_t> from(all), to(all);  // rows
     std::iota(from.begin(), from.end(), 0u);
     std::iota(to.begin(), to.end(), 0u);
@@ -112,7 +113,6 @@ void State::reorder(const std::vector<std::uint32_t>& rows) {
     std::vector<std::uint32_t> by_id = rows;
     // One for every table: new memory takes longer than what is done to it.
     std::vector<std::byte> scratch(n * sizeof(physics::Traits));
-    const Threads threads;
     const auto follow = [&](physics::uint& row) {
         if (row < n) row = to[row];
     };

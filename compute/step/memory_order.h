@@ -11,12 +11,13 @@
 
 #include "compute/scene.h"
 #include "compute/step/state.h"
+#include "compute/step/threads.h"
 
 namespace scree {
 
 // A row for each body of the scene, by id: bodies in the order of a Morton curve through the grid's finest cells. Pieces keep the
 // rows of their ids. Poses must be here.
-std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state);
+std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state, const Threads& threads);
 
 // How far each dynamic body is from the one behind it in memory, m, on average; what is farther than 64 cells counts as that
 // far. With `rows` in place of those of the state, if there are any.

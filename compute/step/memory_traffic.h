@@ -19,7 +19,4 @@ struct Traffic {
 // World::state() brings back.
 std::vector<Traffic> traffic_of(const State& state);
 
-// The stages whose tables are not listed (none; a test asks).
-std::vector<std::string> stages_without_traffic(int substeps);
-
 }  // namespace scree

@@ -22,11 +22,7 @@ constexpr std::size_t few_bodies = 24;
 constexpr std::size_t most_large = 64;
 
 float width_of(const physics::Traits& traits) {
-    const physics::vec3 size = traits.size;
-    if (traits.shape == physics::SHAPE_SPHERE) return 2 * size.x;
-    if (traits.shape == physics::SHAPE_CAPSULE) return 2 * (size.x + size.y);
-    if (traits.shape == physics::SHAPE_CONE) return std::max(2 * size.x, 1.5f * size.y);
-    return 2 * std::max({size.x, size.y, size.z});
+    return physics::widest(traits.shape, traits.size);
 }
 
 // The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.
@@ -115,7 +111,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     state_.vehicles = vehicle_records(scene, state_.joint_records, state_.way_points);
     p.vehicles = static_cast<std::uint32_t>(state_.vehicles.size());
     p.bodies = rows;
-    p.first_part = n;
+    p.first_part = state_.body_count = n;
     p.buckets = State::buckets_for(rows);
     p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving);
     p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2;
@@ -128,6 +124,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
         state_.strains[i] = start_strain_of(scene.bodies[i], traits[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
+    state_.note_content(0, rows);
     state_.counted() = physics::emptied(state_.counted(), p);
 }
 

@@ -2,11 +2,14 @@
 #include <algorithm>
 #include <bit>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 #include "compute/scene/fracture.h"
 #include "compute/scene/hull.h"
 #include "compute/scene/hull_cells.h"
 #include "compute/scene/mesh.h"
+#include "compute/scene/shape_geometry.h"
 #include "compute/step/scene_compiler.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
@@ -17,23 +20,11 @@ namespace scree {
 
 namespace {
 
-vec3 half_extents_of(const Hull& hull) {
-    vec3 half(0);
-    for (const glm::dvec3& v : hull.form->vertices) half = glm::max(half, glm::abs(vec3(v)));
-    return half;
-}
-
 // Shape and size.
 physics::Traits simple_form(const SimpleShape& shape) {
     physics::Traits made{};
     made.shape = static_cast<physics::uint>(shape.index());
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) made.size = vec3(sphere->radius, 0, 0);
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) made.size = vec3(capsule->radius, capsule->half_height, 0);
-    if (const auto* box = std::get_if<Box>(&shape)) made.size = box->half_extents;
-    if (const auto* plane = std::get_if<Plane>(&shape)) made.size = plane->normal;
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) made.size = vec3(cylinder->radius, cylinder->half_height, 0);
-    if (const auto* cone = std::get_if<Cone>(&shape)) made.size = vec3(cone->radius, cone->height, 0);
-    if (const auto* hull = std::get_if<Hull>(&shape)) made.size = half_extents_of(*hull);
+    made.size = record_size(shape);
     return made;
 }
 
@@ -154,9 +145,7 @@ physics::uint SceneCompiler::place_of(const std::optional<Tyre>& tyre) {
 
 physics::Traits SceneCompiler::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
     physics::Traits made = form_of(shape);
-    const bool rolls = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Capsule>(shape) ||
-                       std::holds_alternative<Cylinder>(shape);
-    if (rolls) made.shape_data = place_of(tyre);
+    if (physics::takes_tyre(made.shape)) made.shape_data = place_of(tyre);
     return made;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/joint_block.h"
 
 namespace scree {
 
@@ -29,6 +30,11 @@ std::uint32_t substeps_at_once(const physics::Parameters& p, std::uint32_t threa
     const std::uint32_t rounds = (p.contact_capacity / threads + 1) * contact_rounds + 4 * p.contact_capacity + 2 * p.bodies;
     return std::max(1u, most_rounds / rounds);
 }
+
+// And a block of joints (shaders/stages/lib/joints.glsl) through what is left when its bodies have some thousand contacts.
+constexpr std::uint32_t most_joint_rounds = 50000;
+// A loop over the axes of a joint, with the round of the loop over the joints that it is in.
+constexpr std::uint32_t axis_rounds = 7;
 
 using Names = std::vector<std::string>;
 
@@ -56,7 +62,6 @@ const std::vector<Run>& runs() {
         {"list_slots", joined(joined({"count_slots"}, scan("slots")), {"fill_slots", "order_slots"})},
         {"scan_slots", scan("slots")},
         {"substeps", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts"}},
-        {"substeps_felt", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts_felt"}},
     };
     return all;
 }
@@ -80,8 +85,15 @@ std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t wh
 }
 
 Stage in_one(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
-    Stage all{.name = run.name, .over = Over::one_group, .reference = nullptr, .writes = {}};
-    for (std::size_t k = 0; k < run.parts.size(); ++k) all.content |= plan[first + k].content;
+    Stage all;
+    all.name = run.name;
+    for (std::size_t k = 0; k < run.parts.size(); ++k) {
+        const Stage& part = plan[first + k];
+        for (const Access& access : part.reads) all.reads.push_back({access.table});
+        for (const Access& access : part.writes) all.writes.push_back({access.table});
+        all.features |= part.features;
+        all.content |= part.content;
+    }
     return all;
 }
 
@@ -103,7 +115,44 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
         }
         i += times * run->parts.size();
     }
+    set_barriers(stages);
     return stages;
+}
+
+std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std::uint32_t blocks) {
+    // The most links that a joint has at each place of its block, from its first and from its last joint: the blocks of one of a
+    // processor's vectors go through their joints side by side.
+    std::vector<std::uint32_t> from_first, from_last;
+    std::uint32_t members = 0;
+    for (std::uint32_t b = 0; b < blocks; ++b) {
+        const physics::Joint& first = records[records[b].first_of_block];
+        const auto block = records.subspan(records[b].first_of_block, first.block_joints);
+        members = std::max(members, first.block_members);
+        from_first.resize(std::max(from_first.size(), block.size()));
+        from_last.resize(from_first.size());
+        for (std::size_t j = 0; j < block.size(); ++j) {
+            from_first[j] = std::max(from_first[j], block[j].links);
+            from_last[j] = std::max(from_last[j], block[block.size() - 1 - j].links);
+        }
+    }
+    const auto joints = static_cast<std::uint32_t>(from_first.size());
+    std::uint32_t each = members + 6 * axis_rounds * joints;                              // six loops over the axes of each joint
+    for (const std::uint32_t links : from_first) each += 12 * links + 3 * links * links;  // equations, elimination
+    for (const std::uint32_t links : from_last) each += 6 * links;                        // substitution
+    const std::uint32_t once = 6 * members + 7 * axis_rounds * joints;
+    return std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, each), 1u, physics::JOINT_ROUNDS);
+}
+
+std::vector<Stage> dispatches_of(const Stage& stage, std::uint32_t joint_rounds) {
+    if (stage.over != Over::joint_blocks || (stage.name != "solve_joints" && stage.name != "relax_joints")) return {stage};
+    std::vector<Stage> dispatches;
+    for (std::uint32_t done = 0; done < physics::JOINT_ROUNDS; done += joint_rounds) {
+        dispatches.push_back(stage);
+        dispatches.back().pass |= done << 8 | std::min(joint_rounds, physics::JOINT_ROUNDS - done) << 16;
+        dispatches.back().barrier_after = true;
+    }
+    dispatches.back().barrier_after = stage.barrier_after;
+    return dispatches;
 }
 
 std::vector<std::string> parts_of(const std::string& name) {

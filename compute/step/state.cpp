@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <numeric>
+#include <span>
 #include <stdexcept>
 
 #include "compute/step/scene_compiler.h"
@@ -109,23 +110,27 @@ std::size_t State::live(Length length) const {
 }
 
 Content State::content() const {
-    Content found;
+    Content found = row_content_;
     found.joints = has_joints();
     found.vehicles = fixed().vehicles != 0;
-    found.breaking = has_fractures();
     found.reordered = reordered();
-    found.bounces = fixed().least_restitution > 0;
-    for (const physics::Traits& row : traits) {
+    found.bounces |= fixed().least_restitution > 0;
+    return found;
+}
+
+void State::note_content(std::uint32_t first_row, std::uint32_t count) {
+    Content& found = row_content_;
+    for (const physics::Traits& row : std::span(traits).subspan(first_row, count)) {
+        found.breaking |= row.fracture != physics::NONE;
         found.bounces |= row.restitution > 0;
         found.rolls |= row.rolling_resistance > 0;
         found.tyres |= physics::tyre_of(row) != 0;
-        found.round |= row.shape == physics::SHAPE_SPHERE || row.shape == physics::SHAPE_CAPSULE;
+        found.round |= physics::has_round_core(row.shape);
         found.hulls |= row.shape == physics::SHAPE_HULL;
-        found.convex |= row.shape >= physics::SHAPE_CYLINDER && row.shape <= physics::SHAPE_HULL;
+        found.convex |= physics::is_general_convex(row.shape);
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
     }
-    return found;
 }
 
 void State::make(Table table) {
@@ -140,14 +145,14 @@ void State::make(Table table) {
 }
 
 void State::allocate() {
+    const std::size_t numbered = ids.size();  // rows
     using enum Table;
     for (const Table table :
          {parameters, counts, traits, poses, velocities, rests, strains, actions, hulls, joints, vehicles, ids})
         make(table);
-    number_rows();
+    for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
-    tell_places(table_places(*this), fixed());
 }
 
 void State::turn_over() {
@@ -173,13 +178,14 @@ bool State::has_joints() const {
     return parameters[0].joint_blocks != 0;
 }
 
-bool State::has_fractures() const {
-    return std::any_of(traits.begin(), traits.end(), [](const physics::Traits& t) { return t.fracture != physics::NONE; });
+std::size_t State::raw_bytes(Table table) const {
+    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
+    return allocated(info.length) * info.record_bytes;
 }
 
 std::size_t State::bytes() const {
-    const TablePlaces places = table_places(*this);
-    return std::accumulate(places.bytes.begin(), places.bytes.end(), std::size_t{0});
+    const TableOffsets offsets = table_offsets(*this);
+    return std::accumulate(offsets.bytes.begin(), offsets.bytes.end(), std::size_t{0});
 }
 
 std::span<std::byte> State::raw(Table table) {

@@ -18,6 +18,8 @@
 
 namespace scree {
 
+class Threads;  // compute/step/threads.h
+
 // What tables are as long as.
 enum class Length {
     one,
@@ -81,9 +83,23 @@ struct Content {
     bool round = false;      // there are spheres or capsules
     bool tyres = false;      // with a vehicle or without
     bool reordered = false;  // rows are in another order than ids
-    static Content everything() { return {true, true, true, true, true, true, true, true, true, true, true, true}; }
+    static Content everything() {
+        return {.convex = true,
+                .hulls = true,
+                .triangles = true,
+                .moving_parts = true,
+                .joints = true,
+                .breaking = true,
+                .vehicles = true,
+                .bounces = true,
+                .rolls = true,
+                .round = true,
+                .tyres = true,
+                .reordered = true};
+    }
     bool operator==(const Content&) const = default;
 };
+static_assert(sizeof(Content) == 12 * sizeof(bool));  // as many as everything() names
 
 // Where the tables hold what several bodies share.
 struct ShapePlaces {
@@ -119,7 +135,7 @@ struct State {
     // know them). All that lasts from step to step goes with its body, and no bit of what follows changes; what is left of the
     // last step beside it is of no use any more. Everything that lasts must be here, and the runner be attached again. Where
     // memory ends, nothing has changed.
-    void reorder(const std::vector<std::uint32_t>& rows);
+    void reorder(const std::vector<std::uint32_t>& rows, const Threads& threads);
     bool reordered() const {
         return !rows_.empty();
     }
@@ -137,7 +153,9 @@ struct State {
     Content content() const;
     bool has_joints() const;
     // Whether some body may break.
-    bool has_fractures() const;
+    bool has_fractures() const {
+        return row_content_.breaking;
+    }
     // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : traits[row].owner;
@@ -146,7 +164,8 @@ struct State {
     const physics::PoseInBody& part_in(std::size_t row) const {
         return parts[row - fixed().first_part];
     }
-    std::size_t bytes() const;  // of all tables on a device
+    std::size_t bytes() const;                 // of all tables on a device
+    std::size_t raw_bytes(Table table) const;  // of one that has its memory
 
     std::span<std::byte> raw(Table table);
     std::span<const std::byte> raw(Table table) const;
@@ -178,8 +197,12 @@ struct State {
     std::vector<std::array<std::uint32_t, noted>> partners;
 
     ShapePlaces shape_places;
-    // Every table at its length, for the scene compiler and the editor; and how many buckets so many bodies want.
+    std::uint32_t body_count =
+        0;  // of the scene's bodies; Parameters::first_part has room for more of them where there are parts
+    // For the scene compiler and the editor: every table at its length; what rows that are new bring into the content; how many
+    // buckets so many bodies want.
     void allocate();
+    void note_content(std::uint32_t first_row, std::uint32_t count);
     static std::uint32_t buckets_for(std::uint32_t bodies);
     // One more body, in the row of its id.
     void append_row(std::uint32_t row) {
@@ -189,6 +212,7 @@ struct State {
 private:
     void number_rows();
     std::vector<std::uint32_t> rows_;  // by id; empty: every body is in the row of its id
+    Content row_content_;
     bool all_ = true;
 };
 

@@ -2,6 +2,8 @@
 #include "compute/step/state_editor.h"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 #include "compute/step/joint_blocks.h"
 #include "compute/step/scene_compiler.h"
@@ -19,12 +21,62 @@ physics::Impulse scaled(physics::Impulse impulse, float factor) {
     return impulse;
 }
 
+// Runs of records that are not what they were.
+template <typename Record>
+TableRanges differing(Table table, const std::vector<Record>& before, const std::vector<Record>& now) {
+    TableRanges runs;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+        if (i < before.size() && std::memcmp(&before[i], &now[i], sizeof(Record)) == 0) continue;
+        if (runs.empty() || runs.back().first + runs.back().count != i) runs.push_back({table, i, 0});
+        ++runs.back().count;
+    }
+    return runs;
+}
+
+// Tables to which bodies add what completes them.
+constexpr std::array shape_tables{Table::hulls, Table::parts, Table::fractures, Table::pieces, Table::tyres};
+using ShapeLengths = std::array<std::size_t, shape_tables.size()>;  // records
+
+ShapeLengths shape_lengths(const State& state) {
+    ShapeLengths lengths;
+    for (std::size_t i = 0; i < shape_tables.size(); ++i)
+        lengths[i] = state.raw(shape_tables[i]).size() / table_infos()[static_cast<std::size_t>(shape_tables[i])].record_bytes;
+    return lengths;
+}
+
+TableRanges shapes_added(const State& state, const ShapeLengths& before) {
+    TableRanges added;
+    const ShapeLengths now = shape_lengths(state);
+    for (std::size_t i = 0; i < shape_tables.size(); ++i)
+        if (now[i] > before[i]) added.push_back({shape_tables[i], before[i], now[i] - before[i]});
+    return added;
+}
+
+// A row before those of parts that no body is in yet.
+physics::Traits spare_row(std::uint32_t row) {
+    physics::Traits spare{};
+    spare.motion = physics::MOTION_UNBORN;
+    spare.shape = physics::SHAPE_NONE;
+    spare.owner = row;
+    spare.fracture = spare.joints = physics::NONE;
+    return spare;
+}
+
 }  // namespace
 
-void StateEditor::tune(vec3 gravity, const Settings& settings) {
+TableRanges StateEditor::needed_to_tune(const Settings& settings) const {
+    if (settings.substeps == state_.substeps) return {};
+    const std::size_t contacts = state_.live(Length::contacts);
+    TableRanges needed = joint_ranges(state_);
+    append(needed, {{Table::contacts, 0, contacts}, {Table::impulses, 0, contacts}});
+    return needed;
+}
+
+TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
+    const TableRanges changed = needed_to_tune(settings);
     const float h_before = state_.fixed().h;
     state_.fixed() = tuned(state_.fixed(), gravity, settings);
-    if (settings.substeps == state_.substeps) return;
+    if (settings.substeps == state_.substeps) return {};
     state_.substeps = settings.substeps;
     const float factor = state_.fixed().h / h_before;
     const std::size_t lasting =
@@ -38,58 +90,118 @@ void StateEditor::tune(vec3 gravity, const Settings& settings) {
             row.drive *= factor;
             row.stop *= factor;
         }
+    return changed;
 }
 
-void StateEditor::add(const Body& body) {
-    SceneCompiler compiler(state_);
+bool StateEditor::has_room_for_a_body() const {
+    const physics::Parameters& p = state_.fixed();
+    return state_.body_count < p.first_part || p.first_part == p.bodies;
+}
+
+TableRanges StateEditor::needed_to_add() const {
+    if (has_room_for_a_body()) return {};
+    return lasting_ranges(state_);
+}
+
+// Rows that no body is in yet, between those of bodies and those of parts, which move up.
+void StateEditor::make_room_for_bodies() {
     physics::Parameters& p = state_.fixed();
-    const std::uint32_t n = p.first_part;
-    state_.append_row(n);
-    const auto make_room = [n](auto& table, const auto& record) {
-        if (table.size() >= n) table.insert(table.begin() + n, record);
+    const std::uint32_t first = p.first_part, count = std::max(16u, first / 2);
+    const auto insert = [&](auto& table, const auto& record) {
+        if (table.size() >= first) table.insert(table.begin() + first, count, record);
     };
-    state_.traits.resize(p.bodies);  // tables of no bodies have a record all the same
-    state_.poses.resize(p.bodies);
-    state_.velocities.resize(p.bodies);
-    state_.rests.resize(p.bodies);
-    state_.strains.resize(p.bodies);
-    make_room(state_.traits, compiler.traits_of(body, n));
-    make_room(state_.poses, SceneCompiler::start_of(body));
-    make_room(state_.velocities, SceneCompiler::start_velocity_of(body));
-    make_room(state_.rests, 0u);
-    make_room(state_.strains, SceneCompiler::start_strain_of(body, state_.traits[n]));
-    if (!state_.masses.empty()) make_room(state_.masses, physics::Mass{});
-    // It has no contacts yet: where they begin, they end. Those of parts are told by the parts' new rows.
-    std::vector<physics::uint>& starts = state_.first_contacts;
-    if (starts.size() > n) make_room(starts, physics::uint{starts[n]});
-    for (auto* list : {&state_.contacts, &state_.contacts_before})
-        for (physics::Contact& contact : *list)
-            for (physics::uint* row : {&contact.a, &contact.b})
-                if (*row >= n) ++*row;
-    p.first_part = n + 1;
-    ++p.bodies;
-    const std::uint32_t old_rows = p.bodies;
-    compiler.append_parts(body, n);
-    p.bodies = static_cast<std::uint32_t>(state_.traits.size());
+    insert(state_.traits, physics::Traits{});
+    for (std::uint32_t row = first; row < first + count; ++row) state_.traits[row] = spare_row(row);
+    insert(state_.poses, physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)});
+    insert(state_.velocities, physics::Velocity{});
+    insert(state_.rests, 0u);
+    insert(state_.strains, 0.0f);
+    insert(state_.masses, physics::Mass{});
+    // They have no contacts: where these begin, they end.
+    if (state_.first_contacts.size() > first) insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
+    for (physics::Contact& contact : state_.contacts)
+        for (physics::uint* row : {&contact.a, &contact.b})
+            if (*row >= first) *row += count;
+    p.first_part += count;
+    p.bodies += count;
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
     state_.allocate();
-    for (std::uint32_t i = old_rows; i < p.bodies; ++i) {
-        compiler.place(i);
-        if (starts.size() > i + 1) starts[i + 1] = starts[i];
-    }
 }
 
-void StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without) {
+// What a step finds in rows behind those that were there: parts are where their bodies are, and nobody has contacts yet.
+TableRanges StateEditor::rows_added(std::uint32_t first, std::uint32_t count) {
+    if (count == 0) return {};
+    for (std::uint32_t row = first; row < first + count; ++row) state_.first_contacts[row + 1] = state_.counted().contacts;
+    TableRanges added{{Table::first_contacts, first + 1, count}};
+    for (const Table table :
+         {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains, Table::masses, Table::ids})
+        added.push_back({table, first, count});
+    return added;
+}
+
+TableRanges StateEditor::add(const Body& body) {
+    TableRanges changed;
+    if (!has_room_for_a_body()) {
+        make_room_for_bodies();
+        changed = lasting_ranges(state_);
+        changed.push_back({Table::ids, 0, state_.fixed().bodies});
+    }
+    SceneCompiler compiler(state_);
+    physics::Parameters& p = state_.fixed();
+    const std::uint32_t row = state_.body_count, rows_before = p.bodies;
+    const ShapeLengths before = shape_lengths(state_);
+    state_.append_row(row);
+    ++state_.body_count;
+    if (row == p.first_part) ++p.first_part;
+    state_.traits.resize(std::max(rows_before, row + 1));  // a table of no bodies has a record all the same
+    state_.traits[row] = compiler.traits_of(body, row);
+    compiler.append_parts(body, row);
+    p.bodies = static_cast<std::uint32_t>(state_.traits.size());
+    p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
+    for (const Table table : {Table::masses, Table::first_contacts}) state_.make(table);
+    state_.allocate();
+    state_.poses[row] = SceneCompiler::start_of(body);
+    state_.velocities[row] = SceneCompiler::start_velocity_of(body);
+    state_.rests[row] = 0;
+    state_.strains[row] = SceneCompiler::start_strain_of(body, state_.traits[row]);
+    const std::uint32_t first_part = std::max(rows_before, row + 1);
+    for (std::uint32_t part = first_part; part < p.bodies; ++part) compiler.place(part);
+    state_.note_content(row, 1);
+    state_.note_content(first_part, p.bodies - first_part);
+    if (row < rows_before)
+        for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains})
+            changed.push_back({table, row, 1});
+    append(changed, rows_added(rows_before, p.bodies - rows_before));
+    append(changed, shapes_added(state_, before));
+    return changed;
+}
+
+TableRanges StateEditor::needed_to_rejoin() const {
+    TableRanges needed = joint_ranges(state_);
+    append(needed, vehicle_ranges(state_));
+    if (state_.has_fractures()) needed.push_back({Table::traits, 0, state_.fixed().bodies});  // who is there
+    return needed;
+}
+
+TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without) {
+    const std::vector<physics::Joint> joints_before = state_.joints;
+    const std::vector<physics::Vehicle> vehicles_before = state_.vehicles;
+    TableRanges changed;
     std::vector<physics::Joint> before;
     for (const std::uint32_t record : state_.joint_records) before.push_back(state_.joints[record]);
     if (without) before.erase(before.begin() + static_cast<std::ptrdiff_t>(*without));
     std::vector<physics::Traits> by_id;
-    for (std::size_t id = 0; id < state_.fixed().first_part; ++id) {
+    for (std::size_t id = 0; id < state_.body_count; ++id) {
         by_id.push_back(state_.traits[state_.row_of(id)]);
         by_id.back().joints = physics::NONE;
     }
     JointTables made = joint_tables(scene, by_id);
-    for (std::size_t id = 0; id < by_id.size(); ++id) state_.traits[state_.row_of(id)].joints = by_id[id].joints;
+    for (std::size_t id = 0; id < by_id.size(); ++id) {
+        physics::uint& first = state_.traits[state_.row_of(id)].joints;
+        if (first == by_id[id].joints) continue;
+        first = by_id[id].joints;
+        changed.push_back({Table::traits, state_.row_of(id), 1});
+    }
     for (physics::Joint& record : made.records)
         for (physics::uint* body : {&record.a, &record.b, &record.member})
             if (*body != physics::NONE) *body = state_.row_of(*body);
@@ -112,6 +224,9 @@ void StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without)
         for (std::size_t k = 0; k < wheels.size(); ++k) state_.vehicles[v].wheel[k].joint = state_.joint_records[wheels[k].joint];
     }
     state_.allocate();
+    append(changed, differing(Table::joints, joints_before, state_.joints));
+    append(changed, differing(Table::vehicles, vehicles_before, state_.vehicles));
+    return changed;
 }
 
 }  // namespace scree

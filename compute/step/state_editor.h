@@ -6,25 +6,33 @@
 
 #include "compute/scene.h"
 #include "compute/settings.h"
-#include "compute/step/state.h"
+#include "compute/step/table_ranges.h"
 
 namespace scree {
 
+// Of tables that lie on a runner, only what an edit needs must be here, and only what it changed must be sent: before, the caller
+// downloads the ranges that needed_to_... names; behind, it lets the runner adapt, and uploads the ranges that are returned.
 class StateEditor {
 public:
     explicit StateEditor(State& state) : state_(state) {}
 
     // What may change between steps, into the parameters (grips, which depend on the substeps, are the caller's to make anew).
-    // Impulses that last are those of a substep; those of the last step are brought to the new length of one. They, and
-    // everything else that lasts, must be here (Runner::fetch), and the runner be attached again, if the substeps change.
-    void tune(vec3 gravity, const Settings& settings);
-    // One more body, the last; the rows of parts move up behind it. Everything that lasts must be here, and the runner be
-    // attached again.
-    void add(const Body& body);
-    // The joints are the scene's: those that were here, but for the one at `without`, and then others. The same holds.
-    void rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
+    // Impulses that last are those of a substep; those of the last step are brought to the new length of one.
+    TableRanges needed_to_tune(const Settings& settings) const;
+    TableRanges tune(vec3 gravity, const Settings& settings);
+    // One more body, the last, into a row before those of parts. When the rows there are used up, the parts move, and leave room
+    // for half as many bodies again.
+    TableRanges needed_to_add() const;
+    TableRanges add(const Body& body);
+    // The joints are the scene's: those that were here, but for the one at `without`, and then others.
+    TableRanges needed_to_rejoin() const;
+    TableRanges rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
 
 private:
+    bool has_room_for_a_body() const;
+    void make_room_for_bodies();
+    TableRanges rows_added(std::uint32_t first, std::uint32_t count);
+
     State& state_;
 };
 

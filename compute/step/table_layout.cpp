@@ -45,28 +45,42 @@ const std::array<BufferInfo, buffer_count>& buffer_infos() {
     return infos;
 }
 
-TablePlaces table_places(const State& state) {
-    std::array<std::size_t, table_count> bytes{};  // of each table and all that lie in its memory
-    for (std::size_t i = 0; i < table_count; ++i) {
-        const TableInfo& info = table_infos()[i];
-        std::size_t& room = bytes[index_of(first_owner(static_cast<Table>(i)))];
-        room = std::max(room, state.allocated(info.length) * info.record_bytes);
-    }
-    TablePlaces places;
-    for (std::size_t i = 0; i < table_count; ++i) {
-        if (first_owner(static_cast<Table>(i)) != static_cast<Table>(i)) continue;
-        std::size_t& end = places.bytes[table_infos()[i].buffer];
-        places.begin[i] = (end + alignment - 1) / alignment * alignment;
-        end = places.begin[i] + bytes[i];
-    }
-    for (std::size_t i = 0; i < table_count; ++i) places.begin[i] = places.begin[index_of(first_owner(static_cast<Table>(i)))];
-    return places;
+bool share_memory(Table one, Table other) {
+    return first_owner(one) == first_owner(other);
 }
 
-void tell_places(const TablePlaces& places, physics::Parameters& parameters) {
+TableOffsets table_offsets(const State& state, const std::function<std::size_t(Length)>& spare) {
+    TableOffsets offsets;
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const TableInfo& info = table_infos()[i];
+        const std::size_t records = state.allocated(info.length) + (spare ? spare(info.length) : 0);
+        std::size_t& room = offsets.room[index_of(first_owner(static_cast<Table>(i)))];
+        room = std::max(room, records * info.record_bytes);
+    }
+    for (std::size_t i = 0; i < table_count; ++i) {
+        if (first_owner(static_cast<Table>(i)) != static_cast<Table>(i)) continue;
+        std::size_t& end = offsets.bytes[table_infos()[i].buffer];
+        offsets.begin[i] = (end + alignment - 1) / alignment * alignment;
+        end = offsets.begin[i] + offsets.room[i];
+    }
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const std::size_t owner = index_of(first_owner(static_cast<Table>(i)));
+        offsets.begin[i] = offsets.begin[owner];
+        offsets.room[i] = offsets.room[owner];
+    }
+    return offsets;
+}
+
+bool have_room(const TableOffsets& offsets, std::size_t buffer, const State& state) {
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (table_infos()[i].buffer == buffer && state.raw_bytes(static_cast<Table>(i)) > offsets.room[i]) return false;
+    return true;
+}
+
+void tell_offsets(const TableOffsets& offsets, physics::Parameters& parameters) {
 #define SCREE_TELL(buffer, name, block, record, length) \
-    parameters.name##_begin =                           \
-        static_cast<physics::uint>(places.begin[index_of(Table::name)] / buffer_infos()[buffer].record_bytes);
+    parameters.name##_offset =                          \
+        static_cast<physics::uint>(offsets.begin[index_of(Table::name)] / buffer_infos()[buffer].record_bytes);
     SCREE_WORD_TABLES(SCREE_TELL)
     SCREE_QUAD_TABLES(SCREE_TELL)
 #undef SCREE_TELL

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstddef>
+#include <functional>
 
 #include "compute/step/state.h"
 
@@ -18,15 +19,21 @@ struct BufferInfo {
 };
 const std::array<BufferInfo, buffer_count>& buffer_infos();  // by binding
 
-struct TablePlaces {
+// Whether two tables are one, or take turns in the same memory.
+bool share_memory(Table one, Table other);
+
+struct TableOffsets {
     std::array<std::size_t, table_count> begin{};   // bytes into its buffer, by Table
+    std::array<std::size_t, table_count> room{};    // bytes from there on
     std::array<std::size_t, buffer_count> bytes{};  // of each buffer
 };
 
-// For tables as long as the state has them.
-TablePlaces table_places(const State& state);
+// For tables as long as the state has them, and `spare` records longer.
+TableOffsets table_offsets(const State& state, const std::function<std::size_t(Length)>& spare = {});
+// Whether the tables in a buffer still fit.
+bool have_room(const TableOffsets& offsets, std::size_t buffer, const State& state);
 
-// The same, as the shaders are told: Parameters.<table>_begin.
-void tell_places(const TablePlaces& places, physics::Parameters& parameters);
+// The same, as the shaders are told: Parameters.<table>_offset.
+void tell_offsets(const TableOffsets& offsets, physics::Parameters& parameters);
 
 }  // namespace scree

@@ -34,4 +34,8 @@ void Threads::share_out(std::size_t n, const std::function<void(std::size_t, std
     });
 }
 
+void Threads::run(const std::function<void()>& work) const {
+    arena_->arena.execute(work);
+}
+
 }  // namespace scree

@@ -10,7 +10,7 @@ namespace scree {
 class Threads {
 public:
     static constexpr int most_lanes = 16;
-    explicit Threads(int count = 0, int lanes = most_lanes);  // 0: one per core
+    explicit Threads(int count, int lanes = most_lanes);  // 0: one per core
     ~Threads();
     int count() const { return count_; }
     // Items that a loop may do at once in the lanes of the processor's vectors, if it and the processor can.
@@ -31,6 +31,8 @@ public:
         else
             share_out(n, range);
     }
+    // Calls work() once; what algorithms of oneTBB do in it, they do on these threads. Not for a count of 1, which has none.
+    void run(const std::function<void()>& work) const;
 
 private:
     static constexpr std::size_t grain = 64;  // items worth the hand-over to another thread

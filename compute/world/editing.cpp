@@ -6,6 +6,7 @@
 #include <string>
 
 #include "compute/scene/fracture.h"
+#include "compute/scene/shape_geometry.h"
 #include "compute/step/scene_compiler.h"
 #include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
@@ -22,25 +23,6 @@ void demand(bool condition, const std::string& what) {
 
 bool within(vec3 v, float limit) {
     return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
-}
-
-vec3 half_extents(const Shape& shape) {
-    if (const auto* compound = std::get_if<Compound>(&shape)) {
-        vec3 half(0);
-        for (const Part& part : compound->parts)
-            half = glm::max(half, glm::abs(part.position) + vec3(glm::length(half_extents(whole_shape(part.shape)))));
-        return half;
-    }
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return vec3(sphere->radius);
-    if (const auto* box = std::get_if<Box>(&shape)) return box->half_extents;
-    if (const auto* capsule = std::get_if<Capsule>(&shape))
-        return {capsule->radius, capsule->radius + capsule->half_height, capsule->radius};
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return {cylinder->radius, cylinder->half_height, cylinder->radius};
-    if (const auto* cone = std::get_if<Cone>(&shape)) return {cone->radius, 0.75f * cone->height, cone->radius};
-    vec3 half(0);
-    if (const auto* hull = std::get_if<Hull>(&shape))
-        for (const vec3& point : hull->points) half = glm::max(half, glm::abs(point));
-    return half;
 }
 
 void check(const GripSpring& s) {
@@ -126,17 +108,14 @@ void World::explode(vec3 centre, float radius, float speed) {
 }
 
 void World::Interior::retune(const Settings& changed) {
-    bool replan = changed.substeps != settings.substeps;
-    if ((changed.least_restitution > 0) != (settings.least_restitution > 0)) {
-        Content content = state.content();
-        state.fixed().least_restitution = changed.least_restitution;
-        replan = replan || state.content() != content;
-        state.fixed().least_restitution = settings.least_restitution;
-    }
-    if (replan) runner->fetch();
+    StateEditor editor(state);
+    runner->download(editor.needed_to_tune(changed));
+    const bool other_substeps = changed.substeps != settings.substeps;
+    const Content content = state.content();
     settings = changed;
-    StateEditor(state).tune(scene.gravity, settings);
-    if (replan) runner->attach(state);
+    const TableRanges ranges = editor.tune(scene.gravity, settings);
+    if (other_substeps || state.content() != content) runner->adapt();
+    runner->upload(ranges);
 }
 
 void World::set_gravity(vec3 gravity) {
@@ -174,14 +153,16 @@ std::size_t World::add_body(const Body& body) {
     Interior& in = *interior_;
     Scene added = checked(Scene{in.scene.gravity, {on_its_own(body)}, {}});
     const std::size_t first = in.scene.bodies.size();
-    in.runner->fetch();
+    StateEditor editor(in.state);
     for (Body& one : added.bodies) {
         if (one.piece_of != no_body) one.piece_of += first;
         if (one.fracture) one.fracture->first_piece += first;
-        StateEditor(in.state).add(one);
+        in.runner->download(editor.needed_to_add());
+        const TableRanges changed = editor.add(one);
+        in.runner->adapt();
+        in.runner->upload(changed);
         in.scene.bodies.push_back(std::move(one));
     }
-    in.runner->attach(in.state);
     return first;
 }
 

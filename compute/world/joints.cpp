@@ -67,13 +67,14 @@ void World::Interior::set_axis(std::size_t index, JointAxis axis, const std::fun
             "degrees on what is not locked");
     }
     change(*found);
-    Scene alone{scene.gravity, scene.bodies, {changed}};
-    check_joints(alone);
+    check_joint(scene, changed, index);
     joint.kind = changed.kind;
     const std::uint32_t record = state.joint_records[index];
+    const TableRange range{Table::joints, record, 1};
+    runner->download({range});
     const auto k = static_cast<std::size_t>(axis);
     state.joints[record].axes[k] = axis_record(axes_of_kind(joint.kind).axes[k]);
-    runner->send_joint(record);
+    runner->upload({range});
     wake(joint);
 }
 
@@ -84,14 +85,14 @@ void World::Interior::wake(const Joint& joint) {
 
 JointState World::joint(std::size_t index) const {
     interior_->require_joint(index);
-    interior_->runner->fetch_bodies();
-    interior_->runner->fetch_joints();
+    interior_->bring(body_ranges);
+    interior_->bring(joint_ranges);
     return interior_->joint_state(index);
 }
 
 std::vector<JointState> World::joints() const {
-    interior_->runner->fetch_bodies();
-    interior_->runner->fetch_joints();
+    interior_->bring(body_ranges);
+    interior_->bring(joint_ranges);
     std::vector<JointState> all;
     for (std::size_t i = 0; i < interior_->scene.joints.size(); ++i) all.push_back(interior_->joint_state(i));
     return all;
@@ -113,15 +114,22 @@ void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) 
     });
 }
 
+void World::Interior::rejoin(std::optional<std::size_t> without) {
+    StateEditor editor(state);
+    runner->download(editor.needed_to_rejoin());
+    const TableRanges changed = editor.rejoin(scene, without);
+    runner->adapt();
+    runner->upload(changed);
+}
+
 std::size_t World::add_joint(const Joint& joint) {
     Interior& in = *interior_;
-    in.runner->fetch();
     const std::size_t index = in.scene.joints.size();
     in.scene.joints.push_back(joint);
     try {
-        check_joint(in.scene, index);
+        check_joint(in.scene, in.scene.joints[index], index);
         for (const auto& [key, body] : {std::pair{"/a", joint.a}, std::pair{"/b", joint.b}})
-            if (body != the_world && !in.body_state(body).there)
+            if (body != the_world && !this->body(body).there)
                 throw SceneError(
                     "/joints/" + std::to_string(index) + key,
                     "body " + std::to_string(body) + " is not there: it has broken, or is a piece of one that has not");
@@ -129,8 +137,7 @@ std::size_t World::add_joint(const Joint& joint) {
         in.scene.joints.pop_back();
         throw;
     }
-    StateEditor(in.state).rejoin(in.scene);
-    in.runner->attach(in.state);
+    in.rejoin();
     in.wake(joint);
     return index;
 }
@@ -139,13 +146,11 @@ void World::remove_joint(std::size_t index) {
     Interior& in = *interior_;
     in.require_joint(index);
     in.require_no_wheel(index);
-    in.runner->fetch();
     in.wake(in.scene.joints[index]);
     for (Vehicle& vehicle : in.scene.vehicles)
         for (Wheel& wheel : vehicle.wheels) wheel.joint -= wheel.joint > index;
     in.scene.joints.erase(in.scene.joints.begin() + static_cast<std::ptrdiff_t>(index));
-    StateEditor(in.state).rejoin(in.scene, index);
-    in.runner->attach(in.state);
+    in.rejoin(index);
 }
 
 Joint World::joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis) const {

@@ -29,7 +29,7 @@ bool World::Interior::keeps_order() const {
 void World::Interior::begin_in_order() {
     if (!keeps_order()) return;
     const auto begin = Clock::now();
-    state.reorder(rows_by_place(scene, state));
+    state.reorder(rows_by_place(scene, state, runner->threads()), runner->threads());
     looked = Clock::now();
     seconds_to_look = seconds_since(begin);
 }
@@ -38,12 +38,14 @@ void World::Interior::keep_order() {
     const bool asked = std::exchange(reorder_now, false);
     if (!asked && (!keeps_order() || (looked && seconds_since(*looked) * share_of_time < seconds_to_look))) return;
     const auto begin = Clock::now();
-    runner->fetch_bodies();
-    const std::vector<std::uint32_t> rows = rows_by_place(scene, state);
+    bring(body_ranges);
+    const std::vector<std::uint32_t> rows = rows_by_place(scene, state, runner->threads());
     if (asked || stride_in_space(scene, state) > worth_it * stride_in_space(scene, state, rows)) {
-        runner->fetch();
-        state.reorder(rows);
-        runner->attach(state);
+        bring(lasting_ranges);
+        state.reorder(rows, runner->threads());
+        runner->adapt();
+        runner->upload(lasting_ranges(state));
+        runner->upload({{Table::ids, 0, state.fixed().bodies}});
         ++reorderings;
     }
     looked = Clock::now();

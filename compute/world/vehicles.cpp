@@ -20,13 +20,15 @@ void World::Interior::require_vehicle(std::size_t vehicle) const {
 }
 
 void World::Interior::tell(std::size_t vehicle, const Controls& controls, bool by_route) {
+    const TableRange range{Table::vehicles, vehicle, 1};
+    runner->download({range});
     physics::Handling& told = state.vehicles[vehicle].handling;
     told.throttle = controls.throttle;
     told.brake = controls.brake;
     told.steer = controls.steer;
     told.hand_brake = controls.hand_brake;
     told.by_route = by_route;
-    runner->send_vehicle(vehicle);
+    runner->upload({range});
     action_on(scene.vehicles[vehicle].chassis, vec3(0), vec3(0));  // wakes it, and all that is joined to it
 }
 
@@ -55,7 +57,7 @@ VehicleState World::Interior::vehicle_state(std::size_t index) const {
 
 void World::Interior::keep_vehicles(Scene& snapshot, const std::vector<std::size_t>& bodies,
                                     const std::vector<std::size_t>& joints) const {
-    runner->fetch_vehicles();
+    bring(vehicle_ranges);
     std::vector<Vehicle> kept;
     for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
         Vehicle vehicle = scene.vehicles[i];
@@ -90,12 +92,12 @@ void World::drive_by_route(std::size_t vehicle) {
 
 VehicleState World::vehicle(std::size_t index) const {
     interior_->require_vehicle(index);
-    interior_->runner->fetch_vehicles();
+    interior_->bring(vehicle_ranges);
     return interior_->vehicle_state(index);
 }
 
 std::vector<VehicleState> World::vehicles() const {
-    interior_->runner->fetch_vehicles();
+    interior_->bring(vehicle_ranges);
     std::vector<VehicleState> all;
     for (std::size_t i = 0; i < interior_->scene.vehicles.size(); ++i) all.push_back(interior_->vehicle_state(i));
     return all;
@@ -105,8 +107,8 @@ std::vector<VehicleState> World::vehicles() const {
 void World::put_upright(std::size_t vehicle) {
     Interior& in = *interior_;
     in.require_vehicle(vehicle);
-    in.runner->fetch();
     const Vehicle& v = in.scene.vehicles[vehicle];
+    in.runner->download(row_ranges(in.state, in.state.row_of(v.chassis)));
     const vec4 frame = in.state.vehicles[vehicle].handling.frame;
     const physics::Pose before = in.state.poses[in.state.row_of(v.chassis)];
     const float pull = glm::length(in.scene.gravity);
@@ -123,11 +125,13 @@ void World::put_upright(std::size_t vehicle) {
         physics::unit_quaternion(physics::compose(vec4(turn.x, turn.y, turn.z, turn.w), physics::conjugate(frame)));
     const Body& first = in.scene.bodies[v.chassis];
     const vec3 place = before.position + up * lift_of_a_righted_vehicle;
+    TableRanges changed;
     const auto put = [&](std::size_t body, vec3 position, vec4 orientation) {
         const std::uint32_t row = in.state.row_of(body);
         in.state.poses[row] = {position, 0, orientation};
         in.state.velocities[row] = {};
         in.state.rests[row] = 0;
+        append(changed, {{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::rests, row, 1}});
     };
     put(v.chassis, place, upright);
     for (const Wheel& wheel : v.wheels) {
@@ -137,7 +141,7 @@ void World::put_upright(std::size_t vehicle) {
         const vec4 turned = physics::compose(physics::conjugate(first.orientation), b.orientation);
         put(body, place + physics::rotate(upright, offset), physics::unit_quaternion(physics::compose(upright, turned)));
     }
-    in.runner->attach(in.state);
+    in.runner->upload(changed);
     in.action_on(v.chassis, vec3(0), vec3(0));
 }
 

@@ -59,18 +59,17 @@ physics::Action& World::Interior::action_on(std::size_t body, vec3 value, vec3 s
 }
 
 void World::Interior::make_room_for_actions() {
-    runner->fetch();
     state.action_room = std::bit_ceil(static_cast<std::uint32_t>(actions.size()));
     state.make(Table::actions);
-    runner->attach(state);
+    runner->adapt();
 }
 
 void World::Interior::make_room_for_lists() {
-    runner->fetch();
     state.grow();
     ++growths;
     state.fixed().redo = 1;
-    runner->attach(state);
+    runner->adapt();
+    runner->upload({{Table::counts, 0, 1}});  // which say no more that a list was too long
 }
 
 void World::Interior::step() {
@@ -187,7 +186,7 @@ BodyState World::Interior::body_state(std::size_t i) const {
 }
 
 std::vector<BodyState> World::bodies() const {
-    interior_->runner->fetch_bodies();
+    interior_->bring(body_ranges);
     std::vector<BodyState> bodies(interior_->scene.bodies.size());
     for (std::size_t i = 0; i < bodies.size(); ++i) bodies[i] = interior_->body_state(i);
     return bodies;
@@ -195,7 +194,7 @@ std::vector<BodyState> World::bodies() const {
 
 Scene World::snapshot() const {
     Scene scene = interior_->scene;
-    interior_->runner->fetch_bodies();
+    interior_->bring(body_ranges);
     std::vector<Body> there;
     std::vector<std::size_t> place_there(scene.bodies.size(), no_body);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -210,19 +209,21 @@ Scene World::snapshot() const {
         body.angular_velocity = now.angular_velocity;
     }
     scene.bodies = std::move(there);
-    interior_->runner->fetch_joints();
+    interior_->bring(joint_ranges);
     std::vector<Joint> joints;
     std::vector<std::size_t> joint_there(scene.joints.size(), no_body);
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
         joint_there[i] = joints.size();
         Joint& joint = joints.emplace_back(scene.joints[i]);
         joint.broken = interior_->joint_state(i).broken;
+        // Renumbers the body; true if it is there no more.
         const auto gone = [&](std::size_t& body) {
             if (body == the_world) return false;
             body = place_there[body];
             return body == no_body;
         };
-        if (gone(joint.a) | gone(joint.b)) {
+        const bool a_gone = gone(joint.a), b_gone = gone(joint.b);
+        if (a_gone || b_gone) {
             joints.pop_back();
             joint_there[i] = no_body;
         }
@@ -234,14 +235,14 @@ Scene World::snapshot() const {
 
 BodyState World::body(std::size_t index) const {
     interior_->require_body(index);
-    interior_->runner->fetch_body(interior_->state.row_of(index));
+    interior_->runner->download(row_ranges(interior_->state, interior_->state.row_of(index)));
     return interior_->body_state(index);
 }
 
 std::vector<Touching> World::touching(std::size_t body) const {
     interior_->require_body(body);
-    interior_->runner->fetch_bodies();
-    interior_->runner->fetch_contacts();
+    interior_->bring(body_ranges);
+    interior_->bring(contact_ranges);
     const State& state = interior_->state;
     std::vector<Touching> found;
     for (const std::uint32_t i : contacts_by_id(state)) {
@@ -256,22 +257,22 @@ std::vector<Touching> World::touching(std::size_t body) const {
 }
 
 Statistics World::statistics() const {
-    interior_->runner->fetch_bodies();
-    interior_->runner->fetch_contacts();
-    interior_->runner->fetch_joints();
+    interior_->bring(body_ranges);
+    interior_->bring(contact_ranges);
+    interior_->bring(joint_ranges);
     return statistics_of(interior_->scene, interior_->state);
 }
 
 const State& World::state() const {
-    interior_->runner->fetch_bodies();
-    interior_->runner->fetch_contacts();
-    interior_->runner->fetch_joints();
-    interior_->runner->fetch_vehicles();
+    interior_->bring(body_ranges);
+    interior_->bring(contact_ranges);
+    interior_->bring(joint_ranges);
+    interior_->bring(vehicle_ranges);
     return interior_->state;
 }
 
 std::uint64_t World::state_hash() const {
-    interior_->runner->fetch_bodies();
+    interior_->bring(body_ranges);
     return hash_of(interior_->state);
 }
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "compute/scene/joint_validation.h"
-#include "compute/step/state.h"
+#include "compute/step/table_ranges.h"
 #include "compute/world.h"
 
 namespace scree {
@@ -49,11 +49,14 @@ struct World::Interior {
     void require_body(std::size_t body) const;
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;
+    // What of the tables the host is to have as it is on the runner now.
+    void bring(TableRanges (*ranges)(const State&)) const { runner->download(ranges(state)); }
 
     // joints.cpp
     void require_joint(std::size_t joint) const;  // throws std::out_of_range
     JointState joint_state(std::size_t i) const;
-    void wake(const Joint& joint);  // its bodies, in the next step
+    void rejoin(std::optional<std::size_t> without = std::nullopt);  // the joints are the scene's
+    void wake(const Joint& joint);                                   // its bodies, in the next step
     void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
 
     // vehicles.cpp

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compute/scene/mesh.h"
+#include "compute/scene/shape_geometry.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
 
@@ -75,28 +75,6 @@ std::vector<vec3> swept(const std::vector<vec3>& corners, vec3 middle) {
 
 }  // namespace
 
-float reach_of(const Shape& shape) {
-    if (const auto* sphere = std::get_if<Sphere>(&shape)) return sphere->radius;
-    if (const auto* capsule = std::get_if<Capsule>(&shape)) return capsule->radius + capsule->half_height;
-    if (const auto* box = std::get_if<Box>(&shape)) return glm::length(box->half_extents);
-    if (const auto* cylinder = std::get_if<Cylinder>(&shape)) return std::hypot(cylinder->radius, cylinder->half_height);
-    if (const auto* cone = std::get_if<Cone>(&shape))
-        return std::max(0.75f * cone->height, std::hypot(cone->radius, 0.25f * cone->height));
-    if (const auto* hull = std::get_if<Hull>(&shape)) {
-        float reach = 0;
-        for (const vec3& point : hull->points) reach = std::max(reach, glm::length(point));
-        return reach;
-    }
-    if (const auto* compound = std::get_if<Compound>(&shape)) {
-        float reach = 0;
-        for (const Part& part : compound->parts)
-            reach = std::max(reach, glm::length(part.position) + reach_of(whole_shape(part.shape)));
-        return reach;
-    }
-    if (const MeshForm* form = mesh_form_of(shape)) return form->reach;
-    return 1;
-}
-
 CameraMan::CameraMan(const CameraOptions& options, const Subject& subject, float aspect)
     : view_(subject.viewpoint), orbit_(options.orbit) {
     const bool placed = options.eye || options.target;
@@ -124,7 +102,7 @@ CameraMan::CameraMan(const CameraOptions& options, const Subject& subject, float
     // Unless the user says from where, the body is a tenth as high as the picture.
     if (!placed && !options.fit) {
         const float rise = std::tan(glm::radians(view_.vertical_fov) / 2);
-        back *= 10 * reach_of(subject.scene.bodies[*followed_].shape) / (rise * glm::length(back));
+        back *= 10 * bounding_radius(subject.scene.bodies[*followed_].shape) / (rise * glm::length(back));
     }
     view_.target = vec3(0);
     view_.eye = back;

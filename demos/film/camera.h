@@ -36,7 +36,4 @@ Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov,
 
 std::vector<vec3> corners_of(vec3 low, vec3 high);
 
-// From a body's centre to its farthest point, m; 1 of a plane.
-float reach_of(const Shape& shape);
-
 }  // namespace scree::demos

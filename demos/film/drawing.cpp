@@ -20,17 +20,7 @@ namespace {
 class Instances {
 public:
     void add(std::uint32_t row, const SimpleShape& shape) {
-        // In the order of SimpleShape's alternatives.
-        std::vector<std::uint32_t>* const lists[] = {&made.spheres, &made.capsules, &made.boxes, &made.planes};
-        if (shape.index() < std::size(lists)) {
-            lists[shape.index()]->push_back(row);
-            return;
-        }
-        const auto* hull = std::get_if<Hull>(&shape);
-        const void* key = hull ? static_cast<const void*>(hull->form.get()) : (std::get_if<Cone>(&shape) ? &cones_ : &cylinders_);
-        const auto [mesh, fresh] = meshes_.try_emplace(key, static_cast<std::uint32_t>(made.meshes.size()));
-        if (fresh) made.meshes.push_back(hull ? hull_mesh(*hull) : (key == &cones_ ? cone_mesh() : cylinder_mesh()));
-        add(row, mesh->second);
+        std::visit([&](const auto& one) { draw(row, one); }, shape);
     }
     // Triangles, a patch of them at a time: the first one's row carries the patch, and none is much larger than other solids.
     void add(std::uint32_t first_row, const MeshForm& form) {
@@ -44,6 +34,21 @@ public:
     host::ShapeInstances made;
 
 private:
+    void draw(std::uint32_t row, const Sphere&) { made.spheres.push_back(row); }
+    void draw(std::uint32_t row, const Capsule&) { made.capsules.push_back(row); }
+    void draw(std::uint32_t row, const Box&) { made.boxes.push_back(row); }
+    void draw(std::uint32_t row, const Plane&) { made.planes.push_back(row); }
+    void draw(std::uint32_t row, const Cylinder&) { add(row, mesh_for(&cylinders_, cylinder_mesh)); }
+    void draw(std::uint32_t row, const Cone&) { add(row, mesh_for(&cones_, cone_mesh)); }
+    void draw(std::uint32_t row, const Hull& hull) {
+        add(row, mesh_for(hull.form.get(), [&] { return hull_mesh(hull); }));
+    }
+    template <class Make>
+    std::uint32_t mesh_for(const void* key, Make make) {
+        const auto [mesh, fresh] = meshes_.try_emplace(key, static_cast<std::uint32_t>(made.meshes.size()));
+        if (fresh) made.meshes.push_back(make());
+        return mesh->second;
+    }
     void add(std::uint32_t row, std::uint32_t mesh) {
         made.solids.push_back(row);
         made.solid_meshes.push_back(mesh);

@@ -20,7 +20,4 @@ struct Hit {
 // the scene, in its order.
 std::optional<Hit> pick(const Scene& scene, const std::vector<BodyState>& states, const Ray& ray);
 
-// Distance to one shape at a pose, m; nothing if the ray misses it or begins in it.
-std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray);
-
 }  // namespace scree::demos

@@ -116,31 +116,31 @@ int bench(const Options& options) {
 }  // namespace
 
 void add_bench(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand("bench", "What a step costs, stage by stage");
+    CLI::App* command = program.add_subcommand("bench", "Measure what a step costs, stage by stage");
     auto options = std::make_shared<Options>();
     command->add_option("names", options->names,
-                        "demos or scene files (default: avalanche); with --pairs kinds as hull-box (default: all)");
+                        "Demos or scene files (default: avalanche); with --pairs, pair types such as hull-box (default: all).");
     command->add_option_function<std::string>(
         "--bodies", [options](const std::string& list) { options->bodies = counts_of(list); },
-        "how many, parted by commas (1k,4k,16k)");
-    command->add_option("--steps", options->bench.steps, "measured")->check(CLI::Range(1, 1000000));
-    command->add_option("--warmup", options->bench.warmup, "steps before them")->check(CLI::Range(0, 1000000));
+        "Numbers of bodies, separated by commas (1k,4k,16k).");
+    command->add_option("--steps", options->bench.steps, "Measured steps.")->check(CLI::Range(1, 1000000));
+    command->add_option("--warmup", options->bench.warmup, "Steps before the measured ones.")->check(CLI::Range(0, 1000000));
     command
         ->add_option("--settle", options->bench.settle,
-                     "simulated seconds before the warmup, so that what fell lies (default: 0)")
+                     "Simulated time before the warm-up in which bodies settle, s. Default: 0.")
         ->check(CLI::Range(0.0, 1e5));
     command->add_option("--settled", options->bench.settled,
-                        "a folder that keeps what --settle made, and from which it is taken the next time, on any backend");
+                        "Folder that caches settled scenes of --settle; they serve every backend.");
     command
         ->add_option_function<std::string>(
             "--pairs", [options](const std::string& count) { options->pairs = count_of(count); },
-            "so many touching pairs of every two kinds of shapes, and what the narrowphase takes for one, in place of demos")
+            "Measure the narrowphase instead: this many touching pairs of every two shapes.")
         ->type_name("COUNT")
         ->excludes("--bodies", "--warmup", "--settle", "--settled");
-    command->add_flag("--sleep", options->sleeping, "bodies at rest may sleep (default: what is measured stays awake)");
-    command->add_option("--csv", options->csv, "a file for the numbers; - is the standard output");
+    command->add_flag("--sleep", options->sleeping, "Let bodies at rest sleep. Default: all stay awake.");
+    command->add_option("--csv", options->csv, "CSV file; - is the standard output.");
     add_options(*command, options->machine);
-    command->add_flag("--quiet,-q", options->bench.quiet, "no progress");
+    command->add_flag("--quiet,-q", options->bench.quiet, "Print no progress.");
     command->footer(
         "A stage's time is the GPU's between two timestamps, or the wall clock on the processor. Timestamps take time of their\n"
         "own, 10 us each on lavapipe: the step is timed in every other step, without them, and there the stages of a small "

@@ -23,7 +23,7 @@ struct Options {
     MachineOptions machine;
     std::string report;
     float offset = 0;
-    bool list = false, quiet = false;
+    bool list = false, markdown = false, quiet = false;
 };
 
 std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Machine& machine, float offset, bool quiet) {
@@ -63,9 +63,10 @@ int check(const Options& options) {
     if (options.list) {
         if (!options.report.empty())
             throw UsageError("--list and --report: with --list nothing runs, and there is nothing to report");
-        fmt::print("{}", promises_of(chosen));
+        fmt::print("{}", options.markdown ? promises_as_markdown(chosen) : promises_of(chosen));
         return done;
     }
+    if (options.markdown) throw UsageError("--markdown: prints the list of promises; add --list");
     require_writable_file("--report", options.report);
     const Machine machine = choose_machine(options.machine, Choice::fastest);
     if (!options.quiet) {
@@ -93,21 +94,22 @@ int check(const Options& options) {
 }  // namespace
 
 void add_check(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand("check", "The stability suite: measured against promised");
+    CLI::App* command = program.add_subcommand("check", "Run the stability suite: measured against promised");
     auto options = std::make_shared<Options>();
-    command->add_option("names", options->names, "demos and trials: names, their beginnings or patterns (default: all)");
-    command->add_flag("--list", options->list, "say what is promised and how it is measured, and run nothing");
-    command->add_option("--report", options->report, "a file for the same as JSON; - is the standard output");
+    command->add_option("names", options->names, "Demos and trials: names, prefixes or patterns. Default: all.");
+    command->add_flag("--list", options->list, "List promises, limits and how each is measured; run nothing.");
+    command->add_flag("--markdown", options->markdown, "With --list: as a Markdown table.");
+    command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command
         ->add_option("--offset", options->offset,
-                     "moves every scene so far from the origin along x and z, m, to see where the accuracy of positions ends")
+                     "Move every scene along x and z, m, to see where the accuracy of positions ends. Default: 0.")
         ->check(CLI::Range(-1e6f, 1e6f));
     add_options(*command, options->machine);
-    command->add_flag("--quiet,-q", options->quiet, "no progress");
+    command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(
         "Examples:\n  scree check --backend cpu\n  scree check 'stack*' pyramid --report stands.json\n"
         "  scree check 'stack*' bounce --offset 10000\n"
-        "State hashes are those of any other backend.");
+        "State hashes are equal on every backend.");
     command->callback([options, &status] { status = check(*options); });
 }
 

@@ -3,12 +3,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include "compute/scene_file/scene_schema.h"
 #include "demos/program/commands.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/loaded_scene.h"
 #include "host/files/file.h"
-
-extern const char* const scree_scene_schema;  // the text of compute/scene_file/scene.schema.json
 
 namespace scree::demos {
 
@@ -23,8 +22,10 @@ struct Options {
 void write_out(const Options& options) {
     if (options.scene.name.empty() && !options.schema)
         throw UsageError("export: name a demo (scree list), or ask for the --schema");
-    std::string text = scree_scene_schema;
-    if (!options.schema) {
+    std::string text;
+    if (options.schema) {
+        text = scene_schema();
+    } else {
         const Subject subject = load_subject(options.scene);
         text = scene_to_json(subject.scene, subject.viewpoint);
     }
@@ -40,15 +41,15 @@ void write_out(const Options& options) {
 void add_export(CLI::App& program, int&) {
     CLI::App* command = program.add_subcommand("export", "Write a demo's scene as a JSON file");
     auto options = std::make_shared<Options>();
-    command->add_option("scene", options->scene.name, "a demo (see scree list), or a scene file to write anew");
-    command->add_option("-o,--output", options->output, "the file (default: the standard output)");
+    command->add_option("scene", options->scene.name, "Demo (see scree list), or a scene file to rewrite.");
+    command->add_option("-o,--output", options->output, "Output file. Default: the standard output.");
     command->add_option_function<std::string>(
         "--bodies", [options](const std::string& word) { options->scene.bodies = count_of(word); },
-        "how many; 10k and 1M are understood");
+        "Number of bodies, such as 500, 10k or 1M. Default: the demo's own.");
     command->add_option_function<std::string>(
         "--seed", [options](const std::string& word) { options->scene.seed = seed_of(word); },
-        "of the random numbers that a demo is built with");
-    command->add_flag("--schema", options->schema, "write the JSON Schema of scene files instead");
+        "Seed of the random numbers that build the demo. Default: 1.");
+    command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files instead.");
     command->callback([options] { write_out(*options); });
 }
 

@@ -23,7 +23,7 @@ std::string overview(const char* heading, bool trials) {
 }  // namespace
 
 void add_list(CLI::App& program, int&) {
-    CLI::App* command = program.add_subcommand("list", "The demos, and the trials of the stability suite, a line each");
+    CLI::App* command = program.add_subcommand("list", "List the demos and the trials of the stability suite");
     command->callback([] { fmt::print("{}\n{}", overview("demo", false), overview("trial", true)); });
 }
 

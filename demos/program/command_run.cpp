@@ -273,13 +273,13 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->scene);
     add_options(*command, options->machine);
     add_options(*command, options->pictures);
-    command->add_option("--report", options->report, "a file for all numbers of the run as JSON; - is the standard output");
-    command->add_option("--save", options->save,
-                        "a scene file for how things lie and move at the end: to go on from there, in scree or elsewhere");
-    command->add_option("--input", options->input,
-                        "a recording of `scree view --record`: its scene, settings and steps, and all that was done, bit by bit");
+    command->add_option("--report", options->report, "JSON report file; - is the standard output.");
+    command->add_option("--save", options->save, "Scene file of the final state, to continue from in scree or elsewhere.");
+    command->add_option(
+        "--input", options->input,
+        "Replay a recording of `scree view --record`: its scene, settings, steps and commands, to the same bits.");
     command->get_option("scene")->required(false);
-    command->add_flag("--quiet,-q", options->quiet, "no progress and no summary");
+    command->add_flag("--quiet,-q", options->quiet, "Print no progress and no summary.");
     command->footer(
         "Examples:\n  scree run tower\n  scree run --input played.json --video played.mp4\n  scree run avalanche --bodies 20k "
         "--seconds 10 --video avalanche.mp4\n"

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 
+#include "compute/scene/shape_geometry.h"
 #include "demos/film/camera.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
@@ -61,7 +62,7 @@ void set_bounds(Subject& subject) {
     for (const bool moving : {true, false}) {
         for (const Body& body : subject.scene.bodies) {
             if (std::holds_alternative<Plane>(body.shape) || (moving && body.motion != Motion::dynamic)) continue;
-            const float reach = reach_of(body.shape);
+            const float reach = bounding_radius(body.shape);
             low = glm::min(low, body.position - reach);
             high = glm::max(high, body.position + reach);
         }

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <limits>
 
+#include "compute/fields/range_text.h"
+#include "compute/fields/settings.h"
 #include "demos/program/option_parsing.h"
 
 namespace scree::demos {
@@ -61,45 +63,52 @@ std::vector<std::size_t> counts_of(const std::string& list) {
     return counts;
 }
 
+// An option whose text, range and default are those of a setting (compute/fields/settings.h).
+template <class Value>
+static CLI::Option* add_setting(CLI::App& command, const char* option, Value& value, Value Settings::*setting) {
+    const auto field = fields::field_of(setting);
+    const std::string range = text_of(field.range, field.unit);
+    return command.add_option(option, value, fmt::format("{}, {}. Default: {}.", field.about, range, Settings{}.*setting))
+        ->check(between(field.range.low, field.range.high));
+}
+
 void add_options(CLI::App& command, MachineOptions& options) {
     command
         .add_option("--backend", options.backend,
-                    "auto (a GPU; without one, a software Vulkan device or the processor, whichever measures faster), "
-                    "vulkan or cpu")
+                    "Where to simulate: vulkan, cpu, or auto (a GPU; without one, lavapipe or the CPU, whichever "
+                    "measures faster). Default: auto.")
         ->check(one_of({"auto", "vulkan", "cpu"}))
-        ->group("Where");
-    command.add_option("--device", options.device, "the Vulkan device: its index or part of its name (see scree devices)")
-        ->group("Where");
-    command.add_option("--threads", options.threads, "of --backend cpu, and of no other; 0 is one a core")
+        ->group("Backend");
+    command.add_option("--device", options.device, "Vulkan device, by index or part of its name (see scree devices).")
+        ->group("Backend");
+    command.add_option("--threads", options.threads, "Worker threads for --backend cpu (0: one per core). Default: 0.")
         ->check(CLI::Range(0, 1024))
-        ->group("Where");
-    command.add_flag("--validate", options.validate, "check every Vulkan call with the validation layers (slow)")->group("Where");
+        ->group("Backend");
+    command.add_flag("--validate", options.validate, "Check every Vulkan call with the validation layers (slow).")
+        ->group("Backend");
 }
 
 void add_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("scene", options.name, "a demo (see scree list) or a scene file, NAME.json")->required();
-    auto* steps = command.add_option("--steps", options.steps, "how many steps")->check(CLI::Range(1, 1000000000))->group("What");
-    command
-        .add_option("--seconds", options.seconds,
-                    "how long, in simulated seconds (default: until the demo's promise can be judged)")
+    command.add_option("scene", options.name, "Demo (see scree list) or scene file, NAME.json.")->required();
+    auto* steps =
+        command.add_option("--steps", options.steps, "Number of steps.")->check(CLI::Range(1, 1000000000))->group("Simulation");
+    command.add_option("--seconds", options.seconds, "Simulated time, s. Default: until the demo's promise can be judged.")
         ->check(between(1e-3, 1e6))
         ->excludes(steps)
-        ->group("What");
-    command.add_option("--rate", options.rate, "steps a second")->check(between(10.0, 1000.0))->group("What");
-    command.add_option("--substeps", options.substeps, "of a step; more make taller stacks stand")
-        ->check(CLI::Range(1, 64))
-        ->group("What");
-    command.add_flag("!--no-sleep", options.sleeping, "bodies at rest stay awake")->group("What");
+        ->group("Simulation");
+    add_setting(command, "--rate", options.rate, &Settings::rate)->group("Simulation");
+    add_setting(command, "--substeps", options.substeps, &Settings::substeps)->group("Simulation");
+    command.add_flag("!--no-sleep", options.sleeping, "Keep bodies at rest awake.")->group("Simulation");
     command
         .add_option_function<std::string>(
             "--bodies", [&options](const std::string& word) { options.bodies = count_of(word); },
-            "how many; 10k and 1M are understood")
-        ->group("What");
+            "Number of bodies, such as 500, 10k or 1M. Default: the demo's own.")
+        ->group("Simulation");
     command
         .add_option_function<std::string>(
             "--seed", [&options](const std::string& word) { options.seed = seed_of(word); },
-            "of the random numbers that a demo is built with")
-        ->group("What");
+            "Seed of the random numbers that build the demo. Default: 1.")
+        ->group("Simulation");
 }
 
 }  // namespace scree::demos

@@ -33,9 +33,9 @@ struct SceneOptions {
     std::uint64_t seed = 1;
     std::optional<int> steps;
     std::optional<double> seconds;
-    float rate = 60;  // Hz
-    int substeps = 8;
-    bool sleeping = true;
+    float rate = Settings{}.rate;  // Hz
+    int substeps = Settings{}.substeps;
+    bool sleeping = Settings{}.sleeping;
 
     Settings settings() const;
     int step_count(double default_seconds) const;

@@ -70,50 +70,44 @@ void add_camera(CLI::App& command, CameraOptions& options) {
     command
         .add_option_function<std::string>(
             "--camera", Set([&options](const std::string& word) { set_camera(options, word); }),
-            "fit (as near as all of the scene is seen), orbit[:SECONDS] (round the target, a turn in 20 s), follow:BODY (by its "
-            "name or index); several parted by commas. Without: as the scene says, which may be a path with moments")
+            "Camera motion, separated by commas: fit (frame the whole scene), orbit[:SECONDS] (circle the target, one turn in "
+            "20 s by default), follow:BODY (by name or index). Default: the camera or camera path of the scene.")
         ->group(group);
     command
         .add_option_function<std::string>("--eye",
                                           Set([&options](const std::string& word) { options.eye = vector_of(word, "--eye"); }),
-                                          "X,Y,Z of the camera, m; with follow, seen from the body if --target is given, too")
+                                          "Camera position X,Y,Z, m; relative to the body if both follow and --target are given.")
         ->group(group);
     command
         .add_option_function<std::string>(
             "--target", Set([&options](const std::string& word) { options.target = vector_of(word, "--target"); }),
-            "X,Y,Z of what it looks at, m")
+            "Point X,Y,Z that the camera looks at, m.")
         ->group(group);
-    command.add_option("--fov", options.vertical_fov, "its angle from bottom to top, degrees")
+    command.add_option("--fov", options.vertical_fov, "Vertical field of view, degrees. Default: the scene's, mostly 45.")
         ->check(between(1, 170))
         ->group(group);
-    command
-        .add_flag("--orthographic", options.orthographic,
-                  "parallel rays: sizes do not depend on distance; the target is as large as without")
-        ->group(group);
+    command.add_flag("--orthographic", options.orthographic, "Orthographic projection; the target keeps its size.")->group(group);
 }
 
 void add_outputs(CLI::App& command, PictureOptions& options) {
     const char* group = "Pictures";
-    command.add_option("--frames", options.frames, "a folder for frame_000000.png and so on")->group(group);
-    command
-        .add_option("--png-depth", options.bits,
-                    "bits a channel, 8 or 16; with 16 the picture is drawn into floats, and raw frames have 16, too")
+    command.add_option("--frames", options.frames, "Folder for frame_000000.png and so on.")->group(group);
+    command.add_option("--png-depth", options.bits, "Bits per channel of PNG and raw frames, 8 or 16. Default: 8.")
         ->check(CLI::IsMember({8, 16}))
         ->group(group);
-    command.add_option("--video", options.video, "a video file, NAME.mp4 (needs ffmpeg)")->group(group);
-    command.add_option("--preview", options.preview, "a small animated picture, NAME.gif or NAME.webp (needs ffmpeg)")
+    command.add_option("--video", options.video, "Video file, NAME.mp4 (needs ffmpeg).")->group(group);
+    command.add_option("--preview", options.preview, "Small animated picture, NAME.gif or NAME.webp (needs ffmpeg).")
         ->group(group);
     command
-        .add_option(
-            "--raw", options.raw,
-            "bare pixels, rgb24 (rgb48 with --png-depth 16), into a file, a pipe or -, the standard output: scree run mix "
-            "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
+        .add_option("--raw", options.raw,
+                    "Raw pixels, rgb24 (rgb48 with --png-depth 16), to a file, a pipe or - (standard output): scree run mix "
+                    "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
         ->group(group);
     command
         .add_option_function<std::string>("--size", Set([&options](const std::string& word) { set_size(options, word); }),
-                                          "of a picture, WIDTHxHEIGHT (1280x720)")
+                                          "Picture size in pixels, WIDTHxHEIGHT. Default: 1280x720.")
         ->group(group);
-    command.add_option("--fps", options.fps, "pictures for each simulated second, at most --rate")
+    command.add_option("--fps", options.fps, "Frames per simulated second, at most --rate. Default: 30.")
         ->check(between(0.1, 1000.0))
         ->group(group);
 }
@@ -152,34 +146,33 @@ void add_options(CLI::App& command, PictureOptions& options) {
     add_outputs(command, options);
     const char* group = "Pictures";
     command
-        .add_option(
-            "--color", options.color,
-            "what colour tells; contact-impulse is the sum over the body's contacts in a substep, sleep how long it has been "
-            "quiet, material which friction, restitution and density it has")
+        .add_option("--color", options.color,
+                    "Quantity shown by colour. contact-impulse: sum over the body's contacts in one substep; sleep: how long the "
+                    "body has "
+                    "been quiet; material: friction, restitution and density. Default: momentum.")
         ->check(one_of(color_words()))
         ->group(group);
-    command.add_option("--color-map", options.color_map, "how it tells it")->check(one_of(color_map_words()))->group(group);
+    command.add_option("--color-map", options.color_map, "Colour map.")->check(one_of(color_map_words()))->group(group);
     command
         .add_option_function<std::string>(
             "--color-range", Set([&options](const std::string& word) { set_range(options, word); }),
-            "LOW:HIGH in the unit of --color (default: from 0 to what a typical body would have after falling over the scene's "
-            "height)")
+            "Colour range LOW:HIGH in the unit of --color. Default: from 0 to the value of a typical body after a fall "
+            "over the scene's height.")
         ->group(group);
     command
         .add_option_function<std::string>("--color-scale",
                                           Set([&options](const std::string& word) { options.logarithmic = word == "log"; }),
-                                          "linear, or log: from a thousandth of the range's end, or as --color-range says")
+                                          "Colour scale: linear, or log (from a thousandth of the range's upper end unless "
+                                          "--color-range says). Default: linear.")
         ->check(one_of({"linear", "log"}))
         ->group(group);
     command
         .add_option(
             "--show", options.show,
-            "what else to draw, a list parted by commas: contacts (their points, and along the normal how hard they push), "
-            "velocities (arrows, the way in 0.2 s), joints (that are not torn: from the bodies' middles to the anchors, and the "
-            "axis; blue without force, yellow at ten times the lighter body's weight, red at a hundred times), boxes (bounds "
-            "over the next step), cells (of the broadphase's grid, where bodies are; both from the first step on), sleep "
-            "(sleepers "
-            "dull and blue)")
+            "Overlays, separated by commas: contacts (points, with the normal force as a line), velocities (arrows, the way "
+            "in 0.2 s), joints (anchors and axes; blue without force, yellow at ten times the lighter body's weight, red at a "
+            "hundred times), boxes (AABBs over the next step), cells (occupied broadphase cells), sleep (sleepers dull and "
+            "blue).")
         ->check(one_of({"contacts", "velocities", "joints", "boxes", "cells", "sleep"}))
         ->delimiter(',')
         ->expected(1)
@@ -187,12 +180,12 @@ void add_options(CLI::App& command, PictureOptions& options) {
         ->group(group);
     command
         .add_option("--canvas", options.canvas,
-                    "what draws: vulkan, gl (OpenGL ES) or auto (vulkan on the device that simulates; for the processor gl, and "
-                    "vulkan where there is no gl); the pictures look the same")
+                    "Renderer: vulkan, gl (OpenGL ES), or auto (vulkan on the device that simulates; with --backend cpu gl, or "
+                    "vulkan where there is no gl). Both draw the same picture. Default: auto.")
         ->check(one_of({"auto", "vulkan", "gl"}))
         ->group(group);
-    command.add_flag("!--no-legend", options.legend, "no colour scale in the picture")->group(group);
-    command.add_flag("!--no-caption", options.caption, "no name, time, numbers of bodies and contacts, and device in it")
+    command.add_flag("!--no-legend", options.legend, "Leave the colour legend out.")->group(group);
+    command.add_flag("!--no-caption", options.caption, "Leave out the caption (name, time, bodies, contacts, device).")
         ->group(group);
     add_camera(command, options.camera);
 }

@@ -38,6 +38,22 @@ std::string table(const std::vector<Cells>& rows) {
     return text;
 }
 
+std::string markdown(const std::vector<Cells>& rows) {
+    std::string text;
+    for (const Cells& row : rows) {
+        for (const std::string& cell : row) {
+            text += "| ";
+            for (const char c : cell) text += c == '|' ? "\\|" : std::string(1, c);
+            text += " ";
+        }
+        text += "|\n";
+        if (&row != &rows.front()) continue;
+        for (std::size_t i = 0; i < row.size(); ++i) text += "|---";
+        text += "|\n";
+    }
+    return text;
+}
+
 std::string csv(const std::vector<Cells>& rows) {
     std::string text;
     for (const Cells& row : rows) {

@@ -12,6 +12,7 @@ using Cells = std::vector<std::string>;
 
 // The first row is the heading. Columns that hold numbers below it stand to the right.
 std::string table(const std::vector<Cells>& rows);
+std::string markdown(const std::vector<Cells>& rows);
 std::string csv(const std::vector<Cells>& rows);  // RFC 4180
 
 // A promise's rows, "pass" or "MISS" at their end; `before` goes in front of each.

@@ -99,14 +99,26 @@ std::string json_of(const std::vector<Outcome>& outcomes, const std::string& bac
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-std::string promises_of(const std::vector<const Demo*>& demos) {
+namespace {
+
+std::vector<Cells> promise_rows(const std::vector<const Demo*>& demos) {
     std::vector<Cells> rows = {{"scene", "promise", "limit", "how it is measured"}};
     for (const Demo* demo : demos) {
         const DemoScene scene = build(*demo, suite_size(*demo));
         for (const Claim& claim : scene.promise.claims()) rows.push_back({demo->name, claim.what, claim.promised, claim.how});
     }
     for (const Claim& claim : soundness()) rows.push_back({"(every)", claim.what, claim.promised, claim.how});
-    return table(rows);
+    return rows;
+}
+
+}  // namespace
+
+std::string promises_of(const std::vector<const Demo*>& demos) {
+    return table(promise_rows(demos));
+}
+
+std::string promises_as_markdown(const std::vector<const Demo*>& demos) {
+    return markdown(promise_rows(demos));
 }
 
 }  // namespace scree::demos

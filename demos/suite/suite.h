@@ -38,5 +38,6 @@ std::string table_of(const std::vector<Outcome>& outcomes);
 std::string json_of(const std::vector<Outcome>& outcomes, const std::string& backend, const std::string& device);
 // What the demos promise and how it is measured, without running them.
 std::string promises_of(const std::vector<const Demo*>& demos);
+std::string promises_as_markdown(const std::vector<const Demo*>& demos);  // as tests/README.md has them
 
 }  // namespace scree::demos

@@ -10,6 +10,8 @@
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "host/files/json_depth.h"
+
 #define TINYOBJLOADER_IMPLEMENTATION
 #include <tiny_obj_loader.h>
 
@@ -26,6 +28,11 @@ namespace scree::host {
 namespace {
 
 constexpr std::size_t most_vertices = 100'000'000;
+// In arrays and objects of a glTF file: the loader calls itself for each, and 256 take a tenth of the smallest stack.
+constexpr std::size_t most_depth = 256;
+// Of a glTF scene, one that several nodes have as their child counted each time: 60 that each have the next one twice are more
+// than there is memory for.
+constexpr std::size_t most_nodes = 1'000'000;
 
 // One file, for messages.
 struct Source {
@@ -157,6 +164,9 @@ private:
         if (position == primitive.attributes.end()) source_.refuse(place + ": has no POSITION");
         const Elements places = elements(position->second, TINYGLTF_TYPE_VEC3, place);
         if (places.component != TINYGLTF_COMPONENT_TYPE_FLOAT) source_.refuse(place + ": its POSITION is not of floats");
+        if (places.count > most_vertices - mesh_.vertices.size())
+            source_.refuse(place + ": with it the scene has more than " + std::to_string(most_vertices) +
+                           " vertices, a mesh of several nodes counted for each; write a simpler mesh");
         const auto base = static_cast<std::uint32_t>(mesh_.vertices.size());
         for (std::size_t i = 0; i < places.count; ++i) {
             glm::vec3 at;
@@ -198,6 +208,10 @@ private:
         const std::string place = "/nodes/" + std::to_string(index);
         if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) source_.refuse(place + ": there is none");
         if (depth > 100) source_.refuse(place + ": nodes lie in each other in a circle");
+        if (++nodes_ > most_nodes)
+            source_.refuse(place + ": with it the scene has more than " + std::to_string(most_nodes) +
+                           " nodes, those with several parents counted for each; give every node one parent, or write the mesh "
+                           "as one");
         const tinygltf::Node& node = model_.nodes[static_cast<std::size_t>(index)];
         glm::dmat4 turn(1);
         if (node.matrix.size() == 16) turn = glm::make_mat4(node.matrix.data());
@@ -214,9 +228,23 @@ private:
     const tinygltf::Model& model_;
     const Source& source_;
     MeshFile mesh_;
+    std::size_t nodes_ = 0;
 };
 
+// The JSON of a GLB file: its first chunk, behind the file's head (12 bytes) and the chunk's own (8), which begins with its
+// length.
+std::string_view json_of(std::string_view bytes, bool binary) {
+    if (!binary) return bytes;
+    if (bytes.size() < 20) return {};
+    std::uint32_t length = 0;
+    std::memcpy(&length, bytes.data() + 12, sizeof length);
+    return bytes.substr(20, length);
+}
+
 MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, const std::filesystem::path& folder) {
+    if (const auto place = nested_deeper_than(most_depth, json_of(bytes, binary)))
+        source.refuse(*place + ": lies in more than " + std::to_string(most_depth) +
+                      " arrays and objects; write the file without such \"extras\"");
     tinygltf::TinyGLTF loader;
     // Pictures are nothing to collide with: none is read.
     loader.SetImageLoader(

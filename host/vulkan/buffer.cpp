@@ -7,11 +7,11 @@
 #include <utility>
 
 #include "host/vulkan/command_buffer.h"
+#include "host/vulkan/transfer.h"
 
 namespace scree::host {
 namespace {
 
-constexpr std::size_t staging_bytes = std::size_t{16} << 20;
 constexpr VkMemoryPropertyFlags visible = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 constexpr VkMemoryPropertyFlags readable = visible | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
 
@@ -61,20 +61,6 @@ MemoryChoice choose_memory(const Device& device, std::uint32_t allowed_bits, Buf
 
 std::string of_size(const char* name, std::size_t bytes) {
     return std::string("the buffer ") + name + " of " + std::to_string(bytes) + " bytes";
-}
-
-void check_range(std::size_t bytes, std::size_t offset, std::size_t size) {
-    if (offset <= size && bytes <= size - offset) return;
-    throw std::out_of_range("bytes " + std::to_string(offset) + " and the next " + std::to_string(bytes) +
-                            " lie outside a buffer of " + std::to_string(size));
-}
-
-void copy_now(const std::shared_ptr<Device>& device, const Buffer& from, const Buffer& to, std::size_t bytes,
-              std::size_t from_offset, std::size_t to_offset) {
-    Recording recording(device);
-    recording.copy(from, to, bytes, from_offset, to_offset);
-    recording.end();
-    device->submit_and_wait({recording.handle()});
 }
 
 }  // namespace
@@ -155,37 +141,13 @@ VkDeviceAddress Buffer::address() const {
 }
 
 void Buffer::write(const void* data, std::size_t bytes, std::size_t offset) {
-    check_range(bytes, offset, bytes_);
-    if (bytes == 0) return;
-    device_->wait_idle();
-    if (mapped_) {
-        std::memcpy(static_cast<std::byte*>(mapped_) + offset, data, bytes);
-        return;
-    }
-    Buffer staging(device_, "staging for writing", std::min(bytes, staging_bytes), BufferUse::upload);
-    for (std::size_t done = 0; done < bytes;) {
-        const std::size_t count = std::min(bytes - done, staging.bytes());
-        std::memcpy(staging.mapped(), static_cast<const std::byte*>(data) + done, count);
-        copy_now(device_, staging, *this, count, 0, offset + done);
-        done += count;
-    }
+    const Upload piece{{static_cast<const std::byte*>(data), bytes}, this, offset};
+    upload(device_, {&piece, 1});
 }
 
 void Buffer::read(void* data, std::size_t bytes, std::size_t offset) const {
-    check_range(bytes, offset, bytes_);
-    if (bytes == 0) return;
-    device_->wait_idle();
-    if (mapped_) {
-        std::memcpy(data, static_cast<const std::byte*>(mapped_) + offset, bytes);
-        return;
-    }
-    Buffer staging(device_, "staging for reading", std::min(bytes, staging_bytes), BufferUse::readback);
-    for (std::size_t done = 0; done < bytes;) {
-        const std::size_t count = std::min(bytes - done, staging.bytes());
-        copy_now(device_, *this, staging, count, offset + done, 0);
-        std::memcpy(static_cast<std::byte*>(data) + done, staging.mapped(), count);
-        done += count;
-    }
+    const Download piece{{static_cast<std::byte*>(data), bytes}, this, offset};
+    download(device_, {&piece, 1});
 }
 
 }  // namespace scree::host

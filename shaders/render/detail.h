@@ -49,10 +49,8 @@ uint run_of_place(uint place) {
                  : place >= runs[RUN_ALL_BOXES].first    ? RUN_ALL_BOXES
                  : place >= runs[RUN_ALL_CAPSULES].first ? RUN_ALL_CAPSULES
                                                          : RUN_ALL_SPHERES;
-    float reach = t.shape == SHAPE_TRIANGLE ? 1e9
-                  : shape >= RUN_ALL_BOXES  ? length(t.size)
-                                            : (shape == RUN_ALL_CAPSULES ? t.size.x + t.size.y : t.size.x);
-    return run_of(frame, shape, poses[body].position - frame.eye.xyz, reach, t.size.x);
+    float reach = t.shape == SHAPE_TRIANGLE ? 1e9 : bounding_radius(t.shape, t.size);  // a triangle's mesh is a whole patch
+    return run_of(frame, shape, poses[body].position - frame.eye.xyz, reach, shape == RUN_ALL_SPHERES ? reach : t.size.x);
 }
 
 #endif

@@ -36,7 +36,7 @@ End end_of(uint body, vec3 anchor) {
     end.middle = poses[body].position - frame.eye.xyz;
     end.anchor = end.middle + turned(poses[body].orientation, anchor);
     end.is_body = traits[body].shape != SHAPE_PLANE;
-    end.reach = end.is_body ? reach_of(traits[body]) : 0.0;
+    end.reach = end.is_body ? bounding_radius(traits[body].shape, traits[body].size) : 0.0;
     end.inverse_mass = traits[body].inverse_mass;
     return end;
 }

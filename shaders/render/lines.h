@@ -29,11 +29,4 @@ bool clip_line(inout vec4 from, inout vec4 to) {
     return true;
 }
 
-// From a body's middle to its farthest end, m.
-float reach_of(Traits t) {
-    if (t.shape == SHAPE_NONE) return t.size.y;
-    return t.shape == SHAPE_BOX || t.shape >= SHAPE_CYLINDER ? length(t.size)
-                                                             : t.size.x + (t.shape == SHAPE_CAPSULE ? t.size.y : 0.0);
-}
-
 #endif

@@ -21,13 +21,8 @@ const vec3 PUSHING = vec3(0.16, 1.0, 0.42);
 const vec3 IDLE = vec3(0.42, 0.55, 0.62);
 const float LONGEST = 0.95;  // half a line, of the thinner body's half width: lines of a stack do not meet
 
-float thickness(Traits t) {
-    if (t.shape == SHAPE_PLANE || t.shape == SHAPE_TRIANGLE) return 1e30;
-    if (t.shape == SHAPE_CYLINDER || t.shape == SHAPE_CONE) return min(t.size.x, 0.5 * t.size.y);
-    return t.shape == SHAPE_BOX || t.shape == SHAPE_HULL ? min(t.size.x, min(t.size.y, t.size.z)) : t.size.x;
-}
 bool is_round(Traits t) {
-    return t.shape == SHAPE_SPHERE || t.shape == SHAPE_CAPSULE;
+    return has_round_core(t.shape);
 }
 // The body that a row is a part of.
 uint body_of(uint row) {
@@ -68,7 +63,7 @@ void main() {
     if (clip.w < 2.0 * near) return;
     vec2 middle = pixels_of(clip);
 
-    float size = min(thickness(a), thickness(b));
+    float size = min(min_half_width(a.shape, a.size), min_half_width(b.shape, b.size));
     float push = pushes[gl_InstanceIndex / 4].normal[k] *
                  max(traits[body_of(touch.a)].inverse_mass, traits[body_of(touch.b)].inverse_mass);
     // Lengths grow as the square root: a heap's lowest points bear hundreds of times what its highest do.

@@ -1,4 +1,4 @@
-// Spheres and capsules: smooth, because the normal comes from the shape and not from the mesh.
+// Balls, perhaps stretched along their axes, and capsules: smooth, because the normal comes from the shape and not from the mesh.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/light.h"
@@ -17,7 +17,15 @@ void main() {
     vec3 point = center_radius.xyz + axis_height.xyz * s + normal * center_radius.w;
     // Two tones in the body's own octants, so that rolling is seen.
     vec3 own = turned_back(turn, normal);
-    float soft = 0.8 * pixel_at(point) / center_radius.w + 0.01;
+    float radius = center_radius.w;
+    if (axis_height.w < 0.0) {
+        vec3 radii = axis_height.xyz;
+        own = normalize(turned_back(turn, from_center) / radii);
+        normal = normalize(turned(turn, own / radii));
+        point = center_radius.xyz + turned(turn, own * radii);
+        radius = min(radii.x, min(radii.y, radii.z));
+    }
+    float soft = 0.8 * pixel_at(point) / radius + 0.01;
     vec3 halves = clamp(own / soft, -1.0, 1.0);
     float tone = 0.87 + 0.13 * halves.x * halves.y * halves.z;
     vec3 shaded = lit(color.rgb * tone, point, normal, sight_to(point), 0.9) + color.rgb * (0.12 * color.a * color.a);

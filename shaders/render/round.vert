@@ -1,4 +1,5 @@
-// Spheres and capsules: a mesh of directions, of a sphere only the side that the eye sees.
+// Balls, perhaps stretched along their axes, and capsules: a mesh of directions, of all but capsules only the side that the eye
+// sees.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
@@ -11,12 +12,24 @@ layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
 };
 layout(location = 0) out vec3 out_point;        // relative to the eye
 layout(location = 1) flat out vec4 out_center;  // relative to the eye; w: radius
-layout(location = 2) flat out vec4 out_axis;    // unit; w: half height
+layout(location = 2) flat out vec4 out_axis;    // unit; w: half height; of a stretched ball its radii, and -1
 layout(location = 3) flat out vec4 out_turn;    // the body's orientation
 layout(location = 4) flat out vec4 out_color;   // w: how far up the colour scale
 
 // Depths and colours are drawn one after the other, and must lie in the same places.
 invariant gl_Position;
+
+// A point of the side of a unit ball around 0 that is seen from `eye`, or along `forward` where rays are parallel; `given` as in
+// the table.
+vec3 seen_point(vec3 eye, vec3 forward, vec4 given) {
+    float distance = max(length(eye), 1e-6);
+    vec3 toward = orthographic() ? -normalize(forward) : eye / distance;
+    vec3 side = normalize(cross(abs(toward.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0), toward));
+    // How far off the line of sight, in radii; at the silhouette the line of sight touches.
+    float nearness = orthographic() ? 0.0 : min(1.0 / distance, 1.0);
+    float off = given.z * sqrt(1.0 - nearness * nearness);
+    return sqrt(1.0 - off * off) * toward + off * given.w * (side * given.x + cross(toward, side) * given.y);
+}
 
 void main() {
     Corner at = corner_of_body();
@@ -35,6 +48,18 @@ void main() {
     out_axis = vec4(axis, half_height);
     out_turn = pose.orientation;
     out_color = tints[body];
+
+    vec3 radii = ball_radii(t.shape, t.size);
+    if (radii.y != radii.x || radii.z != radii.x) {
+        // In units of its radii it is a ball.
+        radii = max(radii, vec3(0.5 * pixel_at(center)));
+        vec3 eye = turned_back(pose.orientation, -center) / radii;
+        vec3 forward = turned_back(pose.orientation, frame.forward.xyz) / radii;
+        out_axis = vec4(radii, -1.0);
+        out_point = center + turned(pose.orientation, radii * seen_point(eye, forward, directions[at.corner]));
+        gl_Position = frame.view_projection * vec4(out_point, 1.0);
+        return;
+    }
 
     float distance = max(length(center), 1e-6);
     vec3 toward = orthographic() ? -frame.forward.xyz : -center / distance;

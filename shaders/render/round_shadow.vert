@@ -1,4 +1,5 @@
-// Shadows of spheres and capsules: discs through the caps' centres and a ribbon along the axis, all towards the light.
+// Shadows of balls, perhaps stretched along their axes, and capsules: discs through the caps' centres and a ribbon along the
+// axis, all towards the light.
 //
 // These flat shapes cast what the body casts, and lie behind all of it that the light reaches: no body speckles itself.
 #version 460
@@ -30,7 +31,14 @@ void main() {
     vec2 corner = CORNERS[chosen.corner % 4u];
     uint part = chosen.corner / 4u;  // a disc, a disc, the ribbon
     vec3 at = pose.position - frame.eye.xyz;
-    if (part < 2u) {
+    vec3 radii = ball_radii(t.shape, t.size);
+    if (radii.y != radii.x || radii.z != radii.x) {
+        // In units of its radii it is a ball, and what casts is the disc across the light.
+        vec3 local = normalize(turned_back(pose.orientation, w) / radii);
+        vec3 across = normalize(cross(local, abs(local.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
+        at += turned(pose.orientation, radii * (across * corner.x + cross(local, across) * corner.y));
+        out_place = corner;
+    } else if (part < 2u) {
         at += axis * (part == 0u ? half_height : -half_height) + (u * corner.x + v * corner.y) * radius;
         out_place = corner;
     } else {

@@ -80,18 +80,10 @@ vec3 name_color(uint id) {
     return mix(vec3(0.10), vec3(0.75), c * c);
 }
 
-float volume_of(Traits t) {
-    float r = t.size.x;
-    if (t.shape == SHAPE_BOX) return 8.0 * t.size.x * t.size.y * t.size.z;
-    if (t.shape == SHAPE_CYLINDER) return 6.28318531 * r * r * t.size.y;
-    if (t.shape == SHAPE_CONE) return 1.04719755 * r * r * t.size.y;
-    if (t.shape == SHAPE_HULL) return 4.0 * t.size.x * t.size.y * t.size.z;  // about half of the box around it
-    return 3.14159265 * r * r * (1.33333333 * r + (t.shape == SHAPE_CAPSULE ? 2.0 * t.size.y : 0.0));
-}
 // The material of the frame's list that is most alike.
 uint material_of(uint body) {
     Traits t = traits[body];
-    vec3 own = vec3(t.friction, t.restitution, log(1.0 / (t.inverse_mass * volume_of(t))));
+    vec3 own = vec3(t.friction, t.restitution, log(1.0 / (t.inverse_mass * volume_of(t.shape, t.size))));
     uint best = 0u;
     float least = 1e30;
     for (uint k = 0u; k < uint(frame.marks.z); ++k) {

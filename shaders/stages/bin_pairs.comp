@@ -6,7 +6,7 @@
 #include "shaders/stages/lib/fused.glsl"
 #include "shaders/stages/lib/pair_types.glsl"
 
-#define SCAN_KINDS
+#define SCANNED SCAN_KINDS
 #include "shaders/stages/lib/scan.glsl"
 
 void main() {

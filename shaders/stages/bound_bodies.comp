@@ -24,7 +24,7 @@ void main() {
         return;
     }
     uint owner = body_of(i);
-    float bend = is_part(body) ? bend_of_way(read_part(i), READ(velocities, i), PARAMETERS) : 0.0f;
+    float bend = is_part(body) ? bend_of_way(part_in(i), READ(velocities, i), PARAMETERS) : 0.0f;
     Bounds around = bounds_of(body, bend, pose, READ(velocities, i), READ(loads, owner), PARAMETERS);
     if (will_be_fast(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {

@@ -1,5 +1,3 @@
-// variants: count_pairs -DWITHOUT_JOINTS
-// variants: count_pairs_joined -DWITH_JOINTS
 // Counts the pairs that each body owns.
 #version 460
 #extension GL_GOOGLE_include_directive : require

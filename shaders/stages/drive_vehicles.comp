@@ -6,7 +6,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 WayPoint way_point_at(Routes routes, uint place) {
-    return read_way_point(place);
+    return READ_QUADS(way_points, place);
 }
 
 void main() {

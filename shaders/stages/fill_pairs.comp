@@ -1,5 +1,3 @@
-// variants: fill_pairs -DWITHOUT_JOINTS
-// variants: fill_pairs_joined -DWITH_JOINTS
 // Lists the bodies whose pairs each body owns, in the order in which it finds them.
 #version 460
 #extension GL_GOOGLE_include_directive : require

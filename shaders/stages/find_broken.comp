@@ -14,7 +14,7 @@ void main() {
     uint last = READ_WORD(slot_ends, i);
     for (uint k = i == 0u ? 0u : READ_WORD(slot_ends, i - 1u); k < last; ++k)
         if ((READ_WORD(slot_sides, k) & OF_JOINT) == 0u) blow = larger(blow, READ_FLOAT(carried, READ_WORD(slot_sides, k) >> 1u));
-    Fracturing fracturing = read_fracture(body.fracture);
+    Fracturing fracturing = READ_QUADS(fractures, body.fracture);
     float kept = kept_part(fracturing, blow, READ_FLOAT(strains, i));
     SET_FLOAT(strains, i, strain_after(fracturing, blow, body, READ(velocities, i)));
     if (!(kept < 1.0f)) return;

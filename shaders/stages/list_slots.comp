@@ -6,7 +6,7 @@
 #include "shaders/stages/lib/fused.glsl"
 #include "shaders/stages/lib/slots.glsl"
 
-#define SCAN_SLOTS
+#define SCANNED SCAN_SLOTS
 #include "shaders/stages/lib/scan.glsl"
 
 void main() {

@@ -10,7 +10,7 @@ void main() {
     if (i < PARAMETERS.first_part || i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
     Traits body = READ(traits, i);
     if (motion_of(body) == MOTION_FIXED) return;
-    PoseInBody part = read_part(i);
+    PoseInBody part = part_in(i);
     Pose owner = poses.at[body.owner];
     poses.at[i] = pose_of_part(part, owner);
     velocities.at[i] = velocity_of_part(part, owner, velocities.at[body.owner]);

@@ -12,7 +12,7 @@ void main() {
     if (!enter_block(thread())) return;
     note_pressing();
     lend(true);
-    begin_velocities(false);
+    take_velocities(false);
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
         joints.at[j].force = vec3(0.0f);
@@ -21,7 +21,7 @@ void main() {
     }
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j)
-        if (holds(j)) share_out(j, false, true);
+        if (holds(j)) share_out_warm_start(j);
     for (uint m = block_first; m < block_members; ++m)
         if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, joints.at[m].pressed);
 }

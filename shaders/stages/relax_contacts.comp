@@ -1,5 +1,3 @@
-// variants: relax_contacts -DWITHOUT_FRACTURES
-// variants: relax_contacts_felt -DWITH_FRACTURES
 // The pass without bias over all contacts that move somebody at once.
 #version 460
 #extension GL_GOOGLE_include_directive : require

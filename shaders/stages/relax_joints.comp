@@ -1,5 +1,6 @@
 // The pass without bias over all blocks of joints at once; it also hands out the next substep's warm start, or after the last one
-// (push.pass 1) what the bodies of a block tell each other of their rest, and says what each joint carried and whether it tears.
+// (the first bit of push.pass) what the bodies of a block tell each other of their rest, and says what each joint carried and
+// whether it tears.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,29 +11,20 @@
 #include "shaders/stages/lib/joints.glsl"
 
 void take_stock(uint j) {
-    for (uint k = 0u; k < 6u; ++k) {
-        joints.at[j].rows[k].drive = joints.at[j].rows[k].drive + joints.at[j].rows[k].drive_change;
-        joints.at[j].rows[k].stop = joints.at[j].rows[k].stop + joints.at[j].rows[k].stop_change;
-    }
-    vec3 force = joints.at[j].force + force_impulse(j);
-    vec3 torque = joints.at[j].torque + torque_impulse(j);
-    if (push.pass != 0u) {
-        float inverse_dt = reciprocal(PARAMETERS.dt);
-        force = force * inverse_dt;
-        torque = torque * inverse_dt;
-        joints.at[j].greatest_force = larger(joints.at[j].greatest_force, length3(force));
-        joints.at[j].greatest_torque = larger(joints.at[j].greatest_torque, length3(torque));
-        if (joint_tears(force, joints.at[j].break_force, torque, joints.at[j].break_torque)) {
+    JointLoad load = JointLoad(joints.at[j].force + force_impulse(j), joints.at[j].greatest_force,
+                               joints.at[j].torque + torque_impulse(j), joints.at[j].greatest_torque);
+    if (is_last_substep()) {
+        load = mean_load(load, PARAMETERS);
+        joints.at[j].greatest_force = load.greatest_force;
+        joints.at[j].greatest_torque = load.greatest_torque;
+        if (joint_tears(load.force, joints.at[j].break_force, load.torque, joints.at[j].break_torque)) {
             joints.at[j].broken = 1u;
             joints.at[j].pins = 0u;
-            for (uint k = 0u; k < 6u; ++k) {
-                joints.at[j].rows[k].drive = 0.0f;
-                joints.at[j].rows[k].stop = 0.0f;
-            }
+            for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
         }
     }
-    joints.at[j].force = force;
-    joints.at[j].torque = torque;
+    joints.at[j].force = load.force;
+    joints.at[j].torque = load.torque;
 }
 
 // The least quiet of all that the block joins.
@@ -49,19 +41,24 @@ float told_by_block() {
     return told;
 }
 
-void main() {
-    if (!enter_block(thread())) return;
-    solve_block(false);
+void end_pass() {
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
-        share_out(j, true, push.pass == 0u);
+        share_out(j, !is_last_substep());
+        commit(j);
         take_stock(j);
     }
     float told = FOREVER;
-    if (push.pass != 0u) told = told_by_block();
+    if (is_last_substep()) told = told_by_block();
     note_pressing();
     for (uint m = block_first; m < block_members; ++m)
         if (joints.at[m].slot != NONE)
-            slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, push.pass != 0u ? told : joints.at[m].pressed);
+            slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, is_last_substep() ? told : joints.at[m].pressed);
+}
+
+void main() {
+    if (!enter_block(thread())) return;
+    solve_block(false);
+    if (is_last_dispatch()) end_pass();
 }

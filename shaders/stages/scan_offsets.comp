@@ -1,8 +1,8 @@
-// variants: scan_cells_offsets -DSCAN_CELLS
-// variants: scan_pairs_offsets -DSCAN_PAIRS
-// variants: scan_kinds_offsets -DSCAN_KINDS
-// variants: scan_contacts_offsets -DSCAN_CONTACTS
-// variants: scan_slots_offsets -DSCAN_SLOTS
+// variants: scan_cells_offsets VARIANT=0
+// variants: scan_pairs_offsets VARIANT=1
+// variants: scan_kinds_offsets VARIANT=2
+// variants: scan_contacts_offsets VARIANT=3
+// variants: scan_slots_offsets VARIANT=4
 // Writes the sum of all items before each, and behind the last item the total.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,17 +10,17 @@
 #include "shaders/stages/lib/scan.glsl"
 
 void main() {
-    uint items = SCAN_ITEMS_OF;
+    uint items = scan_items();
     uint first = thread() << SCAN_SHIFT;
     uint values[SCAN_ITEMS];
     uint sum = 0u;
     for (uint k = 0u; k < SCAN_ITEMS; ++k) {
-        values[k] = first + k < items ? SCAN_READ(first + k) : 0u;
+        values[k] = first + k < items ? scan_read(first + k) : 0u;
         sum += values[k];
     }
     uint running = READ_WORD(scan_sums, gl_WorkGroupID.x) + sum_before(sum);
     for (uint k = 0u; k < SCAN_ITEMS; ++k) {
-        if (first + k <= items) SCAN_WRITE(first + k, running);
+        if (first + k <= items) scan_write(first + k, running);
         running += values[k];
     }
 }

@@ -1,8 +1,8 @@
-// variants: scan_cells_spine -DSCAN_CELLS
-// variants: scan_pairs_spine -DSCAN_PAIRS
-// variants: scan_kinds_spine -DSCAN_KINDS
-// variants: scan_contacts_spine -DSCAN_CONTACTS
-// variants: scan_slots_spine -DSCAN_SLOTS
+// variants: scan_cells_spine VARIANT=0
+// variants: scan_pairs_spine VARIANT=1
+// variants: scan_kinds_spine VARIANT=2
+// variants: scan_contacts_spine VARIANT=3
+// variants: scan_slots_spine VARIANT=4
 // Scans the sums of the blocks, by one workgroup, and says what the total means for the rest of the step.
 #version 460
 #extension GL_GOOGLE_include_directive : require
@@ -10,7 +10,7 @@
 #include "shaders/stages/lib/scan.glsl"
 
 void main() {
-    uint blocks = scan_work_for(SCAN_ITEMS_OF, PARAMETERS).x;
+    uint blocks = scan_work_for(scan_items(), PARAMETERS).x;
     uint total = 0u;
     for (uint first = 0u; first < blocks; first += gl_WorkGroupSize.x) {
         uint i = first + gl_LocalInvocationID.x;
@@ -22,7 +22,5 @@ void main() {
         barrier();
     }
     barrier();  // the total may change what the others count to
-    if (gl_LocalInvocationID.x == 0u) {
-        SCAN_TOTAL(total);
-    }
+    if (gl_LocalInvocationID.x == 0u) scan_total(total);
 }

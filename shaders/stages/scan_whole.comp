@@ -1,7 +1,7 @@
-// variants: scan_cells -DSCAN_CELLS
-// variants: scan_pairs -DSCAN_PAIRS
-// variants: scan_contacts -DSCAN_CONTACTS
-// variants: scan_slots -DSCAN_SLOTS
+// variants: scan_cells VARIANT=0
+// variants: scan_pairs VARIANT=1
+// variants: scan_contacts VARIANT=3
+// variants: scan_slots VARIANT=4
 // A short list's scan in one.
 #version 460
 #extension GL_GOOGLE_include_directive : require

@@ -8,18 +8,21 @@
 // after the tables that it works on
 #include "shaders/stages/lib/joints.glsl"
 
-void main() {
-    if (!enter_block(thread())) return;
-    solve_block(true);
+// What the pass has come to, for the joints and their bodies.
+void end_pass() {
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j) {
-        if (!holds(j)) continue;
-        share_out(j, true, false);
-        for (uint k = 0u; k < 6u; ++k) {
-            joints.at[j].rows[k].drive = joints.at[j].rows[k].drive + joints.at[j].rows[k].drive_change;
-            joints.at[j].rows[k].stop = joints.at[j].rows[k].stop + joints.at[j].rows[k].stop_change;
+        if (holds(j)) {
+            share_out(j, false);
+            commit(j);
         }
     }
     for (uint m = block_first; m < block_members; ++m)
         if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, 0.0f);
+}
+
+void main() {
+    if (!enter_block(thread())) return;
+    solve_block(true);
+    if (is_last_dispatch()) end_pass();
 }

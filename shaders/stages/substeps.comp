@@ -1,5 +1,3 @@
-// variants: substeps -DWITHOUT_FRACTURES
-// variants: substeps_felt -DWITH_FRACTURES
 // Some of a step's substeps, as push.pass says: how many went before, how many these are, how many there are in all. In each
 // begin_substep, solve_contacts, move_bodies and relax_contacts in turn.
 #version 460

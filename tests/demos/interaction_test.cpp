@@ -2,6 +2,7 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
+#include "compute/scene/shape_geometry.h"
 #include "demos/play/interaction.h"
 
 using namespace scree;
@@ -63,6 +64,10 @@ TEST_CASE("a ray through a pixel meets what is seen there") {
     REQUIRE_FALSE(eye.pixel_of(vec3(6, 9, 17), extent));  // behind
     const Ray upper = eye.ray(319.5, 0, extent);
     REQUIRE(upper.along.y > eye.forward().y);
+}
+
+static std::optional<float> distance_to(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray) {
+    return ray_distance(shape, position, orientation, ray.from, ray.along);
 }
 
 TEST_CASE("a ray meets each kind of shape where its surface is") {

@@ -76,3 +76,37 @@ TEST_CASE("a mesh file that cannot be read is refused with its name and the reas
     REQUIRE(says(refusal(glb(beyond, {0, 2, 1}), "a.glb"), "a.glb: "));
     REQUIRE_THROWS_AS(host::read_mesh("/nowhere/a.obj"), host::FileError);
 }
+
+TEST_CASE("a glTF file that is nested deeper than the loader's stack is refused with the place") {
+    const std::size_t depth = 200'000;
+    const auto with_extras = [](std::string json, const std::string& extras) {
+        return json.replace(json.find("\"mesh\": 0"), 9, "\"extras\": " + extras + ", \"mesh\": 0");
+    };
+    std::string objects;
+    for (std::size_t i = 0; i < depth; ++i) objects += "{\"a/b\":";
+    objects += "0" + std::string(depth, '}');
+    const std::string arrays = std::string(depth, '[') + std::string(depth, ']');
+    const std::string deep = "lies in more than 256 arrays and objects";
+    REQUIRE(says(refusal(with_extras(triangle_json, arrays), "a.gltf"), "a.gltf: /nodes/0/extras/0/0/0/0/0/...: " + deep));
+    REQUIRE(says(refusal(glb(with_extras(triangle_json, objects), {0, 2, 1}), "a.glb"), "a.glb: /nodes/0/extras/a~1b/a~1b"));
+    // Brackets in strings count for nothing, and some depth is usual.
+    const std::string shallow =
+        "[" + std::string(200, '[') + "\"\\\"" + std::string(300, '{') + "\"" + std::string(200, ']') + "]";
+    REQUIRE(refusal(glb(with_extras(triangle_json, shallow), {0, 2, 1}), "a.glb").empty());
+}
+
+TEST_CASE("a glTF file whose nodes share their children is counted, not unfolded") {
+    const auto shared = [](int levels, const std::string& leaf) {
+        std::string nodes;
+        for (int i = 1; i <= levels; ++i) {
+            const std::string child = std::to_string(i);
+            nodes += "{\"children\": [" + child + ", " + child + "]}, ";
+        }
+        std::string json = triangle_json;
+        const std::size_t begin = json.find("{\"mesh\": 0, \"translation\"");
+        return json.replace(begin, json.find('}', begin) + 1 - begin, nodes + leaf);
+    };
+    REQUIRE(host::mesh_of(glb(shared(3, "{\"mesh\": 0}"), {0, 2, 1}), "a.glb").triangles.size() == 8);
+    for (const std::string leaf : {"{\"mesh\": 0}", "{}"})
+        REQUIRE(says(refusal(glb(shared(60, leaf), {0, 2, 1}), "a.glb"), "a.glb: /nodes/60: with it the scene has more than"));
+}

@@ -111,8 +111,22 @@ TEST_CASE("program: list names the demos, help teaches, the version is told", "[
     REQUIRE(help.status == 0);
     for (const char* command : {"list", "devices", "run", "compare", "check", "bench", "export", "Exit status"})
         REQUIRE(says(help.output, command));
-    REQUIRE(run_scree("run --help").status == 0);
     REQUIRE(says(run_scree("--version").output, "scree "));
+}
+
+TEST_CASE("program: every --help fits into 100 columns and tells each option's default or unit", "[program]") {
+    for (const char* command : {"", "list ", "devices ", "run ", "view ", "compare ", "check ", "bench ", "export "}) {
+        const Outcome help = run_scree(std::string(command) + "--help");
+        REQUIRE(help.status == 0);
+        std::istringstream lines(help.output);
+        for (std::string line; std::getline(lines, line);) {
+            INFO(command << ": " << line);
+            CHECK(line.size() <= 100);
+        }
+    }
+    const std::string run = run_scree("run --help").output;
+    for (const char* words : {"Worker threads for --backend cpu (0: one per core). Default: 0.", "Colour map.", "Default: 60."})
+        REQUIRE(says(run, words));
 }
 
 TEST_CASE("program: an exported scene runs to the hash of its demo", "[program]") {

@@ -106,13 +106,13 @@ TEST_CASE("every stage gives the same bits on both processors after the dials we
             settings.substeps = 1 + (settings.substeps + 4) % 9;
             settings.friction_factor *= 0.7f;
             settings.least_restitution = 0.1f * static_cast<float>(step / 10);
-            lockstep.change(
-                [&](State& state) { StateEditor(state).tune(vec3(0.1f * static_cast<float>(step), -9, 0), settings); });
+            lockstep.edit(
+                [&](const StateEditor& editor) { return editor.needed_to_tune(settings); },
+                [&](StateEditor& editor) { return editor.tune(vec3(0.1f * static_cast<float>(step), -9, 0), settings); });
         }
         if (step % 7 == 3) {
-            lockstep.change([&](State& state) {
-                StateEditor(state).add(thrown(Box{vec3(0.3f, 0.2f, 0.25f)}, vec3(0, 3 + step, 0), vec3(0, -10, 0)));
-            });
+            const Body box = thrown(Box{vec3(0.3f, 0.2f, 0.25f)}, vec3(0, 3 + step, 0), vec3(0, -10, 0));
+            lockstep.edit(&StateEditor::needed_to_add, [&](StateEditor& editor) { return editor.add(box); });
         }
         lockstep.step();
         require_equal(lockstep.result());

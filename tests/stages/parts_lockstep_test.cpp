@@ -76,8 +76,11 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
     Scene more;
     more.bodies.push_back({.shape = hammer(), .position = {0.1f, 2, 0.1f}});
     const Body added = checked(more).bodies[0];
-    lockstep.change([&](State& state) { StateEditor(state).add(added); });
-    go(60);
+    // The first finds no row before those of parts, which move; those behind it do.
+    for (int k = 0; k < 4; ++k) {
+        lockstep.edit(&StateEditor::needed_to_add, [&](StateEditor& editor) { return editor.add(added); });
+        go(15);
+    }
 }
 
 TEST_CASE("every stage gives the same bits on both processors for compounds, meshes and height fields") {

@@ -43,7 +43,7 @@ std::size_t check_shuffled(const Scene& given, std::shared_ptr<host::Device> dev
     for (int i = 0; i < steps; ++i) {
         if (i % 4 == 1) {
             const std::vector<std::uint32_t> rows = shuffled(scene, chance);
-            shaken.change([&](State& state) { state.reorder(rows); });
+            shaken.change([&](State& state) { state.reorder(rows, Threads(2)); });
         }
         shaken.step();
         const LockstepResult& result = shaken.result();

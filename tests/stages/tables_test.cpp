@@ -42,20 +42,20 @@ bool take_turns(const std::string& one, const std::string& other) {
 
 TEST_CASE("tables that share a buffer share no byte, unless one is dead when the other is written") {
     const State state(checked(everything_that_has_tables()), Settings{}, 64, true);
-    const TablePlaces places = table_places(state);
+    const TableOffsets& offsets = table_offsets(state);
     const auto end_of = [&](std::size_t i) {
-        return places.begin[i] + state.allocated(table_infos()[i].length) * table_infos()[i].record_bytes;
+        return offsets.begin[i] + state.allocated(table_infos()[i].length) * table_infos()[i].record_bytes;
     };
     for (std::size_t i = 0; i < table_count; ++i) {
         const TableInfo& one = table_infos()[i];
         INFO(one.name);
-        CHECK(end_of(i) <= places.bytes[one.buffer]);
-        CHECK(places.begin[i] % buffer_infos()[one.buffer].record_bytes == 0);
+        CHECK(end_of(i) <= offsets.bytes[one.buffer]);
+        CHECK(offsets.begin[i] % buffer_infos()[one.buffer].record_bytes == 0);
         for (std::size_t k = 0; k < i; ++k) {
             const TableInfo& other = table_infos()[k];
             if (one.buffer != other.buffer) continue;
             INFO(other.name);
-            const bool apart = places.begin[i] >= end_of(k) || places.begin[k] >= end_of(i);
+            const bool apart = offsets.begin[i] >= end_of(k) || offsets.begin[k] >= end_of(i);
             CHECK(apart != take_turns(one.name, other.name));
         }
     }

@@ -326,6 +326,12 @@ TEST_CASE("what cannot break is refused by name") {
                    b.fracture->cutting = Cutting::boxes;
                }),
                Catch::Contains("/fracture/cutting: only a box can be cut into boxes"));
+    for (const Cutting cutting : {Cutting::voronoi, Cutting::splinters})
+        CHECK_THAT(refused([&](Body& b) {
+                       b.shape = Compound{{Part{Sphere{}}, Part{Sphere{}, {1, 0, 0}}}};
+                       b.fracture->cutting = cutting;
+                   }),
+                   Catch::Contains("/bodies/0/fracture: only a body of one convex shape can break"));
 }
 
 TEST_CASE("a scene file says how a body breaks, and what was written is read again") {

@@ -50,12 +50,16 @@ class Poor : public ReferenceRunner {
 public:
     Poor() : ReferenceRunner(1) {}
     void attach(State& state) override {
-        if (attached_++ > 0) throw std::bad_alloc();
         ReferenceRunner::attach(state);
+        attached_ = true;
+    }
+    void adapt() override {
+        if (attached_) throw std::bad_alloc();
+        ReferenceRunner::adapt();
     }
 
 private:
-    int attached_ = 0;
+    bool attached_ = false;
 };
 
 }  // namespace

@@ -82,6 +82,8 @@ TEST_CASE("a motor turns at its speed, and no harder than it may") {
     CHECK(weak.body(0).angular_velocity.z == Approx(0.5f / inertia).epsilon(0.01));
     CHECK_THROWS_AS(weak.set_motor(0, JointAxis::x, Motor{1, 1}), std::invalid_argument);
     CHECK_THROWS_AS(weak.set_motor(1, JointAxis::twist, Motor{1, 1}), std::out_of_range);
+    weak.add_joint(weak.scene().joints[0]);
+    CHECK_THROWS_WITH(weak.set_motor(1, JointAxis::twist, Motor{1, -1}), Catch::Contains("/joints/1/kind/hinge/motor/max_force"));
 }
 
 TEST_CASE("a body on a spring swings with the period of theory and keeps its swing") {

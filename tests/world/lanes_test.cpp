@@ -33,7 +33,7 @@ struct Walker {
     void step(const Look& look) {
         state.fixed().redo = 0;
         while (!runner.step([&](const Stage& stage, std::size_t) {
-            for (const Table table : stage.writes) look(stage.name, table, live_bytes(state, table));
+            for (const Compared& compared : stage.compared) look(stage.name, compared.table, live_bytes(state, compared.table));
             return true;
         })) {
             state.grow();

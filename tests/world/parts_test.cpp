@@ -277,6 +277,12 @@ TEST_CASE("compounds, meshes and height fields are read from a scene file and wr
     };
     REQUIRE(says(refused(R"({"compound": {"parts": [{"shape": {"compound": {"parts": []}}}]}})"),
                  "/bodies/0/shape/compound/parts/0/shape: a part must be one convex shape"));
+    // Deeper than a stack would reach.
+    std::string nested;
+    for (int depth = 0; depth < 100'000; ++depth) nested += R"({"compound": {"parts": [{"shape": )";
+    nested += R"({"sphere": {"radius": 1}})";
+    for (int depth = 0; depth < 100'000; ++depth) nested += "}]}}";
+    REQUIRE(says(refused(nested), "/bodies/0/shape/compound/parts/0/shape: a part must be one convex shape"));
     REQUIRE(says(refused(R"({"mesh": {"vertices": [[0, 0, 0]], "triangles": [[0, 1]]}})"), "/bodies/0/shape/mesh/triangles/0: "));
     REQUIRE(says(refused(R"({"mesh": {"file": "a.obj", "triangles": []}})"), "/bodies/0/shape/mesh"));
 }

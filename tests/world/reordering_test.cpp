@@ -44,16 +44,17 @@ TEST_CASE("bodies are put in the order of their places, each in a row of its own
     std::shuffle(scene.bodies.begin() + 1, scene.bodies.end(), std::mt19937(1));
     const Settings settings;
     State state(checked(scene), settings, 64, true);
-    const std::vector<std::uint32_t> rows = rows_by_place(scene, state);
+    const Threads threads(2);
+    const std::vector<std::uint32_t> rows = rows_by_place(scene, state, threads);
     std::vector<std::uint32_t> sorted = rows;
     std::sort(sorted.begin(), sorted.end());
     for (std::uint32_t row = 0; row < sorted.size(); ++row) REQUIRE(sorted[row] == row);
     const double before = stride_in_space(scene, state), after = stride_in_space(scene, state, rows);
     REQUIRE(after < 0.6 * before);
-    state.reorder(rows);
+    state.reorder(rows, threads);
     REQUIRE(state.reordered());
     REQUIRE(stride_in_space(scene, state) == after);
-    REQUIRE(rows_by_place(scene, state) == rows);
+    REQUIRE(rows_by_place(scene, state, threads) == rows);
     for (std::uint32_t id = 0; id < rows.size(); ++id) {
         REQUIRE(state.row_of(id) == rows[id]);
         REQUIRE(state.id_of(rows[id]) == id);

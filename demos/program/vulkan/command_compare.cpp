@@ -57,18 +57,18 @@ int compare(const Options& options) {
 
 void add_compare(CLI::App& program, int& status) {
     CLI::App* command =
-        program.add_subcommand("compare", "Processor and GPU in lockstep: the common hash, or the first difference");
+        program.add_subcommand("compare", "Run CPU and GPU in lockstep: the common hash, or the first difference");
     auto options = std::make_shared<Options>();
     options->machine.backend = "vulkan";
     add_options(*command, options->scene);
-    command->add_option("--device", options->machine.device,
-                        "the Vulkan device: its index or part of its name (see scree devices)");
-    command->add_option("--threads", options->machine.threads, "of the processor; 0 is one a core")->check(CLI::Range(0, 1024));
-    command->add_flag("--validate", options->machine.validate, "check every Vulkan call with the validation layers (slow)");
-    command->add_flag("--quiet,-q", options->quiet, "no progress");
+    command->add_option("--device", options->machine.device, "Vulkan device, by index or part of its name (see scree devices).");
+    command->add_option("--threads", options->machine.threads, "Worker threads of the CPU (0: one per core). Default: 0.")
+        ->check(CLI::Range(0, 1024));
+    command->add_flag("--validate", options->machine.validate, "Check every Vulkan call with the validation layers (slow).");
+    command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(
-        "Compares one simulated second unless --steps or --seconds says otherwise. What some scenes do during a run (a blow, a\n"
-        "change of settings) is left out. Exit status 1 if anything differs.");
+        "Compares one simulated second unless --steps or --seconds says otherwise. Scripted events of a scene (an impulse, a\n"
+        "change of settings) are left out. Exit status 1 if anything differs.");
     command->callback([options, &status] { status = compare(*options); });
 }
 

@@ -10,7 +10,7 @@
 namespace scree::demos {
 
 void add_devices(CLI::App& program, int&) {
-    CLI::App* command = program.add_subcommand("devices", "Vulkan devices and what each lacks, if anything");
+    CLI::App* command = program.add_subcommand("devices", "List Vulkan devices and what each lacks");
     command->callback([] {
         std::vector<Cells> rows = {{"index", "device", "driver", "Vulkan", "kind", "memory", "usable"}};
         std::string lacks;

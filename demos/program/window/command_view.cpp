@@ -255,24 +255,22 @@ int view(Options options) {
 }  // namespace
 
 void add_view(CLI::App& program, int& status) {
-    CLI::App* command = program.add_subcommand("view", "A demo or a scene file in a window, to be taken hold of");
+    CLI::App* command = program.add_subcommand("view", "Open a demo or a scene file in a window");
     auto options = std::make_shared<Options>();
     add_options(*command, options->scene);
-    command->get_option("--steps")->description("close the window after so many");
-    command->get_option("--seconds")->description("close the window after so many simulated seconds");
+    command->get_option("--steps")->description("Close the window after this many steps.");
+    command->get_option("--seconds")->description("Close the window after this simulated time, s.");
     add_options(*command, options->machine);
-    command->add_option("--size", options->size, "of the window, WIDTHxHEIGHT (1280x720)")->group("Window");
-    command->add_option("--color", options->color, "what colour tells at first (the words: scree run --help)")
+    command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT. Default: 1280x720.")->group("Window");
+    command
+        ->add_option("--color", options->color, "Quantity shown by colour at first (words: scree run --help). Default: momentum.")
         ->check(one_of(color_words()))
         ->group("Window");
     command
-        ->add_option(
-            "--record", options->record,
-            "a file for all that was done since the scene began, written at closing; scree run --input FILE does it again")
+        ->add_option("--record", options->record,
+                     "Record every command to this file, written at closing; scree run --input FILE replays it.")
         ->group("Window");
-    command
-        ->add_option("--report", options->report,
-                     "a file for what goes on, as JSON, written anew every half second and at closing")
+    command->add_option("--report", options->report, "JSON status file, rewritten every half second and at closing.")
         ->group("Window");
     command->footer(std::string("In the window:\n") + key_help +
                     "\n\nExamples:\n  scree view wall\n  scree view pile --bodies 3k --record played.json\n"

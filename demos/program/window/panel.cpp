@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <imgui.h>
 
+#include <algorithm>
+
 #include "demos/film/pictures.h"
 #include "demos/scenes/demos.h"
 
@@ -37,10 +39,10 @@ void choose_color(std::string& color) {
 }
 
 std::string name_of(const Scene& scene, std::size_t body) {
-    static const char* const shapes[] = {"sphere", "capsule", "box",      "plane", "cylinder",
-                                         "cone",   "hull",    "compound", "mesh",  "height field"};
     const Body& b = scene.bodies[body];
-    return fmt::format("{} {}{}", shapes[b.shape.index()], body, b.name.empty() ? "" : " \"" + b.name + "\"");
+    std::string shape = shape_name(b.shape);
+    std::replace(shape.begin(), shape.end(), '_', ' ');
+    return fmt::format("{} {}{}", shape, body, b.name.empty() ? "" : " \"" + b.name + "\"");
 }
 
 }  // namespace

@@ -132,7 +132,7 @@ GlCanvas::Interior::Program GlCanvas::Interior::linked(std::string_view vertex, 
     Program program{vertex, fragment};
     program.name = linked({shader(GL_VERTEX_SHADER, vertex), shader(GL_FRAGMENT_SHADER, fragment)},
                           std::string(vertex) + " with " + std::string(fragment));
-    // As scree_embed_es_shader and spirv-cross name them.
+    // As scree_compile_shader and spirv-cross name them.
     program.pushed = gl.glGetUniformLocation(program.name, "pushed.value");
     program.first_instance = gl.glGetUniformLocation(program.name, "SPIRV_Cross_BaseInstance");
     return program;

@@ -3,18 +3,9 @@
 #define SCREE_PHYSICS_RECORDS_H
 
 #include "shaders/physics/base/dialect.h"
+#include "shaders/physics/collide/shapes.h"
 
 LAWS_BEGIN
-
-CONSTANT uint SHAPE_SPHERE = 0u;    // size: radius, -, -                     m
-CONSTANT uint SHAPE_CAPSULE = 1u;   // size: radius, half height, - (along y) m
-CONSTANT uint SHAPE_BOX = 2u;       // size: half extents                     m
-CONSTANT uint SHAPE_PLANE = 3u;     // size: unit normal; the pose's position is a point of it
-CONSTANT uint SHAPE_CYLINDER = 4u;  // size: radius, half height, - (along y) m
-CONSTANT uint SHAPE_CONE = 5u;      // size: radius, height, - (along y, apex up) m
-CONSTANT uint SHAPE_HULL = 6u;      // size: half extents of the box about its centre of mass that holds it, m
-CONSTANT uint SHAPE_TRIANGLE = 7u;  // of a mesh, solid behind it; size: as of a hull. In the table of hulls: triangle.h
-CONSTANT uint SHAPE_NONE = 8u;      // only its parts touch. size: its thinnest part's thickness, how far it reaches, - m
 
 CONSTANT uint MOTION_DYNAMIC = 0u;
 CONSTANT uint MOTION_FIXED = 1u;
@@ -292,21 +283,22 @@ struct Joint {
     uint first_of_block;  // in record i: where the i-th block begins
     uint restless;        // 1: a body of it is, in this step
     // ---- state
-    uint pins;    // per axis
-    uint broken;  // 1: it has torn
-    uint solved;  // bit per axis that is in the pass's system of equations
-    uint pad0;
-    vec3 force;  // on B, N: sums of impulses within a step, their mean at its end
+    uint pins;       // per axis
+    uint broken;     // 1: it has torn
+    uint solved;     // bit per axis that is in the pass's system of equations
+    uint unsettled;  // of the block, in its first record. 1: in the last round of the pass bounds turned out to act otherwise
+    vec3 force;      // on B, N: sums of impulses within a step, their mean at its end
     float greatest_force;
     vec3 torque;  // N m
     float greatest_torque;
     // ---- the body of this record
     uint member;  // NONE: none
     uint slot;
-    float pressed;      // N s
-    uint blocks;        // that have the body
-    Mass mass;          // lent
-    Velocity velocity;  // lent
+    float pressed;             // N s
+    uint blocks;               // that have the body
+    Mass mass;                 // lent
+    Velocity velocity;         // lent
+    Velocity velocity_before;  // as each round of the pass begins
     // ---- the pass's equations
     JointRow rows[6];
     float solution[8];    // 6 are in use
@@ -399,27 +391,27 @@ struct Parameters {  // the same for every thread of a step
     uint joint_blocks;
     uint vehicles;
     // Where each of the tables begins that share a buffer, in words and in quads of it (shaders/stages/lib/tables.h).
-    uint cell_ends_begin;
-    uint pair_starts_begin;
-    uint slot_ends_begin;
-    uint first_contacts_begin;
-    uint rests_begin;
-    uint ids_begin;
-    uint strains_begin;
-    uint touching_begin;
-    uint pairs_by_kind_begin;
-    uint solved_contacts_begin;
-    uint kind_starts_begin;
-    uint contact_starts_begin;
-    uint carried_begin;
-    uint slot_sides_begin;
-    uint scan_sums_begin;
-    uint hulls_begin;
-    uint parts_begin;
-    uint fractures_begin;
-    uint pieces_begin;
-    uint tyres_begin;
-    uint way_points_begin;
+    uint cell_ends_offset;
+    uint pair_starts_offset;
+    uint slot_ends_offset;
+    uint first_contacts_offset;
+    uint rests_offset;
+    uint ids_offset;
+    uint strains_offset;
+    uint touching_offset;
+    uint pairs_by_kind_offset;
+    uint solved_contacts_offset;
+    uint kind_starts_offset;
+    uint contact_starts_offset;
+    uint carried_offset;
+    uint slot_sides_offset;
+    uint scan_sums_offset;
+    uint hulls_offset;
+    uint parts_offset;
+    uint fractures_offset;
+    uint pieces_offset;
+    uint tyres_offset;
+    uint way_points_offset;
     uint pad0;
     Grip grips[4];  // MOST_GRIPS
 };
@@ -431,6 +423,8 @@ CONSTANT uint CONTENT_ROUND = 4u;    // round bodies
 CONSTANT uint CONTENT_TYRES = 8u;
 CONSTANT uint CONTENT_PARTS = 16u;      // bodies of several parts that move
 CONSTANT uint CONTENT_REORDERED = 32u;  // bodies whose rows are in another order than their ids
+CONSTANT uint CONTENT_JOINTS = 64u;
+CONSTANT uint CONTENT_BREAKING = 128u;  // bodies that may break
 
 CONSTANT uint KINDS = 16u;  // of pairs: fourteen of shapes, those whose contact is kept, and those at rest
 CONSTANT uint SPAN = 16u;   // pairs that one thread sorts by kind

@@ -18,12 +18,14 @@ CONSTANT float RUNS_ALONG_SQUARED = 0.9991f;
 LAW Feature side_facing(Solid solid, vec3 direction, Hulls hulls) {
     if (solid.shape == SHAPE_SPHERE || (solid.shape == SHAPE_CAPSULE && solid.size.y <= 0.0f))
         return point_at(solid.axes.y * solid.size.y);
+    if (!has_straight_side(solid.shape)) return point_at(support_by_size(solid.shape, solid.size, solid.axes, direction));
     float along = dot3(solid.axes.y, direction);
     vec3 outward = outward_from_axis(solid.axes, direction);
     float by_side = dot3(outward, direction), by_cap = abs(along);
-    vec3 first = rim_point(solid, outward, -solid.size.y), second = rim_point(solid, outward, solid.size.y);
+    vec3 first = rim_point(solid.axes, solid.size, outward, -solid.size.y),
+         second = rim_point(solid.axes, solid.size, outward, solid.size.y);
     if (solid.shape == SHAPE_CONE) {
-        first = rim_point(solid, outward, cone_base(solid.size));
+        first = rim_point(solid.axes, solid.size, outward, cone_base(solid.size));
         second = solid.axes.y * cone_apex(solid.size);
         by_side = dot3(cone_normal(solid.axes, solid.size, outward), direction);
         by_cap = -along;

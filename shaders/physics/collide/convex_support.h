@@ -19,46 +19,6 @@ struct Solid {
     float scale;    // its thickness, m; of a triangle its size
     float pad;
 };
-LAW vec3 in_body(Axes axes, vec3 v) {
-    return vec3(dot3(axes.x, v), dot3(axes.y, v), dot3(axes.z, v));
-}
-LAW vec3 in_world(Axes axes, vec3 v) {
-    return (axes.x * v.x + axes.y * v.y) + axes.z * v.z;
-}
-
-// Across a body's y axis, unit, the way v points; the body's x axis where it points neither way. What rounding leaves along the
-// axis of a v that points almost along it is taken away once more: it would lift a rim by a hundredth of its radius.
-LAW vec3 outward_from_axis(Axes axes, vec3 v) {
-    vec3 across = v - axes.y * dot3(axes.y, v);
-    if (dot3(across, across) <= 1.0e-10f * dot3(v, v)) return axes.x;
-    across = unit3(across, axes.x);
-    return unit3(across - axes.y * dot3(axes.y, across), axes.x);
-}
-
-// A cone's centre of mass lies a quarter of its height above its base. Its side's normal has these parts: outward, and upward.
-LAW float cone_apex(vec3 size) {
-    return 0.75f * size.y;
-}
-LAW float cone_base(vec3 size) {
-    return -0.25f * size.y;
-}
-LAW vec3 cone_normal(Axes axes, vec3 size, vec3 outward) {
-    float scale = inverse_square_root(size.x * size.x + size.y * size.y);
-    return outward * (size.y * scale) + axes.y * (size.x * scale);
-}
-
-LAW vec3 rim_point(Solid solid, vec3 outward, float height) {
-    return outward * solid.size.x + solid.axes.y * height;
-}
-
-// The core reaches at least so far from its centre, in any direction, m; that of a hull the table knows.
-LAW float inner_radius(uint shape, vec3 size) {
-    if (shape == SHAPE_BOX) return smaller(size.x, smaller(size.y, size.z));
-    if (shape == SHAPE_CYLINDER) return smaller(size.x, size.y);
-    if (shape != SHAPE_CONE) return size.x - size.x;
-    float slope = size.x * inverse_square_root(size.x * size.x + size.y * size.y);
-    return smaller(-cone_base(size), slope * cone_apex(size));
-}
 
 // A device that knows both to be hulls (ONLY_HULLS) leaves out what is asked of other shapes.
 LAW Solid solid_of(Traits traits, vec4 orientation, Hulls hulls) {
@@ -71,13 +31,12 @@ LAW Solid solid_of(Traits traits, vec4 orientation, Hulls hulls) {
     solid.shape = traits.shape == SHAPE_TRIANGLE ? SHAPE_HULL : traits.shape;
 #endif
     solid.hull = hull_of(traits);
-    solid.radius = traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE ? traits.size.x : 0.0f;
+    solid.radius = has_round_core(traits.shape) ? traits.size.x : 0.0f;
     solid.scale = thickness(traits);
-    if (traits.shape == SHAPE_TRIANGLE) solid.scale = larger(traits.size.x, larger(traits.size.y, traits.size.z));
+    if (traits.shape == SHAPE_TRIANGLE) solid.scale = largest_component(traits.size);
     solid.pad = 0.0f;
     solid.head.vertices = solid.shape == SHAPE_BOX ? 8u : 0u;
-    solid.head.faces = solid.shape == SHAPE_BOX ? 6u : (solid.shape == SHAPE_CYLINDER ? 2u : 0u);
-    if (solid.shape == SHAPE_CONE) solid.head.faces = 1u;
+    solid.head.faces = flat_faces(solid.shape);
     solid.head.across = 0u;
     solid.head.inner = inner_radius(solid.shape, solid.size);
     if (solid.shape == SHAPE_HULL) solid.head = hull_head(hulls, solid.hull);
@@ -132,21 +91,7 @@ LAW vec3 farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
 // The point of the core farthest in a direction (of any length but 0).
 LAW vec3 support_of(Solid solid, vec3 direction, Hulls hulls) {
     if (solid.shape == SHAPE_HULL) return in_world(solid.axes, farthest_vertex(solid, in_body(solid.axes, direction), hulls));
-    float along = dot3(solid.axes.y, direction);
-    if (solid.shape == SHAPE_BOX) {
-        vec3 x = solid.axes.x * (dot3(solid.axes.x, direction) < 0.0f ? -solid.size.x : solid.size.x);
-        vec3 y = solid.axes.y * (along < 0.0f ? -solid.size.y : solid.size.y);
-        vec3 z = solid.axes.z * (dot3(solid.axes.z, direction) < 0.0f ? -solid.size.z : solid.size.z);
-        return (x + y) + z;
-    }
-    if (solid.shape == SHAPE_CYLINDER)
-        return rim_point(solid, outward_from_axis(solid.axes, direction), along < 0.0f ? -solid.size.y : solid.size.y);
-    if (solid.shape == SHAPE_CONE) {
-        vec3 apex = solid.axes.y * cone_apex(solid.size);
-        vec3 rim = rim_point(solid, outward_from_axis(solid.axes, direction), cone_base(solid.size));
-        return dot3(apex - rim, direction) > 0.0f ? apex : rim;
-    }
-    return solid.axes.y * (along < 0.0f ? -solid.size.y : solid.size.y);  // of a sphere 0, of a capsule half its axis
+    return support_by_size(solid.shape, solid.size, solid.axes, direction);
 }
 
 // xyz: outward, unit; w: distance of the face from the centre, m. Faces 2k and 2k + 1 of a box look down and up axis k; a

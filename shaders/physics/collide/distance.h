@@ -96,7 +96,7 @@ LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough
 // The simpler shape first, as the laws of touching want it.
 LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
 #ifndef WITHOUT_CONVEX
-    if (b.shape >= SHAPE_CYLINDER) return gap_of_convex(a, pose_a, b, pose_b, enough, hulls);
+    if (is_general_convex(b.shape) || b.shape == SHAPE_TRIANGLE) return gap_of_convex(a, pose_a, b, pose_b, enough, hulls);
 #endif
     float any = 1.0e30f;
     if (a.shape == SHAPE_SPHERE) {

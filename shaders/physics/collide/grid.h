@@ -186,7 +186,7 @@ LAW uint kind_of(uint shape_a, uint shape_b) {
     uint high = shape_a < shape_b ? shape_b : shape_a;
     if (high == SHAPE_TRIANGLE) return low == SHAPE_SPHERE ? KIND_SPHERE_TRIANGLE : KIND_CONVEX_TRIANGLE;
     if (low == SHAPE_HULL) return KIND_HULL_HULL;
-    if (high >= SHAPE_CYLINDER) return low == SHAPE_PLANE ? KIND_PLANE_CONVEX : KIND_CONVEX;
+    if (is_general_convex(high)) return low == SHAPE_PLANE ? KIND_PLANE_CONVEX : KIND_CONVEX;
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 

@@ -30,15 +30,6 @@ struct Separation {
     bool over_face;   // the better of the two faces has what reaches farthest towards it over itself
 };
 
-// Axes that belong to the side of a cylinder or a cone: straight towards the other one's middle.
-LAW vec3 side_axis(Solid solid, vec3 towards) {
-    vec3 outward = outward_from_axis(solid.axes, towards);
-    return solid.shape == SHAPE_CONE ? cone_normal(solid.axes, solid.size, outward) : outward;
-}
-LAW bool has_side(Solid solid) {
-    return solid.shape == SHAPE_CYLINDER || solid.shape == SHAPE_CONE || solid.shape == SHAPE_CAPSULE;
-}
-
 // A hull's planes are looked at in its own frame, others' in the world's: the plane of a face, a vector to go with it, and how
 // high a point lies over it.
 LAW vec4 plane_as_listed(Solid own, uint face, Hulls hulls) {
@@ -192,8 +183,8 @@ LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, float enough, Hulls
 // The axis to try next after the faces: of the first three, what the sides say; then the way between bodies pushed apart.
 CONSTANT uint SIDE_AXES = 3u;
 LAW vec3 side_axis_between(Solid a, Solid b, vec3 d, uint k) {
-    if (k == 0u) return side_axis(a, d);
-    if (k == 1u) return -side_axis(b, -d);
+    if (k == 0u) return side_normal(a.shape, a.size, a.axes, d);
+    if (k == 1u) return -side_normal(b.shape, b.size, b.axes, -d);
     vec3 across = unit3(cross3(a.axes.y, b.axes.y), a.axes.x);
     return dot3(across, d) < 0.0f ? -across : across;
 }
@@ -204,12 +195,12 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
     Separation s = separation_by_faces(a, b, d, enough + radii, hulls);
     float room = PUSH_ROOM * smaller(a.scale, b.scale);
     bool known = s.over_face, converged = false;
-    for (uint k = has_side(a) || has_side(b) ? 0u : SIDE_AXES; k < SIDE_AXES + PUSH_ROUNDS; ++k) {
+    for (uint k = has_side(a.shape) || has_side(b.shape) ? 0u : SIDE_AXES; k < SIDE_AXES + PUSH_ROUNDS; ++k) {
         if (converged || s.distance - radii >= enough || (known && k >= SIDE_AXES)) break;
         bool apart = s.distance >= room;
         vec3 normal = s.normal;
         if (k < SIDE_AXES) {
-            if ((k != 1u && !has_side(a)) || (k != 0u && !has_side(b))) continue;
+            if ((k != 1u && !has_side(a.shape)) || (k != 0u && !has_side(b.shape))) continue;
             normal = side_axis_between(a, b, d, k);
         } else {
             vec3 push = apart ? d - d : s.normal * (room - s.distance);

@@ -15,6 +15,7 @@
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"
+#include "shaders/physics/collide/shapes.h"
 
 LAWS_BEGIN
 
@@ -42,8 +43,7 @@ LAW uint hull_of(Traits traits) {
 }
 // In the table of tyres, counted from 1; 0: no tyre.
 LAW uint tyre_of(Traits traits) {
-    bool round = traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE || traits.shape == SHAPE_CYLINDER;
-    return round ? traits.shape_data : 0u;
+    return takes_tyre(traits.shape) ? traits.shape_data : 0u;
 }
 LAW vec3 point_in(uvec4 record) {
     return vec3(uintBitsToFloat(record.x), uintBitsToFloat(record.y), uintBitsToFloat(record.z));

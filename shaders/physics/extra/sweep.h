@@ -21,28 +21,14 @@ CONSTANT float NEVER = 2.0f;
 // and so on: with fewer, bodies that fly in a row pass each other when the first of them is stopped.
 CONSTANT uint FLIGHT_ROUNDS = 3u;
 
-// Smallest half width, m: what lengths on a body are measured against.
 LAW float thickness(Traits traits) {
-    if (traits.shape == SHAPE_PLANE || traits.shape == SHAPE_TRIANGLE) return 1.0e30f;
-    if (traits.shape == SHAPE_CYLINDER) return smaller(traits.size.x, traits.size.y);
-    if (traits.shape == SHAPE_CONE) return smaller(0.5f * traits.size.x, 0.25f * traits.size.y);
-    if (traits.shape == SHAPE_HULL) return 0.5f * smaller(traits.size.x, smaller(traits.size.y, traits.size.z));
-    return traits.shape == SHAPE_BOX ? smaller(traits.size.x, smaller(traits.size.y, traits.size.z)) : traits.size.x;
+    return min_half_width(traits.shape, traits.size);
 }
-// How far from its centre a body reaches, m; of a hull a bound.
 LAW float farthest_of(Traits traits) {
-    vec3 size = traits.size;
-    if (traits.shape == SHAPE_BOX || traits.shape == SHAPE_HULL || traits.shape == SHAPE_TRIANGLE) return length3(size);
-    if (traits.shape == SHAPE_NONE) return size.y;
-    if (traits.shape == SHAPE_CAPSULE) return size.x + size.y;
-    if (traits.shape == SHAPE_CYLINDER) return square_root(size.x * size.x + size.y * size.y);
-    if (traits.shape == SHAPE_CONE) return larger(0.75f * size.y, square_root(size.x * size.x + 0.0625f * (size.y * size.y)));
-    return size.x;
+    return bounding_radius(traits.shape, traits.size);
 }
-// How far from its centre a body's surface changes when it turns, m: not that of a ball, of a capsule only its axis.
 LAW float lever_of(Traits traits) {
-    if (traits.shape == SHAPE_CAPSULE) return traits.size.y;
-    return traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_PLANE ? 0.0f : farthest_of(traits);
+    return turning_reach(traits.shape, traits.size);
 }
 
 // How far a body may go in a step unwatched, m. A larger part, and a thin plate could be entered beyond its middle.
@@ -61,27 +47,8 @@ LAW bool will_be_fast(Traits traits, Velocity velocity, Parameters parameters) {
     return traits.motion != MOTION_FIXED && way * parameters.dt > unwatched_way(traits);
 }
 
-// Half the size of the box around a body, m.
 LAW vec3 half_extents_of(Traits traits, vec4 orientation) {
-    vec3 half_size = vec3(traits.size.x);
-    if (traits.shape == SHAPE_CAPSULE) {
-        half_size = half_size + absolute3(upright(orientation) * traits.size.y);
-    } else if (traits.shape == SHAPE_CYLINDER || traits.shape == SHAPE_CONE) {
-        vec3 axis = absolute3(upright(orientation));
-        vec3 rim = vec3(square_root(positive(1.0f - axis.x * axis.x)), square_root(positive(1.0f - axis.y * axis.y)),
-                        square_root(positive(1.0f - axis.z * axis.z))) *
-                   traits.size.x;
-        if (traits.shape == SHAPE_CYLINDER)
-            half_size = rim + axis * traits.size.y;
-        else
-            half_size = larger3(rim + axis * (0.25f * traits.size.y), axis * (0.75f * traits.size.y));
-    } else if (traits.shape == SHAPE_NONE) {
-        half_size = vec3(traits.size.y);
-    } else if (traits.shape == SHAPE_BOX || traits.shape == SHAPE_HULL || traits.shape == SHAPE_TRIANGLE) {
-        Axes axes = axes_of(orientation);
-        half_size = absolute3(axes.x) * traits.size.x + absolute3(axes.y) * traits.size.y + absolute3(axes.z) * traits.size.z;
-    }
-    return half_size;
+    return world_half_extents(traits.shape, traits.size, orientation);
 }
 
 // From one orientation to another on the shorter way: the difference of the quaternions, whichever sign the second has.

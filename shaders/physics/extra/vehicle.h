@@ -6,7 +6,7 @@
 #define SCREE_PHYSICS_VEHICLE_H
 
 #include "shaders/physics/base/records.h"
-#include "shaders/physics/solve/joint.h"
+#include "shaders/physics/solve/joint_axis.h"
 
 LAWS_BEGIN
 

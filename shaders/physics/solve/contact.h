@@ -99,11 +99,10 @@ LAW vec4 separations_of(Manifold manifold) {
 // The points stay with the rounder body, or with the thinner one: a ball rolls on, a small box slides on over a big one, and the
 // contact goes with it. Between two round bodies the point and the normal follow both.
 LAW bool is_round(Traits traits) {
-    return traits.shape == SHAPE_SPHERE || traits.shape == SHAPE_CAPSULE;
+    return has_round_core(traits.shape);
 }
-// What can roll on its side, or on its rim.
 LAW bool rolls(Traits traits) {
-    return is_round(traits) || traits.shape == SHAPE_CYLINDER || traits.shape == SHAPE_CONE;
+    return can_roll(traits.shape);
 }
 LAW uint anchor_of(Contact contact, Traits a, Traits b) {
     if (is_round(a) && is_round(b) && contact.count == 1u) return ANCHOR_ROUND;

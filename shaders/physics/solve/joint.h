@@ -1,9 +1,5 @@
-// A joint: where its bodies are along and about its six axes, and what each axis asks of their velocities.
-//
-// All joints of a block (compute/step/joint_blocks.h) are solved together and exactly, by elimination: (J M^-1 J^T + C) dl = -(J
-// v + bias), the rows that are at their bounds left out. So a block is one of those that mass splitting knows (contact_solver.h),
-// however many joints it has, and a chain carries a hundred times its links' weight without stretching. Rows that turn out to be
-// at a bound, or to leave one, are exchanged and the block is solved again (principal pivoting), a few times in a pass.
+// A joint's coordinates and the rows of its Jacobian: where its bodies are along and about its six axes, and how their velocities
+// change that. What each axis asks of its row says joint_axis.h; how the rows of a block are solved together, joint_block.h.
 //
 // A pendulum whose velocity were merely made to fit its joint where it hangs, moved and made to fit again would lose (h w)^2 of
 // its energy in each substep, half of all in a minute. So the biased pass also reckons with the way in which the joint's
@@ -13,19 +9,9 @@
 #define SCREE_PHYSICS_JOINT_H
 
 #include "shaders/physics/solve/jacobian.h"
-#include "shaders/physics/solve/mass_splitting.h"
 
 LAWS_BEGIN
 
-// Part of a gap that a substep closes. With 1, a joint that contacts hold open shakes what it holds.
-CONSTANT float JOINT_RATE = 0.25f;
-CONSTANT float JOINT_TURN_SPEED = 6.0f;  // rad/s, greatest speed at which axes are turned together
-// Compliance of rigid rows, of what the lent bodies give themselves: mechanisms have more joints than they need, and without any
-// the surplus has no solution. More, and chains stretch; less, and what is surplus grows in the rounding of a float.
-CONSTANT float JOINT_COMPLIANCE = 1.0e-3f;
-CONSTANT float GENTLE_SPRING = 0.25f;  // of what would throw a body past its place in one substep: weaker ones are forces
-CONSTANT uint JOINT_ROUNDS = 8u;       // times that a block is solved in a pass at most
-CONSTANT uint SETTLING_ROUND = 2u;     // from then on bounds are only let go: with both, some blocks go round in circles
 // The squares of a body's turn in a substep, rad, from which the drift is left out more and more, and wholly: it follows what
 // turns slowly to second order, but the end of a whip it drives.
 CONSTANT float DRIFT_TURN = 0.0025f;
@@ -170,155 +156,10 @@ LAW float row_speed(JointRow row, bool linear, Couple v) {
     float turning = dot3(row.arm_b, v.b.angular) - dot3(row.arm_a, v.a.angular);
     return linear ? dot3(row.direction, v.b.linear - v.a.linear) + turning : turning;
 }
-// What an impulse of 1 along one row does to another on the same body, whose arms they are.
-LAW float give_between(vec3 direction, vec3 arm, vec3 other_direction, vec3 other_arm, bool both_linear, Mass mass) {
-    float turning = dot3(arm, turned_by(mass, other_arm));
-    return (both_linear ? dot3(direction, other_direction) * mass.inverse_mass + turning : turning) * mass.split;
-}
 LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
     if (linear) v.linear = v.linear + direction * (impulse * mass.inverse_mass * mass.split);
     v.angular = v.angular + turned_by(mass, arm) * (impulse * mass.split);
     return v;
-}
-
-// ---- what an axis asks
-struct Demand {  // row speed + bias + compliance * impulse's change = 0
-    float bias;
-    float compliance;
-};
-
-LAW float joint_push(float place, uint axis, Parameters parameters) {
-    float fastest = is_linear(axis) ? parameters.push_speed : JOINT_TURN_SPEED;
-    return clamped(place * (JOINT_RATE * parameters.inverse_h), -fastest, fastest);
-}
-
-// A spring so weak that it may act as the force that it is at the substep's start, which takes no energy out of its swinging.
-LAW bool is_gentle(JointAxis axis, float give, Parameters parameters) {
-    float h = parameters.h;
-    return h * h * axis.stiffness * give < GENTLE_SPRING && h * axis.damping * give < GENTLE_SPRING;
-}
-
-LAW float most_impulse(JointAxis axis, Parameters parameters) {
-    return axis.most * parameters.h;
-}
-LAW float spring_impulse(JointAxis axis, float place, float speed, Parameters parameters) {
-    float force = axis.stiffness * (axis.rest - place) + axis.damping * (axis.speed - speed);
-    return clamped(force * parameters.h, -most_impulse(axis, parameters), most_impulse(axis, parameters));
-}
-
-// Whether the drive is an unknown of the block's equations; if not, its impulse is held_drive().
-LAW bool drive_is_solved(JointAxis axis, JointRow row, uint pin, bool biased, Parameters parameters) {
-    if ((pin & (STOP_LOW | STOP_HIGH)) != 0u) return false;
-    if ((axis.mode & AXIS_LOCKED) != 0u) return true;
-    if ((pin & (PIN_LOW | PIN_HIGH)) != 0u) return false;
-    if ((axis.mode & AXIS_SPRING) != 0u) return biased && !is_gentle(axis, row.give, parameters);
-    return (axis.mode & AXIS_MOTOR) != 0u;
-}
-// `speed`: of the row as the pass begins.
-LAW float held_drive(JointAxis axis, JointRow row, uint pin, float speed, bool biased, Parameters parameters) {
-    float most = most_impulse(axis, parameters);
-    bool stopped = (pin & (STOP_LOW | STOP_HIGH)) != 0u;
-    if ((axis.mode & AXIS_SPRING) != 0u) {
-        if (!biased) return row.drive;
-        if (stopped || is_gentle(axis, row.give, parameters))
-            return spring_impulse(axis, row.place, stopped ? 0.0f : speed, parameters);
-    }
-    if ((axis.mode & AXIS_MOTOR) != 0u && stopped)
-        return axis.speed > 0.0f ? most : (axis.speed < 0.0f ? -most : clamped(row.drive, -most, most));
-    if ((pin & PIN_LOW) != 0u) return -most;
-    if ((pin & PIN_HIGH) != 0u) return most;
-    return 0.0f;
-}
-LAW Demand drive_demand(JointAxis axis, JointRow row, uint index, bool biased, Parameters parameters) {
-    Demand demand;
-    demand.compliance = JOINT_COMPLIANCE * row.give;
-    if ((axis.mode & AXIS_LOCKED) != 0u) {
-        demand.bias = 0.0f;
-        if (biased)
-            demand.bias = (joint_push(row.place - axis.rest, index, parameters) + row.drift) + demand.compliance * row.drive;
-    } else if ((axis.mode & AXIS_SPRING) != 0u) {
-        float resisting = axis.damping + parameters.h * axis.stiffness;
-        float yielding = reciprocal(resisting);
-        demand.compliance = yielding * parameters.inverse_h;
-        demand.bias =
-            (axis.stiffness * (row.place - axis.rest) - axis.damping * axis.speed) * yielding + demand.compliance * row.drive;
-    } else {
-        demand.bias = -axis.speed;
-    }
-    return demand;
-}
-LAW float stop_bias_for(float room, float drift, uint index, bool biased, Parameters parameters) {
-    if (room > 0.0f) return room * parameters.inverse_h + (biased ? drift : 0.0f);
-    return biased ? joint_push(room, index, parameters) + drift : 0.0f;
-}
-// Of the lower limit if `low`, else of the upper, whose speed and impulse are negative.
-LAW Demand stop_demand(JointAxis axis, JointRow row, uint index, bool low, bool biased, Parameters parameters) {
-    Demand demand;
-    demand.compliance = JOINT_COMPLIANCE * row.give;
-    demand.bias = low ? stop_bias_for(row.place - axis.lower, row.drift, index, biased, parameters)
-                      : -stop_bias_for(axis.upper - row.place, -row.drift, index, biased, parameters);
-    if (biased) demand.bias = demand.bias + demand.compliance * row.stop;
-    return demand;
-}
-
-// The bits of an axis after a solution: which bounds act. `speed`: of the row afterwards; `solution`: of the row, if it was
-// solved.
-LAW uint pins_after(JointAxis axis, JointRow row, uint index, uint pin, bool solved, float solution, float speed, bool biased,
-                    bool settling, Parameters parameters) {
-    if ((pin & STOP_LOW) != 0u) {
-        if (row.stop + solution < 0.0f) return pin & ~STOP_LOW;
-        return pin;
-    }
-    if ((pin & STOP_HIGH) != 0u) {
-        if (row.stop + solution > 0.0f) return pin & ~STOP_HIGH;
-        return pin;
-    }
-    if ((axis.mode & AXIS_LIMITED) != 0u && !settling) {
-        Demand low = stop_demand(axis, row, index, true, biased, parameters);
-        if (speed + low.bias < 0.0f) return STOP_LOW;
-        Demand high = stop_demand(axis, row, index, false, biased, parameters);
-        if (speed + high.bias > 0.0f) return STOP_HIGH;
-    }
-    if ((axis.mode & AXIS_LOCKED) != 0u || (axis.mode & (AXIS_MOTOR | AXIS_SPRING)) == 0u) return pin;
-    float most = most_impulse(axis, parameters);
-    if (solved) {
-        if (row.drive + solution < -most) return PIN_LOW;
-        if (row.drive + solution > most) return PIN_HIGH;
-        return 0u;
-    }
-    if (pin != 0u && !settling) {
-        float error = speed + drive_demand(axis, row, index, biased, parameters).bias;
-        if ((axis.mode & AXIS_SPRING) != 0u && !biased) return pin;
-        if ((pin & PIN_LOW) != 0u && error < 0.0f) return 0u;
-        if ((pin & PIN_HIGH) != 0u && error > 0.0f) return 0u;
-    }
-    return pin;
-}
-LAW uint pins_of(uint pins, uint axis) {
-    return (pins >> (4u * axis)) & 15u;
-}
-LAW uint with_pins(uint pins, uint axis, uint pin) {
-    return (pins & ~(15u << (4u * axis))) | (pin << (4u * axis));
-}
-
-// Impulses within their bounds, whatever the last solution said.
-LAW JointRow row_after(JointRow row, JointAxis axis, uint pin, bool solved, float solution, Parameters parameters) {
-    bool stopped = (pin & (STOP_LOW | STOP_HIGH)) != 0u;
-    if (solved && stopped) {
-        float after = row.stop + solution;
-        after = (pin & STOP_LOW) != 0u ? positive(after) : -positive(-after);
-        row.stop_change = after - row.stop;
-    } else if (solved) {
-        float after = row.drive + solution;
-        if ((axis.mode & AXIS_LOCKED) == 0u)
-            after = clamped(after, -most_impulse(axis, parameters), most_impulse(axis, parameters));
-        row.drive_change = after - row.drive;
-    }
-    return row;
-}
-
-LAW bool joint_tears(vec3 force, float break_force, vec3 torque, float break_torque) {
-    return length3(force) > break_force || length3(torque) > break_torque;
 }
 
 LAWS_END

@@ -59,7 +59,7 @@ LAW bool turned_little(vec4 before, vec4 now, uint points) {
 // Whether last step's contact serves for this step: it carried, the bodies do not roll on each other, and its marks
 // still lie together.
 LAW bool is_kept(Contact contact, Impulse impulse, Traits ta, Pose a, Velocity va, Traits tb, Pose b, Velocity vb) {
-    if (ta.shape == SHAPE_SPHERE || tb.shape == SHAPE_SPHERE || (is_round(ta) && is_round(tb))) return false;
+    if (touches_in_a_point(ta.shape) || touches_in_a_point(tb.shape) || (is_round(ta) && is_round(tb))) return false;
     if ((impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) <= 0.0f) return false;
     if (!turned_little(contact.turn_a, a.orientation, contact.count)) return false;
     if (!turned_little(contact.turn_b, b.orientation, contact.count)) return false;

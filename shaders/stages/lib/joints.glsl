@@ -1,9 +1,16 @@
 // A pass over one block of joints, by one thread: its equations, their elimination, and what its bodies go through.
+//
+// Lavapipe ends a shader's loops after 65,535 rounds in all, without a word. As loops in loops the elimination of nine joints in
+// a ring came to more; so what a pair of joints has six or 36 of is written out (EACH_OF_SIX), and rounds of a block that would
+// still come to more are left to further dispatches (compute/step/stage_fusion.h, which knows how many rounds each loop here
+// takes).
 #ifndef SCREE_STAGES_JOINTS_GLSL
 #define SCREE_STAGES_JOINTS_GLSL
 
 #include "shaders/physics/extra/sleep.h"
-#include "shaders/physics/solve/joint.h"
+#include "shaders/physics/solve/joint_block.h"
+
+#define EACH_OF_SIX(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u)
 
 uint block_first, block_joints, block_members;
 
@@ -13,9 +20,9 @@ bool enter_block(uint index) {
     block_first = joints.at[index].first_of_block;
     block_joints = block_first + joints.at[block_first].block_joints;
     block_members = block_first + joints.at[block_first].block_members;
-    for (uint m = block_first; m < block_members; ++m)
-        if (joints.at[m].slot != NONE) return true;
-    return false;
+    bool moves = false;
+    for (uint m = block_first; m < block_members && !moves; ++m) moves = joints.at[m].slot != NONE;
+    return moves;
 }
 
 bool holds(uint j) {
@@ -38,39 +45,35 @@ Couple couple_of(uint j) {
     return v;
 }
 
-// In the biased pass, joints come after the contacts, and only blocks share a body. In the one without, it is shared with the
-// contacts, and if it is struck among those who strike it.
+Mass mass_of(uint member) {
+    if (member != NONE) return joints.at[member].mass;
+    return Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+}
+
 void lend(bool biased) {
     for (uint m = block_first; m < block_members; ++m) {
         uint body = joints.at[m].member;
-        Mass mass = masses.at[body];
-        if (biased)
-            mass.split = larger(1.0f, float(joints.at[m].blocks) * PARAMETERS.inverse_relaxation);
-        else if (loads.at[body].blows > 1.0f)
-            mass.split = loads.at[body].blows;
-        else
-            mass.split = split_for(mass.split, joints.at[m].pressed, PARAMETERS);
-        if (joints.at[m].slot == NONE) {
-            mass = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, mass.split);
-        }
-        joints.at[m].mass = mass;
+        joints.at[m].mass = mass_of_member(masses.at[body], joints.at[m].slot != NONE, joints.at[m].blocks, loads.at[body].blows,
+                                           joints.at[m].pressed, biased, PARAMETERS);
     }
 }
 
 // `biased`: with what the contacts have just done to them, which is in the slots before those of the blocks.
-void begin_velocities(bool biased) {
+void take_velocities(bool biased) {
     for (uint m = block_first; m < block_members; ++m) {
         uint body = joints.at[m].member;
         Velocity velocity = velocities.at[body];
         if (biased && joints.at[m].slot != NONE) {
             uint last = WORD(slot_ends, body) - joints.at[m].blocks;
-            for (uint k = body == 0u ? 0u : WORD(slot_ends, body - 1u); k < last; ++k) {
-                velocity.linear = velocity.linear + slots.at[k].linear;
-                velocity.angular = velocity.angular + slots.at[k].angular;
-            }
+            for (uint k = body == 0u ? 0u : WORD(slot_ends, body - 1u); k < last; ++k)
+                velocity = changed_by(velocity, slots.at[k]);
         }
+        joints.at[m].velocity_before = velocity;
         joints.at[m].velocity = velocity;
     }
+}
+void restore_velocities() {
+    for (uint m = block_first; m < block_members; ++m) joints.at[m].velocity = joints.at[m].velocity_before;
 }
 
 void place_rows(uint j) {
@@ -80,25 +83,11 @@ void place_rows(uint j) {
     Couple v = couple_of(j);
     uint flags = joints.at[j].flags;
     uint side_a = joints.at[j].member_a, side_b = joints.at[j].member_b;
+    Mass mass_a = mass_of(side_a), mass_b = mass_of(side_b);
+    uint ends = shared_ends(side_a, side_b, side_a, side_b);
     for (uint k = 0u; k < 6u; ++k) {
         if (joints.at[j].axes[k].mode == 0u) continue;
-        JointRow row = joints.at[j].rows[k];
-        bool linear = is_linear(k);
-        if (linear)
-            row = linear_row(row, at, k, flags, v, PARAMETERS.h);
-        else
-            row = angular_row(row, at, k - 3u, flags, v, PARAMETERS.h);
-        float give = 0.0f;
-        if (side_a != NONE)
-            give = give_between(row.direction, row.arm_a, row.direction, row.arm_a, linear, joints.at[side_a].mass);
-        if (side_b != NONE) {
-            float give_b = give_between(row.direction, row.arm_b, row.direction, row.arm_b, linear, joints.at[side_b].mass);
-            give = side_a != NONE ? give + give_b : give_b;
-        }
-        row.give = give;
-        row.drive_change = 0.0f;
-        row.stop_change = 0.0f;
-        joints.at[j].rows[k] = row;
+        joints.at[j].rows[k] = placed_row(joints.at[j].rows[k], at, k, flags, v, mass_a, mass_b, ends, PARAMETERS.h);
     }
 }
 
@@ -126,127 +115,146 @@ void choose_unknowns(uint j, bool biased) {
     for (uint k = 0u; k < 6u; ++k) {
         JointAxis axis = joints.at[j].axes[k];
         JointRow row = joints.at[j].rows[k];
-        if (axis.mode == 0u || row.give <= 0.0f) continue;
+        if (!row_acts(axis, row)) continue;
         uint pin = pins_of(pins, k);
-        row.drive_change = 0.0f;
-        row.stop_change = 0.0f;
-        bool stopped = (pin & (STOP_LOW | STOP_HIGH)) != 0u;
-        bool driven = drive_is_solved(axis, row, pin, biased, PARAMETERS);
-        if (stopped || driven) unknowns |= 1u << k;
-        if (!stopped) row.stop_change = -row.stop;
-        if (!driven)
-            row.drive_change = held_drive(axis, row, pin, row_speed(row, is_linear(k), v), biased, PARAMETERS) - row.drive;
+        if (row_is_unknown(axis, row, pin, biased, PARAMETERS)) unknowns |= 1u << k;
+        row = row_given(axis, row, pin, row_speed(row, is_linear(k), v), biased, PARAMETERS);
         joints.at[j].rows[k] = row;
-        float given = row.drive_change + row.stop_change;
+        float given = given_change(row);
         if (given != 0.0f) push_row(j, k, given);
     }
     joints.at[j].solved = unknowns;
 }
 
+#define UP_TO(n) ((2u << n) - 1u)  // of a set of six axes, a bit each
+
+bool has(uint axes, uint k) {
+    return (axes >> k & 1u) != 0u;
+}
 bool unknown(uint j, uint k) {
-    return (joints.at[j].solved >> k & 1u) != 0u;
+    return has(joints.at[j].solved, k);
 }
 
-Demand demand_of(uint j, uint k, bool biased) {
-    uint pin = pins_of(joints.at[j].pins, k);
-    if ((pin & (STOP_LOW | STOP_HIGH)) != 0u)
-        return stop_demand(joints.at[j].axes[k], joints.at[j].rows[k], k, (pin & STOP_LOW) != 0u, biased, PARAMETERS);
-    return drive_demand(joints.at[j].axes[k], joints.at[j].rows[k], k, biased, PARAMETERS);
+// The entry of row n of joint i and the row of a response, that of a row of a joint between these members.
+float entry_of(uint i, uint n, RowResponse to, uint member_a, uint member_b) {
+    return row_entry(joints.at[i].rows[n].direction, joints.at[i].rows[n].arm_a, joints.at[i].rows[n].arm_b, n, to,
+                     shared_ends(joints.at[i].member_a, joints.at[i].member_b, member_a, member_b));
 }
 
-// What row k of joint j does to row n of joint i, through the bodies that they share.
-float between(uint i, uint n, uint j, uint k) {
-    JointRow left = joints.at[i].rows[n], right = joints.at[j].rows[k];
-    bool linear = is_linear(n) && is_linear(k);
-    float sum = 0.0f;
-    bool any = false;
-    for (uint s = 0u; s < 4u; ++s) {
-        bool left_is_b = s >= 2u, right_is_b = (s & 1u) != 0u;
-        uint member = left_is_b ? joints.at[i].member_b : joints.at[i].member_a;
-        if (member == NONE || member != (right_is_b ? joints.at[j].member_b : joints.at[j].member_a)) continue;
-        float give = give_between(left.direction, left_is_b ? left.arm_b : left.arm_a, right.direction,
-                                  right_is_b ? right.arm_b : right.arm_a, linear, joints.at[member].mass);
-        if (left_is_b != right_is_b) give = -give;
-        sum = any ? sum + give : give;
-        any = true;
+void set_up_equation(uint j, uint k, Couple v, bool biased) {
+    JointRow row = joints.at[j].rows[k];
+    Demand demand = row_demand(joints.at[j].axes[k], row, k, pins_of(joints.at[j].pins, k), biased, PARAMETERS);
+    joints.at[j].solution[k] = right_hand_side(row_speed(row, is_linear(k), v), demand);
+    uint member_a = joints.at[j].member_a, member_b = joints.at[j].member_b;
+    RowResponse response = row_response(row, k, mass_of(member_a), mass_of(member_b));
+    uint own = joints.at[j].solved;
+#define SET_UP_OWN(n) \
+    if (n >= k && has(own, n)) joints.at[j].diagonal[6u * n + k] = entry_of(j, n, response, member_a, member_b);
+    EACH_OF_SIX(SET_UP_OWN)
+    joints.at[j].diagonal[7u * k] = softened(joints.at[j].diagonal[7u * k], demand);
+    uint links = joints.at[j].links;
+    for (uint l = 0u; l < links; ++l) {
+        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+#define SET_UP_LINK(n) \
+    if (has(theirs, n)) joints.at[j].coupling[36u * l + 6u * n + k] = entry_of(i, n, response, member_a, member_b);
+        EACH_OF_SIX(SET_UP_LINK)
     }
-    return sum;
 }
-
 void set_up_equations(uint j, bool biased) {
     Couple v = couple_of(j);
-    for (uint k = 0u; k < 6u; ++k) {
-        if (!unknown(j, k)) continue;
-        Demand demand = demand_of(j, k, biased);
-        joints.at[j].solution[k] = -(row_speed(joints.at[j].rows[k], is_linear(k), v) + demand.bias);
-        for (uint n = k; n < 6u; ++n)
-            if (unknown(j, n)) joints.at[j].diagonal[6u * n + k] = between(j, n, j, k);
-        joints.at[j].diagonal[7u * k] = joints.at[j].diagonal[7u * k] + demand.compliance;
-        for (uint l = 0u; l < joints.at[j].links; ++l) {
-            uint i = joints.at[j].links_to[l];
-            for (uint n = 0u; n < 6u; ++n)
-                if (unknown(i, n)) joints.at[j].coupling[36u * l + 6u * n + k] = between(i, n, j, k);
-        }
-    }
+    for (uint k = 0u; k < 6u; ++k)
+        if (unknown(j, k)) set_up_equation(j, k, v, biased);
 }
 
-// Where joint j keeps its coupling with joint i.
+// Where joint j keeps its coupling with joint i: its links are in rising order.
 uint coupling_with(uint i, uint j) {
-    uint l = 0u;
-    while (l + 1u < joints.at[j].links && joints.at[j].links_to[l] != i) ++l;
-    return 36u * l;
+    uint links = joints.at[j].links, before = 0u;
+#define COUNT_BEFORE(l) \
+    if (l < links && joints.at[j].links_to[l] < i) ++before;
+    EACH_OF_SIX(COUNT_BEFORE)
+    COUNT_BEFORE(6u)
+    COUNT_BEFORE(7u)
+    return 36u * before;
+}
+
+// What unknown k of joint j does to its own six rows, and to those of the joint of its link l.
+struct Column {
+    float at[6];
+};
+Column own_column(uint j, uint k) {
+    Column column;
+#define TAKE_OWN(n) column.at[n] = joints.at[j].diagonal[6u * n + k];
+    EACH_OF_SIX(TAKE_OWN)
+    return column;
+}
+Column column_of_link(uint j, uint l, uint k) {
+    Column column;
+#define TAKE_LINK(n) column.at[n] = joints.at[j].coupling[36u * l + 6u * n + k];
+    EACH_OF_SIX(TAKE_LINK)
+    return column;
+}
+
+// Less a multiple of a column, in those unknowns of a row that are in `of`.
+void lessen_diagonal(uint j, uint row, uint of, float multiplier, Column by) {
+#define LESSEN_DIAGONAL(c) \
+    if (has(of, c)) joints.at[j].diagonal[row + c] = less_multiple(joints.at[j].diagonal[row + c], multiplier, by.at[c]);
+    EACH_OF_SIX(LESSEN_DIAGONAL)
+}
+void lessen_coupling(uint j, uint row, uint of, float multiplier, Column by) {
+#define LESSEN_COUPLING(c) \
+    if (has(of, c)) joints.at[j].coupling[row + c] = less_multiple(joints.at[j].coupling[row + c], multiplier, by.at[c]);
+    EACH_OF_SIX(LESSEN_COUPLING)
 }
 
 // Takes unknown k of joint j out of all equations behind it.
 void eliminate(uint j, uint k) {
+    Column own = own_column(j, k);
     float inverse = reciprocal(joints.at[j].diagonal[7u * k]);
     float known = joints.at[j].solution[k];
     joints.at[j].diagonal[7u * k] = inverse;
-    for (uint n = k + 1u; n < 6u; ++n) {
-        if (!unknown(j, n)) continue;
-        float part = joints.at[j].diagonal[6u * n + k] * inverse;
-        joints.at[j].solution[n] = joints.at[j].solution[n] - part * known;
-        for (uint c = k + 1u; c <= n; ++c)
-            if (unknown(j, c))
-                joints.at[j].diagonal[6u * n + c] = joints.at[j].diagonal[6u * n + c] - part * joints.at[j].diagonal[6u * c + k];
+    uint behind = joints.at[j].solved >> (k + 1u) << (k + 1u);
+#define ELIMINATE_OWN(n)                                                                       \
+    if (has(behind, n)) {                                                                      \
+        float multiplier = multiplier_of(own.at[n], inverse);                                  \
+        joints.at[j].solution[n] = less_multiple(joints.at[j].solution[n], multiplier, known); \
+        lessen_diagonal(j, 6u * n, behind & UP_TO(n), multiplier, own);                        \
     }
+    EACH_OF_SIX(ELIMINATE_OWN)
     uint links = joints.at[j].links;
     for (uint l = 0u; l < links; ++l) {
-        uint i = joints.at[j].links_to[l];
-        for (uint n = 0u; n < 6u; ++n) {
-            if (!unknown(i, n)) continue;
-            uint row = 36u * l + 6u * n;
-            float part = joints.at[j].coupling[row + k] * inverse;
-            joints.at[i].solution[n] = joints.at[i].solution[n] - part * known;
-            for (uint c = k + 1u; c < 6u; ++c)
-                if (unknown(j, c))
-                    joints.at[j].coupling[row + c] = joints.at[j].coupling[row + c] - part * joints.at[j].diagonal[6u * c + k];
-            for (uint c = 0u; c <= n; ++c)
-                if (unknown(i, c))
-                    joints.at[i].diagonal[6u * n + c] =
-                        joints.at[i].diagonal[6u * n + c] - part * joints.at[j].coupling[36u * l + 6u * c + k];
-            for (uint e = 0u; e < l; ++e) {
-                uint to = joints.at[j].links_to[e];
-                uint target = coupling_with(i, to) + 6u * n;
-                for (uint c = 0u; c < 6u; ++c)
-                    if (unknown(to, c))
-                        joints.at[to].coupling[target + c] =
-                            joints.at[to].coupling[target + c] - part * joints.at[j].coupling[36u * e + 6u * c + k];
-            }
+        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+        Column pushed = column_of_link(j, l, k);
+#define ELIMINATE_LINK(n)                                                                      \
+    if (has(theirs, n)) {                                                                      \
+        float multiplier = multiplier_of(pushed.at[n], inverse);                               \
+        joints.at[i].solution[n] = less_multiple(joints.at[i].solution[n], multiplier, known); \
+        lessen_coupling(j, 36u * l + 6u * n, behind, multiplier, own);                         \
+        lessen_diagonal(i, 6u * n, theirs & UP_TO(n), multiplier, pushed);                     \
+    }
+        EACH_OF_SIX(ELIMINATE_LINK)
+        for (uint e = 0u; e < l; ++e) {
+            uint to = joints.at[j].links_to[e], between = joints.at[to].solved, target = coupling_with(i, to);
+            Column other = column_of_link(j, e, k);
+#define ELIMINATE_BETWEEN(n) \
+    if (has(theirs, n)) lessen_coupling(to, target + 6u * n, between, multiplier_of(pushed.at[n], inverse), other);
+            EACH_OF_SIX(ELIMINATE_BETWEEN)
         }
     }
 }
 
 void substitute(uint j, uint k) {
     float sum = joints.at[j].solution[k];
-    for (uint n = k + 1u; n < 6u; ++n)
-        if (unknown(j, n)) sum = sum - joints.at[j].diagonal[6u * n + k] * joints.at[j].solution[n];
-    for (uint l = 0u; l < joints.at[j].links; ++l) {
-        uint i = joints.at[j].links_to[l];
-        for (uint n = 0u; n < 6u; ++n)
-            if (unknown(i, n)) sum = sum - joints.at[j].coupling[36u * l + 6u * n + k] * joints.at[i].solution[n];
+    uint own = joints.at[j].solved, links = joints.at[j].links;
+#define SUBSTITUTE_OWN(n) \
+    if (n > k && has(own, n)) sum = less_multiple(sum, joints.at[j].diagonal[6u * n + k], joints.at[j].solution[n]);
+    EACH_OF_SIX(SUBSTITUTE_OWN)
+    for (uint l = 0u; l < links; ++l) {
+        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+#define SUBSTITUTE_LINK(n) \
+    if (has(theirs, n)) sum = less_multiple(sum, joints.at[j].coupling[36u * l + 6u * n + k], joints.at[i].solution[n]);
+        EACH_OF_SIX(SUBSTITUTE_LINK)
     }
-    joints.at[j].solution[k] = sum * joints.at[j].diagonal[7u * k];
+    joints.at[j].solution[k] = substituted(sum, joints.at[j].diagonal[7u * k]);
 }
 
 void solve_equations(bool biased) {
@@ -270,29 +278,47 @@ bool look_at_bounds(uint j, bool biased, bool settling) {
     for (uint k = 0u; k < 6u; ++k) {
         JointAxis axis = joints.at[j].axes[k];
         JointRow row = joints.at[j].rows[k];
-        if (axis.mode == 0u || row.give <= 0.0f) continue;
+        if (!row_acts(axis, row)) continue;
         uint pin = pins_of(joints.at[j].pins, k);
         bool solved = unknown(j, k);
         float solution = solved ? joints.at[j].solution[k] : 0.0f;
-        joints.at[j].rows[k] = row_after(row, axis, pin, solved, solution, PARAMETERS);
-        uint now = pins_after(axis, row, k, pin, solved, solution, row_speed(row, is_linear(k), v), biased, settling, PARAMETERS);
-        if (now == pin) continue;
-        joints.at[j].pins = with_pins(joints.at[j].pins, k, now);
+        RowAfter after = row_after_round(axis, row, k, pin, solved, solution, v, biased, settling, PARAMETERS);
+        joints.at[j].rows[k] = after.row;
+        if (after.pin == pin) continue;
+        joints.at[j].pins = with_pins(joints.at[j].pins, k, after.pin);
         others = true;
     }
     return others;
 }
 
+// push.pass: 1 in the last substep; from bit 8 on the first round of the pass that this dispatch does, from 16 on how many it
+// does (dispatches_of() in compute/step/stage_fusion.cpp).
+uint first_round() {
+    return push.pass >> 8 & 255u;
+}
+uint rounds_end() {
+    return first_round() + (push.pass >> 16);
+}
+bool is_last_dispatch() {
+    return rounds_end() >= JOINT_ROUNDS;
+}
+bool is_last_substep() {
+    return (push.pass & 1u) != 0u;
+}
+
 void solve_block(bool biased) {
-    lend(biased);
-    begin_velocities(biased);
-    for (uint j = block_first; j < block_joints; ++j) {
-        joints.at[j].solved = 0u;
-        if (holds(j)) place_rows(j);
+    if (first_round() == 0u) {
+        lend(biased);
+        take_velocities(biased);
+        for (uint j = block_first; j < block_joints; ++j) {
+            joints.at[j].solved = 0u;
+            if (holds(j)) place_rows(j);
+        }
+        joints.at[block_first].unsettled = 1u;
     }
-    bool others = true;
-    for (uint round = 0u; round < JOINT_ROUNDS && others; ++round) {
-        begin_velocities(biased);
+    bool others = joints.at[block_first].unsettled != 0u;
+    for (uint round = first_round(); round < rounds_end() && others; ++round) {
+        restore_velocities();
         for (uint j = block_first; j < block_joints; ++j)
             if (holds(j)) choose_unknowns(j, biased);
         solve_equations(biased);
@@ -300,6 +326,7 @@ void solve_block(bool biased) {
         for (uint j = block_first; j < block_joints; ++j)
             if (holds(j) && look_at_bounds(j, biased, round >= SETTLING_ROUND)) others = true;
     }
+    joints.at[block_first].unsettled = others ? 1u : 0u;
 }
 
 // Empties what the bodies are about to be told.
@@ -310,31 +337,38 @@ void begin_shares() {
     }
 }
 
-// The changes of this pass (if `changed`) and the next warm start (if `warms`), as whole bodies feel them.
-void share_out(uint j, bool changed, bool warms) {
+// The changes of this pass and the next warm start (if it `warms`), as whole bodies feel them.
+void share_out(uint j, bool warms) {
     for (uint k = 0u; k < 6u; ++k) {
         JointRow row = joints.at[j].rows[k];
-        if (joints.at[j].axes[k].mode == 0u || row.give <= 0.0f) continue;
-        float impulse = row.drive + row.stop;
-        float change = row.drive_change + row.stop_change;
-        if (changed) impulse = warms ? (impulse + change) + change : change;
+        if (!row_acts(joints.at[j].axes[k], row)) continue;
+        float impulse = handed_impulse(row, warms);
         if (impulse != 0.0f) push_row(j, k, impulse);
     }
+}
+void share_out_warm_start(uint j) {
+    for (uint k = 0u; k < 6u; ++k) {
+        JointRow row = joints.at[j].rows[k];
+        if (!row_acts(joints.at[j].axes[k], row)) continue;
+        float impulse = row_impulse(row);
+        if (impulse != 0.0f) push_row(j, k, impulse);
+    }
+}
+void commit(uint j) {
+    for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = committed(joints.at[j].rows[k]);
 }
 
 // What a joint pushes with, on B.
 vec3 force_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 0u; k < 3u; ++k)
-        if (joints.at[j].axes[k].mode != 0u)
-            sum = sum + joints.at[j].rows[k].direction * (joints.at[j].rows[k].drive + joints.at[j].rows[k].stop);
+        if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k]);
     return sum;
 }
 vec3 torque_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 3u; k < 6u; ++k)
-        if (joints.at[j].axes[k].mode != 0u)
-            sum = sum + joints.at[j].rows[k].direction * (joints.at[j].rows[k].drive + joints.at[j].rows[k].stop);
+        if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k]);
     return sum;
 }
 

@@ -6,7 +6,6 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/stages/lib/ids.glsl"
 
-#ifdef WITH_JOINTS
 // Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
 bool kept_apart(uint body, uint other) {
     uint listed = READ(traits, body).joints != NONE ? body : other;
@@ -21,11 +20,11 @@ bool kept_apart(uint body, uint other) {
     return false;
 }
 void meets(uint body, uint other) {
-    if (!kept_apart(body_of(body), body_of(other))) found(other);
+    if (JOINTS) {
+        if (kept_apart(body_of(body), body_of(other))) return;
+    }
+    found(other);
 }
-#else
-#define meets(body, other) found(other)
-#endif
 
 void look_through_large(uint body, Traits own, Bounds around) {
     for (uint k = READ_WORD(cell_ends, PARAMETERS.buckets - 1u); k < READ_WORD(cell_ends, PARAMETERS.buckets); ++k) {

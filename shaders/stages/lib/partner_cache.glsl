@@ -6,7 +6,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 // The same memory as quads: partner_cache.at[i], and CACHED(i) to be read.
-#ifdef SCREE_FAR
+#ifdef SCREE_BDA
 layout(std430, buffer_reference, buffer_reference_align = 16) buffer PartnerCacheTable {
     uvec4 at[];
 };

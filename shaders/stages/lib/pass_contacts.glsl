@@ -47,11 +47,11 @@ void relax_contact(uint place, uint pass) {
     before.b = READ(velocities, c.b);
     vec3 pull = c.restitution > 0.0f ? pull_of(READ(loads, c.a), READ(loads, c.b)) : vec3(0.0f);
     Solved after = relaxed(c, impulse, before, ma, mb, pull, PARAMETERS);
-#ifdef WITH_FRACTURES
-    float sum = pressing(after.impulse);
-    if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
-    SET_FLOAT(carried, i, sum);
-#endif
+    if (BREAKING) {
+        float sum = pressing(after.impulse);
+        if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
+        SET_FLOAT(carried, i, sum);
+    }
     impulse = without_blows(after.impulse, c.count);
     impulse.pressed = pressing(impulse);
     impulses.at[i].normal = impulse.normal;

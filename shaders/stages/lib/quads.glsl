@@ -1,40 +1,25 @@
-// The tables of quads (tables.h), which share one buffer: what the scene describes, each in its own record.
+// The tables of quads (tables.h), which share one buffer: what the scene describes. READ_QUADS(table, i) is the i-th record.
 #ifndef SCREE_STAGES_QUADS_GLSL
 #define SCREE_STAGES_QUADS_GLSL
 
+#include "shaders/stages/lib/record_readers.glsl"
+
 #ifdef SCREE_TEXELS
-#define QUAD(place) texelFetch(quads_texels, int(place))
+#define SCREE_QUAD(table, i) texelFetch(quads_texels, int(PARAMETERS.table##_offset + (i)))
 #else
-#define QUAD(place) quads.at[place]
+#define SCREE_QUAD(table, i) quads.at[PARAMETERS.table##_offset + (i)]
 #endif
 
-PoseInBody pose_in_body_at(uint place) {
-    vec4 position = uintBitsToFloat(QUAD(place));
-    return PoseInBody(xyz(position), position.w, uintBitsToFloat(QUAD(place + 1u)));
+#define READ_QUADS(table, i) read_##table(i)
+uvec4 read_hulls(uint i) {
+    return SCREE_QUAD(hulls, i);
 }
+SCREE_READER_PoseInBody(parts, SCREE_QUAD) SCREE_READER_Fracturing(fractures, SCREE_QUAD)
+    SCREE_READER_PoseInBody(pieces, SCREE_QUAD) SCREE_READER_Tyre(tyres, SCREE_QUAD) SCREE_READER_WayPoint(way_points, SCREE_QUAD)
 
-// Where a row behind all bodies lies in its body.
-PoseInBody read_part(uint row) {
-    return pose_in_body_at(PARAMETERS.parts_begin + 2u * (row - PARAMETERS.first_part));
-}
-PoseInBody read_piece(uint place) {
-    return pose_in_body_at(PARAMETERS.pieces_begin + 2u * place);
-}
-Fracturing read_fracture(uint place) {
-    uvec4 first = QUAD(PARAMETERS.fractures_begin + 2u * place);
-    uvec4 second = QUAD(PARAMETERS.fractures_begin + 2u * place + 1u);
-    return Fracturing(uintBitsToFloat(first.x), first.y, first.z, first.w, second.x, second.y, second.z, second.w);
-}
-Tyre read_tyre(uint place) {
-    vec4 tyre = uintBitsToFloat(QUAD(PARAMETERS.tyres_begin + place));
-    return Tyre(tyre.x, tyre.y, tyre.z, tyre.w);
-}
-WayPoint read_way_point(uint place) {
-    vec4 point = uintBitsToFloat(QUAD(PARAMETERS.way_points_begin + place));
-    return WayPoint(xyz(point), point.w);
-}
-uvec4 read_hull(uint place) {
-    return QUAD(PARAMETERS.hulls_begin + place);
+    // Where a row behind all bodies lies in its body.
+    PoseInBody part_in(uint row) {
+    return READ_QUADS(parts, row - PARAMETERS.first_part);
 }
 
 #endif

@@ -1,39 +1,65 @@
 // Exclusive prefix sums in three stages (reduce, then scan): sums of blocks, a scan of the sums by one workgroup, offsets.
 //
 // Nothing waits for another workgroup, because Vulkan promises no such progress; decoupled look-back would hang on some devices.
-// What is scanned is chosen by the variant: SCAN_ITEMS_OF items, read by SCAN_READ(i), result to SCAN_WRITE(i, sum), one more for
-// the total, which SCAN_TOTAL(total) hears of.
+// What is scanned is the variant's choice, or the including stage's as SCANNED.
 #ifndef SCREE_STAGES_SCAN_GLSL
 #define SCREE_STAGES_SCAN_GLSL
 
+#include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
-#if defined(SCAN_CELLS)
-#define SCAN_ITEMS_OF (PARAMETERS.buckets + 1u)
-#define SCAN_READ(i) READ_WORD(cell_counts, i)
-#define SCAN_WRITE(i, sum) WORD(cell_starts, i) = sum
-#define SCAN_TOTAL(total)
-#elif defined(SCAN_PAIRS)
-#define SCAN_ITEMS_OF PARAMETERS.bodies
-#define SCAN_READ(i) READ_WORD(pair_counts, i)
-#define SCAN_WRITE(i, sum) WORD(pair_starts, i) = sum
-#define SCAN_TOTAL(total) COUNTS = with_pairs(COUNTS, total, PARAMETERS)
-#elif defined(SCAN_KINDS)
-#define SCAN_ITEMS_OF (KINDS * spans_of(COUNTED.pairs))
-#define SCAN_READ(i) READ_WORD(kind_counts, i)
-#define SCAN_WRITE(i, sum) WORD(kind_starts, i) = sum
-#define SCAN_TOTAL(total)
-#elif defined(SCAN_CONTACTS)
-#define SCAN_ITEMS_OF COUNTED.pairs
-#define SCAN_READ(i) (READ_WORD(touching, i) > 0u ? 1u : 0u)
-#define SCAN_WRITE(i, sum) WORD(contact_starts, i) = sum
-#define SCAN_TOTAL(total) COUNTS = with_contacts(COUNTS, total, PARAMETERS)
-#elif defined(SCAN_SLOTS)
-#define SCAN_ITEMS_OF PARAMETERS.bodies
-#define SCAN_READ(i) READ_WORD(slot_counts, i)
-#define SCAN_WRITE(i, sum) WORD(slot_starts, i) = sum
-#define SCAN_TOTAL(total)
+const uint SCAN_CELLS = 0u;
+const uint SCAN_PAIRS = 1u;
+const uint SCAN_KINDS = 2u;
+const uint SCAN_CONTACTS = 3u;
+const uint SCAN_SLOTS = 4u;
+#ifndef SCANNED
+#define SCANNED VARIANT
 #endif
+
+uint scan_items() {
+    uint items = PARAMETERS.bodies;  // SCAN_PAIRS, SCAN_SLOTS
+    if (SCANNED == SCAN_CELLS)
+        items = PARAMETERS.buckets + 1u;
+    else if (SCANNED == SCAN_KINDS)
+        items = KINDS * spans_of(COUNTED.pairs);
+    else if (SCANNED == SCAN_CONTACTS)
+        items = COUNTED.pairs;
+    return items;
+}
+uint scan_read(uint i) {
+    uint value = 0u;
+    if (SCANNED == SCAN_CELLS)
+        value = READ_WORD(cell_counts, i);
+    else if (SCANNED == SCAN_PAIRS)
+        value = READ_WORD(pair_counts, i);
+    else if (SCANNED == SCAN_KINDS)
+        value = READ_WORD(kind_counts, i);
+    else if (SCANNED == SCAN_CONTACTS)
+        value = READ_WORD(touching, i) > 0u ? 1u : 0u;
+    else
+        value = READ_WORD(slot_counts, i);
+    return value;
+}
+void scan_write(uint i, uint sum) {
+    if (SCANNED == SCAN_CELLS)
+        WORD(cell_starts, i) = sum;
+    else if (SCANNED == SCAN_PAIRS)
+        WORD(pair_starts, i) = sum;
+    else if (SCANNED == SCAN_SLOTS)
+        WORD(slot_starts, i) = sum;
+    else if (SCANNED == SCAN_KINDS)
+        WORD(kind_starts, i) = sum;
+    else
+        WORD(contact_starts, i) = sum;
+}
+// What the total, written behind the last item, means for the rest of the step.
+void scan_total(uint total) {
+    if (SCANNED == SCAN_PAIRS)
+        COUNTS = with_pairs(COUNTS, total, PARAMETERS);
+    else if (SCANNED == SCAN_CONTACTS)
+        COUNTS = with_contacts(COUNTS, total, PARAMETERS);
+}
 
 #ifndef SCREE_FUSED
 #define end_part() barrier()
@@ -58,28 +84,26 @@ uint sum_before(uint value) {
 #ifdef SCREE_FUSED
 // The whole of a short list, by one workgroup.
 void scan_whole() {
-    uint items = SCAN_ITEMS_OF;
+    uint items = scan_items();
     uint total = 0u;
     for (uint begin = 0u; begin <= items; begin += gl_WorkGroupSize.x << SCAN_SHIFT) {
         uint first = begin + (gl_LocalInvocationID.x << SCAN_SHIFT);
         uint values[SCAN_ITEMS];
         uint sum = 0u;
         for (uint k = 0u; k < SCAN_ITEMS; ++k) {
-            values[k] = first + k < items ? SCAN_READ(first + k) : 0u;
+            values[k] = first + k < items ? scan_read(first + k) : 0u;
             sum += values[k];
         }
         uint running = total + sum_before(sum);
         for (uint k = 0u; k < SCAN_ITEMS; ++k) {
-            if (first + k <= items) SCAN_WRITE(first + k, running);
+            if (first + k <= items) scan_write(first + k, running);
             running += values[k];
         }
         end_part();
         total += partial[gl_WorkGroupSize.x - 1u];
         end_part();
     }
-    if (gl_LocalInvocationID.x == 0u) {
-        SCAN_TOTAL(total);
-    }
+    if (gl_LocalInvocationID.x == 0u) scan_total(total);
 }
 #endif
 

@@ -1,9 +1,10 @@
 // What every stage begins with: the tables of a step, and a workgroup whose size the host chooses. Record i of a table that has a
 // buffer of its own is name.at[i]; words.glsl and quads.glsl reach the others.
 //
-// Each stage is compiled for every way of reaching them: for tables that are bound, and (SCREE_FAR) for tables found by their
+// Each stage is compiled for every way of reaching them: for tables that are bound, and (SCREE_BDA) for tables found by their
 // addresses, which may be longer and more than a device binds; and either with SCREE_TEXELS, where what a stage only reads comes
-// from texel buffers (read.glsl). NAME, NAME.far, NAME.texels and NAME.far.texels are the names of the four.
+// from texel buffers (read.glsl). NAME, NAME.bda, NAME.texels and NAME.bda.texels are the names of the four. They are no
+// specialisation constants: a module may name no resource that the layout lacks, and many devices have no room for all.
 #ifndef SCREE_STAGES_STAGE_GLSL
 #define SCREE_STAGES_STAGE_GLSL
 
@@ -20,7 +21,7 @@ layout(local_size_x_id = 0) in;
 #define SCREE_SHARED
 #endif
 
-#ifdef SCREE_FAR
+#ifdef SCREE_BDA
 #extension GL_EXT_buffer_reference : require
 #define SCREE_DECLARE(index, name, block, record, length)                                     \
     layout(std430, buffer_reference, buffer_reference_align = 16) SCREE_SHARED buffer block { \

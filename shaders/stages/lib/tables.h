@@ -2,7 +2,7 @@
 // GLSL both expand these lists.
 //
 // Wide tables have a buffer each. Tables of single words share one buffer, and so do tables of whole quads (16 bytes), because
-// devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_begin says where each begins, and
+// devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_offset says where each begins, and
 // shaders/stages/lib/words.glsl and quads.glsl read them. On the host every table is a list of its own (compute/step/state.h).
 //
 // *_before are the contacts of the last step: their buffers and those without the suffix change places after every step.

@@ -4,19 +4,19 @@
 #define SCREE_STAGES_WORDS_GLSL
 
 // What a list is before it is what its table's name says (SCREE_VIEWS).
-#define cell_counts_begin cell_ends_begin
-#define cell_starts_begin cell_ends_begin
-#define pair_counts_begin pair_starts_begin
-#define slot_counts_begin slot_ends_begin
-#define slot_starts_begin slot_ends_begin
-#define kind_counts_begin kind_starts_begin
+#define cell_counts_offset cell_ends_offset
+#define cell_starts_offset cell_ends_offset
+#define pair_counts_offset pair_starts_offset
+#define slot_counts_offset slot_ends_offset
+#define slot_starts_offset slot_ends_offset
+#define kind_counts_offset kind_starts_offset
 
-#define WORD(table, i) words.at[PARAMETERS.table##_begin + (i)]
+#define WORD(table, i) words.at[PARAMETERS.table##_offset + (i)]
 #define SET_FLOAT(table, i, value) WORD(table, i) = floatBitsToUint(value)
 
 // A fused stage reads what its threads write for each other.
 #if defined(SCREE_TEXELS) && !defined(SCREE_FUSED_LISTS)
-#define READ_WORD(table, i) texelFetch(words_texels, int(PARAMETERS.table##_begin + (i))).x
+#define READ_WORD(table, i) texelFetch(words_texels, int(PARAMETERS.table##_offset + (i))).x
 #else
 #define READ_WORD(table, i) WORD(table, i)
 #endif

@@ -1,35 +1,17 @@
-// A build tool: turns a compiled shader into GLSL of OpenGL ES 3.1, as a string in C++.
-//     scree_embed_es_shader IN.spv OUT.cpp NAMESPACE SYMBOL SOURCE
-//
-// Bindings stay as they are. The push constant becomes the uniform `pushed`. Depth in clip space runs from 0 to w, as in Vulkan;
-// for contexts where it runs from -w to w, SCREE_WHOLE_DEPTH is defined behind the first line.
+// Compiled shaders turned into GLSL of OpenGL ES 3.1, by spirv-cross.
+#include "host/tools/es_shader.h"
+
 #include <spirv_cross/spirv_cross_c.h>
 
-#include <cstring>
-#include <exception>
-#include <iostream>
 #include <memory>
 #include <stdexcept>
-#include <string>
-#include <vector>
 
-#include "host/files/file.h"
-
+namespace scree::host {
 namespace {
-
-using namespace scree::host;
-
-std::vector<SpvId> read_words(const std::string& path) {
-    const std::string bytes = read_text(path);
-    if (bytes.size() % 4 != 0) throw std::runtime_error("not a SPIR-V module: " + std::to_string(bytes.size()) + " bytes");
-    std::vector<SpvId> words(bytes.size() / 4);
-    std::memcpy(words.data(), bytes.data(), bytes.size());
-    return words;
-}
 
 class Translator {
 public:
-    explicit Translator(const std::vector<SpvId>& words) {
+    explicit Translator(std::span<const std::uint32_t> words) {
         spvc_context made = nullptr;
         if (spvc_context_create(&made) != SPVC_SUCCESS) throw std::runtime_error("spirv-cross: no context");
         context_.reset(made);
@@ -88,28 +70,13 @@ std::string with_depth_by_choice(std::string text) {
     return text;
 }
 
-int embed(const std::vector<std::string>& arguments) {
-    const std::string text = with_depth_by_choice(Translator(read_words(arguments[0])).text());
-    if (text.find("gl_Position") != std::string::npos && text.find("SCREE_WHOLE_DEPTH") == std::string::npos)
-        throw std::runtime_error("the depth of gl_Position is not moved as this tool expects; does spirv-cross spell it anew?");
-    write_atomically(arguments[1], "// Made from " + arguments[4] + " when the project is built.\nnamespace " + arguments[2] +
-                                       " {\nextern const char* const " + arguments[3] + ";\nconst char* const " + arguments[3] +
-                                       " = R\"shader(" + text + ")shader\";\n}\n");
-    return 0;
-}
-
 }  // namespace
 
-int main(int count, char** values) {
-    const std::vector<std::string> arguments(values + 1, values + count);
-    if (arguments.size() != 5) {
-        std::cerr << "usage: scree_embed_es_shader IN.spv OUT.cpp NAMESPACE SYMBOL SOURCE\n";
-        return 2;
-    }
-    try {
-        return embed(arguments);
-    } catch (const std::exception& error) {
-        std::cerr << arguments[4] << ": " << error.what() << "\n";
-        return 1;
-    }
+std::string es_text_of(std::span<const std::uint32_t> words) {
+    std::string text = with_depth_by_choice(Translator(words).text());
+    if (text.find("gl_Position") != std::string::npos && text.find("SCREE_WHOLE_DEPTH") == std::string::npos)
+        throw std::runtime_error("the depth of gl_Position is not moved as this tool expects; does spirv-cross spell it anew?");
+    return text;
 }
+
+}  // namespace scree::host

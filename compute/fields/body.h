@@ -1,0 +1,70 @@
+// The fields of a body: what it is, where it is, its material, and how it breaks.
+#pragma once
+
+#include "compute/fields/field.h"
+#include "compute/scene.h"
+
+namespace scree::fields {
+
+template <>
+inline constexpr auto words<Motion> = std::array{"dynamic", "fixed", "kinematic"};
+template <>
+inline constexpr auto words<Cutting> = std::array{"voronoi", "boxes", "splinters"};
+
+template <>
+inline constexpr auto table<Tyre> = table_of(
+    "tyre",
+    "Friction with slip, of a sphere, capsule or cylinder, or of a compound's parts that are; the body's friction is that at the "
+    "best slip",
+    field("best_slip", &Tyre::best_slip, between(0.01, 0.9), "",
+          "Slip at which it holds best; sideways the tangent of the slip angle")
+        .written(),
+    field("sliding", &Tyre::sliding, between(0, 1), "", "Part of the friction that is left when it slides").written());
+
+template <>
+inline constexpr auto table<Fracture> = table_of(
+    "fracture",
+    "What breaks a dynamic body, and into what; its pieces replace it in the step in which one contact has carried more than the "
+    "threshold",
+    field("impulse", &Fracture::impulse, above(0), "N s",
+          "Threshold of the normal impulse of one contact in a step and the one before; a load of F at rest counts 2 F / rate"),
+    field("momentum", &Fracture::momentum, above(0), "N s",
+          "Threshold of the momentum of the body itself as the step begins, when something stops a tenth of it"),
+    field("cutting", &Fracture::cutting,
+          "Into cells about points, a box into boxes, or right through the thinnest extent, finer towards the middle")
+        .written(),
+    field("pieces", &Fracture::pieces, between(2, 256), "", "Number of pieces").written(),
+    field("depth", &Fracture::depth, between(1, 4), "",
+          "How many times over: 2, and the pieces break in their turn; pieces to the power of depth at most 10000")
+        .written(),
+    field("seed", &Fracture::seed, between(0, 4294967295.0), "", "Seed of the random numbers by which the cuts lie").written());
+
+// Limits of the ranges say what breaks beyond them: below a density of 1e-3 or a size of 1e-3 m an inverse inertia leaves the
+// range of a float, and at 1e6 m a float resolves 6 cm.
+template <>
+inline constexpr auto table<Body> = table_of(
+    "body", "A rigid body",  //
+    field("name", &Body::name, "Name for messages, and for joints and vehicles to refer to"),
+    field("motion", &Body::motion, "Moved by forces and contacts, never moved, or moved with its velocity whatever it meets"),
+    field("shape", &Body::shape).required(),
+    field("position", &Body::position, within(1e6), "m",
+          "Position of the centre of mass; of a hull, compound, mesh or height field, of the origin of its points or parts")
+        .written(),
+    field("orientation", &Body::orientation, "Quaternion x, y, z, w of any length but 0"),
+    field("velocity", &Body::velocity, within(1e4), "m/s", "Velocity of the centre of mass"),
+    field("angular_velocity", &Body::angular_velocity, within(1e4), "rad/s", "Angular velocity, world axes"),
+    // its material
+    field("density", &Body::density, between(1e-3, 1e6), "kg/m^3", "Mass per volume"),
+    field("friction", &Body::friction, between(0, 100), "", "Coulomb coefficient; a pair takes the geometric mean"),
+    field("restitution", &Body::restitution, between(0, 1), "",
+          "Speed after an impact over the speed before; a pair takes the larger"),
+    field("rolling_resistance", &Body::rolling_resistance, between(0, 1e5), "m",
+          "Lever arm of the normal force that resists rolling; a pair takes the larger"),
+    // how it moves
+    field("linear_damping", &Body::linear_damping, between(0, 1e4), "1/s", "Rate at which its velocity decays"),
+    field("angular_damping", &Body::angular_damping, between(0, 1e4), "1/s", "Rate at which its angular velocity decays"),
+    field("gravity_scale", &Body::gravity_scale, within(1e3), "", "Factor on gravity"),
+    field("tyre", &Body::tyre, "Rubber: friction with slip; left out: plain friction"),
+    field("fracture", &Body::fracture, "How it breaks; left out: it never does"));
+
+}  // namespace scree::fields

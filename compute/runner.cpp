@@ -1,0 +1,17 @@
+// What all runners share: transfers are counted, so that tests can hold what an edit sends.
+#include "compute/runner.h"
+
+#include "compute/step/table_ranges.h"
+
+namespace scree {
+
+void Runner::upload(const TableRanges& ranges) {
+    uploaded_bytes_ += bytes_of(ranges);
+    send(ranges);
+}
+
+void Runner::download(const TableRanges& ranges) {
+    receive(ranges);
+}
+
+}  // namespace scree

@@ -1,0 +1,188 @@
+// A ray against each kind of shape, in double precision where squares of distances meet.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "compute/scene/hull.h"
+#include "compute/scene/mesh.h"
+#include "compute/scene/shape_geometry.h"
+#include "shaders/physics/base/arithmetic.h"
+
+namespace scree {
+
+namespace {
+
+using glm::dvec3;
+
+std::optional<double> to_sphere(dvec3 from, dvec3 along, dvec3 centre, double radius) {
+    const dvec3 apart = from - centre;
+    const double b = glm::dot(apart, along), c = glm::dot(apart, apart) - radius * radius;
+    const double root = b * b - c;
+    if (c <= 0 || b >= 0 || root < 0) return std::nullopt;
+    return -b - std::sqrt(root);
+}
+
+// Along y, from -half_height to half_height: the cylinder's wall, or a cap.
+std::optional<double> to_capsule(dvec3 from, dvec3 along, double radius, double half_height) {
+    const dvec3 nearest_on_axis(0, std::clamp(from.y, -half_height, half_height), 0);
+    if (glm::length(from - nearest_on_axis) <= radius) return std::nullopt;
+    std::optional<double> best;
+    const double a = along.x * along.x + along.z * along.z;
+    const double b = from.x * along.x + from.z * along.z, c = from.x * from.x + from.z * from.z - radius * radius;
+    if (a > 1e-12 && b * b - a * c >= 0) {
+        const double at = (-b - std::sqrt(b * b - a * c)) / a;
+        if (at > 0 && std::abs(from.y + at * along.y) <= half_height) best = at;
+    }
+    for (const double cap : {-half_height, half_height}) {
+        const std::optional<double> at = to_sphere(from, along, dvec3(0, cap, 0), radius);
+        if (at && (!best || *at < *best)) best = at;
+    }
+    return best;
+}
+
+std::optional<double> to_box(dvec3 from, dvec3 along, dvec3 half) {
+    double enter = 0, leave = std::numeric_limits<double>::infinity();
+    for (int k = 0; k < 3; ++k) {
+        if (std::abs(along[k]) < 1e-12) {
+            if (std::abs(from[k]) > half[k]) return std::nullopt;
+            continue;
+        }
+        const double one = (-half[k] - from[k]) / along[k], other = (half[k] - from[k]) / along[k];
+        enter = std::max(enter, std::min(one, other));
+        leave = std::min(leave, std::max(one, other));
+    }
+    if (enter > leave || enter <= 0) return std::nullopt;
+    return enter;
+}
+
+// Into a body that is the inside of its faces' planes.
+std::optional<double> to_planes(dvec3 from, dvec3 along, const std::vector<HullForm::Face>& faces) {
+    double enter = 0, leave = std::numeric_limits<double>::infinity();
+    for (const HullForm::Face& face : faces) {
+        const double above = glm::dot(face.normal, from) - face.distance, towards = glm::dot(face.normal, along);
+        if (std::abs(towards) < 1e-12) {
+            if (above > 0) return std::nullopt;
+            continue;
+        }
+        const double at = -above / towards;
+        (towards < 0 ? enter : leave) = towards < 0 ? std::max(enter, at) : std::min(leave, at);
+    }
+    if (enter > leave || enter <= 0) return std::nullopt;
+    return enter;
+}
+
+// Along y between two heights, of a radius that changes evenly from `below` to `above`: a cylinder, or a cone.
+std::optional<double> to_frustum(dvec3 from, dvec3 along, double low, double high, double below, double above) {
+    const double slope = (above - below) / (high - low), at_zero = below - slope * low;
+    const auto radius = [&](double y) { return at_zero + slope * y; };
+    std::optional<double> best;
+    const auto offer = [&](double at, bool on) {
+        if (on && at > 0 && (!best || at < *best)) best = at;
+    };
+    const double r = radius(from.y), dr = slope * along.y;
+    const double a = along.x * along.x + along.z * along.z - dr * dr;
+    const double b = from.x * along.x + from.z * along.z - r * dr, c = from.x * from.x + from.z * from.z - r * r;
+    const auto on_side = [&](double at) {
+        const double y = from.y + at * along.y;
+        offer(at, y >= low && y <= high);
+    };
+    if (std::abs(a) > 1e-12 && b * b - a * c >= 0) {
+        for (const double sign : {-1.0, 1.0}) on_side((-b + sign * std::sqrt(b * b - a * c)) / a);
+    } else if (std::abs(b) > 1e-12) {
+        on_side(-c / (2 * b));
+    }
+    for (const double y : {low, high}) {
+        if (std::abs(along.y) < 1e-12) continue;
+        const double at = (y - from.y) / along.y;
+        offer(at, std::hypot(from.x + at * along.x, from.z + at * along.z) <= radius(y));
+    }
+    const bool inside = from.y > low && from.y < high && std::hypot(from.x, from.z) < r;
+    return inside ? std::nullopt : best;
+}
+
+std::optional<double> to_triangles(dvec3 from, dvec3 along, const MeshForm* form) {
+    std::optional<double> best;
+    if (!form) return best;
+    for (const MeshForm::Triangle& triangle : form->triangles) {
+        const dvec3 normal(triangle.normal), a = dvec3(triangle.middle) + dvec3(triangle.corners[0]);
+        const double towards = glm::dot(normal, along);
+        if (towards > -1e-12) continue;  // from behind it is not there
+        const double at = glm::dot(normal, a - from) / towards;
+        if (at <= 0 || (best && at >= *best)) continue;
+        const dvec3 point = from + along * at;
+        bool inside = true;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const dvec3 start = dvec3(triangle.middle) + dvec3(triangle.corners[k]);
+            const dvec3 end = dvec3(triangle.middle) + dvec3(triangle.corners[(k + 1) % 3]);
+            inside = inside && glm::dot(glm::cross(end - start, point - start), normal) >= 0;
+        }
+        if (inside) best = at;
+    }
+    return best;
+}
+
+// A ray in the frame of a shape's body.
+struct LocalRay {
+    dvec3 from, along;
+};
+std::optional<double> meet(const Sphere& s, const LocalRay& ray) {
+    return to_sphere(ray.from, ray.along, dvec3(0), static_cast<double>(s.radius));
+}
+std::optional<double> meet(const Capsule& c, const LocalRay& ray) {
+    return to_capsule(ray.from, ray.along, static_cast<double>(c.radius), static_cast<double>(c.half_height));
+}
+std::optional<double> meet(const Box& b, const LocalRay& ray) {
+    return to_box(ray.from, ray.along, dvec3(b.half_extents));
+}
+std::optional<double> meet(const Cylinder& c, const LocalRay& ray) {
+    const double h = c.half_height, r = c.radius;
+    return to_frustum(ray.from, ray.along, -h, h, r, r);
+}
+std::optional<double> meet(const Cone& c, const LocalRay& ray) {
+    return to_frustum(ray.from, ray.along, -0.25 * c.height, 0.75 * c.height, static_cast<double>(c.radius), 0);
+}
+std::optional<double> meet(const Hull& h, const LocalRay& ray) {
+    return to_planes(ray.from, ray.along, h.form->faces);
+}
+std::optional<double> meet(const Mesh& m, const LocalRay& ray) {
+    return to_triangles(ray.from, ray.along, m.form.get());
+}
+std::optional<double> meet(const HeightField& f, const LocalRay& ray) {
+    return to_triangles(ray.from, ray.along, f.form.get());
+}
+
+std::optional<float> distance_to(const Plane& plane, vec3 from, vec3 along) {
+    const float above = glm::dot(from, plane.normal) - plane.offset, down = -glm::dot(along, plane.normal);
+    if (above > 0 && down > 1e-6f) return above / down;
+    return std::nullopt;
+}
+std::optional<float> distance_to(const Compound& compound, vec3 position, vec4 orientation, vec3 from, vec3 along) {
+    std::optional<float> best;
+    for (const Part& part : compound.parts) {
+        const std::optional<float> at =
+            ray_distance(whole_shape(part.shape), position + physics::rotate(orientation, part.position),
+                         physics::compose(orientation, part.orientation), from, along);
+        if (at && (!best || *at < *best)) best = at;
+    }
+    return best;
+}
+
+}  // namespace
+
+std::optional<float> ray_distance(const Shape& shape, vec3 position, vec4 orientation, vec3 from, vec3 along) {
+    if (const auto* plane = std::get_if<Plane>(&shape)) return distance_to(*plane, from, along);
+    if (const auto* compound = std::get_if<Compound>(&shape)) return distance_to(*compound, position, orientation, from, along);
+    const LocalRay ray{dvec3(physics::rotate_back(orientation, from - position)),
+                       dvec3(physics::rotate_back(orientation, along))};
+    return std::visit(
+        [&](const auto& one) -> std::optional<float> {
+            using Kind = std::remove_cvref_t<decltype(one)>;
+            if constexpr (!std::is_same_v<Kind, Plane> && !std::is_same_v<Kind, Compound>)
+                if (const std::optional<double> at = meet(one, ray)) return static_cast<float>(*at);
+            return std::nullopt;
+        },
+        shape);
+}
+
+}  // namespace scree

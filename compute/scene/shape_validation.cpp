@@ -1,0 +1,186 @@
+// What the shape of a body may say: the ranges of its fields, and that hulls, compounds and meshes can be made of it.
+#include "compute/scene/shape_validation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <utility>
+
+#include "compute/scene/mesh.h"
+#include "shaders/physics/collide/shape_data.h"
+
+namespace scree {
+
+namespace {
+
+using glm::dvec3;
+
+constexpr float smallest_density = 1e-3f;
+constexpr float largest_density = 1e6f;  // kg/m^3
+
+bool within(float value, const FieldRange& range) {
+    return value >= range.least && value <= range.most;
+}
+bool within(vec3 value, const FieldRange& range) {
+    return within(value.x, range) && within(value.y, range) && within(value.z, range);
+}
+template <class Value>
+bool within(const std::vector<Value>& values, const FieldRange& range) {
+    return std::all_of(values.begin(), values.end(), [&](const Value& value) { return within(value, range); });
+}
+
+template <class Value, class Field>
+void refuse_value(const Examination& body, const std::string& key, const Value& value, const Field& field) {
+    body.between(key.c_str(), value, field.range.least, field.range.most, field.unit);
+}
+template <class Value, class Field>
+void refuse_value(const Examination& body, const std::string& key, const std::vector<Value>& values, const Field& field) {
+    for (std::size_t k = 0; k < values.size(); ++k) refuse_value(body, key + "/" + std::to_string(k), values[k], field);
+}
+
+// Numbers, places and directions by the list of shapes; whole numbers and parts are for those who know what they mean.
+template <class OfShape>
+void check_fields(const Examination& body, OfShape& shape) {
+    for_each_field<OfShape>([&](const auto& field) {
+        auto& value = shape.*field.member;
+        using Value = std::remove_reference_t<decltype(value)>;
+        constexpr bool numbers = std::is_same_v<Value, float> || std::is_same_v<Value, vec3> ||
+                                 std::is_same_v<Value, std::vector<float>> || std::is_same_v<Value, std::vector<vec3>>;
+        const auto key = [&] { return "/shape/" + std::string(ShapeInfo<OfShape>::name) + "/" + field.name; };
+        if constexpr (std::is_same_v<Value, vec3>)
+            if (field.is_direction()) return body.make_unit(key().c_str(), value, "it says which way the plane faces");
+        if constexpr (numbers)
+            if (!within(value, field.range)) refuse_value(body, key(), value, field);
+    });
+}
+
+// To where its origin and its axes are, in its own frame.
+void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes) {
+    const glm::dquat turn(orientation.w, orientation.x, orientation.y, orientation.z);
+    position = vec3(dvec3(position) + turn * centre);
+    const glm::dquat after = glm::normalize(turn * axes);
+    orientation = vec4(glm::dvec4(after.x, after.y, after.z, after.w));
+}
+
+// `position` and `orientation`: of the body, or of the part.
+Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, CheckedHulls& hulls,
+                 std::vector<std::string>* notes) {
+    try {
+        const CheckedHulls::Made& made = hulls.of(hull.points);
+        if (made.simplified && notes) {
+            notes->push_back(body.place() + "/shape/hull: simplified to " + std::to_string(physics::MOST_CORNERS) + " corners");
+        }
+        hull = made.hull;
+        if (made.centre == dvec3(0) && made.axes == glm::dquat(1, 0, 0, 0)) return {};
+        move_frame(position, orientation, made.centre, made.axes);
+        return Recentred{made.centre, made.axes};
+    } catch (const HullError& error) {
+        body.refuse("/shape/hull/points", error.what());
+    }
+}
+
+Shift check_compound(const Examination& body, Body& b, Compound& compound, CheckedHulls& hulls, std::vector<std::string>* notes) {
+    constexpr std::size_t most_parts = 10000;
+    if (compound.parts.empty()) body.refuse("/shape/compound/parts", "a compound needs at least one part");
+    if (compound.parts.size() > most_parts)
+        body.refuse("/shape/compound/parts",
+                    "at most " + std::to_string(most_parts) + " parts, are " + std::to_string(compound.parts.size()));
+    for (std::size_t i = 0; i < compound.parts.size(); ++i) {
+        Part& p = compound.parts[i];
+        const Examination part = body.part("/shape/compound/parts/" + std::to_string(i));
+        if (std::holds_alternative<Plane>(p.shape)) part.refuse("/shape/plane", "a plane is infinite and no part of a body");
+        std::visit([&](auto& one) { check_fields(part, one); }, p.shape);
+        part.between("/position", p.position, within_shape_range.least, within_shape_range.most, " m");
+        part.make_unit("/orientation", p.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
+        if (p.density != 0) part.between("/density", p.density, smallest_density, largest_density, " kg/m^3");
+        if (auto* hull = std::get_if<Hull>(&p.shape)) check_hull(part, p.position, p.orientation, *hull, hulls, notes);
+    }
+    const Recentred before = bring_to_centre(compound, b.density);
+    if (before.centre == dvec3(0) && before.axes == glm::dquat(1, 0, 0, 0)) return {};
+    move_frame(b.position, b.orientation, before.centre, before.axes);
+    return before;
+}
+
+void check_mesh(const Examination& body, Body& b, std::vector<std::string>* notes) {
+    auto* mesh = std::get_if<Mesh>(&b.shape);
+    auto* field = std::get_if<HeightField>(&b.shape);
+    if (b.motion == Motion::dynamic)
+        body.refuse("/motion",
+                    std::string("a ") + (mesh ? "mesh" : "height field") +
+                        " must be \"fixed\" or \"kinematic\": it is a surface and has no mass; use a hull or a compound");
+    const std::string key = mesh ? "/shape/mesh" : "/shape/height_field";
+    try {
+        if (mesh) {
+            if (mesh->triangles.empty() && !mesh->file.empty())
+                body.refuse(key + "/file", "\"" + mesh->file + "\" has not been read");
+            check_fields(body, *mesh);
+            mesh->form = std::make_shared<const MeshForm>(mesh_form(mesh->vertices, mesh->triangles));
+        } else {
+            if (field->columns < 2 || field->rows < 2 || field->columns > 30000 || field->rows > 30000)
+                body.refuse(key, "columns and rows must be between 2 and 30000, are " + std::to_string(field->columns) + " and " +
+                                     std::to_string(field->rows));
+            if (field->heights.size() != std::size_t{field->columns} * field->rows)
+                body.refuse(key + "/heights",
+                            "must be columns * rows = " + std::to_string(std::size_t{field->columns} * field->rows) +
+                                " heights, are " + std::to_string(field->heights.size()));
+            check_fields(body, *field);
+            field->form = std::make_shared<const MeshForm>(mesh_form(*field));
+        }
+    } catch (const MeshError& error) {
+        body.refuse(key + error.place, error.what());
+    }
+    const std::string odd = mesh && notes ? oddities(*mesh->form) : "";
+    if (!odd.empty()) notes->push_back(body.place() + key + ": " + odd);
+}
+
+}  // namespace
+
+// What lies about its centre and along its axes already, to rounding, stays: checking twice changes no bit.
+const CheckedHulls::Made& CheckedHulls::of(const std::vector<vec3>& points) {
+    std::vector<float> key(points.size() * 3);
+    std::memcpy(key.data(), points.data(), key.size() * sizeof(float));
+    const auto [at, fresh] = made.try_emplace(std::move(key));
+    Made& one = at->second;
+    if (!fresh) return one;
+    try {
+        one.hull.points = points;
+        HullForm form = hull_form(points);
+        one.simplified = form.simplified;
+        // Moved points are rounded, and faces that were one may be two: until nothing is left to move.
+        for (int round = 0; round < 8; ++round) {
+            const glm::dmat3 axes = principal_axes(form.inertia);
+            if (!form.simplified && axes == glm::dmat3(1) && glm::length(form.centre) <= 1e-5 * std::cbrt(form.volume)) break;
+            const glm::dquat turn = glm::normalize(glm::quat_cast(axes));
+            one.centre += one.axes * form.centre;
+            one.axes = glm::normalize(one.axes * turn);
+            one.hull.points.clear();
+            for (const dvec3& v : form.vertices) one.hull.points.push_back(vec3(glm::conjugate(turn) * (v - form.centre)));
+            form = hull_form(one.hull.points);
+        }
+        one.hull.form = std::make_shared<const HullForm>(std::move(form));
+    } catch (...) {
+        made.erase(at);
+        throw;
+    }
+    return one;
+}
+
+void check_shape(const Examination& body, Shape& shape, Motion motion) {
+    std::visit(
+        [&](auto& one) {
+            using Kind = std::remove_cvref_t<decltype(one)>;
+            if constexpr (std::is_constructible_v<SimpleShape, Kind>) check_fields(body, one);
+        },
+        shape);
+    if (std::holds_alternative<Plane>(shape) && motion != Motion::fixed)
+        body.refuse("/motion", "a plane must be \"fixed\": it is infinite and cannot move");
+}
+
+Shift bring_to_centre(const Examination& body, Body& b, CheckedHulls& hulls, std::vector<std::string>* notes) {
+    if (auto* hull = std::get_if<Hull>(&b.shape)) return check_hull(body, b.position, b.orientation, *hull, hulls, notes);
+    if (auto* compound = std::get_if<Compound>(&b.shape)) return check_compound(body, b, *compound, hulls, notes);
+    if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape)) check_mesh(body, b, notes);
+    return {};
+}
+
+}  // namespace scree

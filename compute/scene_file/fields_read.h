@@ -1,0 +1,121 @@
+// Reading the fields of a struct from JSON, by its table.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "compute/fields/check.h"
+#include "compute/fields/field.h"
+#include "compute/scene_file/json_reading.h"
+
+namespace scree::json_reading {
+
+// What an index of the file may be given by: the first of each name.
+using Numbers = std::map<std::string, std::size_t>;
+struct NamedThings {
+    Numbers bodies, joints;
+};
+template <class Things>
+Numbers numbers_of(const Things& things) {
+    Numbers numbers;
+    for (std::size_t i = 0; i < things.size(); ++i)
+        if (!things[i].name.empty()) numbers.try_emplace(things[i].name, i);
+    return numbers;
+}
+
+// A body or joint, by index or name. `or_world`: it may be left out for the world, or be called "world".
+std::size_t index_of(const json& value, const Place& place, fields::Refers refers, bool or_world, const NamedThings& named);
+
+// The keys of a struct, those of embedded ones among them.
+template <fields::HasTable Struct>
+const Names& keys_of() {
+    static const Names keys = [] {
+        Names made;
+        fields::for_each_field<Struct>([&]<class Member>(const fields::Field<Struct, Member>& field) {
+            if constexpr (fields::HasTable<Member>) {
+                if (field.embedded()) return void(made.insert(made.end(), keys_of<Member>().begin(), keys_of<Member>().end()));
+            }
+            made.emplace_back(field.key);
+        });
+        return made;
+    }();
+    return keys;
+}
+
+template <class Value>
+void read_value(const json& value, const Place& place, Value& out, const char* unit, const NamedThings& named);
+template <fields::HasTable Struct>
+void read_fields(const json& object, const Place& place, Struct& out, const NamedThings& named = {});
+
+// What the object says of one field.
+template <class Struct, class Member>
+void read_field(const json& object, const Place& place, const fields::Field<Struct, Member>& field, Struct& out,
+                const NamedThings& named) {
+    Member& member = out.*field.member;
+    if constexpr (fields::HasTable<Member>) {
+        if (field.embedded()) return read_fields(object, place, member, named);
+    }
+    const auto found = object.find(field.key);
+    if (found == object.end()) {
+        if (field.presence != fields::Presence::required) return;
+        refuse(place, fields::is_list<Member> ? std::string("needs \"") + field.key + "\", an array"
+                                              : std::string("lacks \"") + field.key + "\"");
+    }
+    if constexpr (std::is_same_v<Member, std::size_t>) {
+        if (field.refers != fields::Refers::to_nothing) {
+            const bool or_world = field.presence != fields::Presence::required;
+            member = index_of(*found, place / field.key, field.refers, or_world, named);
+            return;
+        }
+    }
+    read_value(*found, place / field.key, member, field.unit, named);
+}
+
+// What an object of known keys says; other keys in it do not matter here.
+template <fields::HasTable Struct>
+void read_fields(const json& object, const Place& place, Struct& out, const NamedThings& named) {
+    fields::for_each_field<Struct>([&](const auto& field) { read_field(object, place, field, out, named); });
+}
+
+template <class Value>
+void read_value(const json& value, const Place& place, Value& out, const char* unit, const NamedThings& named) {
+    if constexpr (fields::is_optional<Value>) {
+        read_value(value, place, out.emplace(), unit, named);
+    } else if constexpr (fields::is_list<Value>) {
+        if (!value.is_array()) refuse(place, std::string("must be an array of ") + unit + ", is " + kind(value));
+        for (std::size_t i = 0; i < value.size(); ++i) read_value(value[i], place / i, out.emplace_back(), "", named);
+    } else if constexpr (fields::HasTable<Value>) {
+        only(value, place, keys_of<Value>());
+        read_fields(value, place, out, named);
+    } else if constexpr (fields::HasWords<Value>) {
+        std::string word;
+        read(value, place, word);
+        const Names known(fields::words<Value>.begin(), fields::words<Value>.end());
+        out = static_cast<Value>(index_among(known, word, place.key, place));
+    } else if constexpr (fields::HasAlternatives<Value>) {
+        constexpr auto& kinds = fields::alternatives<Value>;
+        const Names known(kinds.keys.begin(), kinds.keys.end());
+        if (!value.is_object() || value.size() != 1)
+            refuse(place, "must be an object with one key (" + listed(known) + "), such as {\"" + known.at(1) + "\": {}}; is " +
+                              kind(value));
+        const std::string& key = value.begin().key();
+        const std::size_t index = index_among(known, key, kinds.noun, place);
+        [&]<std::size_t... i>(std::index_sequence<i...>) {
+            ((i == index ? read_value(value.begin().value(), place / key.c_str(), out.template emplace<i>(), unit, named)
+                         : void()),
+             ...);
+        }
+        (std::make_index_sequence<std::variant_size_v<Value>>());
+    } else {
+        read(value, place, out);
+    }
+}
+
+}  // namespace scree::json_reading

@@ -1,0 +1,96 @@
+// Writing the fields of a struct as JSON, by its table: members that have their default are left out.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <string>
+#include <type_traits>
+#include <variant>
+
+#include "compute/fields/check.h"
+#include "compute/fields/field.h"
+#include "compute/scene_file/json_text.h"
+#include "compute/scene_file/shapes_json.h"
+
+namespace scree {
+
+// Whether a member has its default, to the last bit: -0 is not 0.
+template <class Value>
+bool is_default(const Value& value, const Value& by_default) {
+    if constexpr (std::is_same_v<Value, float>) {
+        return std::bit_cast<unsigned>(value) == std::bit_cast<unsigned>(by_default);
+    } else if constexpr (requires { Value::length(); }) {
+        for (glm::length_t i = 0; i < Value::length(); ++i)
+            if (!is_default(value[i], by_default[i])) return false;
+        return true;
+    } else if constexpr (fields::is_optional<Value>) {
+        return !value;
+    } else if constexpr (fields::is_list<Value>) {
+        return value.empty();
+    } else if constexpr (fields::HasTable<Value>) {
+        bool all = true;
+        fields::for_each_field<Value>(
+            [&](const auto& field) { all = all && is_default(value.*field.member, by_default.*field.member); });
+        return all;
+    } else if constexpr (requires { value.valueless_by_exception(); }) {
+        return false;  // the kind of a joint and the shape of a body
+    } else {
+        return value == by_default;
+    }
+}
+
+template <class Value>
+void write_value(Text& text, const Value& value);
+
+// `between`: what stands before the next member.
+template <fields::HasTable Struct>
+void write_fields(Text& text, const Struct& from, const char*& between) {
+    [[maybe_unused]] static const Struct by_default;
+    fields::for_each_field<Struct>([&]<class Member>(const fields::Field<Struct, Member>& field) {
+        const Member& member = from.*field.member;
+        if constexpr (fields::HasTable<Member>) {
+            if (field.embedded()) return write_fields(text, member, between);
+        }
+        if (field.presence == fields::Presence::optional && is_default(member, by_default.*field.member)) return;
+        text << between << "\"" << field.key << "\": ";
+        write_value(text, member);
+        between = ", ";
+    });
+}
+
+template <class Value>
+void write_value(Text& text, const Value& value) {
+    if constexpr (fields::is_optional<Value>) {
+        write_value(text, *value);
+    } else if constexpr (fields::is_list<Value>) {
+        const char* between = "[";
+        for (const auto& one : value) {
+            text << between;
+            write_value(text, one);
+            between = ", ";
+        }
+        text << (value.empty() ? "[]" : "]");
+    } else if constexpr (fields::HasAlternatives<Value>) {
+        text << "{\"" << fields::alternatives<Value>.keys[value.index()] << "\": ";
+        std::visit([&](const auto& one) { write_value(text, one); }, value);
+        text << "}";
+    } else if constexpr (fields::HasTable<Value>) {
+        const char* between = "{";
+        write_fields(text, value, between);
+        text << (*between == '{' ? "{}" : "}");
+    } else if constexpr (fields::HasWords<Value>) {
+        text << "\"" << fields::words<Value>[static_cast<std::size_t>(value)] << "\"";
+    } else if constexpr (std::is_same_v<Value, bool>) {
+        text << (value ? "true" : "false");
+    } else if constexpr (std::is_integral_v<Value>) {
+        text << std::to_string(value);
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+        text.quoted(value);
+    } else if constexpr (std::is_same_v<Value, Shape>) {
+        write_shape(text, value);
+    } else {
+        text << value;
+    }
+}
+
+}  // namespace scree

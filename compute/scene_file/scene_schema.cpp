@@ -1,0 +1,240 @@
+// The JSON Schema of scene files (draft 2020-12), from the field tables.
+#include "compute/scene_file/scene_schema.h"
+
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
+
+#include "compute/fields/check.h"
+#include "compute/fields/document.h"
+#include "compute/scene_file/shapes_json.h"
+
+namespace scree {
+
+namespace {
+
+using namespace fields;
+using json = nlohmann::ordered_json;
+
+json number(double value) {
+    if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
+    return value;
+}
+json number(std::unsigned_integral auto value) {
+    return value;
+}
+json number(float value) {  // as it is written, 0.6, and not as the double next to it
+    char digits[64];
+    const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+    double wide = 0;
+    std::from_chars(digits, end, wide);
+    return number(wide);
+}
+template <glm::length_t size>
+json number(const glm::vec<size, float>& v) {
+    json made = json::array();
+    for (glm::length_t i = 0; i < size; ++i) made.push_back(number(v[i]));
+    return made;
+}
+
+json reference(const std::string& name) {
+    return {{"$ref", "#/$defs/" + name}};
+}
+
+// A side without a limit of its own says nothing.
+void limit(json& made, const Range& range) {
+    if (range.low > -static_cast<double>(unlimited)) made[range.above_low ? "exclusiveMinimum" : "minimum"] = number(range.low);
+    if (range.high < static_cast<double>(unlimited)) made[range.below_high ? "exclusiveMaximum" : "maximum"] = number(range.high);
+}
+json number_within(const Range& range) {
+    if (range.low <= -static_cast<double>(unlimited) && range.high >= static_cast<double>(unlimited)) return reference("number");
+    json made = {{"type", "number"}};
+    limit(made, range);
+    return made;
+}
+json array_of(const json& items, glm::length_t size) {
+    return {{"type", "array"}, {"items", items}, {"minItems", size}, {"maxItems", size}};
+}
+
+// What must be of an object beyond its fields.
+template <class Struct>
+json conditions() {
+    if constexpr (std::is_same_v<Struct, Fracture>)
+        return json::parse(R"({"oneOf": [{"required": ["impulse"]}, {"required": ["momentum"]}]})");
+    if constexpr (std::is_same_v<Struct, Viewpoint>)
+        return json::parse(R"({"oneOf": [{"required": ["eye", "target"], "not": {"required": ["path"]}},
+            {"required": ["path"], "not": {"anyOf": [{"required": ["eye"]}, {"required": ["target"]},
+                                                     {"required": ["vertical_fov"]}]}}]})");
+    return json::object();
+}
+
+class Schema {
+public:
+    // The schema of a struct, whose fields' own structs are defined in $defs.
+    template <class Struct>
+    json object(const char* about) {
+        json required = json::array(), properties = json::object();
+        add_fields<Struct>(required, properties);
+        json made = {{"description", about}, {"type", "object"}};
+        made.update(conditions<Struct>());
+        if (!required.empty()) made["required"] = required;
+        made["additionalProperties"] = false;
+        made["properties"] = properties;
+        return made;
+    }
+    void define(const std::string& name, json schema) { defs_[name] = std::move(schema); }
+    const json& defs() const { return defs_; }
+
+private:
+    template <class Struct>
+    json defined() {
+        constexpr auto& known = table<Struct>;
+        if (!defs_.contains(known.name)) {
+            defs_[known.name] = nullptr;  // its place, before those of what it holds
+            json made = object<Struct>(known.about);
+            defs_[known.name] = std::move(made);
+        }
+        return reference(known.name);
+    }
+
+    template <class Variant>
+    json one_of_kinds() {
+        constexpr auto& kinds = alternatives<Variant>;
+        json properties = json::object();
+        [&]<std::size_t... i>(std::index_sequence<i...>) {
+            ((properties[kinds.keys[i]] = defined<std::variant_alternative_t<i, Variant>>()), ...);
+        }
+        (std::make_index_sequence<std::variant_size_v<Variant>>());
+        define(kinds.name, {{"type", "object"},
+                            {"minProperties", 1},
+                            {"maxProperties", 1},
+                            {"additionalProperties", false},
+                            {"properties", properties}});
+        return reference(kinds.name);
+    }
+
+    template <class Struct>
+    void add_fields(json& required, json& properties) {
+        const Struct by_default{};
+        for_each_field<Struct>([&]<class Member>(const Field<Struct, Member>& field) {
+            if constexpr (HasTable<Member>) {
+                if (field.embedded()) return add_fields<Member>(required, properties);
+            }
+            json made = type_of<Member>(field.range, field.refers);
+            if constexpr (Number<Member>) {
+                if (field.refers == Refers::to_nothing && field.range.holds(by_default.*field.member))
+                    add_default(made, field, number(by_default.*field.member));
+            } else if constexpr (requires { Member::length(); }) {
+                add_default(made, field, number(by_default.*field.member));
+            } else if constexpr (HasWords<Member>) {
+                add_default(made, field, words<Member>[static_cast<std::size_t>(by_default.*field.member)]);
+            } else if constexpr (std::is_same_v<Member, bool> || std::is_same_v<Member, std::string>) {
+                add_default(made, field, by_default.*field.member);
+            }
+            std::string about = field.about;
+            if (*field.unit && !is_list<Member> && !is_optional<Member> && !HasTable<Member>)
+                about += " (" + std::string(field.unit) + ")";
+            if (!about.empty()) made["description"] = about;
+            if (field.presence == Presence::required) required.push_back(field.key);
+            properties[field.key] = std::move(made);
+        });
+        if constexpr (std::is_same_v<Struct, Joint>) {
+            json optional = json::array();
+            add_fields<JointPlacement>(optional, properties);
+        }
+    }
+    template <class Struct, class Member>
+    static void add_default(json& made, const Field<Struct, Member>& field, const json& value) {
+        if (field.presence != Presence::required) made["default"] = value;
+    }
+
+    template <class Member>
+    json type_of(const Range& range, Refers refers) {
+        if constexpr (is_optional<Member>) {
+            return defined<typename Member::value_type>();
+        } else if constexpr (is_list<Member>) {
+            json made = {{"type", "array"}, {"items", defined<typename Member::value_type>()}};
+            if (range.low > 0) made["minItems"] = number(range.low);
+            if (range.high < largest) made["maxItems"] = number(range.high);
+            return made;
+        } else if constexpr (HasTable<Member>) {
+            return defined<Member>();
+        } else if constexpr (HasAlternatives<Member>) {
+            return one_of_kinds<Member>();
+        } else if constexpr (HasWords<Member>) {
+            return {{"enum", words<Member>}};
+        } else if constexpr (std::is_same_v<Member, float>) {
+            return number_within(range);
+        } else if constexpr (requires { Member::length(); }) {
+            const json items = number_within(range);
+            return Member::length() == 3 && items.contains("$ref") ? reference("vector") : array_of(items, Member::length());
+        } else if constexpr (std::is_same_v<Member, bool>) {
+            return {{"type", "boolean"}};
+        } else if constexpr (std::is_same_v<Member, std::string>) {
+            return {{"type", "string"}};
+        } else if constexpr (std::is_same_v<Member, Shape>) {
+            return reference("shape");
+        } else {
+            json made = {{"type", "integer"}};
+            if (refers != Refers::to_nothing) made["type"] = {"integer", "string"};
+            made["minimum"] = 0;
+            limit(made, range);
+            return made;
+        }
+    }
+
+    json defs_ = json::object();
+};
+
+// An object or array: `before` it, `between` its elements, which `show` writes, and `after` it.
+template <class Show>
+void print_elements(std::string& text, const json& value, const std::string& before, const std::string& between,
+                    const std::string& after, const Show& show) {
+    text += (value.is_object() ? "{" : "[") + (value.empty() ? "" : before);
+    bool first = true;
+    for (const auto& [key, one] : value.items()) {
+        if (!std::exchange(first, false)) text += between;
+        if (value.is_object()) text += json(key).dump() + ": ";
+        show(one);
+    }
+    text += (value.empty() ? "" : after) + (value.is_object() ? "}" : "]");
+}
+std::string on_one_line(const json& value) {
+    if (!value.is_structured()) return value.dump();
+    std::string text;
+    print_elements(text, value, "", ", ", "", [&](const json& one) { text += on_one_line(one); });
+    return text;
+}
+// What fits into a line stands on one.
+void print(std::string& text, const json& value, std::size_t indent) {
+    const std::string line = on_one_line(value), inside = "\n" + std::string(indent + 4, ' ');
+    if (!value.is_structured() || indent + line.size() <= 110) {
+        text += line;
+        return;
+    }
+    print_elements(text, value, inside, "," + inside, "\n" + std::string(indent, ' '),
+                   [&](const json& one) { print(text, one, indent + 4); });
+}
+
+}  // namespace
+
+std::string scene_schema() {
+    Schema schema;
+    schema.define("number", {{"type", "number"}, {"minimum", -3.4e38}, {"maximum", 3.4e38}});
+    schema.define("vector", array_of(reference("number"), 3));
+    schema.define("size", {{"type", "number"}, {"minimum", 0.001}, {"maximum", 100000}, {"description", "m"}});
+    schema.define("shape", shape_schema());
+    const auto& document = table<SceneDocument>;
+    json whole = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "scree scene"}};
+    whole.update(schema.object<SceneDocument>(document.about));
+    whole["$defs"] = schema.defs();
+    std::string text;
+    print(text, whole, 0);
+    return text + "\n";
+}
+
+}  // namespace scree

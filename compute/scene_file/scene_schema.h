@@ -1,0 +1,10 @@
+// The JSON Schema of scene files, made from the field tables (compute/fields).
+#pragma once
+
+#include <string>
+
+namespace scree {
+
+std::string scene_schema();
+
+}  // namespace scree

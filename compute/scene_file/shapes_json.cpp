@@ -1,0 +1,158 @@
+// The shapes of a scene file, by the list of shapes (compute/shapes.h).
+#include "compute/scene_file/shapes_json.h"
+
+#include <algorithm>
+#include <array>
+
+#include "compute/scene_file/fields_write.h"
+
+namespace scree {
+
+namespace json_reading {
+
+static void read(const json& value, const Place& place, std::vector<vec3>& points) {
+    if (!value.is_array()) refuse(place, "must be an array of points [x, y, z], is " + kind(value));
+    points.resize(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) read(value[i], place / i, points[i]);
+}
+
+static void read(const json& value, const Place& place, std::vector<glm::uvec3>& triangles) {
+    if (!value.is_array()) refuse(place, "must be an array of triangles [i, j, k], is " + kind(value));
+    triangles.resize(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        if (!value[i].is_array() || value[i].size() != 3)
+            refuse(place / i, "must be an array of 3 numbers of vertices, is " + kind(value[i]));
+        for (std::size_t k = 0; k < 3; ++k) read(value[i][k], place / i / k, triangles[i][static_cast<int>(k)]);
+    }
+}
+
+static void read(const json& value, const Place& place, std::vector<float>& numbers) {
+    if (!value.is_array()) refuse(place, "must be an array of numbers, is " + kind(value));
+    numbers.resize(value.size());
+    for (std::size_t i = 0; i < value.size(); ++i) read(value[i], place / i, numbers[i]);
+}
+
+static const char* const not_a_part = "a part must be one convex shape; put the parts of a compound into this one";
+
+static void read(const json& value, const Place& place, std::vector<Part>& parts) {
+    if (!value.is_array()) refuse(place, "must be an array of parts, is " + kind(value));
+    for (std::size_t i = 0; i < value.size(); ++i) {
+        const Place here = place / i;
+        only(value[i], here, {"shape", "position", "orientation", "density"});
+        Part& part = parts.emplace_back();
+        // Refused before its own parts are read: a file may nest compounds deeper than the stack reaches.
+        if (const auto nested = value[i].find("shape"); nested != value[i].end() && nested->contains("compound"))
+            refuse(here / "shape", not_a_part);
+        Shape shape;
+        required(value[i], here, "shape", shape);
+        const std::optional<SimpleShape> simple = simple_shape(shape);
+        if (!simple) refuse(here / "shape", not_a_part);
+        part.shape = *simple;
+        optional(value[i], here, "position", part.position);
+        optional(value[i], here, "orientation", part.orientation);
+        optional(value[i], here, "density", part.density);
+    }
+}
+
+// The vertices and triangles themselves, or the file that has them.
+static void read_mesh(const json& sizes, const Place& inside, Mesh& mesh) {
+    only(sizes, inside, {"file", "scale"});
+    required(sizes, inside, "file", mesh.file);
+    optional(sizes, inside, "scale", mesh.scale);
+    if (mesh.file.empty()) refuse(inside / "file", "must name a file");
+    if (!(mesh.scale >= 1e-6f && mesh.scale <= 1e6f)) refuse(inside / "scale", "must be between 0.000001 and 1000000");
+}
+
+template <class OfShape>
+static void read_fields(const json& sizes, const Place& inside, OfShape& shape) {
+    Names names;
+    for_each_field<OfShape>([&](const auto& field) { names.emplace_back(field.name); });
+    only(sizes, inside, names);
+    for_each_field<OfShape>([&](const auto& field) {
+        if (field.required)
+            required(sizes, inside, field.name, shape.*field.member);
+        else
+            optional(sizes, inside, field.name, shape.*field.member);
+    });
+}
+
+static Names shape_names() {
+    Names names;
+    for_each_shape([&](const auto& shape) {
+        names.emplace_back(shape_name(shape));
+        return true;
+    });
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+void read(const json& value, const Place& place, Shape& out) {
+    if (value.is_string()) refuse(place, "must be an object such as {\"sphere\": {\"radius\": 0.5}}, is " + kind(value));
+    if (!value.is_object()) refuse(place, "must be an object with one key, is " + kind(value));
+    if (value.size() != 1)
+        refuse(place, "must have one key (" + listed(shape_names()) + "), has " + std::to_string(value.size()));
+    const std::string& name = value.begin().key();
+    const json& sizes = value.begin().value();
+    const Place inside = place / name.c_str();
+    const bool unknown_shape = for_each_shape([&](auto shape) {
+        using Kind = decltype(shape);
+        if (name != ShapeInfo<Kind>::name) return true;
+        if constexpr (std::is_same_v<Kind, Mesh>) {
+            if (sizes.contains("file")) {
+                read_mesh(sizes, inside, out.emplace<Mesh>());
+                return false;
+            }
+        }
+        read_fields(sizes, inside, out.emplace<Kind>());
+        return false;
+    });
+    if (unknown_shape) refuse(place, "unknown shape \"" + name + "\"; known: " + listed(shape_names()));
+}
+
+}  // namespace json_reading
+
+namespace {
+
+template <class Value>
+void write_value(Text& text, const Value& value) {
+    text << value;
+}
+template <class Value>
+void write_value(Text& text, const std::vector<Value>& values) {
+    text.list(values);
+}
+void write_value(Text& text, const std::vector<Part>& parts) {
+    static const Part by_default;
+    const auto unless_default = [&](std::string_view key, const auto& value, const auto& usual) {
+        if (!is_default(value, usual)) text << ", \"" << key << "\": " << value;
+    };
+    const char* between = "[{\"shape\": ";
+    for (const Part& part : parts) {
+        text << between;
+        write_shape(text, whole_shape(part.shape));
+        unless_default("position", part.position, by_default.position);
+        unless_default("orientation", part.orientation, by_default.orientation);
+        unless_default("density", part.density, by_default.density);
+        between = "}, {\"shape\": ";
+    }
+    text << (parts.empty() ? "[]" : "}]");
+}
+
+}  // namespace
+
+void write_shape(Text& text, const Shape& shape) {
+    text << "{\"" << shape_name(shape) << "\": {";
+    std::visit(
+        [&](const auto& one) {
+            const char* between = "\"";
+            for_each_field<decltype(one)>([&](const auto& field) {
+                text << between << field.name << "\": ";
+                write_value(text, one.*field.member);
+                between = ", \"";
+            });
+        },
+        shape);
+    text << "}}";
+}
+
+}  // namespace scree

@@ -1,0 +1,232 @@
+// The JSON Schema of shapes. Shapes whose fields are numbers and vectors follow from the list (compute/shapes.h).
+#include <nlohmann/json.hpp>
+#include <type_traits>
+
+#include "compute/scene_file/shapes_json.h"
+
+namespace scree {
+
+namespace {
+
+using nlohmann::ordered_json;
+
+ordered_json number_schema(FieldRange range) {
+    if (range.least == size_range.least && range.most == size_range.most) return {{"$ref", "#/$defs/size"}};
+    // The shortest digits of the float: 100000, not 99999.9999.
+    return {{"type", "number"}, {"minimum", std::stod(plain(range.least))}, {"maximum", std::stod(plain(range.most))}};
+}
+
+template <class Owner>
+ordered_json field_schema(const ShapeField<Owner, float>& field) {
+    ordered_json schema = number_schema(field.range);
+    if (!field.required) schema["default"] = Owner{}.*field.member;
+    schema["description"] = field.about;
+    return schema;
+}
+
+template <class Owner>
+ordered_json field_schema(const ShapeField<Owner, vec3>& field) {
+    ordered_json schema = {{"$ref", "#/$defs/vector"}};
+    if (!field.is_direction())
+        schema = {{"type", "array"}, {"items", number_schema(field.range)}, {"minItems", 3}, {"maxItems", 3}};
+    const vec3 usual = Owner{}.*field.member;
+    if (!field.required) schema["default"] = {usual.x, usual.y, usual.z};
+    schema["description"] = field.about;
+    return schema;
+}
+
+// Of lists there is more to say than a range.
+template <class OfShape>
+constexpr bool has_lists = std::is_same_v<OfShape, Hull> || std::is_same_v<OfShape, Compound> || std::is_same_v<OfShape, Mesh> ||
+                           std::is_same_v<OfShape, HeightField>;
+
+template <class OfShape>
+ordered_json plain_schema() {
+    ordered_json fields = {{"type", "object"}}, required = ordered_json::array(), properties = ordered_json::object();
+    for_each_field<OfShape>([&](const auto& field) {
+        if (field.required) required.push_back(field.name);
+        properties[field.name] = field_schema(field);
+    });
+    if (!required.empty()) fields["required"] = required;
+    fields["additionalProperties"] = false;
+    fields["properties"] = properties;
+    const char* name = ShapeInfo<OfShape>::name;
+    return {{"required", {name}},
+            {"additionalProperties", false},
+            {"description", ShapeInfo<OfShape>::about},
+            {"properties", {{name, fields}}}};
+}
+
+ordered_json schemas_with_lists() {
+    return ordered_json::parse(R"schema([
+        {
+            "required": ["hull"],
+            "additionalProperties": false,
+            "description": "the convex hull of the points; the body's position is where their origin lies",
+            "properties": {
+                "hull": {
+                    "type": "object",
+                    "required": ["points"],
+                    "additionalProperties": false,
+                    "properties": {
+                        "points": {
+                            "type": "array",
+                            "minItems": 4,
+                            "items": {
+                                "type": "array",
+                                "items": {"type": "number", "minimum": -100000, "maximum": 100000},
+                                "minItems": 3,
+                                "maxItems": 3
+                            },
+                            "description": "m, not in one plane; inner and repeated points do not matter. More than 64 corners are simplified"
+                        }
+                    }
+                }
+            }
+        },
+        {
+            "required": ["compound"],
+            "additionalProperties": false,
+            "description": "several convex shapes on one body; the body's position is where their origin lies. Where two overlap, the mass of both counts",
+            "properties": {
+                "compound": {
+                    "type": "object",
+                    "required": ["parts"],
+                    "additionalProperties": false,
+                    "properties": {
+                        "parts": {
+                            "type": "array",
+                            "minItems": 1,
+                            "maxItems": 10000,
+                            "items": {
+                                "type": "object",
+                                "required": ["shape"],
+                                "additionalProperties": false,
+                                "properties": {
+                                    "shape": {"$ref": "#/$defs/shape", "description": "any but plane, compound, mesh and height_field"},
+                                    "position": {
+                                        "type": "array",
+                                        "items": {"type": "number", "minimum": -100000, "maximum": 100000},
+                                        "minItems": 3,
+                                        "maxItems": 3,
+                                        "default": [0, 0, 0],
+                                        "description": "in the body's frame, m"
+                                    },
+                                    "orientation": {
+                                        "type": "array",
+                                        "items": {"$ref": "#/$defs/number"},
+                                        "minItems": 4,
+                                        "maxItems": 4,
+                                        "default": [0, 0, 0, 1],
+                                        "description": "quaternion x, y, z, w of any length but 0"
+                                    },
+                                    "density": {
+                                        "type": "number",
+                                        "minimum": 0,
+                                        "maximum": 1000000,
+                                        "default": 0,
+                                        "description": "kg/m^3; 0: the body's own"
+                                    }
+                                }
+                            }
+                        }
+                    }
+                }
+            }
+        },
+        {
+            "required": ["mesh"],
+            "additionalProperties": false,
+            "description": "triangles, solid behind their faces; only for \"fixed\" and \"kinematic\" bodies",
+            "properties": {
+                "mesh": {
+                    "type": "object",
+                    "oneOf": [
+                        {
+                            "required": ["file"],
+                            "additionalProperties": false,
+                            "properties": {
+                                "file": {
+                                    "type": "string",
+                                    "minLength": 1,
+                                    "description": "an .obj, .gltf or .glb file, from where the scene's file is"
+                                },
+                                "scale": {
+                                    "type": "number",
+                                    "minimum": 0.000001,
+                                    "maximum": 1000000,
+                                    "default": 1,
+                                    "description": "m of a unit of the file"
+                                }
+                            }
+                        },
+                        {
+                            "required": ["vertices", "triangles"],
+                            "additionalProperties": false,
+                            "properties": {
+                                "vertices": {
+                                    "type": "array",
+                                    "minItems": 3,
+                                    "items": {
+                                        "type": "array",
+                                        "items": {"type": "number", "minimum": -100000, "maximum": 100000},
+                                        "minItems": 3,
+                                        "maxItems": 3
+                                    },
+                                    "description": "in the body's frame, m"
+                                },
+                                "triangles": {
+                                    "type": "array",
+                                    "minItems": 1,
+                                    "items": {
+                                        "type": "array",
+                                        "items": {"type": "integer", "minimum": 0},
+                                        "minItems": 3,
+                                        "maxItems": 3
+                                    },
+                                    "description": "numbers of vertices, from 0, counter-clockwise seen from outside"
+                                }
+                            }
+                        }
+                    ]
+                }
+            }
+        },
+        {
+            "required": ["height_field"],
+            "additionalProperties": false,
+            "description": "ground over a grid whose middle is the body's position; only for \"fixed\" and \"kinematic\" bodies",
+            "properties": {
+                "height_field": {
+                    "type": "object",
+                    "required": ["columns", "rows", "heights"],
+                    "additionalProperties": false,
+                    "properties": {
+                        "columns": {"type": "integer", "minimum": 2, "maximum": 30000, "description": "points along x"},
+                        "rows": {"type": "integer", "minimum": 2, "maximum": 30000, "description": "points along z"},
+                        "spacing": {"$ref": "#/$defs/size", "default": 1, "description": "m, between neighbours"},
+                        "heights": {
+                            "type": "array",
+                            "items": {"type": "number", "minimum": -100000, "maximum": 100000},
+                            "description": "m along y, columns * rows of them, row by row"
+                        }
+                    }
+                }
+            }
+        }
+])schema");
+}
+
+}  // namespace
+
+ordered_json shape_schema() {
+    ordered_json shapes = schemas_with_lists();
+    for_each_shape([&](const auto& shape) {
+        using OfShape = std::remove_cvref_t<decltype(shape)>;
+        if constexpr (!has_lists<OfShape>) shapes.push_back(plain_schema<OfShape>());
+        return true;
+    });
+    return {{"type", "object"}, {"oneOf", shapes}};
+}
+
+}  // namespace scree

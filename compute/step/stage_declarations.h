@@ -1,0 +1,101 @@
+// Every stage of a step, declared once: what it runs over, the function that does it on the CPU, and the tables that it reads and
+// writes. The shader has the name of the stage. The plan (compute/step/plan.h) says in which order stages run; from both follow
+// barriers, what lockstep compares, what lasts from step to step (uploaded, never poisoned) and memory traffic.
+//
+// tests/house/vulkan/declared_accesses.cpp holds each declaration against the compiled shader.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compute/step/state.h"
+#include "compute/step/threads.h"
+
+namespace scree {
+
+// What a stage runs over, one thread an item. From pairs to flights the device alone knows how many there are: these are indirect
+// dispatches, which read the table of counts.
+enum class Over {
+    one_group,
+    actions,
+    bodies,
+    buckets,
+    body_blocks,
+    bucket_blocks,
+    joint_blocks,
+    vehicles,
+    pairs,
+    spans,
+    kind_blocks,
+    pair_blocks,
+    contacts,
+    shaken,
+    solved,
+    kind,
+    flights
+};
+bool is_indirect(Over over);
+
+// How many records of a table a stage touches: what memory traffic adds up (compute/step/memory_traffic.h).
+enum class Amount {
+    few,  // one, or those of rare bodies or rare scenes: not added up
+    actions,
+    bodies,
+    movers,  // bodies that are dynamic and awake
+    buckets,
+    blocks,
+    kinds,
+    pairs,
+    contacts,
+    solved,
+    breakable,  // solved, if some body may break, else none
+    slots,
+    binned,         // pairs of the stage's kind
+    binned_bodies,  // their bodies, at most all
+    binned_hulls,   // records of their hulls, each once
+    joints,
+    vehicles,
+    flights,         // pairs if some body is fast, else none
+    flight_bodies,   // their bodies
+    stirred,         // contacts if some body sleeps, else none
+    stirred_bodies,  // bodies if some sleeps, else none
+};
+
+// What may happen to a table beside the stage, and what becomes of it.
+enum class Manner {
+    alone,       // whoever else writes the table, or reads what is written, waits for a barrier
+    in_parts,    // as alone, but for a stage that says the same: it touches other records, or other fields
+    by_atomics,  // likewise: the order of the atomics does not matter, nor what is read between them
+    unordered,   // likewise: each takes a place by an atomic, and a later stage sorts; until then runners differ
+    unfinished,  // as alone; what is there is of no use to other runners: sums of a scan, notes, records not whole yet
+    some_only,   // as alone; other records must still be there from the step before
+};
+
+struct Access {
+    Table table;
+    Amount amount = Amount::few;
+    int lines = 0;  // of the record that hold the fields in question; 0: the whole record
+    Manner manner = Manner::alone;
+    std::optional<Length> as_long_as = {};  // what is written, if it is not what the table ends up with
+};
+
+struct StageDeclaration {
+    std::string name;  // of the shader, and of the time measured
+    Over over = Over::one_group;
+    void (*reference)(State&, const Threads&, std::uint32_t pass) = nullptr;  // none for one that is several in turn
+    std::vector<Access> reads, writes;                                        // all but the parameters, which nobody writes
+    std::uint32_t features = 0;  // the CONTENT_* that its shader tells apart (shaders/stages/lib/features.glsl)
+};
+
+const std::vector<StageDeclaration>& stage_declarations();
+// Throws std::logic_error for a name that is not declared.
+const StageDeclaration& stage_declaration(const std::string& name);
+// Of the stage for pairs of a kind (KIND_*).
+const char* name_of_kind(std::uint32_t kind);
+
+// Whether what one stage does is not sure to be right if the other runs at the same time.
+bool conflict(const StageDeclaration& before, const StageDeclaration& after);
+
+}  // namespace scree

@@ -1,0 +1,64 @@
+// Which ranges of the tables say what.
+#include "compute/step/table_ranges.h"
+
+namespace scree {
+
+namespace {
+
+TableRange live_range(const State& state, Table table) {
+    return {table, 0, state.live(table_infos()[static_cast<std::size_t>(table)].length)};
+}
+
+}  // namespace
+
+std::size_t bytes_of(const TableRanges& ranges) {
+    std::size_t sum = 0;
+    for (const TableRange& range : ranges) sum += range.count * table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+    return sum;
+}
+
+void append(TableRanges& ranges, const TableRanges& more) {
+    ranges.insert(ranges.end(), more.begin(), more.end());
+}
+
+TableRanges body_ranges(const State& state) {
+    TableRanges ranges;
+    for (const Table table : {Table::poses, Table::velocities, Table::rests}) ranges.push_back(live_range(state, table));
+    if (state.has_fractures()) ranges.push_back(live_range(state, Table::traits));
+    return ranges;
+}
+
+TableRanges row_ranges(const State& state, std::uint32_t row) {
+    TableRanges ranges{{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::rests, row, 1}};
+    if (state.has_fractures()) ranges.push_back({Table::traits, row, 1});
+    return ranges;
+}
+
+TableRanges contact_ranges(const State& state) {
+    TableRanges ranges;
+    for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) ranges.push_back(live_range(state, table));
+    if (state.reordered()) ranges.push_back(live_range(state, Table::first_contacts));  // contacts_by_id
+    if (state.content().convex) ranges.push_back(live_range(state, Table::pairs));      // whose hulls traffic_of counts
+    return ranges;
+}
+
+TableRanges joint_ranges(const State& state) {
+    if (!state.has_joints()) return {};
+    return {{Table::joints, 0, state.joints.size()}};
+}
+
+TableRanges vehicle_ranges(const State& state) {
+    return {{Table::vehicles, 0, state.fixed().vehicles}};
+}
+
+TableRanges lasting_ranges(const State& state) {
+    TableRanges ranges;
+    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains, Table::masses,
+                              Table::contacts, Table::impulses, Table::first_contacts})
+        ranges.push_back(live_range(state, table));
+    append(ranges, joint_ranges(state));
+    append(ranges, vehicle_ranges(state));
+    return ranges;
+}
+
+}  // namespace scree

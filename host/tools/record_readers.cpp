@@ -1,0 +1,85 @@
+// What is generated from the layout of records.
+#include "host/tools/record_readers.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace scree::host {
+namespace {
+
+bool has_reader(const Record& record) {
+    return record.bytes == 4 || record.bytes == 8 || record.bytes % 16 == 0;
+}
+
+const Record* find(const std::vector<Record>& records, const std::string& name) {
+    const auto found = std::find_if(records.begin(), records.end(), [&](const Record& record) { return record.name == name; });
+    return found == records.end() ? nullptr : &*found;
+}
+
+// A scalar or vector at a byte of the record: of texel t0, t1 and so on, which are uvec4.
+std::string value_of(const std::string& type, std::size_t byte) {
+    const bool vector = std::isdigit(static_cast<unsigned char>(type.back())) != 0;
+    const std::size_t lanes = vector ? static_cast<std::size_t>(type.back() - '0') : 1;
+    const std::size_t lane = byte / 4 % 4;
+    const std::string texel = "t" + std::to_string(byte / 16);
+    const std::string words = lanes == 4 ? texel : texel + "." + std::string("xyzw").substr(lane, lanes);
+    if (type == "float" || type.starts_with("vec")) return "uintBitsToFloat(" + words + ")";
+    return type.starts_with('u') ? words : type + "(" + words + ")";
+}
+
+std::string constructor_of(const std::vector<Record>& records, const Record& record, std::size_t byte);
+
+std::string element_of(const std::vector<Record>& records, const std::string& type, std::size_t byte) {
+    const Record* record = find(records, type);
+    return record ? constructor_of(records, *record, byte) : value_of(type, byte);
+}
+
+std::string constructor_of(const std::vector<Record>& records, const Record& record, std::size_t byte) {
+    std::string text = record.name + "(", separator;
+    for (const RecordMember& member : record.members) {
+        std::string value;
+        for (std::size_t i = 0; i < std::max<std::size_t>(member.count, 1); ++i)
+            value += (i > 0 ? ", " : "") + element_of(records, member.type, byte + member.offset + i * member.stride);
+        if (member.count > 0) value = member.type + "[" + std::to_string(member.count) + "](" + value + ")";
+        text += std::exchange(separator, ", ") + value;
+    }
+    return text + ")";
+}
+
+std::string reader_of(const std::vector<Record>& records, const Record& record) {
+    const std::size_t texels = std::max<std::size_t>(1, record.bytes / 16);
+    const std::string first = texels == 1 ? "i" : std::to_string(texels) + "u * i";
+    std::string text =
+        "#define SCREE_READER_" + record.name + "(table, TEXEL) \\\n    " + record.name + " read_##table(uint i) { \\\n";
+    for (std::size_t k = 0; k < texels; ++k)
+        text += "        uvec4 t" + std::to_string(k) + " = TEXEL(table, " + first +
+                (k > 0 ? " + " + std::to_string(k) + "u" : "") + "); \\\n";
+    return text + "        return " + constructor_of(records, record, 0) + "; \\\n    }\n";
+}
+
+}  // namespace
+
+std::string readers_of(const std::vector<Record>& records, const std::string& source) {
+    std::string text = "// Records put together from texels. Made from " + source + " when the project is built.\n";
+    for (const Record& record : records) {
+        if (has_reader(record))
+            text += reader_of(records, record);
+        else
+            text += "// No reader: " + record.name + ", whose " + std::to_string(record.bytes) + " bytes are no whole texels.\n";
+    }
+    return text;
+}
+
+std::string layouts_of(const std::vector<Record>& records, const std::string& source) {
+    std::string text = "// Where std430 puts the members of records. Made from " + source +
+                       " when the project is built.\n#pragma once\n\n#define SCREE_RECORDS(RECORD, MEMBER)";
+    for (const Record& record : records) {
+        text += " \\\n    RECORD(" + record.name + ", " + std::to_string(record.bytes) + ")";
+        for (const RecordMember& member : record.members)
+            text += " \\\n    MEMBER(" + record.name + ", " + member.name + ", " + std::to_string(member.offset) + ")";
+    }
+    return text + "\n";
+}
+
+}  // namespace scree::host

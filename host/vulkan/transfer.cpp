@@ -1,0 +1,121 @@
+// Pieces on their way into buffers and back: straight where the host sees the memory, else through one staging buffer.
+#include "host/vulkan/transfer.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "host/vulkan/command_buffer.h"
+
+namespace scree::host {
+namespace {
+
+constexpr std::size_t most_staged = std::size_t{16} << 20;  // bytes of a submission
+
+void check_range(std::size_t bytes, std::size_t offset, std::size_t size) {
+    if (offset <= size && bytes <= size - offset) return;
+    throw std::out_of_range("bytes " + std::to_string(offset) + " and the next " + std::to_string(bytes) +
+                            " lie outside a buffer of " + std::to_string(size));
+}
+
+// A staging buffer that fills up, is submitted, and fills up again.
+class Staging {
+public:
+    Staging(const std::shared_ptr<Device>& device, const char* name, std::size_t bytes, BufferUse use)
+        : device_(device), buffer_(device, name, std::min(bytes, most_staged), use) {}
+
+    // Cuts a piece into what still fits: copy(recording, buffer, place in it, done, count) for each; `sent` after a submission.
+    template <typename Copy, typename Sent>
+    void add(std::size_t bytes, const Copy& copy, const Sent& sent) {
+        for (std::size_t done = 0; done < bytes;) {
+            if (used_ == buffer_.bytes()) submit(sent);
+            const std::size_t count = std::min(bytes - done, buffer_.bytes() - used_);
+            if (!recording_) recording_.emplace(device_);
+            copy(*recording_, buffer_, used_, done, count);
+            used_ += count;
+            done += count;
+        }
+    }
+    template <typename Sent>
+    void submit(const Sent& sent) {
+        if (!recording_) return;
+        recording_->end();
+        device_->submit_and_wait({recording_->handle()});
+        recording_.reset();
+        sent(static_cast<const std::byte*>(buffer_.mapped()));
+        used_ = 0;
+    }
+
+private:
+    std::shared_ptr<Device> device_;
+    Buffer buffer_;
+    std::optional<Recording> recording_;
+    std::size_t used_ = 0;
+};
+
+}  // namespace
+
+void upload(const std::shared_ptr<Device>& device, std::span<const Upload> pieces) {
+    std::size_t staged = 0;
+    for (const Upload& piece : pieces) {
+        check_range(piece.data.size(), piece.offset, piece.to->bytes());
+        if (!piece.to->mapped()) staged += piece.data.size();
+    }
+    device->wait_idle();
+    for (const Upload& piece : pieces)
+        if (piece.to->mapped() && !piece.data.empty())
+            std::memcpy(static_cast<std::byte*>(piece.to->mapped()) + piece.offset, piece.data.data(), piece.data.size());
+    if (staged == 0) return;
+    Staging staging(device, "staging for writing", staged, BufferUse::upload);
+    const auto sent = [](const std::byte*) {};
+    for (const Upload& piece : pieces) {
+        if (piece.to->mapped()) continue;
+        staging.add(
+            piece.data.size(),
+            [&](Recording& recording, const Buffer& from, std::size_t place, std::size_t done, std::size_t count) {
+                std::memcpy(static_cast<std::byte*>(from.mapped()) + place, piece.data.data() + done, count);
+                recording.copy(from, *piece.to, count, place, piece.offset + done);
+            },
+            sent);
+    }
+    staging.submit(sent);
+}
+
+void download(const std::shared_ptr<Device>& device, std::span<const Download> pieces) {
+    std::size_t staged = 0;
+    for (const Download& piece : pieces) {
+        check_range(piece.data.size(), piece.offset, piece.from->bytes());
+        if (!piece.from->mapped()) staged += piece.data.size();
+    }
+    device->wait_idle();
+    for (const Download& piece : pieces)
+        if (piece.from->mapped() && !piece.data.empty())
+            std::memcpy(piece.data.data(), static_cast<const std::byte*>(piece.from->mapped()) + piece.offset, piece.data.size());
+    if (staged == 0) return;
+    Staging staging(device, "staging for reading", staged, BufferUse::readback);
+    struct Part {
+        std::byte* to;
+        std::size_t place, count;
+    };
+    std::vector<Part> under_way;
+    const auto sent = [&](const std::byte* mapped) {
+        for (const Part& part : under_way) std::memcpy(part.to, mapped + part.place, part.count);
+        under_way.clear();
+    };
+    for (const Download& piece : pieces) {
+        if (piece.from->mapped()) continue;
+        staging.add(
+            piece.data.size(),
+            [&](Recording& recording, const Buffer& to, std::size_t place, std::size_t done, std::size_t count) {
+                recording.copy(*piece.from, to, count, piece.offset + done, place);
+                under_way.push_back({piece.data.data() + done, place, count});
+            },
+            sent);
+    }
+    staging.submit(sent);
+}
+
+}  // namespace scree::host

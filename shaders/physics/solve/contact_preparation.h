@@ -1,0 +1,100 @@
+// A contact made ready for a step: what it inherits from the step before, its constraint, and the warm start that it hands out.
+#ifndef SCREE_PHYSICS_CONTACT_PREPARATION_H
+#define SCREE_PHYSICS_CONTACT_PREPARATION_H
+
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/persistence.h"
+
+LAWS_BEGIN
+
+struct PreparedContact {
+    Contact contact;
+    Impulse impulse;
+};
+
+// A contact that moves neither of its bodies in this step.
+LAW bool is_idle(uint slot_a, uint slot_b) {
+    return slot_a == NONE && slot_b == NONE;
+}
+// Whether the contact goes on as it was, with its points and impulses.
+LAW bool is_carried_forward(uint kind) {
+    return kind == KIND_KEPT || kind == KIND_STILL;
+}
+
+LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifold) {
+    PreparedContact prepared;
+    prepared.contact = aged(before);
+    prepared.impulse = continued(prepared.contact, was);
+    prepared.impulse.separation = separations_of(manifold);
+    return prepared;
+}
+LAW PreparedContact newly_found(Pair pair, Manifold manifold, uint count, Pose a, Pose b) {
+    PreparedContact prepared;
+    prepared.contact = contact_of(pair, manifold, count, a, b);
+    prepared.impulse = no_impulse(prepared.contact.d);
+    prepared.impulse.separation = separations_of(manifold);
+    return prepared;
+}
+
+// Warm starting across steps: the impulses of the points of last step's contact that are still there.
+LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impulse was, Traits a, Traits b) {
+    uvec4 matches;
+    if (tyre_of(a) != 0u || tyre_of(b) != 0u)
+        matches = matches_of_tyre(prepared.contact, before, tyre_of(a) != 0u, smaller(thickness(a), thickness(b)));
+    else
+        matches = matches_of(prepared.contact, before, match_radius(a, b));
+    vec4 separation = prepared.impulse.separation;
+    prepared.impulse = inherited(prepared.contact, was, matches);
+    prepared.impulse.separation = separation;
+    return prepared;
+}
+
+// The load that a sleeper's waking is measured by (sleep.h): a dynamic body without a slot sleeps.
+LAW float load_since(Contact before, Impulse was, Traits a, uint slot_a, Traits b, uint slot_b) {
+    bool a_sleeps = slot_a == NONE && motion_of(a) == MOTION_DYNAMIC;
+    bool b_sleeps = slot_b == NONE && motion_of(b) == MOTION_DYNAMIC;
+    return load_of(a_sleeps || b_sleeps, before, was);
+}
+
+// The constraint of the contact of a pair of bodies, of which these traits may be parts.
+LAW Constraint idle_between(Contact contact, uint body_a, uint body_b) {
+    Constraint c = idle_constraint(contact);
+    c.a = body_a;
+    c.b = body_b;
+    return c;
+}
+LAW Constraint constraint_between(Contact contact, uint pair, Traits ta, uint body_a, uint slot_a, Traits tb, uint body_b,
+                                  uint slot_b, Parameters parameters) {
+    Constraint c = constraint_of(contact, ta, tb, slot_a, slot_b, parameters);
+    c.a = body_a;
+    c.b = body_b;
+    c.pair = pair;
+    return c;
+}
+
+// What the contact tells its bodies before the first substep: the velocity changes of its inherited impulses, and whether it
+// counts among the contacts that share them.
+struct ContactShare {
+    Couple change;
+    float carrying;
+    float pad0;
+    float pad1;
+    float pad2;
+};
+LAW ContactShare first_share(Constraint c, Impulse impulse, Couple now, Mass a, Mass b, Parameters parameters) {
+    Mass lent_a = lent(a, impulse, parameters), lent_b = lent(b, impulse, parameters);
+    ContactShare share;
+    share.carrying = carries(c, impulse, now, parameters);
+    share.change = warm_start(c, impulse, shares_of(now, now, lent_a, lent_b), lent_a, lent_b);
+    share.pad0 = 0.0f;
+    share.pad1 = 0.0f;
+    share.pad2 = 0.0f;
+    return share;
+}
+
+LAWS_END
+
+#endif

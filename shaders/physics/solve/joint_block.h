@@ -1,0 +1,212 @@
+// A block of joints (compute/step/joint_blocks.h) as one sparse system of linear equations, which is solved exactly.
+//
+// (J M^-1 J^T + C) dl = -(J v + bias), the rows that are at their bounds left out. The matrix is symmetric and positive definite,
+// and two joints have an entry in it only if they share a body. It is factored as L D L^T from the first joint of the block to
+// the last, an order that fills in little (Baraff, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Davis, Direct
+// Methods for Sparse Linear Systems, 2006, ch. 4 and 7). So a block is one of those that mass splitting knows
+// (contact_solver.h), however many joints it has, and a chain carries a hundred times its links' weight without stretching.
+#ifndef SCREE_PHYSICS_JOINT_BLOCK_H
+#define SCREE_PHYSICS_JOINT_BLOCK_H
+
+#include "shaders/physics/solve/joint_axis.h"
+#include "shaders/physics/solve/mass_splitting.h"
+
+LAWS_BEGIN
+
+CONSTANT uint JOINT_ROUNDS = 8u;    // times that a block is solved in a pass at most
+CONSTANT uint SETTLING_ROUND = 2u;  // from then on bounds are only let go: with both, some blocks go round in circles
+
+// ---- what the bodies lend the block
+// In the biased pass, joints come after the contacts, and only blocks share a body. In the one without, it is shared with the
+// contacts, and if it is struck among those who strike it.
+LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float blows, float pressed, bool biased, Parameters parameters) {
+    if (biased)
+        mass.split = larger(1.0f, float(blocks) * parameters.inverse_relaxation);
+    else
+        mass.split = blows > 1.0f ? blows : split_for(mass.split, pressed, parameters);
+    if (moves) return mass;
+    mass.xx = 0.0f;
+    mass.xy = 0.0f;
+    mass.xz = 0.0f;
+    mass.yy = 0.0f;
+    mass.yz = 0.0f;
+    mass.zz = 0.0f;
+    mass.inverse_mass = 0.0f;
+    return mass;
+}
+LAW Velocity changed_by(Velocity velocity, Slot slot) {
+    velocity.linear = velocity.linear + slot.linear;
+    velocity.angular = velocity.angular + slot.angular;
+    return velocity;
+}
+
+// ---- entries of J M^-1 J^T
+// M^-1 J^T of one row: what an impulse of 1 along it does to its two bodies.
+struct RowResponse {
+    vec3 direction;
+    uint axis;
+    vec3 turn_a;  // I^-1 of the row's arm, not yet split
+    float inverse_mass_a;
+    vec3 turn_b;
+    float inverse_mass_b;
+    float split_a;
+    float split_b;
+    float pad0;
+    float pad1;
+};
+LAW RowResponse row_response(JointRow row, uint axis, Mass a, Mass b) {
+    RowResponse response;
+    response.direction = row.direction;
+    response.axis = axis;
+    response.turn_a = turned_by(a, row.arm_a);
+    response.inverse_mass_a = a.inverse_mass;
+    response.turn_b = turned_by(b, row.arm_b);
+    response.inverse_mass_b = b.inverse_mass;
+    response.split_a = a.split;
+    response.split_b = b.split;
+    response.pad0 = 0.0f;
+    response.pad1 = 0.0f;
+    return response;
+}
+
+// Which ends two joints share: bit by bit, A or B of the one is A or B of the other. At most two of them.
+CONSTANT uint ENDS_A_A = 1u;
+CONSTANT uint ENDS_A_B = 2u;
+CONSTANT uint ENDS_B_A = 4u;
+CONSTANT uint ENDS_B_B = 8u;
+LAW uint shared_ends(uint a, uint b, uint other_a, uint other_b) {
+    uint ends = 0u;
+    if (a != NONE && a == other_a) ends = ends | ENDS_A_A;
+    if (a != NONE && a == other_b) ends = ends | ENDS_A_B;
+    if (b != NONE && b == other_a) ends = ends | ENDS_B_A;
+    if (b != NONE && b == other_b) ends = ends | ENDS_B_B;
+    return ends;
+}
+
+// Through one body: the part of a row's speed that another row's impulse of 1 brings about.
+LAW float entry_through(vec3 direction, vec3 arm, vec3 other_direction, vec3 other_turn, bool both_linear, float inverse_mass,
+                        float split) {
+    float turning = dot3(arm, other_turn);
+    return (both_linear ? dot3(direction, other_direction) * inverse_mass + turning : turning) * split;
+}
+// The entry of J M^-1 J^T for a row with this direction and these arms, and the row of the response.
+LAW float row_entry(vec3 direction, vec3 arm_a, vec3 arm_b, uint axis, RowResponse to, uint ends) {
+    bool linear = is_linear(axis) && is_linear(to.axis);
+    float sum = 0.0f;
+    if ((ends & ENDS_A_A) != 0u)
+        sum = entry_through(direction, arm_a, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
+    if ((ends & ENDS_A_B) != 0u) {
+        float entry = -entry_through(direction, arm_a, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
+        sum = (ends & ENDS_A_A) != 0u ? sum + entry : entry;
+    }
+    if ((ends & ENDS_B_A) != 0u) {
+        float entry = -entry_through(direction, arm_b, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
+        sum = (ends & (ENDS_A_A | ENDS_A_B)) != 0u ? sum + entry : entry;
+    }
+    if ((ends & ENDS_B_B) != 0u) {
+        float entry = entry_through(direction, arm_b, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
+        sum = ends != ENDS_B_B ? sum + entry : entry;
+    }
+    return sum;
+}
+
+// The row as its bodies lie, with the inverse of its effective mass (`a`, `b`: the lent bodies; `ends`: those that there are).
+LAW JointRow placed_row(JointRow row, JointPlace at, uint axis, uint flags, Couple v, Mass a, Mass b, uint ends, float h) {
+    if (is_linear(axis))
+        row = linear_row(row, at, axis, flags, v, h);
+    else
+        row = angular_row(row, at, axis - 3u, flags, v, h);
+    row.give = row_entry(row.direction, row.arm_a, row.arm_b, axis, row_response(row, axis, a, b), ends);
+    row.drive_change = 0.0f;
+    row.stop_change = 0.0f;
+    return row;
+}
+
+// ---- elimination and substitution
+LAW float right_hand_side(float speed, Demand demand) {
+    return -(speed + demand.bias);
+}
+LAW float softened(float entry, Demand demand) {
+    return entry + demand.compliance;
+}
+// The multiplier with which an equation loses its unknown: its entry over the pivot.
+LAW float multiplier_of(float entry, float inverse_pivot) {
+    return entry * inverse_pivot;
+}
+// What is left of an entry or right-hand side: of the Schur complement as rows are eliminated, of a sum as unknowns become known.
+LAW float less_multiple(float entry, float multiplier, float other) {
+    return entry - multiplier * other;
+}
+LAW float substituted(float sum, float inverse_pivot) {
+    return sum * inverse_pivot;
+}
+
+// ---- after a solution
+struct RowAfter {
+    JointRow row;
+    uint pin;
+    uint pad0;
+    uint pad1;
+    uint pad2;
+};
+// The row's impulses after a solution, within their bounds, and which bounds act next. `v`: of its bodies afterwards.
+LAW RowAfter row_after_round(JointAxis axis, JointRow row, uint index, uint pin, bool solved, float solution, Couple v,
+                             bool biased, bool settling, Parameters parameters) {
+    RowAfter after;
+    after.row = row_after(row, axis, pin, solved, solution, parameters);
+    float speed = row_speed(row, is_linear(index), v);
+    after.pin = pins_after(axis, row, index, pin, solved, solution, speed, biased, settling, parameters);
+    after.pad0 = 0u;
+    after.pad1 = 0u;
+    after.pad2 = 0u;
+    return after;
+}
+
+LAW float given_change(JointRow row) {
+    return row.drive_change + row.stop_change;
+}
+LAW float row_impulse(JointRow row) {
+    return row.drive + row.stop;
+}
+// What whole bodies feel of a row after a pass: its change, and where the next substep begins with a warm start all of it again.
+LAW float handed_impulse(JointRow row, bool warms) {
+    float change = given_change(row);
+    return warms ? (row_impulse(row) + change) + change : change;
+}
+LAW JointRow committed(JointRow row) {
+    row.drive = row.drive + row.drive_change;
+    row.stop = row.stop + row.stop_change;
+    return row;
+}
+LAW JointRow torn(JointRow row) {
+    row.drive = 0.0f;
+    row.stop = 0.0f;
+    return row;
+}
+// On B.
+LAW vec3 row_push(JointRow row) {
+    return row.direction * row_impulse(row);
+}
+
+// What a joint carries: sums of impulses within a step, N s, and with their means over it the greatest since the start, N.
+struct JointLoad {
+    vec3 force;
+    float greatest_force;
+    vec3 torque;
+    float greatest_torque;
+};
+LAW JointLoad mean_load(JointLoad load, Parameters parameters) {
+    float inverse_dt = reciprocal(parameters.dt);
+    load.force = load.force * inverse_dt;
+    load.torque = load.torque * inverse_dt;
+    load.greatest_force = larger(load.greatest_force, length3(load.force));
+    load.greatest_torque = larger(load.greatest_torque, length3(load.torque));
+    return load;
+}
+LAW bool joint_tears(vec3 force, float break_force, vec3 torque, float break_torque) {
+    return length3(force) > break_force || length3(torque) > break_torque;
+}
+
+LAWS_END
+
+#endif

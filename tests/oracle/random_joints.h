@@ -1,0 +1,24 @@
+// Scenes of joints that hang together at random, for the judge of the joint solver.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compute/scene.h"
+
+namespace scree::oracle {
+
+// How a random block hangs together, and what its joints are.
+struct JointCase {
+    std::string name;
+    enum class Graph { chain, ring, tree, ladder } graph = Graph::chain;
+    enum class Kinds { balls, hinges, driven_hinges, springs, cones, six_degrees, figure, mixed } kinds = Kinds::balls;
+    std::size_t bodies = 8;
+};
+const std::vector<JointCase>& joint_cases();
+// Bodies some way from where their joints want them, and moving; too far apart to touch each other.
+Scene random_block(const JointCase& what, std::uint32_t seed);
+
+}  // namespace scree::oracle

@@ -1,0 +1,90 @@
+// What follows from the declarations of the stages: where a step waits, and what outlasts it.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "compute/step/plan.h"
+#include "compute/step/stage_fusion.h"
+
+using namespace scree;
+
+namespace {
+
+std::vector<Content> all_contents() {
+    std::vector<Content> all;
+    for (std::uint32_t bits = 0; bits < 1u << 12; ++bits) {
+        const auto has = [&](std::uint32_t bit) { return (bits >> bit & 1u) != 0; };
+        all.push_back({has(0), has(1), has(2), has(3), has(4), has(5), has(6), has(7), has(8), has(9), has(10), has(11)});
+    }
+    return all;
+}
+
+using Names = std::set<std::string>;
+Names without_barrier(const std::vector<Stage>& stages) {
+    Names names;
+    for (std::size_t i = 0; i + 1 < stages.size(); ++i)
+        if (!stages[i].barrier_after) names.insert(stages[i].name + " | " + stages[i + 1].name);
+    return names;
+}
+
+}  // namespace
+
+TEST_CASE("barriers: a step waits wherever a stage needs what one before it has written") {
+    for (const Content& content : all_contents()) {
+        const std::vector<Stage> stages = plan(2, content);
+        REQUIRE(stages.back().barrier_after);
+        for (std::size_t i = 0, first = 0; i < stages.size(); ++i) {
+            for (std::size_t before = first; before < i; ++before) {
+                INFO(stages[before].name << " and " << stages[i].name);
+                if (conflict(stages[before], stages[i])) FAIL("may run at the same time");
+            }
+            if (stages[i].barrier_after) first = i + 1;
+        }
+    }
+}
+
+TEST_CASE("barriers: only stages that do not disturb each other run side by side") {
+    const Names without_joints = without_barrier(plan(3, {}));
+    for (const std::string& names : without_joints)
+        CHECK((names.starts_with("collide_") || names == "wake_touched | wake_deserted"));
+    Names joined;
+    for (const std::string& names : without_barrier(plan(3, Content::everything())))
+        if (!names.starts_with("collide_")) joined.insert(names);
+    CHECK(joined == Names{"count_slots | count_joint_slots", "fill_slots | fill_joint_slots", "prepare_contacts | prepare_joints",
+                          "relax_contacts | relax_joints", "wake_touched | wake_deserted"});
+}
+
+TEST_CASE("barriers: stages that are several in turn wait for each other") {
+    physics::Parameters small{};
+    small.contact_capacity = 100;
+    for (const Stage& stage : fused(plan(64, {}), small, 8))
+        if (!stage.reference) CHECK(stage.barrier_after);
+}
+
+TEST_CASE("a table lasts from step to step if something reads it before it is written anew") {
+    const std::vector<Table>& lasting = lasting_tables();
+    using enum Table;
+    CHECK(std::set<Table>(lasting.begin(), lasting.end()) ==
+          std::set{parameters, counts,   traits, poses,     velocities,      masses,          rests,
+                   strains,    hulls,    parts,  fractures, pieces,          tyres,           way_points,
+                   joints,     vehicles, ids,    actions,   contacts_before, impulses_before, first_contacts});
+}
+
+TEST_CASE("what is compared after a stage is whole there, and every table that outlasts a step is compared once it is written") {
+    std::set<Table> compared;
+    for (const Stage& stage : plan(2, Content::everything()))
+        for (const Compared& each : stage.compared) compared.insert(each.table);
+    using enum Table;
+    for (const Table table :
+         {counts,      traits,         poses,     velocities,    masses,      loads,     bounds,   cell_ends,      cell_entries,
+          kind_starts, pair_starts,    pairs,     pairs_by_kind, strains,     manifolds, touching, contact_starts, contacts,
+          impulses,    first_contacts, slot_ends, slot_sides,    constraints, slots,     rests,    joints,         vehicles})
+        CHECK(compared.contains(table));
+}
+
+TEST_CASE("a stage that is not declared has no place in the plan") {
+    REQUIRE_THROWS_AS(stage_declaration("solve_everything"), std::logic_error);
+}
