@@ -82,9 +82,9 @@ void move(State& state, std::size_t i) {
 }  // namespace
 
 void begin_step(State& state, const Threads& threads, std::uint32_t) {
-    std::fill(state.cells.begin(), state.cells.end(), 0u);
-    std::fill(state.pair_starts.begin(), state.pair_starts.end(), 0u);
-    std::fill(state.slot_ends.begin(), state.slot_ends.end(), 0u);
+    std::ranges::fill(state.cell_counts(), 0u);
+    std::ranges::fill(state.pair_counts(), 0u);
+    std::ranges::fill(state.slot_counts(), 0u);
     threads.for_each(state.fixed().bodies,
                      [&](std::size_t i) { state.loads[i] = physics::gravity_load(state.traits[i], state.fixed()); });
     if (state.fixed().wake_all) std::fill(state.rests.begin(), state.rests.end(), 0u);
@@ -108,11 +108,11 @@ void place_parts(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const std::size_t first = state.fixed().first_part;
     threads.for_each(state.fixed().bodies - first, [&](std::size_t k) {
-        const physics::Traits& part = state.traits[first + k];
-        if (physics::motion_of(part) == physics::MOTION_FIXED) return;
-        const physics::Pose& owner = state.poses[part.owner];
-        state.velocities[first + k] = physics::velocity_of_part(part, owner, state.velocities[part.owner]);
-        state.poses[first + k] = physics::pose_of_part(physics::place_in_body(part), physics::turn_in_body(part), owner);
+        const physics::Traits& traits = state.traits[first + k];
+        if (physics::motion_of(traits) == physics::MOTION_FIXED) return;
+        const physics::Pose& owner = state.poses[traits.owner];
+        state.velocities[first + k] = physics::velocity_of_part(state.parts[k], owner, state.velocities[traits.owner]);
+        state.poses[first + k] = physics::pose_of_part(state.parts[k], owner);
     });
 }
 
@@ -133,10 +133,11 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
         }
         const physics::Velocity velocity = state.velocities[i];
         const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
-        physics::Bounds bounds = physics::bounds_of(traits, pose, velocity, state.loads[owner], state.fixed());
+        const float bend = physics::is_part(traits) ? physics::bend_of_way(state.part_in(i), velocity, state.fixed()) : 0;
+        physics::Bounds bounds = physics::bounds_of(traits, bend, pose, velocity, state.loads[owner], state.fixed());
         if (physics::will_be_fast(traits, velocity, state.fixed())) note(counts.fast, 1u);
         state.masses[i] = owner == i ? physics::mass_in_world(traits, pose.orientation, state.masses[i].split) : physics::Mass{};
-        std::atomic_ref(state.cells[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
+        std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs = physics::stirs(physics::motion_of(traits), state.velocities[owner], state.rests[owner], sleep_steps);
         const bool large = physics::is_large(traits);
         const bool listed = !large && bounds.level != physics::NOWHERE;

@@ -19,7 +19,7 @@ std::span<const physics::CellEntry> entries(const State& state, std::size_t firs
 }
 
 std::span<const physics::CellEntry> bucket(const State& state, std::size_t b) {
-    return entries(state, b == 0 ? 0 : state.cells[b - 1], state.cells[b]);
+    return entries(state, b == 0 ? 0 : state.cell_ends[b - 1], state.cell_ends[b]);
 }
 
 // physics::boxes_overlap without a branch: half of the neighbours do, and no processor foresees which.
@@ -39,7 +39,7 @@ bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
 template <typename Visit>
 void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cells, std::uint32_t level, const Visit& visit) {
     const std::uint32_t buckets = state.fixed().buckets;
-    const auto end_of = [&](std::uint32_t b) { return b == 0 ? 0 : state.cells[b - 1]; };
+    const auto end_of = [&](std::uint32_t b) { return b == 0 ? 0 : state.cell_ends[b - 1]; };
     if (cells >= buckets) return visit(entries(state, 0, end_of(buckets)));
     const std::uint32_t first = physics::bucket_of(from, level, buckets);
     const std::uint32_t last = std::min(first + cells, buckets);
@@ -65,7 +65,7 @@ bool still(const State& state, std::uint32_t body) {
 template <typename Found>
 void for_each_carried_over(const State& state, std::uint32_t body, const Found& found) {
     if (!still(state, body)) return;
-    for (std::size_t k = state.first_contacts_before[body]; k < state.first_contacts_before[body + 1]; ++k) {
+    for (std::size_t k = state.first_contacts[body]; k < state.first_contacts[body + 1]; ++k) {
         const physics::Contact& contact = state.contacts_before[k];
         if (still(state, contact.a) && still(state, contact.b)) found(contact.a == body ? contact.b : contact.a);
     }
@@ -122,8 +122,8 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
 }
 
 std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint32_t other) {
-    const auto first = state.contacts_before.begin() + state.first_contacts_before[owner];
-    const auto last = state.contacts_before.begin() + state.first_contacts_before[owner + 1];
+    const auto first = state.contacts_before.begin() + state.first_contacts[owner];
+    const auto last = state.contacts_before.begin() + state.first_contacts[owner + 1];
     const auto partner = [&](const physics::Contact& contact) { return state.id_of(contact.a == owner ? contact.b : contact.a); };
     const std::uint32_t id = state.id_of(other);
     const auto found = std::lower_bound(
@@ -155,15 +155,16 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
 void fill_cells(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (state.bounds[i].bucket == physics::NONE) return;
-        const std::uint32_t entry = std::atomic_ref(state.cells[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
+        const std::uint32_t entry =
+            std::atomic_ref(state.cell_starts()[state.bounds[i].bucket]).fetch_add(1, std::memory_order_relaxed);
         state.cell_entries[entry].body = static_cast<std::uint32_t>(i);
     });
 }
 
 void order_cells(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().buckets + 1, [&](std::size_t b) {
-        const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cells[b - 1]);
-        const auto last = state.cell_entries.begin() + state.cells[b];
+        const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
+        const auto last = state.cell_entries.begin() + state.cell_ends[b];
         std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
         std::for_each(first, last, [&](physics::CellEntry& entry) {
             const physics::Bounds& around = state.bounds[entry.body];
@@ -184,7 +185,7 @@ void count_pairs(State& state, const Threads& threads, std::uint32_t) {
                 if (count < State::noted) state.partners[i][count] = other;
                 ++count;
             });
-            state.pair_starts[i] = count;
+            state.pair_counts()[i] = count;
             parts += (count + 255) / 256;
         }
         coarse.fetch_add(parts, std::memory_order_relaxed);

@@ -58,7 +58,7 @@ void count_slots(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const physics::Pair& pair = state.pairs[state.constraints[i].pair];
         for (const std::uint32_t body : {state.body_of(pair.a), state.body_of(pair.b)})
-            if (movable(state, body)) taken(state.slot_ends[body]);
+            if (movable(state, body)) taken(state.slot_counts()[body]);
     });
 }
 
@@ -72,12 +72,12 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
             const physics::Pair& pair = state.pairs[state.constraints[contact].pair];
             const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
             const bool moves_a = movable(state, a), moves_b = movable(state, b);
-            if (moves_a) state.slot_sides[taken(state.slot_ends[a])] = 2 * contact;
-            if (moves_b) state.slot_sides[taken(state.slot_ends[b])] = 2 * contact + 1;
+            if (moves_a) state.slot_sides[taken(state.slot_starts()[a])] = 2 * contact;
+            if (moves_b) state.slot_sides[taken(state.slot_starts()[b])] = 2 * contact + 1;
             if (moves_a || moves_b) solved.push_back(contact);
         }
         std::copy(solved.begin(), solved.end(),
-                  state.binned.begin() + taken(counts.solved, static_cast<std::uint32_t>(solved.size())));
+                  state.solved_contacts.begin() + taken(counts.solved, static_cast<std::uint32_t>(solved.size())));
     });
     counts.arguments[physics::WORK_SOLVED].x = physics::work_for(counts.solved, state.fixed()).x;
 }
@@ -147,7 +147,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, p);
         const bool tyre_is_a = physics::tyre_of(ta) != 0;
         if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
-            c = physics::on_tyre(c, tyre_is_a, state.hulls[tyre - 1], prepared.contact.d, velocities_of(state, c));
+            c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.d, velocities_of(state, c));
         if (wide) return;
         const physics::ContactShare share =
             physics::first_share(c, prepared.impulse, velocities_of(state, c), state.masses[a], state.masses[b], p);
@@ -155,18 +155,18 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         hand_out(state, c, share.change, share.carrying, {pressed, pressed});
     });
     if (!wide) return;
-    const WideTables tables = wide_tables(state, state.binned);
+    const WideTables tables = wide_tables(state, state.solved_contacts);
     threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->hand_out(tables, first, end); });
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     if (const WideStages* wide = wide_stages(threads.lanes())) {
-        const WideTables tables = wide_tables(state, state.binned);
+        const WideTables tables = wide_tables(state, state.solved_contacts);
         threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->solve(tables, first, end); });
         return;
     }
     threads.for_each(state.counted().solved, [&](std::size_t k) {
-        const std::size_t i = state.binned[k];
+        const std::size_t i = state.solved_contacts[k];
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass ma = physics::lent(state.masses[c.a], state.impulses[i], state.fixed());
         const physics::Mass mb = physics::lent(state.masses[c.b], state.impulses[i], state.fixed());
@@ -183,17 +183,17 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
     };
     if (const WideStages* wide = wide_stages(threads.lanes())) {
-        WideTables tables = wide_tables(state, state.binned);
+        WideTables tables = wide_tables(state, state.solved_contacts);
         std::vector<float> all_told(last ? state.fixed().bodies : 0);
         threads.for_each(all_told.size(), [&](std::size_t i) { all_told[i] = told(static_cast<std::uint32_t>(i)); });
-        if (felt) tables.felt = reinterpret_cast<std::uint32_t*>(state.candidates.data());
+        if (felt) tables.carried = state.carried.data();
         tables.first = first;
         if (last) tables.told = reinterpret_cast<const std::uint32_t*>(all_told.data());
         threads.for_ranges(state.counted().solved, [&](std::size_t from, std::size_t to) { wide->relax(tables, from, to); });
         return;
     }
     threads.for_each(state.counted().solved, [&](std::size_t k) {
-        const std::size_t i = state.binned[k];
+        const std::size_t i = state.solved_contacts[k];
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a], state.fixed());
         const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b], state.fixed());
@@ -202,8 +202,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         physics::Impulse& impulse = state.impulses[i];
         if (felt) {
             const float carried = physics::pressing(after.impulse);
-            physics::uint& sum = state.candidates[i].owner;
-            sum = std::bit_cast<physics::uint>(first ? carried : std::bit_cast<float>(sum) + carried);
+            state.carried[i] = first ? carried : state.carried[i] + carried;
         }
         impulse = physics::without_blows(after.impulse, c.count);
         impulse.pressed = physics::pressing(impulse);

@@ -23,7 +23,7 @@ physics::Course course(const State& state, std::uint32_t row, float until) {
     const physics::Flight& flight = state.bounds[body].flight;
     const physics::Course whole =
         physics::course_of(state.traits[body], flight.position, flight.orientation, state.poses[body], until);
-    return row == body ? whole : physics::course_of_part(state.traits[row], whole);
+    return row == body ? whole : physics::course_of_part(state.traits[row], state.part_in(row), whole);
 }
 
 }  // namespace

@@ -23,7 +23,7 @@ void for_each_slot(const State& state, std::size_t body, const Visit& visit) {
 }
 
 float carried(const State& state, std::size_t contact) {
-    return std::bit_cast<float>(state.candidates[contact].owner);
+    return state.carried[contact];
 }
 
 bool some_broken(const State& state) {
@@ -35,13 +35,13 @@ bool some_broken(const State& state) {
 void find_broken(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        physics::Traits& body = state.traits[i];
+        const physics::Traits& body = state.traits[i];
         if (!physics::may_break(body)) return;
         float blow = 0;
         for_each_slot(state, i, [&](std::size_t contact, physics::uint) { blow = std::max(blow, carried(state, contact)); });
-        const physics::Fracturing fracturing = physics::fracturing_of(state.hull_table(), body.fracture);
-        const float kept = physics::kept_part(fracturing, blow, body);
-        body.strain = physics::strain_after(fracturing, blow, body, state.velocities[i]);
+        const physics::Fracturing fracturing = state.fractures[body.fracture];
+        const float kept = physics::kept_part(fracturing, blow, state.strains[i]);
+        state.strains[i] = physics::strain_after(fracturing, blow, body, state.velocities[i]);
         if (kept >= 1) return;
         state.loads[i].kept = kept;
         std::atomic_ref(state.counted().broken).fetch_add(1, std::memory_order_relaxed);
@@ -66,23 +66,23 @@ void give_back(State& state, const Threads& threads, std::uint32_t) {
 
 void break_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (!some_broken(state)) return;
-    const physics::Hulls table = state.hull_table();
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (state.loads[i].kept >= 1) return;
-        const physics::Fracturing fracturing = physics::fracturing_of(table, state.traits[i].fracture);
-        for (physics::uint k = 0; k < physics::pieces_of(table, fracturing); ++k) {
-            const std::size_t row = fracturing.first_piece + k;
-            const physics::Moved part = physics::piece_of(table, fracturing, k, state.poses[i], state.velocities[i]);
+        const physics::Fracturing fracturing = state.fractures[state.traits[i].fracture];
+        for (physics::uint k = 0; k < fracturing.count; ++k) {
+            const std::size_t row = fracturing.first_row + k;
+            const physics::Moved part =
+                physics::piece_of(state.pieces[fracturing.first_pose + k], state.poses[i], state.velocities[i]);
             state.poses[row] = part.pose;
             state.velocities[row] = part.velocity;
             state.rests[row] = 0;
             physics::Traits& piece = state.traits[row];
             piece.motion = physics::MOTION_DYNAMIC;
             if (piece.fracture != physics::NONE)
-                piece.strain = physics::strain_after(physics::fracturing_of(table, piece.fracture), 0, piece, part.velocity);
+                state.strains[row] = physics::strain_after(state.fractures[piece.fracture], 0, piece, part.velocity);
         }
         state.traits[i].motion = physics::MOTION_BROKEN;
-        state.traits[i].strain = 0;
+        state.strains[i] = 0;
         state.rests[i] = 0;
         state.velocities[i] = {};
     });

@@ -1,4 +1,4 @@
-// Reference narrowphase: pairs binned by kind, each kind collided by its law.
+// Reference narrowphase: pairs sorted by kind, each kind collided by its law.
 #include <algorithm>
 #include <array>
 
@@ -52,7 +52,7 @@ void count_kinds(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(spans, [&](std::size_t i) {
         const auto pairs = span_of(state, i);
         for (std::size_t kind = 0; kind < physics::KINDS; ++kind)
-            state.contact_starts[kind * spans + i] = static_cast<physics::uint>(
+            state.kind_counts()[kind * spans + i] = static_cast<physics::uint>(
                 std::count_if(pairs.begin(), pairs.end(), [&](const physics::Pair& pair) { return pair.kind == kind; }));
     });
 }
@@ -62,19 +62,19 @@ void fill_kinds(State& state, const Threads& threads, std::uint32_t) {
     if (spans == 0) return;
     threads.for_each(spans, [&](std::size_t i) {
         std::array<physics::uint, physics::KINDS> next;
-        for (std::size_t kind = 0; kind < next.size(); ++kind) next[kind] = state.contact_starts[kind * spans + i];
+        for (std::size_t kind = 0; kind < next.size(); ++kind) next[kind] = state.kind_starts[kind * spans + i];
         std::size_t pair = i * physics::SPAN;
-        for (const physics::Pair& p : span_of(state, i)) state.binned[next[p.kind]++] = static_cast<physics::uint>(pair++);
+        for (const physics::Pair& p : span_of(state, i)) state.pairs_by_kind[next[p.kind]++] = static_cast<physics::uint>(pair++);
     });
     for (physics::uint kind = 0; kind < physics::KINDS; ++kind)
-        state.counted() = physics::with_kinds(state.counted(), kind, state.contact_starts[kind * spans],
-                                              state.contact_starts[(kind + 1) * spans], state.fixed());
+        state.counted() = physics::with_kinds(state.counted(), kind, state.kind_starts[kind * spans],
+                                              state.kind_starts[(kind + 1) * spans], state.fixed());
 }
 
 void collide(State& state, const Threads& threads, std::uint32_t kind) {
     const std::size_t first = state.counted().kind_first[kind];
     threads.for_each(state.counted().kind_first[kind + 1] - first, [&](std::size_t i) {
-        const std::size_t index = state.binned[first + i];
+        const std::size_t index = state.pairs_by_kind[first + i];
         const std::size_t a = state.pairs[index].a, b = state.pairs[index].b;
         const physics::Traits &ta = state.traits[a], &tb = state.traits[b];
         const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
@@ -99,7 +99,7 @@ void collide(State& state, const Threads& threads, std::uint32_t kind) {
 void collide_kept(State& state, const Threads& threads, std::uint32_t) {
     const std::size_t first = state.counted().kind_first[physics::KIND_KEPT];
     threads.for_each(state.counted().kind_first[physics::KIND_KEPT + 1] - first, [&](std::size_t i) {
-        const std::size_t index = state.binned[first + i];
+        const std::size_t index = state.pairs_by_kind[first + i];
         const physics::Pair& pair = state.pairs[index];
         const physics::Contact& contact = state.contacts_before[pair.previous];
         state.manifolds[index] =
@@ -111,7 +111,7 @@ void collide_kept(State& state, const Threads& threads, std::uint32_t) {
 void collide_still(State& state, const Threads& threads, std::uint32_t) {
     const std::size_t first = state.counted().kind_first[physics::KIND_STILL];
     threads.for_each(state.counted().kind_first[physics::KIND_STILL + 1] - first, [&](std::size_t i) {
-        const std::size_t index = state.binned[first + i];
+        const std::size_t index = state.pairs_by_kind[first + i];
         const std::size_t previous = state.pairs[index].previous;
         state.manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulses_before[previous]);
         state.touching[index] = state.contacts_before[previous].count;

@@ -20,7 +20,7 @@ void scan_in_place(std::vector<physics::uint>& list, std::size_t items) {
 void scan_nothing(State&, const Threads&, std::uint32_t) {}
 
 void scan_cells_offsets(State& state, const Threads&, std::uint32_t) {
-    scan_in_place(state.cells, state.fixed().buckets + 1);
+    scan_in_place(state.cell_ends, state.fixed().buckets + 1);
 }
 
 void scan_pairs_spine(State& state, const Threads&, std::uint32_t) {
@@ -32,7 +32,7 @@ void scan_pairs_offsets(State& state, const Threads&, std::uint32_t) {
 }
 
 void scan_kinds_offsets(State& state, const Threads&, std::uint32_t) {
-    scan_in_place(state.contact_starts, physics::KINDS * physics::spans_of(state.counted().pairs));
+    scan_in_place(state.kind_starts, physics::KINDS * physics::spans_of(state.counted().pairs));
 }
 
 void scan_contacts_spine(State& state, const Threads&, std::uint32_t) {

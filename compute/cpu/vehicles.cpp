@@ -16,7 +16,8 @@ void drive_vehicles(State& state, const Threads& threads, std::uint32_t) {
         physics::Handling& handling = vehicle.handling;
         const physics::uint chassis = handling.chassis;
         if (!there(chassis)) return;
-        if (!p.redo) handling = physics::driven(handling, state.hull_table(), state.poses[chassis], state.velocities[chassis], p);
+        if (!p.redo)
+            handling = physics::driven(handling, {state.way_points.data()}, state.poses[chassis], state.velocities[chassis], p);
         const bool awake = physics::is_under_way(handling);
         if (awake) state.rests[chassis] = 0;
         const vec3 axle = physics::vehicle_axes(handling, state.poses[chassis].orientation).x;

@@ -66,7 +66,7 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
 void wake_deserted(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow || !state.counted().sleepers || !physics::any_stirs(state.counted())) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        for (std::size_t k = state.first_contacts_before[i]; k < state.first_contacts_before[i + 1]; ++k) {
+        for (std::size_t k = state.first_contacts[i]; k < state.first_contacts[i + 1]; ++k) {
             const physics::Contact& contact = state.contacts_before[k];
             if (stirred(state, contact.a) == stirred(state, contact.b)) continue;
             const std::uint32_t sleeper = state.body_of(stirred(state, contact.a) ? contact.b : contact.a);

@@ -21,20 +21,24 @@ std::uint32_t threads_of_a_group(const host::Device& device) {
     return device.report().is_processor ? 64 : 128;
 }
 
+std::size_t buffer_of(Table table) {
+    return table_infos()[static_cast<std::size_t>(table)].buffer;
+}
+
 constexpr std::array read_while_changing{Table::poses, Table::velocities, Table::masses,
                                          Table::loads, Table::impulses,   Table::slots};  // shaders/stages/lib/read_coherent.glsl
 
-static_assert(host::tables_of_a_step.storage == table_count - 1);  // all but the parameters
-static_assert(host::tables_of_a_step.texels == table_count);
+static_assert(host::tables_of_a_step.storage == buffer_count - 1);  // all but the parameters
+static_assert(host::tables_of_a_step.texels == buffer_count);
 static_assert(host::tables_of_a_step.changing_texels == read_while_changing.size());
 
-// The parameters are a uniform block; with `texels` every table can be read as texels too (shaders/stages/lib/read.glsl).
+// The parameters are a uniform block; with `texels` every buffer can be read as texels too (shaders/stages/lib/read.glsl).
 std::vector<host::Access> accesses(bool texels) {
-    std::vector<host::Access> all(table_count);
-    all[static_cast<std::size_t>(Table::parameters)].uniform = true;
-    for (const Table table : read_while_changing) all[static_cast<std::size_t>(table)].changing = texels;
-    for (std::size_t i = 0; texels && i < table_count; ++i)
-        all[i].texel_bytes = static_cast<std::uint32_t>(std::min<std::size_t>(16, table_infos()[i].record_bytes));
+    std::vector<host::Access> all(buffer_count);
+    all[buffer_of(Table::parameters)].uniform = true;
+    for (const Table table : read_while_changing) all[buffer_of(table)].changing = texels;
+    for (std::size_t i = 0; texels && i < buffer_count; ++i)
+        all[i].texel_bytes = static_cast<std::uint32_t>(std::min<std::size_t>(16, buffer_infos()[i].record_bytes));
     return all;
 }
 
@@ -57,10 +61,10 @@ std::uint32_t DeviceRunner::group_size() const {
 }
 
 const host::Buffer& DeviceRunner::buffer(Table table) const {
-    return buffers_[static_cast<std::size_t>(parity_ ? other_parity(table) : table)];
+    return buffers_[buffer_of(parity_ ? other_parity(table) : table)];
 }
 host::Buffer& DeviceRunner::buffer(Table table) {
-    return buffers_[static_cast<std::size_t>(parity_ ? other_parity(table) : table)];
+    return buffers_[buffer_of(parity_ ? other_parity(table) : table)];
 }
 
 void DeviceRunner::attach(State& state) {
@@ -85,14 +89,14 @@ host::Reach DeviceRunner::reach_needed() const {
         return buffer.bytes() <= device_->report().largest_binding;
     });
     // The parameters are none of the storage buffers.
-    return bindable && table_count - 1 <= device_->limits().maxPerStageDescriptorStorageBuffers ? host::Reach::bound
-                                                                                                : host::Reach::far;
+    return bindable && buffer_count - 1 <= device_->limits().maxPerStageDescriptorStorageBuffers ? host::Reach::bound
+                                                                                                 : host::Reach::far;
 }
 
 bool DeviceRunner::reads_texels() const {
     const std::uint32_t most = device_->limits().maxTexelBufferElements;
     const auto all = accesses(true);
-    for (std::size_t i = 0; i < table_count; ++i)
+    for (std::size_t i = 0; i < buffer_count; ++i)
         if (buffers_[i].bytes() / all[i].texel_bytes > most) return false;
     return device_->report().prefers_texels;
 }
@@ -103,7 +107,7 @@ void DeviceRunner::make_plan(host::Reach reach) {
     plan_ = plan(planned_substeps_, planned_content_);
     if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels()) {
         pipelines_.clear();
-        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(table_count), sizeof(std::uint32_t),
+        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(buffer_count), sizeof(std::uint32_t),
                                                       reach, accesses(reads_texels()));
     }
     for (host::Buffer& back : counts_back_)
@@ -159,7 +163,7 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage) 
     recording.bind(pipelines_.at({stage.name, stage.content}), *tables_[parity_]);
     recording.push(&stage.pass, sizeof(stage.pass));
     const auto indirect = [&](physics::uint row) {
-        recording.dispatch_indirect(buffers_[static_cast<std::size_t>(Table::counts)], argument_offset(row));
+        recording.dispatch_indirect(buffers_[buffer_of(Table::counts)], argument_offset(row));
     };
     switch (stage.over) {
         case Over::one_group:
@@ -219,9 +223,9 @@ void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage) 
 void DeviceRunner::bind_tables() {
     for (std::size_t parity = 0; parity < 2; ++parity) {
         std::vector<const host::Buffer*> bound;
-        for (std::size_t i = 0; i < table_count; ++i)
-            bound.push_back(
-                &buffers_[static_cast<std::size_t>(parity ? other_parity(static_cast<Table>(i)) : static_cast<Table>(i))]);
+        for (const host::Buffer& buffer : buffers_) bound.push_back(&buffer);
+        for (const Table table : {Table::contacts, Table::contacts_before, Table::impulses, Table::impulses_before})
+            bound[buffer_of(table)] = &buffers_[buffer_of(parity ? other_parity(table) : table)];
         alone_[parity].clear();
         steps_[parity] = {};
         tables_[parity] = std::make_unique<host::Table>(layout_, bound);
@@ -238,7 +242,7 @@ const host::Recording& DeviceRunner::whole_step() {
         if (stage.barrier_after) recording->barrier();
         if (timed_) recording->timestamp();
     }
-    recording->copy(buffers_[static_cast<std::size_t>(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
+    recording->copy(buffers_[buffer_of(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
     recording->barrier();
     recording->end();
     step = std::move(recording);

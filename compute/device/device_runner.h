@@ -12,6 +12,7 @@
 #include "compute/runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
+#include "compute/step/table_layout.h"
 #include "compute/step/table_ranges.h"
 #include "host/vulkan/buffer.h"
 #include "host/vulkan/command_buffer.h"
@@ -38,25 +39,18 @@ public:
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
-    // What a canvas draws from. They are other buffers after a step that had to grow.
-    const host::Buffer& traits() const { return buffer(Table::traits); }
-    const host::Buffer& poses() const { return buffer(Table::poses); }
-    const host::Buffer& velocities() const { return buffer(Table::velocities); }
-    const host::Buffer& counts() const { return buffer(Table::counts); }
-    const host::Buffer& contacts() const { return buffer(Table::contacts); }
-    const host::Buffer& impulses() const { return buffer(Table::impulses); }
-    const host::Buffer& slot_ends() const { return buffer(Table::slot_ends); }
-    const host::Buffer& slot_sides() const { return buffer(Table::slot_sides); }
-    const host::Buffer& rests() const { return buffer(Table::rests); }
-    const host::Buffer& ids() const { return buffer(Table::ids); }
-    const host::Buffer& bounds() const { return buffer(Table::bounds); }
-    const host::Buffer& joints() const { return buffer(Table::joints); }
+    // What a canvas draws from: where a table lies. It is elsewhere after a step that had to grow.
+    struct Range {
+        const host::Buffer* buffer;
+        std::size_t offset, bytes;
+    };
+    Range range(Table table) const;
     std::uint32_t joint_records() const;  // of the table of joints
 
     // For the comparison with another runner: a step stage by stage, and what a stage wrote.
     void begin_step();
     void run_stage(std::size_t index);
-    void read(Table table, std::span<std::byte> bytes) const;
+    void read(Table table, std::span<std::byte> bytes, std::size_t offset = 0) const;
     void write(Table table, std::span<const std::byte> bytes);
     // Whether stages run as one because the world is small.
     bool is_fused() const {
@@ -79,7 +73,8 @@ private:
     std::vector<std::uint32_t> constants_of(const Stage& stage) const;  // for its specialisation
     void make_pipelines(const std::vector<Stage>& stages);
     void make_buffers();
-    host::Buffer make_buffer(Table table, bool with_room) const;
+    void make_buffer(std::size_t index);
+    void move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index);
     void upload_all();
     void bind_tables();
     const host::Recording& whole_step();
@@ -100,6 +95,7 @@ private:
     StageClock clock_;
     std::shared_ptr<host::TableLayout> layout_;
     std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
+    TableOffsets offsets_;                                                       // of the tables in the buffers
     std::vector<host::Buffer> buffers_;        // by binding; contacts and those before change places with the parity
     std::array<host::Buffer, 2> counts_back_;  // per parity
     // Per parity: the table, and (made when asked for) the whole step, without and with times, and each stage alone.

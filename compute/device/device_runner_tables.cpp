@@ -35,6 +35,23 @@ bool lasts(Table table) {
     return std::any_of(lasting.begin(), lasting.end(), [&](Table one) { return one == table || other_parity(one) == table; });
 }
 
+// The same of some table in a buffer.
+bool lasts(std::size_t buffer) {
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (table_infos()[i].buffer == buffer && lasts(static_cast<Table>(i))) return true;
+    return false;
+}
+
+// Of the tables in one buffer.
+void take_offsets(TableOffsets& offsets, const TableOffsets& wanted, std::size_t buffer) {
+    offsets.bytes[buffer] = wanted.bytes[buffer];
+    for (std::size_t i = 0; i < table_count; ++i) {
+        if (table_infos()[i].buffer != buffer) continue;
+        offsets.begin[i] = wanted.begin[i];
+        offsets.room[i] = wanted.room[i];
+    }
+}
+
 // Records that a table gets beyond those it needs: half as many again of what edits add one by one. Lists have room of their own
 // (State::grow).
 std::size_t room_behind(const State& state, Length length) {
@@ -43,6 +60,10 @@ std::size_t room_behind(const State& state, Length length) {
         case Length::entries:
         case Length::bodies_and_end:
         case Length::hulls:
+        case Length::parts:
+        case Length::fractures:
+        case Length::pieces:
+        case Length::tyres:
         case Length::joints:
         case Length::vehicles:
             return 16 + state.allocated(length) / 2;
@@ -63,39 +84,47 @@ void DeviceRunner::make_buffers() {
                                 " items, but this device runs at most " +
                                 std::to_string(std::uint64_t{most_groups} * p.group_size) +
                                 " threads at once: use fewer bodies, or --backend cpu");
-    buffers_.resize(table_count);
-    for (std::size_t i = 0; i < table_count; ++i) {
-        const auto table = static_cast<Table>(i);
-        if (buffers_[i] && state_->raw_bytes(table) <= buffers_[i].bytes()) continue;
-        host::Buffer before = std::move(buffers_[i]);
-        const bool grows = static_cast<bool>(before);
-        if (!lasts(table)) before = {};  // its memory first, then the new one's
-        try {
-            buffers_[i] = make_buffer(table, grows);
-        } catch (const host::DeviceError& error) {
-            buffers_[i] = std::move(before);
-            throw host::DeviceError(std::string(error.what()) + ". " + what_would_fit(*state_, device_->report()));
-        }
-        if (!before) continue;
-        host::Recording recording(device_);
-        recording.copy(before, buffers_[i], before.bytes());
-        recording.end();
-        device_->submit_and_wait({recording.handle()});
-    }
+    buffers_.resize(buffer_count);
+    for (std::size_t i = 0; i < buffer_count; ++i)
+        if (!buffers_[i] || !have_room(offsets_, i, *state_)) make_buffer(i);
+    tell_offsets(offsets_, state_->fixed());
 }
 
-// Where an edit has made a table longer, others may follow: with room for them, unless there is none.
-host::Buffer DeviceRunner::make_buffer(Table table, bool with_room) const {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(table)];
-    const std::size_t needed = state_->raw_bytes(table);
-    const std::size_t roomy = needed + (with_room ? room_behind(*state_, info.length) * info.record_bytes : 0);
-    if (roomy > needed && roomy <= device_->report().largest_binding) {
+// Where an edit has made a table longer, others may follow: with room for them, unless there is none. What lasts goes along.
+void DeviceRunner::make_buffer(std::size_t index) {
+    const TableOffsets were = offsets_;
+    host::Buffer before = std::move(buffers_[index]);
+    const bool keeps = before && lasts(index);
+    const TableOffsets exact = table_offsets(*state_),
+                       roomy = table_offsets(*state_, [&](Length length) { return room_behind(*state_, length); });
+    const bool with_room = before && roomy.bytes[index] <= device_->report().largest_binding;
+    if (!keeps) before = {};  // its memory first, then the new one's
+    const auto make = [&](const TableOffsets& wanted) {
+        buffers_[index] = host::Buffer(device_, buffer_infos()[index].name, wanted.bytes[index]);
+        take_offsets(offsets_, wanted, index);
+    };
+    try {
+        make(with_room ? roomy : exact);
+    } catch (const host::DeviceError&) {
         try {
-            return host::Buffer(device_, info.name, roomy);
-        } catch (const host::DeviceError&) {
+            make(exact);
+        } catch (const host::DeviceError& error) {
+            buffers_[index] = std::move(before);
+            throw host::DeviceError(std::string(error.what()) + ". " + what_would_fit(*state_, device_->report()));
         }
     }
-    return host::Buffer(device_, info.name, needed);
+    if (keeps) move_lasting(before, were, index);
+}
+
+void DeviceRunner::move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index) {
+    host::Recording recording(device_);
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const std::size_t bytes = std::min(were.room[i], offsets_.room[i]);
+        if (table_infos()[i].buffer == index && lasts(static_cast<Table>(i)) && bytes > 0)
+            recording.copy(before, buffers_[index], bytes, were.begin[i], offsets_.begin[i]);
+    }
+    recording.end();
+    device_->submit_and_wait({recording.handle()});
 }
 
 void DeviceRunner::upload_all() {
@@ -120,12 +149,17 @@ void DeviceRunner::send_inputs() {
     if (p.actions) buffer(Table::actions).write(state_->actions.data(), p.actions * sizeof(physics::Action));
 }
 
-void DeviceRunner::read(Table table, std::span<std::byte> bytes) const {
-    buffer(table).read(bytes.data(), bytes.size());
+void DeviceRunner::read(Table table, std::span<std::byte> bytes, std::size_t offset) const {
+    buffer(table).read(bytes.data(), bytes.size(), range(table).offset + offset);
 }
 
 void DeviceRunner::write(Table table, std::span<const std::byte> bytes) {
-    buffer(table).write(bytes.data(), bytes.size());
+    buffer(table).write(bytes.data(), bytes.size(), range(table).offset);
+}
+
+DeviceRunner::Range DeviceRunner::range(Table table) const {
+    const auto place = static_cast<std::size_t>(table);
+    return {&buffer(table), offsets_.begin[place], offsets_.room[place]};
 }
 
 void DeviceRunner::poison() {
@@ -133,7 +167,7 @@ void DeviceRunner::poison() {
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
         if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
-        const std::vector<std::byte> garbage(buffer(table).bytes(), std::byte{0xCD});
+        const std::vector<std::byte> garbage(range(table).bytes, std::byte{0xCD});
         write(table, garbage);
     }
 }
@@ -143,7 +177,7 @@ void DeviceRunner::send(const TableRanges& ranges) {
     for (const TableRange& range : ranges) {
         const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
         pieces.push_back({std::as_const(*state_).raw(range.table).subspan(range.first * bytes, range.count * bytes),
-                          &buffer(range.table), range.first * bytes});
+                          &buffer(range.table), this->range(range.table).offset + range.first * bytes});
     }
     host::upload(device_, pieces);
 }
@@ -154,7 +188,7 @@ void DeviceRunner::receive(const TableRanges& ranges) {
         const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
         if (state_->raw(range.table).size() < (range.first + range.count) * bytes) state_->make(range.table);
         pieces.push_back({state_->raw(range.table).subspan(range.first * bytes, range.count * bytes), &buffer(range.table),
-                          range.first * bytes});
+                          this->range(range.table).offset + range.first * bytes});
     }
     host::download(device_, pieces);
 }

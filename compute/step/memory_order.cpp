@@ -117,17 +117,16 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
         if (row < n) row = to[row];
     };
     // Contacts are listed by the row of their owner, and its own in the order of ids.
+    std::vector<physics::uint> first_in_rows;
     const bool with_contacts = contacts.size() >= counted().contacts && first_contacts.size() > all;
     if (with_contacts) {
         contacts_before.resize(contacts.size());
         impulses_before.resize(impulses.size());
-        first_contacts_before.resize(first_contacts.size());
-        first_contacts_before[0] = 0;
+        first_in_rows.resize(first_contacts.size());
         for (std::uint32_t row = 0; row < all; ++row)
-            first_contacts_before[row + 1] =
-                first_contacts_before[row] + first_contacts[from[row] + 1] - first_contacts[from[row]];
+            first_in_rows[row + 1] = first_in_rows[row] + first_contacts[from[row] + 1] - first_contacts[from[row]];
         threads.for_each(all, [&](std::size_t row) {
-            std::uint32_t place = first_contacts_before[row];
+            std::uint32_t place = first_in_rows[row];
             for (std::uint32_t k = first_contacts[from[row]]; k < first_contacts[from[row] + 1]; ++k, ++place) {
                 contacts_before[place] = contacts[k];
                 follow(contacts_before[place].a);
@@ -147,6 +146,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     take(poses);
     take(velocities);
     take(rests);
+    take(strains);
     take(masses);
     for (physics::Traits& row : traits) follow(row.owner);
     for (physics::Joint& joint : joints)
@@ -155,7 +155,10 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
         follow(vehicle.handling.chassis);
         for (physics::VehicleWheel& wheel : vehicle.wheel) follow(wheel.body);
     }
-    if (with_contacts) turn_over();
+    if (with_contacts) {
+        turn_over();
+        first_contacts.swap(first_in_rows);
+    }
     rows_.swap(by_id);
     number_rows();
 }

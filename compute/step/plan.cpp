@@ -60,8 +60,12 @@ std::vector<Table> tables_read_before_written(const std::vector<Stage>& stages) 
         return std::find(tables.begin(), tables.end(), table) != tables.end();
     };
     for (const Stage& stage : stages) {
-        for (const Access& access : stage.reads)
+        for (const Access& access : stage.reads) {
+            // What a stage adds up in several passes it begins by itself.
+            const Access* own = written_by(stage, access.table);
+            if (own && own->manner == Manner::unfinished) continue;
             if (!has(written, access.table) && !has(lasting, access.table)) lasting.push_back(access.table);
+        }
         for (const Access& access : stage.writes)
             if (access.manner != Manner::some_only) written.push_back(access.table);
     }
@@ -164,10 +168,6 @@ Table other_parity(Table table) {
             return impulses_before;
         case impulses_before:
             return impulses;
-        case first_contacts:
-            return first_contacts_before;
-        case first_contacts_before:
-            return first_contacts;
         default:
             return table;
     }

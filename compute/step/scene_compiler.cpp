@@ -51,7 +51,7 @@ void mark_large(std::vector<physics::Traits>& traits, float cell) {
         if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
         room -= population[l];
         for (physics::Traits& body : traits)
-            if (listed(body) && level(body) == l) body.large |= 1;
+            if (listed(body) && level(body) == l) body.large = 1;
     }
 }
 
@@ -108,7 +108,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     state_.joints = std::move(joined.records);
     state_.joint_records = std::move(joined.record_of);
     p.joint_blocks = joined.blocks;
-    state_.vehicles = vehicle_records(scene, state_.joint_records, state_.hulls);
+    state_.vehicles = vehicle_records(scene, state_.joint_records, state_.way_points);
     p.vehicles = static_cast<std::uint32_t>(state_.vehicles.size());
     p.bodies = rows;
     p.first_part = state_.body_count = n;
@@ -121,6 +121,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     for (std::uint32_t i = 0; i < n; ++i) {
         state_.poses[i] = start_of(scene.bodies[i]);
         state_.velocities[i] = start_velocity_of(scene.bodies[i]);
+        state_.strains[i] = start_strain_of(scene.bodies[i], traits[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
     state_.note_content(0, rows);

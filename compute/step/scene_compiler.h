@@ -23,10 +23,11 @@ public:
     void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size);
 
     // shape_records.cpp
-    physics::Traits traits_of(const Body& body, std::uint32_t index);  // its shapes go into the table of hulls
+    physics::Traits traits_of(const Body& body, std::uint32_t index);  // its shapes go into the tables of their kinds
     static physics::Pose start_of(const Body& body);
     static physics::Velocity start_velocity_of(const Body& body);
-    void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others
+    static float start_strain_of(const Body& body, const physics::Traits& traits);
+    void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others, and where they lie in it
     void place(std::uint32_t part);                            // where its body is
 
 private:

@@ -92,6 +92,12 @@ physics::Velocity SceneCompiler::start_velocity_of(const Body& body) {
     const bool moves = body.motion != Motion::fixed && body.piece_of == no_body;
     return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
 }
+// Of a body that breaks by its momentum.
+float SceneCompiler::start_strain_of(const Body& body, const physics::Traits& traits) {
+    const bool by_momentum = body.fracture && body.fracture->momentum > 0 && body.piece_of == no_body;
+    return by_momentum ? glm::length(body.velocity) / traits.inverse_mass : 0;
+}
+
 // Where the hull's records begin. Equal hulls made one by one are looked for only while the table is small: a long search for
 // each of ten thousand different ones would take minutes.
 physics::uint SceneCompiler::place_of(const Hull& hull) {
@@ -109,40 +115,37 @@ physics::uint SceneCompiler::place_of(const Hull& hull) {
 
 physics::Traits SceneCompiler::form_of(const SimpleShape& shape) {
     physics::Traits made = simple_form(shape);
-    if (const auto* hull = std::get_if<Hull>(&shape)) made.large = place_of(*hull) << 1;
+    if (const auto* hull = std::get_if<Hull>(&shape)) made.shape_data = place_of(*hull);
     return made;
 }
 
-// In the form of shaders/physics/extra/fracture.h.
 physics::uint SceneCompiler::place_of(const Fracture& fracture) {
     const auto [known, fresh] =
-        state_.shape_places.cuts.try_emplace(fracture.cut, static_cast<physics::uint>(state_.hulls.size()));
-    if (fresh) {
-        state_.hulls.emplace_back(fracture.cut->pieces.size(), 0, 0, 0);
-        for (const Body& piece : fracture.cut->pieces) {
-            state_.hulls.push_back(record_of(piece.position, 0));
-            state_.hulls.push_back(record_of(vec3(piece.orientation), piece.orientation.w));
-        }
-    }
-    const bool of_momentum = fracture.momentum > 0;
-    state_.hulls.emplace_back(std::bit_cast<physics::uint>(of_momentum ? fracture.momentum : fracture.impulse), of_momentum,
-                              fracture.first_piece, known->second);
-    return static_cast<physics::uint>(state_.hulls.size() - 1);
+        state_.shape_places.cuts.try_emplace(fracture.cut, static_cast<physics::uint>(state_.pieces.size()));
+    if (fresh)
+        for (const Body& piece : fracture.cut->pieces) state_.pieces.push_back({piece.position, 0, piece.orientation});
+    physics::Fracturing made{};
+    made.of_momentum = fracture.momentum > 0;
+    made.threshold = fracture.momentum > 0 ? fracture.momentum : fracture.impulse;
+    made.first_row = static_cast<physics::uint>(fracture.first_piece);
+    made.count = static_cast<physics::uint>(fracture.cut->pieces.size());
+    made.first_pose = known->second;
+    state_.fractures.push_back(made);
+    return static_cast<physics::uint>(state_.fractures.size() - 1);
 }
 
-// In the form of shaders/physics/extra/tyre.h; 0: none.
+// Counted from 1; 0: none.
 physics::uint SceneCompiler::place_of(const std::optional<Tyre>& tyre) {
     if (!tyre) return 0;
-    const physics::uvec4 record(std::bit_cast<physics::uint>(tyre->best_slip), std::bit_cast<physics::uint>(tyre->sliding), 0, 0);
     const auto [known, fresh] = state_.shape_places.tyres.try_emplace({tyre->best_slip, tyre->sliding},
-                                                                      static_cast<physics::uint>(state_.hulls.size() + 1));
-    if (fresh) state_.hulls.push_back(record);
+                                                                      static_cast<physics::uint>(state_.tyres.size() + 1));
+    if (fresh) state_.tyres.push_back({tyre->best_slip, tyre->sliding, 0, 0});
     return known->second;
 }
 
 physics::Traits SceneCompiler::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
     physics::Traits made = form_of(shape);
-    if (physics::takes_tyre(made.shape)) made.large = place_of(tyre) << 1;
+    if (physics::takes_tyre(made.shape)) made.shape_data = place_of(tyre);
     return made;
 }
 
@@ -170,8 +173,6 @@ physics::Traits SceneCompiler::traits_of(const Body& body, std::uint32_t index) 
     made.linear_damping = body.linear_damping;
     made.angular_damping = body.angular_damping;
     if (made.shape == physics::SHAPE_PLANE) made.large = 1;
-    if (body.fracture && body.fracture->momentum > 0 && body.piece_of == no_body)
-        made.strain = std::bit_cast<physics::uint>(glm::length(body.velocity) / made.inverse_mass);
     return made;
 }
 
@@ -184,12 +185,8 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
         part.friction = whole.friction;
         part.restitution = whole.restitution;
         part.rolling_resistance = whole.rolling_resistance;
-        part.inverse_inertia = place;
-        part.inverse_mass = turn.x;
-        part.gravity_scale = turn.y;
-        part.linear_damping = turn.z;
-        part.angular_damping = turn.w;
         state_.traits.push_back(part);
+        state_.parts.push_back({place, 0, turn});
     };
     if (const auto* compound = std::get_if<Compound>(&body.shape))
         for (const Part& part : compound->parts) append(form_of(part.shape, body.tyre), part.position, part.orientation);
@@ -198,7 +195,7 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
         for (const MeshForm::Triangle& triangle : form->triangles) {
             physics::Traits part{};
             part.shape = physics::SHAPE_TRIANGLE;
-            part.large = static_cast<physics::uint>(state_.hulls.size()) << 1;
+            part.shape_data = static_cast<physics::uint>(state_.hulls.size());
             part.size = triangle.half_extents;
             const std::vector<physics::uvec4> records = triangle_records(triangle);
             state_.hulls.insert(state_.hulls.end(), records.begin(), records.end());
@@ -208,9 +205,10 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
 }
 
 void SceneCompiler::place(std::uint32_t part) {
-    const physics::Traits& own = state_.traits[part];
-    state_.poses[part] = physics::pose_of_part(physics::place_in_body(own), physics::turn_in_body(own), state_.poses[own.owner]);
-    state_.velocities[part] = physics::velocity_of_part(own, state_.poses[own.owner], state_.velocities[own.owner]);
+    const std::uint32_t owner = state_.traits[part].owner;
+    const physics::PoseInBody& in_body = state_.part_in(part);
+    state_.poses[part] = physics::pose_of_part(in_body, state_.poses[owner]);
+    state_.velocities[part] = physics::velocity_of_part(in_body, state_.poses[owner], state_.velocities[owner]);
     state_.rests[part] = 0;
 }
 

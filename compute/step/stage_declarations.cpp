@@ -7,6 +7,7 @@
 #include <stdexcept>
 
 #include "compute/cpu/stages.h"
+#include "compute/step/table_layout.h"
 #include "shaders/physics/collide/grid.h"
 
 namespace scree {
@@ -49,9 +50,9 @@ struct Scan {
     std::optional<Length> length = {};
 };
 void declare_scan(std::vector<StageDeclaration>& all, const Scan& scan) {
-    StageDeclaration sums{"scan_" + scan.name + "_sums", scan.blocks, scan_nothing, {{scan.from, scan.items}}, {unfinished({candidates, A::blocks})}};
-    StageDeclaration spine{"scan_" + scan.name + "_spine", Over::one_group, scan.spine, {{candidates, A::blocks}}, {unfinished({candidates, A::blocks})}};
-    StageDeclaration offsets{"scan_" + scan.name + "_offsets", scan.blocks, scan.offsets, {{scan.from, scan.items}, {candidates, A::blocks}}, {{scan.to, scan.items}}};
+    StageDeclaration sums{"scan_" + scan.name + "_sums", scan.blocks, scan_nothing, {{scan.from, scan.items}}, {unfinished({scan_sums, A::blocks})}};
+    StageDeclaration spine{"scan_" + scan.name + "_spine", Over::one_group, scan.spine, {{scan_sums, A::blocks}}, {unfinished({scan_sums, A::blocks})}};
+    StageDeclaration offsets{"scan_" + scan.name + "_offsets", scan.blocks, scan.offsets, {{scan.from, scan.items}, {scan_sums, A::blocks}}, {{scan.to, scan.items}}};
     offsets.writes[0].as_long_as = scan.length;
     if (scan.counts_items)
         for (StageDeclaration* each : {&sums, &spine, &offsets}) each->reads.push_back({counts});
@@ -71,25 +72,25 @@ void declare_convex(std::vector<StageDeclaration>& all) {
 
 void declare_broadphase(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::CONTENT_PARTS | physics::CONTENT_REORDERED | physics::CONTENT_JOINTS;
-    declare_scan(all, {"cells", Over::bucket_blocks, cells, cells, A::buckets, scan_nothing, scan_cells_offsets});
+    declare_scan(all, {"cells", Over::bucket_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", Over::bodies, fill_cells,
-        {{bounds, A::bodies, 1}, {cells, A::bodies}},
-        {{cells, A::bodies}, unordered({cell_entries, A::bodies, 1})}});
+        {{bounds, A::bodies, 1}, {cell_ends, A::bodies}},
+        {{cell_ends, A::bodies}, unordered({cell_entries, A::bodies, 1})}});
     all.push_back({"order_cells", Over::buckets, order_cells,
-        {{cells, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}, {traits}},
+        {{cell_ends, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}, {traits}},
         {as_long_as(Length::entries, {cell_entries, A::bodies})}});
-    // Of each body's first pairs the notes are in the table of pairs (shaders/stages/lib/partner_cache.glsl): few seek again.
+    // The first partners of each body are cached in the memory of the table of pairs (shaders/stages/lib/partner_cache.glsl): few seek again.
     all.push_back({"count_pairs", Over::bodies, count_pairs,
-        {{counts}, {bounds, A::bodies, 1}, {traits, A::bodies}, {cells, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
-         {first_contacts_before}, {contacts_before}},
+        {{counts}, {bounds, A::bodies, 1}, {traits, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
+         {first_contacts}, {contacts_before}},
         {{pair_starts, A::bodies}, unfinished({pairs, A::bodies, 2}), {counts}}, features});
     declare_scan(all, {"pairs", Over::body_blocks, pair_starts, pair_starts, A::bodies, scan_pairs_spine, scan_pairs_offsets, false, true});
     all.push_back({"fill_pairs", Over::bodies, fill_pairs,
-        {{counts}, {pair_starts, A::bodies}, {pairs, A::bodies, 2}, {bounds}, {traits}, {cells}, {cell_entries}, {poses}, {ids}, {joints},
-         {first_contacts_before}, {contacts_before}},
+        {{counts}, {pair_starts, A::bodies}, {pairs, A::bodies, 2}, {bounds}, {traits}, {cell_ends}, {cell_entries}, {poses}, {ids}, {joints},
+         {first_contacts}, {contacts_before}},
         {unfinished({candidates, A::pairs})}, features});
     all.push_back({"match_pairs", Over::pairs, match_pairs,
-        {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts_before, A::bodies}, {bounds, A::bodies, 1}, {traits, A::bodies},
+        {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {traits, A::bodies},
          {poses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {ids}},
         {{pairs, A::pairs}}, physics::CONTENT_REORDERED});
 }
@@ -97,22 +98,22 @@ void declare_broadphase(std::vector<StageDeclaration>& all) {
 void declare_narrowphase(std::vector<StageDeclaration>& all) {
     all.push_back({"count_kinds", Over::spans, count_kinds,
         {{counts}, {pairs, A::pairs}},
-        {as_long_as(Length::kinds, {contact_starts, A::kinds})}});
-    declare_scan(all, {"kinds", Over::kind_blocks, contact_starts, contact_starts, A::kinds, scan_nothing, scan_kinds_offsets, true, false, Length::kinds});
+        {as_long_as(Length::kinds, {kind_starts, A::kinds})}});
+    declare_scan(all, {"kinds", Over::kind_blocks, kind_starts, kind_starts, A::kinds, scan_nothing, scan_kinds_offsets, true, false, Length::kinds});
     all.push_back({"fill_kinds", Over::spans, fill_kinds,
-        {{counts}, {pairs, A::pairs}, {contact_starts, A::kinds}},
-        {{binned, A::pairs}, {counts}}});
+        {{counts}, {pairs, A::pairs}, {kind_starts, A::kinds}},
+        {{pairs_by_kind, A::pairs}, {counts}}});
     for (std::uint32_t kind = 0; kind < physics::KIND_KEPT; ++kind) {
         all.push_back({kind_names[kind], Over::kind, collide,
-            {{counts}, {binned, A::binned}, {pairs, A::binned}, {traits, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
+            {{counts}, {pairs_by_kind, A::binned}, {pairs, A::binned}, {traits, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
             {in_parts({manifolds, A::binned}), in_parts({touching, A::binned})}});
         if (kind >= physics::KIND_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
     }
     all.push_back({kind_names[physics::KIND_KEPT], Over::kind, collide_kept,
-        {{counts}, {binned, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}, {traits}},
+        {{counts}, {pairs_by_kind, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}, {traits}},
         {in_parts({manifolds, A::binned}), in_parts({touching, A::binned})}});
     all.push_back({kind_names[physics::KIND_STILL], Over::kind, collide_still,
-        {{counts}, {binned, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
+        {{counts}, {pairs_by_kind, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
         {in_parts({manifolds, A::binned}), in_parts({touching, A::binned})}});
     // Few pairs are fast: most are looked at no further.
     all.push_back({"foresee_impacts", Over::flights, foresee_impacts,
@@ -135,7 +136,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
          {velocities, A::stirred_bodies}, by_atomics({rests, A::stirred_bodies}), {contacts_before}, {impulses_before}},
         {by_atomics({rests}), in_parts({counts})}});
     all.push_back({"wake_deserted", Over::bodies, wake_deserted,
-        {in_parts({counts}), {bounds, A::stirred_bodies, 1}, {first_contacts_before, A::stirred_bodies}, {contacts_before, A::stirred, 1}, {pairs},
+        {in_parts({counts}), {bounds, A::stirred_bodies, 1}, {first_contacts, A::stirred_bodies}, {contacts_before, A::stirred, 1}, {pairs},
          {pair_starts}, {touching}, {traits}, {ids}, by_atomics({rests})},
         {by_atomics({rests})}, physics::CONTENT_REORDERED});
     all.push_back({"wake_joined", Over::joint_blocks, wake_joined,
@@ -153,7 +154,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     declare_scan(all, {"slots", Over::body_blocks, slot_ends, slot_ends, A::bodies, scan_nothing, scan_slots_offsets});
     all.push_back({"fill_slots", Over::contacts, fill_slots,
         {in_parts({counts}), {constraints, A::contacts, 1}, {pairs, A::contacts}, {traits, A::bodies, 1}, {rests, A::bodies}, by_atomics({slot_ends, A::bodies})},
-        {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({binned, A::solved}), in_parts({counts})}});
+        {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({solved_contacts, A::solved}), in_parts({counts})}});
     all.push_back({"fill_joint_slots", Over::joint_blocks, fill_joint_slots,
         {in_parts({counts}), {joints, A::joints, 2}, {traits}, {rests, A::joints}, by_atomics({slot_ends, A::joints})},
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
@@ -161,7 +162,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints}},
         {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {joints}}, physics::CONTENT_REORDERED});
     all.push_back({"prepare_contacts", Over::contacts, prepare_contacts,
-        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {touching, A::contacts}, {traits, A::bodies}, {hulls},
+        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {touching, A::contacts}, {traits, A::bodies}, {tyres},
          {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}},
         {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}});
 }
@@ -176,7 +177,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {loads, A::movers}, {masses, A::movers, 1}},
         {{velocities, A::movers}, {masses, A::movers, 1}}});
     all.push_back({"solve_contacts", Over::solved, solve_contacts,
-        {{counts}, {binned, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {velocities, A::movers}, {loads}},
+        {{counts}, {solved_contacts, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {velocities, A::movers}, {loads}},
         {{impulses, A::solved}, in_parts({slots, A::slots})}, features});
     all.push_back({"solve_joints", Over::joint_blocks, solve_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots}},
@@ -185,9 +186,9 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {loads, A::movers, 1}}});
     all.push_back({"relax_contacts", Over::solved, relax_contacts,
-        {{counts}, {binned, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {candidates, A::breakable}, {masses, A::movers}, {loads, A::movers},
+        {{counts}, {solved_contacts, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {carried, A::breakable}, {masses, A::movers}, {loads, A::movers},
          {velocities, A::movers}, {traits}, {rests}},
-        {{impulses, A::solved}, unfinished({candidates, A::breakable}), in_parts({slots, A::slots})}, features | physics::CONTENT_BREAKING});
+        {{impulses, A::solved}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::CONTENT_BREAKING});
     all.push_back({"relax_joints", Over::joint_blocks, relax_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {loads, A::joints}, {slot_ends}, in_parts({slots}), {traits}, {rests}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
@@ -200,40 +201,40 @@ std::vector<StageDeclaration> declare() {
     std::vector<StageDeclaration> all;
     all.push_back({"begin_step", Over::buckets, begin_step,
         {{counts}, {traits, A::bodies, 1}},
-        {{cells, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {loads, A::bodies}, some_only({rests}), {counts}}});
+        {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {loads, A::bodies}, some_only({rests}), {counts}}});
     all.push_back({"apply_actions", Over::actions, apply_actions,
         {{counts}, {actions, A::actions}, {traits, A::actions}, {poses, A::actions}, {velocities, A::actions}, {loads, A::actions}},
         {{velocities, A::actions}, some_only({rests, A::actions}), {loads, A::actions}}});
     all.push_back({"drive_vehicles", Over::vehicles, drive_vehicles,
-        {{counts}, {vehicles, A::vehicles}, {traits}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {hulls}},
+        {{counts}, {vehicles, A::vehicles}, {traits}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {way_points}},
         {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({rests, A::joints})}});
     all.push_back({"place_parts", Over::bodies, place_parts,
-        {{counts}, {traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}},
+        {{counts}, {traits, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}},
         {{poses, A::bodies}, {velocities, A::bodies}}});
     all.push_back({"bound_bodies", Over::bodies, bound_bodies,
-        {{counts}, {traits, A::bodies}, {poses, A::bodies}, {velocities, A::bodies}, {loads, A::bodies}, {masses, A::bodies, 1}, {rests, A::bodies}, {cells, A::bodies}},
-        {{bounds, A::bodies}, {masses, A::bodies}, {cells, A::bodies}, {counts}}});
+        {{counts}, {traits, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {loads, A::bodies}, {masses, A::bodies, 1}, {rests, A::bodies}, {cell_ends, A::bodies}},
+        {{bounds, A::bodies}, {masses, A::bodies}, {cell_ends, A::bodies}, {counts}}});
     declare_broadphase(all);
     declare_narrowphase(all);
     declare_contacts(all);
     declare_solver(all);
     all.push_back({"find_impacts", Over::flights, find_impacts,
-        {{counts}, {pairs, A::flights}, {bounds, A::flight_bodies, 1}, {traits}, {poses}, {touching}},
+        {{counts}, {pairs, A::flights}, {bounds, A::flight_bodies, 1}, {traits}, {parts}, {poses}, {touching}},
         {{bounds}}});
     declare_convex(all);
     all.push_back({"stop_bodies", Over::bodies, stop_bodies,
         {{counts}, {bounds, A::flight_bodies, 1}, {traits}, {poses}, {velocities}, {loads}},
         {{poses}, {velocities}}});
     all.push_back({"find_broken", Over::bodies, find_broken,
-        {{counts}, {traits, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {candidates, A::solved}, {velocities}, {hulls}},
-        {{traits, A::movers, 1}, {loads}, {counts}}});
+        {{counts}, {traits, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solved}, {velocities}, {fractures}, {strains}},
+        {some_only({strains, A::movers}), {loads}, {counts}}});
     all.push_back({"give_back", Over::bodies, give_back,
         {{counts}, {traits, A::bodies, 1}, {rests, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solved}, {impulses}, {masses},
-         {loads, A::bodies, 1}, {candidates, A::solved}, {velocities, A::movers}},
+         {loads, A::bodies, 1}, {carried, A::solved}, {velocities, A::movers}},
         {{velocities, A::movers}}});
     all.push_back({"break_bodies", Over::bodies, break_bodies,
-        {{counts}, {loads, A::bodies, 1}, {traits}, {poses}, {velocities}, {hulls}},
-        {{traits}, {poses}, {velocities}, {rests}}});
+        {{counts}, {loads, A::bodies, 1}, {traits}, {poses}, {velocities}, {fractures}, {pieces}},
+        {{traits}, some_only({strains}), {poses}, {velocities}, {rests}}});
     return all;
 }
 // clang-format on
@@ -245,7 +246,9 @@ bool may_share(const Access& a, const Access& b) {
 
 bool clash(const std::vector<Access>& some, const std::vector<Access>& others) {
     return std::any_of(some.begin(), some.end(), [&](const Access& a) {
-        return std::any_of(others.begin(), others.end(), [&](const Access& b) { return a.table == b.table && !may_share(a, b); });
+        return std::any_of(others.begin(), others.end(), [&](const Access& b) {
+            return share_memory(a.table, b.table) && (a.table != b.table || !may_share(a, b));
+        });
     });
 }
 

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <numeric>
 #include <span>
 #include <stdexcept>
 
 #include "compute/step/scene_compiler.h"
+#include "compute/step/table_layout.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/extra/tyre.h"
@@ -24,7 +26,7 @@ std::uint32_t State::buckets_for(std::uint32_t bodies) {
 
 const std::array<TableInfo, table_count>& table_infos() {
     static const std::array<TableInfo, table_count> infos{{
-#define SCREE_INFO(binding, name, block, record, length) {#name, sizeof(physics::record), Length::length},
+#define SCREE_INFO(buffer, name, block, record, length) {#name, sizeof(physics::records::name), Length::length, buffer},
         SCREE_TABLES(SCREE_INFO)
 #undef SCREE_INFO
     }};
@@ -48,13 +50,14 @@ std::size_t State::allocated(Length length) const {
             return p.buckets + 2;
         case Length::pairs:
             return p.pair_capacity;
-        case Length::pairs_and_end:  // or, before there are contacts, the kinds
-            return std::max(kinds, std::size_t{p.pair_capacity} + 1);
+        case Length::pairs_and_end:
+            return std::size_t{p.pair_capacity} + 1;
         case Length::kinds:
             return kinds;
-        case Length::candidates:  // or blocks of a scan
-            return std::max(std::size_t{p.pair_capacity},
-                            std::max({kinds, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2);
+        case Length::candidates:
+            return p.pair_capacity;
+        case Length::scan_blocks:  // of the longest list that is scanned
+            return std::max({kinds, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2;
         case Length::contacts:
             return p.contact_capacity;
         case Length::slots:
@@ -65,6 +68,16 @@ std::size_t State::allocated(Length length) const {
             return std::max<std::size_t>(1, vehicles.size());
         case Length::hulls:
             return std::max<std::size_t>(1, hulls.size());
+        case Length::parts:
+            return parts.size();
+        case Length::fractures:
+            return fractures.size();
+        case Length::pieces:
+            return pieces.size();
+        case Length::tyres:
+            return tyres.size();
+        case Length::way_points:
+            return way_points.size();
         case Length::actions:
             return action_room;
     }
@@ -77,7 +90,7 @@ std::size_t State::live(Length length) const {
         case Length::bodies:
             return fixed().bodies;
         case Length::entries:
-            return cells[fixed().buckets];
+            return cell_ends[fixed().buckets];
         case Length::pairs:
             return c.pairs;
         case Length::pairs_and_end:
@@ -88,8 +101,9 @@ std::size_t State::live(Length length) const {
             return c.contacts;
         case Length::slots:
             return fixed().bodies ? slot_ends[fixed().bodies - 1] : 0;
-        case Length::candidates:
-            return 0;  // dead when the pairs are in order
+        case Length::candidates:  // dead when the pairs are in order
+        case Length::scan_blocks:
+            return 0;
         default:
             return allocated(length);
     }
@@ -121,9 +135,9 @@ void State::note_content(std::uint32_t first_row, std::uint32_t count) {
 
 void State::make(Table table) {
     switch (table) {
-#define SCREE_RESIZE(binding, name, block, record, length) \
-    case Table::name:                                      \
-        name.resize(allocated(Length::length));            \
+#define SCREE_RESIZE(buffer, name, block, record, length) \
+    case Table::name:                                     \
+        name.resize(allocated(Length::length));           \
         break;
         SCREE_TABLES(SCREE_RESIZE)
 #undef SCREE_RESIZE
@@ -133,7 +147,8 @@ void State::make(Table table) {
 void State::allocate() {
     const std::size_t numbered = ids.size();  // rows
     using enum Table;
-    for (const Table table : {parameters, counts, traits, poses, velocities, rests, actions, hulls, joints, vehicles, ids})
+    for (const Table table :
+         {parameters, counts, traits, poses, velocities, rests, strains, actions, hulls, joints, vehicles, ids})
         make(table);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)
@@ -143,7 +158,6 @@ void State::allocate() {
 void State::turn_over() {
     contacts.swap(contacts_before);
     impulses.swap(impulses_before);
-    first_contacts.swap(first_contacts_before);
 }
 
 void State::grow() {
@@ -170,15 +184,14 @@ std::size_t State::raw_bytes(Table table) const {
 }
 
 std::size_t State::bytes() const {
-    std::size_t sum = 0;
-    for (const TableInfo& info : table_infos()) sum += allocated(info.length) * info.record_bytes;
-    return sum;
+    const TableOffsets offsets = table_offsets(*this);
+    return std::accumulate(offsets.bytes.begin(), offsets.bytes.end(), std::size_t{0});
 }
 
 std::span<std::byte> State::raw(Table table) {
     switch (table) {
-#define SCREE_RAW(binding, name, block, record, length) \
-    case Table::name:                                   \
+#define SCREE_RAW(buffer, name, block, record, length) \
+    case Table::name:                                  \
         return std::as_writable_bytes(std::span(name));
         SCREE_TABLES(SCREE_RAW)
 #undef SCREE_RAW
@@ -188,8 +201,8 @@ std::span<std::byte> State::raw(Table table) {
 
 std::span<const std::byte> State::raw(Table table) const {
     switch (table) {
-#define SCREE_RAW(binding, name, block, record, length) \
-    case Table::name:                                   \
+#define SCREE_RAW(buffer, name, block, record, length) \
+    case Table::name:                                  \
         return std::as_bytes(std::span(name));
         SCREE_TABLES(SCREE_RAW)
 #undef SCREE_RAW

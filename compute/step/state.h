@@ -31,29 +31,43 @@ enum class Length {
     pairs_and_end,
     kinds,
     candidates,
+    scan_blocks,
     contacts,
     slots,
     hulls,
+    parts,
+    fractures,
+    pieces,
+    tyres,
+    way_points,
     joints,
     vehicles,
     actions
 };
 
 enum class Table : std::uint32_t {
-#define SCREE_NAME(binding, name, block, record, length) name = binding,
+#define SCREE_NAME(buffer, name, block, record, length) name,
     SCREE_TABLES(SCREE_NAME)
 #undef SCREE_NAME
 };
+
+// The record of each table, by the table's name.
+namespace physics::records {
+#define SCREE_RECORD(buffer, name, block, record, length) using name = record;
+SCREE_TABLES(SCREE_RECORD)
+#undef SCREE_RECORD
+}  // namespace physics::records
 
 struct TableInfo {
     const char* name;
     std::size_t record_bytes;
     Length length;
+    std::size_t buffer;  // of a device, that holds it
 };
-#define SCREE_COUNT(binding, name, block, record, length) +1
+#define SCREE_COUNT(buffer, name, block, record, length) +1
 inline constexpr std::size_t table_count = 0 SCREE_TABLES(SCREE_COUNT);
 #undef SCREE_COUNT
-const std::array<TableInfo, table_count>& table_infos();  // by binding
+const std::array<TableInfo, table_count>& table_infos();  // by Table
 
 // What of the stages a scene needs.
 struct Content {
@@ -87,17 +101,24 @@ struct Content {
 };
 static_assert(sizeof(Content) == 12 * sizeof(bool));  // as many as everything() names
 
-// Where the table of hulls holds what several bodies share.
+// Where the tables hold what several bodies share.
 struct ShapePlaces {
     std::map<std::shared_ptr<const HullForm>, physics::uint> hulls;
     std::map<std::pair<float, float>, physics::uint> tyres;
-    std::map<std::shared_ptr<const Cut>, physics::uint> cuts;  // of how bodies come apart
+    std::map<std::shared_ptr<const Cut>, physics::uint> cuts;  // in pieces
 };
 
 struct State {
-#define SCREE_VECTOR(binding, name, block, record, length) std::vector<physics::record> name;
+#define SCREE_VECTOR(buffer, name, block, record, length) std::vector<physics::records::name> name;
     SCREE_TABLES(SCREE_VECTOR)
 #undef SCREE_VECTOR
+    // What a table is before it is what its name says.
+#define SCREE_VIEW(table, view)          \
+    std::vector<physics::uint>& view() { \
+        return table;                    \
+    }
+    SCREE_VIEWS(SCREE_VIEW)
+#undef SCREE_VIEW
 
     // The tables of a checked scene before its first step. `all`: every table has its memory here; else only what the scene
     // itself says, and make() brings the others.
@@ -139,7 +160,11 @@ struct State {
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : traits[row].owner;
     }
-    std::size_t bytes() const;                 // of all tables, wherever they are
+    // Where such a row lies in its body.
+    const physics::PoseInBody& part_in(std::size_t row) const {
+        return parts[row - fixed().first_part];
+    }
+    std::size_t bytes() const;                 // of all tables on a device
     std::size_t raw_bytes(Table table) const;  // of one that has its memory
 
     std::span<std::byte> raw(Table table);

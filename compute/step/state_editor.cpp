@@ -2,6 +2,7 @@
 #include "compute/step/state_editor.h"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 #include "compute/step/joint_blocks.h"
@@ -35,6 +36,25 @@ TableRanges differing(Table table, const std::vector<Record>& before, const std:
         add_to_run(runs, table, i);
     }
     return runs;
+}
+
+// Tables to which bodies add what completes them.
+constexpr std::array shape_tables{Table::hulls, Table::parts, Table::fractures, Table::pieces, Table::tyres};
+using ShapeLengths = std::array<std::size_t, shape_tables.size()>;  // records
+
+ShapeLengths shape_lengths(const State& state) {
+    ShapeLengths lengths;
+    for (std::size_t i = 0; i < shape_tables.size(); ++i)
+        lengths[i] = state.raw(shape_tables[i]).size() / table_infos()[static_cast<std::size_t>(shape_tables[i])].record_bytes;
+    return lengths;
+}
+
+TableRanges shapes_added(const State& state, const ShapeLengths& before) {
+    TableRanges added;
+    const ShapeLengths now = shape_lengths(state);
+    for (std::size_t i = 0; i < shape_tables.size(); ++i)
+        if (now[i] > before[i]) added.push_back({shape_tables[i], before[i], now[i] - before[i]});
+    return added;
 }
 
 // A row before those of parts that no body is in yet.
@@ -104,6 +124,7 @@ TableRanges StateEditor::make_room_for_bodies() {
     insert(state_.poses, physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)});
     insert(state_.velocities, physics::Velocity{});
     insert(state_.rests, 0u);
+    insert(state_.strains, 0.0f);
     insert(state_.masses, physics::Mass{});
     // They have no contacts: where these begin, they end.
     insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
@@ -130,7 +151,8 @@ TableRanges StateEditor::rows_added(std::uint32_t first, std::uint32_t count) {
     if (count == 0) return {};
     for (std::uint32_t row = first; row < first + count; ++row) state_.first_contacts[row + 1] = state_.counted().contacts;
     TableRanges added{{Table::first_contacts, first + 1, count}};
-    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::masses, Table::ids})
+    for (const Table table :
+         {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains, Table::masses, Table::ids})
         added.push_back({table, first, count});
     return added;
 }
@@ -140,7 +162,7 @@ TableRanges StateEditor::add(const Body& body) {
     SceneCompiler compiler(state_);
     physics::Parameters& p = state_.fixed();
     const std::uint32_t row = state_.body_count, rows_before = p.bodies;
-    const auto hulls_before = static_cast<std::uint32_t>(state_.hulls.size());
+    const ShapeLengths before = shape_lengths(state_);
     state_.append_row(row);
     ++state_.body_count;
     if (row == p.first_part) ++p.first_part;
@@ -154,15 +176,16 @@ TableRanges StateEditor::add(const Body& body) {
     state_.poses[row] = SceneCompiler::start_of(body);
     state_.velocities[row] = SceneCompiler::start_velocity_of(body);
     state_.rests[row] = 0;
+    state_.strains[row] = SceneCompiler::start_strain_of(body, state_.traits[row]);
     const std::uint32_t first_part = std::max(rows_before, row + 1);
     for (std::uint32_t part = first_part; part < p.bodies; ++part) compiler.place(part);
     state_.note_content(row, 1);
     state_.note_content(first_part, p.bodies - first_part);
     if (row < rows_before)
-        for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests})
+        for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains})
             changed.push_back({table, row, 1});
     append(changed, rows_added(rows_before, p.bodies - rows_before));
-    if (state_.hulls.size() > hulls_before) changed.push_back({Table::hulls, hulls_before, state_.hulls.size() - hulls_before});
+    append(changed, shapes_added(state_, before));
     return changed;
 }
 

@@ -53,8 +53,8 @@ TableRanges vehicle_ranges(const State& state) {
 
 TableRanges lasting_ranges(const State& state) {
     TableRanges ranges;
-    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::masses, Table::contacts,
-                              Table::impulses, Table::first_contacts})
+    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains, Table::masses,
+                              Table::contacts, Table::impulses, Table::first_contacts})
         ranges.push_back(live_range(state, table));
     append(ranges, joint_ranges(state));
     append(ranges, vehicle_ranges(state));

@@ -2,7 +2,6 @@
 #include "compute/step/vehicle_records.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 #include "shaders/physics/base/arithmetic.h"
@@ -11,16 +10,13 @@ namespace scree {
 
 namespace {
 
-physics::Handling handling_of(const Vehicle& vehicle, const Scene& scene, std::vector<physics::uvec4>& hulls) {
+physics::Handling handling_of(const Vehicle& vehicle, const Scene& scene, std::vector<physics::WayPoint>& way_points) {
     physics::Handling made{};
     made.chassis = static_cast<physics::uint>(vehicle.chassis);
     made.wheels = static_cast<physics::uint>(vehicle.wheels.size());
-    made.route = static_cast<physics::uint>(hulls.size());
+    made.route = static_cast<physics::uint>(way_points.size());
     made.points = static_cast<physics::uint>(vehicle.route.size());
-    for (const WayPoint& point : vehicle.route) {
-        const auto bits = [](float value) { return std::bit_cast<physics::uint>(value); };
-        hulls.emplace_back(bits(point.position.x), bits(point.position.y), bits(point.position.z), bits(point.speed));
-    }
+    for (const WayPoint& point : vehicle.route) way_points.push_back({point.position, point.speed});
     made.frame = scene.joints[vehicle.wheels[0].joint].frame_a;
     made.top_speed = vehicle.engine.top_speed;
     made.back_speed = vehicle.engine.back_speed;
@@ -68,11 +64,11 @@ vec3 axle_of(const Joint& joint) {
 }
 
 std::vector<physics::Vehicle> vehicle_records(const Scene& scene, const std::vector<std::uint32_t>& joint_records,
-                                              std::vector<physics::uvec4>& hulls) {
+                                              std::vector<physics::WayPoint>& way_points) {
     std::vector<physics::Vehicle> records;
     for (const Vehicle& vehicle : scene.vehicles) {
         physics::Vehicle& made = records.emplace_back();
-        made.handling = handling_of(vehicle, scene, hulls);
+        made.handling = handling_of(vehicle, scene, way_points);
         float shares = 0;
         for (const Wheel& wheel : vehicle.wheels) shares += wheel.drive;
         for (std::size_t k = 0; k < vehicle.wheels.size(); ++k) {

@@ -30,10 +30,13 @@ using glm::vec3;
 struct TableView {
     bool given = false;
     const Buffer* buffer = nullptr;
+    std::size_t offset = 0, size = 0;  // bytes of the buffer; size 0: all behind the offset
     std::span<const std::byte> bytes;  // without a buffer; may be empty
 
     TableView() = default;
     TableView(const Buffer* on_device) : given(on_device != nullptr), buffer(on_device) {}
+    TableView(const Buffer* on_device, std::size_t from, std::size_t range)
+        : given(on_device != nullptr), buffer(on_device), offset(from), size(range) {}
     template <typename Record>
     TableView(std::span<const Record> in_memory) : given(true), bytes(std::as_bytes(in_memory)) {}
     template <typename Record>

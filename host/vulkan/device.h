@@ -13,11 +13,11 @@
 namespace scree::host {
 
 // A step is one table of buffers, bound once, or found by address (compute/device/device_runner.cpp, which holds these to it).
-// Lavapipe binds 32 storage buffers a stage, most cards a million.
+// Lavapipe binds 32 storage buffers a stage, MoltenVK 31, most cards a million.
 struct TablesOfAStep {
     std::uint32_t storage, texels, changing_texels;
 };
-inline constexpr TablesOfAStep tables_of_a_step{32, 33, 6};
+inline constexpr TablesOfAStep tables_of_a_step{22, 23, 6};
 
 // One physical device as `scree devices` shows it.
 struct DeviceReport {

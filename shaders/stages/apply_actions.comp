@@ -12,6 +12,6 @@ void main() {
     if (is_absent(READ(traits, action.body).motion)) return;
     Mass mass = mass_in_world(READ(traits, action.body), READ(poses, action.body).orientation, 1.0f);
     if (PARAMETERS.redo == 0u) velocities.at[action.body] = kicked(velocities.at[action.body], action, mass, PARAMETERS);
-    rests.at[action.body] = 0u;
+    WORD(rests, action.body) = 0u;
     loads.at[action.body] = loaded(loads.at[action.body], action, mass);
 }

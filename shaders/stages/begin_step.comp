@@ -7,14 +7,14 @@
 
 void main() {
     uint i = thread();
-    if (i < PARAMETERS.buckets + 2u) cells.at[i] = 0u;
+    if (i < PARAMETERS.buckets + 2u) WORD(cell_counts, i) = 0u;
     if (i <= PARAMETERS.bodies) {
-        pair_starts.at[i] = 0u;
-        slot_ends.at[i] = 0u;
+        WORD(pair_counts, i) = 0u;
+        WORD(slot_counts, i) = 0u;
     }
     if (i < PARAMETERS.bodies) {
         loads.at[i] = gravity_load(READ(traits, i), PARAMETERS);
-        if (PARAMETERS.wake_all != 0u) rests.at[i] = 0u;
+        if (PARAMETERS.wake_all != 0u) WORD(rests, i) = 0u;
     }
     // Rows one by one, by different threads: a software device goes through what a single thread does for every vector of them.
     Counts empty = emptied(COUNTS, PARAMETERS);

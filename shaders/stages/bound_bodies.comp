@@ -24,18 +24,19 @@ void main() {
         return;
     }
     uint owner = body_of(i);
-    Bounds around = bounds_of(body, pose, READ(velocities, i), READ(loads, owner), PARAMETERS);
+    float bend = is_part(body) ? bend_of_way(part_in(i), READ(velocities, i), PARAMETERS) : 0.0f;
+    Bounds around = bounds_of(body, bend, pose, READ(velocities, i), READ(loads, owner), PARAMETERS);
     if (will_be_fast(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
         masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
     } else {
         masses.at[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }
-    atomicAdd(cells.at[around.bucket], 1u);
+    atomicAdd(WORD(cell_counts, around.bucket), 1u);
     bool listed = !is_large(body) && (around.level & NOWHERE) == 0u;
     if (listed) note(COUNTS.levels, 1u << around.level);
-    if (has_slept(READ(rests, i), PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
-    if (stirs(motion_of(body), READ(velocities, owner), READ(rests, owner), PARAMETERS.sleep_steps)) {
+    if (has_slept(READ_WORD(rests, i), PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
+    if (stirs(motion_of(body), READ(velocities, owner), READ_WORD(rests, owner), PARAMETERS.sleep_steps)) {
         if (listed) note(COUNTS.levels_stirring, 1u << around.level);
         if (is_large(body)) note(COUNTS.large_stirring, 1u);
     } else {

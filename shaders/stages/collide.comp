@@ -57,7 +57,7 @@
 void main() {
     uint i = thread() + COUNTED.kind_first[KIND];
     if (i >= COUNTED.kind_first[KIND + 1]) return;
-    uint pair = READ(binned, i);
+    uint pair = READ_WORD(pairs_by_kind, i);
     uint a = READ(pairs, pair).a, b = READ(pairs, pair).b;
     Traits ta = READ(traits, a), tb = READ(traits, b);
     Pose pa = READ(poses, a), pb = READ(poses, b);
@@ -84,5 +84,5 @@ void main() {
     if (a >= PARAMETERS.first_part)
         touch = from_body(touch, READ(poses, a).position - READ(poses, READ(traits, a).owner).position);
     manifolds.at[pair] = touch.manifold;
-    touching.at[pair] = touch.count;
+    WORD(touching, pair) = touch.count;
 }

@@ -9,9 +9,9 @@
 void main() {
     uint i = thread() + COUNTED.kind_first[KIND_KEPT];
     if (i >= COUNTED.kind_first[KIND_KEPT + 1u]) return;
-    uint index = READ(binned, i);
+    uint index = READ_WORD(pairs_by_kind, i);
     Pair pair = READ(pairs, index);
     Contact contact = READ(contacts_before, pair.previous);
     manifolds.at[index] = kept_manifold(contact, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b)));
-    touching.at[index] = contact.count;
+    WORD(touching, index) = contact.count;
 }

@@ -9,9 +9,9 @@
 void main() {
     uint i = thread() + COUNTED.kind_first[KIND_STILL];
     if (i >= COUNTED.kind_first[KIND_STILL + 1u]) return;
-    uint index = READ(binned, i);
+    uint index = READ_WORD(pairs_by_kind, i);
     uint previous = READ(pairs, index).previous;
     Contact contact = READ(contacts_before, previous);
     manifolds.at[index] = resting_manifold(contact, READ(impulses_before, previous));
-    touching.at[index] = contact.count;
+    WORD(touching, index) = contact.count;
 }

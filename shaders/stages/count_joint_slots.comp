@@ -20,7 +20,7 @@ void main() {
     for (uint m = first; m < last; ++m) {
         uint body = joints.at[m].member;
         joints.at[m].slot = NONE;
-        if (any_stirs(COUNTED) && is_movable(READ(traits, body).motion, READ(rests, body), PARAMETERS.sleep_steps))
-            atomicAdd(slot_ends.at[body], 1u);
+        if (any_stirs(COUNTED) && is_movable(READ(traits, body).motion, READ_WORD(rests, body), PARAMETERS.sleep_steps))
+            atomicAdd(WORD(slot_counts, body), 1u);
     }
 }

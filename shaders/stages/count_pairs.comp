@@ -5,9 +5,9 @@
 #include "shaders/stages/lib/partner_cache.glsl"
 
 uint pairs_found = 0u;
-Notes notes = Notes(uvec4(0u), uvec4(0u), uvec4(0u));
+Partners partners = Partners(uvec4(0u), uvec4(0u), uvec4(0u));
 void found(uint other) {
-    note(notes, pairs_found, other);
+    note(partners, pairs_found, other);
     ++pairs_found;
 }
 #include "shaders/stages/lib/neighbours.glsl"
@@ -16,7 +16,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
     look_around(i);
-    keep(notes, i);
-    pair_starts.at[i] = pairs_found;
+    keep(partners, i);
+    WORD(pair_counts, i) = pairs_found;
     if (pairs_found > 0u) atomicAdd(COUNTS.pairs_coarse, (pairs_found + 255u) >> 8);
 }

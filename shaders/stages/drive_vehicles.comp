@@ -5,8 +5,9 @@
 #include "shaders/physics/extra/vehicle.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it looks into
-#include "shaders/stages/lib/shape_data.glsl"
+WayPoint way_point_at(Routes routes, uint place) {
+    return READ_QUADS(way_points, place);
+}
 
 void main() {
     uint i = thread();
@@ -14,19 +15,17 @@ void main() {
     Handling v = vehicles.at[i].handling;
     if (is_absent(READ(traits, v.chassis).motion)) return;
     if (PARAMETERS.redo == 0u) {
-        Hulls table;
-        table.bound = 0u;
-        v = driven(v, table, READ(poses, v.chassis), READ(velocities, v.chassis), PARAMETERS);
+        v = driven(v, Routes(0u), READ(poses, v.chassis), READ(velocities, v.chassis), PARAMETERS);
         vehicles.at[i].handling = v;
     }
     bool awake = is_under_way(v);
-    if (awake) rests.at[v.chassis] = 0u;
+    if (awake) WORD(rests, v.chassis) = 0u;
     vec3 axle = vehicle_axes(v, READ(poses, v.chassis).orientation).x;
     vec3 turning = READ(velocities, v.chassis).angular;
     for (uint k = 0u; k < v.wheels; ++k) {
         VehicleWheel wheel = vehicles.at[i].wheel[k];
         if (is_absent(READ(traits, wheel.body).motion)) continue;
-        if (awake) rests.at[wheel.body] = 0u;
+        if (awake) WORD(rests, wheel.body) = 0u;
         if (PARAMETERS.redo != 0u) continue;
         float spin = dot3(axle, READ(velocities, wheel.body).angular - turning);
         JointAxis motor = wheel_motor(joints.at[wheel.joint].axes[3], v, wheel, spin);

@@ -7,8 +7,8 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTED.pairs || (touching.at[i] & DOUBTFUL) == 0u) return;
+    if (i >= COUNTED.pairs || (WORD(touching, i) & DOUBTFUL) == 0u) return;
     bool struck =
         (READ(bounds, body_of(READ(pairs, i).a)).flight.struck | READ(bounds, body_of(READ(pairs, i).b)).flight.struck) != 0u;
-    touching.at[i] = struck ? touching.at[i] & ~DOUBTFUL : 0u;
+    WORD(touching, i) = struck ? WORD(touching, i) & ~DOUBTFUL : 0u;
 }

@@ -15,7 +15,7 @@ void main() {
     uint i = thread();
     if (COUNTED.overflow != 0u) return;
     if (i == 0u) ++COUNTS.steps;
-    if (i >= PARAMETERS.bodies || is_asleep(rests.at[i], PARAMETERS.sleep_steps)) return;
+    if (i >= PARAMETERS.bodies || is_asleep(WORD(rests, i), PARAMETERS.sleep_steps)) return;
     Traits body = READ(traits, i);
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
@@ -23,8 +23,8 @@ void main() {
     velocity.linear = without_dust(velocity.linear + sum.change.linear);
     velocity.angular = without_dust(velocity.angular + sum.change.angular);
     float pace = pace_of(body, velocity, PARAMETERS);
-    rests.at[i] = rest_after(rests.at[i], pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
-    if (is_asleep(rests.at[i], PARAMETERS.sleep_steps)) {
+    WORD(rests, i) = rest_after(WORD(rests, i), pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
+    if (is_asleep(WORD(rests, i), PARAMETERS.sleep_steps)) {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);
     }

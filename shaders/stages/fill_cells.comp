@@ -7,6 +7,6 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || READ(bounds, i).bucket == NONE) return;
-    uint entry = atomicAdd(cells.at[READ(bounds, i).bucket], 1u);
+    uint entry = atomicAdd(WORD(cell_starts, READ(bounds, i).bucket), 1u);
     cell_entries.at[entry].body = i;
 }

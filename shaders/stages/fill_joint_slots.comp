@@ -13,7 +13,7 @@ void main() {
     uint last = first + joints.at[first].block_members;
     for (uint m = first; m < last; ++m) {
         uint body = joints.at[m].member;
-        if (is_movable(READ(traits, body).motion, READ(rests, body), PARAMETERS.sleep_steps))
-            slot_sides.at[atomicAdd(slot_ends.at[body], 1u)] = OF_JOINT | m;
+        if (is_movable(READ(traits, body).motion, READ_WORD(rests, body), PARAMETERS.sleep_steps))
+            WORD(slot_sides, atomicAdd(WORD(slot_starts, body), 1u)) = OF_JOINT | m;
     }
 }

@@ -14,17 +14,17 @@ void found(uint other) {
 void main() {
     owner = thread();
     if (owner >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
-    next = READ(pair_starts, owner);
-    uint count = READ(pair_starts, owner + 1u) - next;
-    if (count > NOTED || !has_notes(owner)) {
+    next = READ_WORD(pair_starts, owner);
+    uint count = READ_WORD(pair_starts, owner + 1u) - next;
+    if (count > CACHED_PARTNERS || !has_cache(owner)) {
         look_around(owner);
         return;
     }
     for (uint k = 0u; k < count; k += 4u) {
-        Pair four = READ(pairs, 3u * owner + (k >> 2));
-        found(four.a);
-        if (k + 1u < count) found(four.b);
-        if (k + 2u < count) found(four.kind);
-        if (k + 3u < count) found(four.previous);
+        uvec4 four = CACHED(3u * owner + (k >> 2));
+        found(four.x);
+        if (k + 1u < count) found(four.y);
+        if (k + 2u < count) found(four.z);
+        if (k + 3u < count) found(four.w);
     }
 }

@@ -3,21 +3,20 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/extra/fracture.h"
-#include "shaders/stages/lib/shape_data.glsl"
+#include "shaders/stages/lib/stage.glsl"
 
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
-    Traits body = traits.at[i];
+    Traits body = READ(traits, i);
     if (!may_break(body)) return;
     float blow = 0.0f;
-    uint last = READ(slot_ends, i);
-    for (uint k = i == 0u ? 0u : READ(slot_ends, i - 1u); k < last; ++k)
-        if ((READ(slot_sides, k) & OF_JOINT) == 0u)
-            blow = larger(blow, uintBitsToFloat(READ(candidates, READ(slot_sides, k) >> 1u).owner));
-    Fracturing fracturing = fracturing_of(Hulls(0u), body.fracture);
-    float kept = kept_part(fracturing, blow, body);
-    traits.at[i].strain = strain_after(fracturing, blow, body, READ(velocities, i));
+    uint last = READ_WORD(slot_ends, i);
+    for (uint k = i == 0u ? 0u : READ_WORD(slot_ends, i - 1u); k < last; ++k)
+        if ((READ_WORD(slot_sides, k) & OF_JOINT) == 0u) blow = larger(blow, READ_FLOAT(carried, READ_WORD(slot_sides, k) >> 1u));
+    Fracturing fracturing = READ_QUADS(fractures, body.fracture);
+    float kept = kept_part(fracturing, blow, READ_FLOAT(strains, i));
+    SET_FLOAT(strains, i, strain_after(fracturing, blow, body, READ(velocities, i)));
     if (!(kept < 1.0f)) return;
     loads.at[i].kept = kept;
     atomicAdd(COUNTS.broken, 1u);

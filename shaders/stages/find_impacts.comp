@@ -27,15 +27,15 @@ void main() {
     Course cb = course_of(tb, bounds.at[b].flight.position, bounds.at[b].flight.orientation, READ(poses, b), stop_b);
     if (row_a != a) {
         ta = READ(traits, row_a);
-        ca = course_of_part(ta, ca);
+        ca = course_of_part(ta, part_in(row_a), ca);
     }
     if (row_b != b) {
         tb = READ(traits, row_b);
-        cb = course_of_part(tb, cb);
+        cb = course_of_part(tb, part_in(row_b), cb);
     }
-    float fraction =
-        impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(READ(touching, i), stop_a, stop_b), PARAMETERS), false, Hulls(0u))
-            .fraction;
+    float fraction = impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(READ_WORD(touching, i), stop_a, stop_b), PARAMETERS),
+                               false, Hulls(0u))
+                         .fraction;
     if (stop_a <= 1.0f) atomicMin(bounds.at[a].flight.stops[next], floatBitsToUint(fraction));
     if (stop_b <= 1.0f) atomicMin(bounds.at[b].flight.stops[next], floatBitsToUint(fraction));
 }

@@ -10,7 +10,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTED.pairs || touching.at[i] == 0u) return;
+    if (i >= COUNTED.pairs || WORD(touching, i) == 0u) return;
     uint a = READ(pairs, i).a, b = READ(pairs, i).b;
     uint of_a = body_of(a), of_b = body_of(b);
     Traits ta = READ(traits, a), tb = READ(traits, b);
@@ -19,10 +19,10 @@ void main() {
         !will_be_fast(READ(traits, of_b), READ(velocities, of_b), PARAMETERS))
         return;
     vec3 normal = READ(manifolds, i).normal;
-    if (!is_near(READ(manifolds, i), touching.at[i], PARAMETERS) &&
+    if (!is_near(READ(manifolds, i), WORD(touching, i), PARAMETERS) &&
         !will_meet(normal, ta, READ(poses, a), va, READ(loads, of_a), tb, READ(poses, b), vb, READ(loads, of_b), PARAMETERS,
                    Hulls(0u))) {
-        touching.at[i] = touching.at[i] | DOUBTFUL;
+        WORD(touching, i) = WORD(touching, i) | DOUBTFUL;
     } else if (is_blow(normal, va, vb, PARAMETERS)) {
         atomicOr(bounds.at[of_a].flight.struck, 1u);
         atomicOr(bounds.at[of_b].flight.struck, 1u);

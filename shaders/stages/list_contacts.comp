@@ -6,14 +6,14 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTED.pairs || READ(touching, i) == 0u) return;
-    uint contact = READ(contact_starts, i);
+    if (i >= COUNTED.pairs || READ_WORD(touching, i) == 0u) return;
+    uint contact = READ_WORD(contact_starts, i);
     constraints.at[contact].pair = i;
     constraints.at[contact].slot_a = NONE;
     constraints.at[contact].slot_b = NONE;
     if (!REORDERED) return;
     // Until it is prepared, who owns it: order_slots asks.
     Pair pair = READ(pairs, i);
-    bool is_a = READ(pair_starts, pair.a) <= i && i < READ(pair_starts, pair.a + 1u);
+    bool is_a = READ_WORD(pair_starts, pair.a) <= i && i < READ_WORD(pair_starts, pair.a + 1u);
     constraints.at[contact].a = id_of(is_a ? pair.a : pair.b);
 }

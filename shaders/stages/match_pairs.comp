@@ -10,8 +10,8 @@
 // The contacts that a body owned are in the order of the other body's id.
 uint contact_before(uint owner, uint other) {
     uint id = id_of(other);
-    uint low = READ(first_contacts_before, owner);
-    uint high = READ(first_contacts_before, owner + 1u);
+    uint low = READ_WORD(first_contacts, owner);
+    uint high = READ_WORD(first_contacts, owner + 1u);
     while (low < high) {
         uint middle = (low + high) >> 1;
         uint a = READ(contacts_before, middle).a;
@@ -29,8 +29,8 @@ void main() {
     uint i = thread();
     if (i >= COUNTED.pairs) return;
     Candidate candidate = READ(candidates, i);
-    uint place = READ(pair_starts, candidate.owner);
-    uint last = READ(pair_starts, candidate.owner + 1u);
+    uint place = READ_WORD(pair_starts, candidate.owner);
+    uint last = READ_WORD(pair_starts, candidate.owner + 1u);
     uint own = id_of(candidate.owner), id = id_of(candidate.other);
     for (uint k = place; k < last; ++k)
         if (id_of(READ(candidates, k).other) < id) ++place;

@@ -12,8 +12,8 @@
 void main() {
     uint i = thread();
     if (i > PARAMETERS.buckets) return;
-    uint first = i == 0u ? 0u : READ(cells, i - 1u);
-    uint last = READ(cells, i);
+    uint first = i == 0u ? 0u : READ_WORD(cell_ends, i - 1u);
+    uint last = READ_WORD(cell_ends, i);
     sort_range(first, last - first);
     for (uint k = first; k < last; ++k) {
         uint body = cell_entries.at[k].body;

@@ -8,9 +8,10 @@
 void main() {
     uint i = thread();
     if (i < PARAMETERS.first_part || i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
-    Traits part = READ(traits, i);
-    if (motion_of(part) == MOTION_FIXED) return;
-    Pose owner = poses.at[part.owner];
-    poses.at[i] = pose_of_part(place_in_body(part), turn_in_body(part), owner);
-    velocities.at[i] = velocity_of_part(part, owner, velocities.at[part.owner]);
+    Traits body = READ(traits, i);
+    if (motion_of(body) == MOTION_FIXED) return;
+    PoseInBody part = part_in(i);
+    Pose owner = poses.at[body.owner];
+    poses.at[i] = pose_of_part(part, owner);
+    velocities.at[i] = velocity_of_part(part, owner, velocities.at[body.owner]);
 }

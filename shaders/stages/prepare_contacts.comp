@@ -5,14 +5,9 @@
 #include "shaders/physics/solve/contact_preparation.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it looks into
-#include "shaders/stages/lib/shape_data.glsl"
-
 Constraint on_tyre_of(Traits ta, Traits tb, Constraint constraint, vec3 d, Couple now) {
     bool is_a = tyre_of(ta) != 0u;
-    Hulls table;
-    table.bound = 0u;
-    return on_tyre(constraint, is_a, hull_record(table, tyre_of(is_a ? ta : tb) - 1u), d, now);
+    return on_tyre(constraint, is_a, READ_QUADS(tyres, tyre_of(is_a ? ta : tb) - 1u), d, now);
 }
 
 void main() {
@@ -36,7 +31,7 @@ void main() {
     Traits ta = READ(traits, pair.a), tb = READ(traits, pair.b);
     if (!is_carried_forward(pair.kind)) {
         prepared =
-            newly_found(pair, READ(manifolds, pair_index), READ(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
+            newly_found(pair, READ(manifolds, pair_index), READ_WORD(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
         if (pair.previous != NONE)
             prepared = warm_started(prepared, READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta, tb);
     }

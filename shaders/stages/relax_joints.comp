@@ -35,7 +35,7 @@ float told_by_block() {
         for (uint side = 0u; side < 2u; ++side) {
             uint body = side == 0u ? joints.at[j].a : joints.at[j].b;
             if (body != NONE)
-                told = smaller(told, told_quiet(READ(traits, body).motion, READ(velocities, body), READ(rests, body)));
+                told = smaller(told, told_quiet(READ(traits, body).motion, READ(velocities, body), READ_WORD(rests, body)));
         }
     }
     return told;

@@ -14,9 +14,9 @@ void main() {
     uint total = 0u;
     for (uint first = 0u; first < blocks; first += gl_WorkGroupSize.x) {
         uint i = first + gl_LocalInvocationID.x;
-        uint value = i < blocks ? candidates.at[i].owner : 0u;
+        uint value = i < blocks ? WORD(scan_sums, i) : 0u;
         uint before = sum_before(value);
-        if (i < blocks) candidates.at[i].owner = total + before;
+        if (i < blocks) WORD(scan_sums, i) = total + before;
         barrier();
         total += partial[gl_WorkGroupSize.x - 1u];
         barrier();

@@ -6,8 +6,8 @@
 #include "shaders/stages/lib/stage.glsl"
 
 void shake(uint by, uint other) {
-    if (shakes(rests.at[by], push.pass) && READ(traits, other).motion == MOTION_DYNAMIC)
-        atomicOr(rests.at[other], shaking_bit(push.pass - 1u));
+    if (shakes(WORD(rests, by), push.pass) && READ(traits, other).motion == MOTION_DYNAMIC)
+        atomicOr(WORD(rests, other), shaking_bit(push.pass - 1u));
 }
 
 void main() {

@@ -10,12 +10,12 @@
 // Pairs of an owner are in the order of the other body's id.
 bool owner_touches(uint owner, uint other) {
     uint id = id_of(other);
-    uint low = READ(pair_starts, owner);
-    uint high = READ(pair_starts, owner + 1u);
+    uint low = READ_WORD(pair_starts, owner);
+    uint high = READ_WORD(pair_starts, owner + 1u);
     while (low < high) {
         uint middle = (low + high) >> 1;
         uint partner = READ(pairs, middle).a == owner ? READ(pairs, middle).b : READ(pairs, middle).a;
-        if (partner == other) return READ(touching, middle) != 0u;
+        if (partner == other) return READ_WORD(touching, middle) != 0u;
         if (id_of(partner) < id)
             low = middle + 1u;
         else
@@ -28,15 +28,15 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.sleepers == 0u || !any_stirs(COUNTED)) return;
     bool own_still = (READ(bounds, i).level & STILL) != 0u;
-    uint last = READ(first_contacts_before, i + 1u);
-    for (uint k = READ(first_contacts_before, i); k < last; ++k) {
+    uint last = READ_WORD(first_contacts, i + 1u);
+    for (uint k = READ_WORD(first_contacts, i); k < last; ++k) {
         uint a = READ(contacts_before, k).a;
         uint other = a == i ? READ(contacts_before, k).b : a;
         if (((READ(bounds, other).level & STILL) != 0u) == own_still) continue;
         uint sleeper = body_of(own_still ? i : other);
-        if (!has_slept(rests.at[sleeper], PARAMETERS.sleep_steps)) continue;
+        if (!has_slept(WORD(rests, sleeper), PARAMETERS.sleep_steps)) continue;
         if (owner_touches(i, other) || owner_touches(other, i)) continue;
         if (load_changed(0.0f, READ(contacts_before, k).load, READ(traits, sleeper), PARAMETERS))
-            atomicOr(rests.at[sleeper], WOKEN);
+            atomicOr(WORD(rests, sleeper), WOKEN);
     }
 }

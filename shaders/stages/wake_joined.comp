@@ -8,7 +8,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 bool is_restless_body(uint body) {
-    return body != NONE && stirs_joined(READ(traits, body).motion, READ(velocities, body), rests.at[body]);
+    return body != NONE && stirs_joined(READ(traits, body).motion, READ(velocities, body), WORD(rests, body));
 }
 
 void main() {
@@ -27,5 +27,6 @@ void main() {
     if (joints.at[first].restless == 0u) return;
     uint last = first + joints.at[first].block_members;
     for (uint m = first; m < last; ++m)
-        if (has_slept(rests.at[joints.at[m].member], PARAMETERS.sleep_steps)) atomicOr(rests.at[joints.at[m].member], WOKEN);
+        if (has_slept(WORD(rests, joints.at[m].member), PARAMETERS.sleep_steps))
+            atomicOr(WORD(rests, joints.at[m].member), WOKEN);
 }

@@ -8,7 +8,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 void raise(uint body, uint bits) {
-    if (bits != 0u && READ(traits, body).motion == MOTION_DYNAMIC) atomicOr(rests.at[body], bits);
+    if (bits != 0u && READ(traits, body).motion == MOTION_DYNAMIC) atomicOr(WORD(rests, body), bits);
 }
 
 void main() {
@@ -19,11 +19,11 @@ void main() {
     if (pair.kind == KIND_STILL) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     float approach =
-        approach_of(READ(manifolds, index), READ(touching, index), READ(poses, of_b).position - READ(poses, of_a).position,
+        approach_of(READ(manifolds, index), READ_WORD(touching, index), READ(poses, of_b).position - READ(poses, of_a).position,
                     READ(velocities, of_a), READ(velocities, of_b), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
-    bool a_sleeps = has_slept(rests.at[of_a], PARAMETERS.sleep_steps),
-         b_sleeps = has_slept(rests.at[of_b], PARAMETERS.sleep_steps);
+    bool a_sleeps = has_slept(WORD(rests, of_a), PARAMETERS.sleep_steps),
+         b_sleeps = has_slept(WORD(rests, of_b), PARAMETERS.sleep_steps);
     bool woken = false;
     if (a_sleeps != b_sleeps) {
         uint sleeper = a_sleeps ? of_a : of_b;
@@ -33,7 +33,7 @@ void main() {
             now = pressing(READ(impulses_before, pair.previous));
             then = READ(contacts_before, pair.previous).load;
         }
-        woken = wakes(is_restless(READ(traits, other).motion, rests.at[other]), approach, now, then, READ(traits, sleeper),
+        woken = wakes(is_restless(READ(traits, other).motion, WORD(rests, other)), approach, now, then, READ(traits, sleeper),
                       PARAMETERS);
     }
     raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));

@@ -165,7 +165,7 @@ TEST_CASE("what is driven out of the bounds of its neighbours' search is stopped
     p.cell = p.inverse_cell = 1;
     const Velocity flying{vec3(60, 0, 0), 0, vec3(0), 0};
     const Pose start = pose_at(vec3(0));
-    const Bounds bounds = bounds_of(ball, start, flying, Load{}, p);
+    const Bounds bounds = bounds_of(ball, 0, start, flying, Load{}, p);
     const auto part = [&](vec3 end) { return seen_part(ball, flight_of(start), pose_at(end), bounds); };
     REQUIRE(part({1, 0, 0}) == 1);
     REQUIRE(part({-1, 0, 0}) == Approx(0.07f));  // the speculative distance and half of its thickness

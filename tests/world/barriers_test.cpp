@@ -67,9 +67,10 @@ TEST_CASE("barriers: stages that are several in turn wait for each other") {
 TEST_CASE("a table lasts from step to step if something reads it before it is written anew") {
     const std::vector<Table>& lasting = lasting_tables();
     using enum Table;
-    CHECK(std::set<Table>(lasting.begin(), lasting.end()) == std::set{parameters, counts, traits, poses, velocities, masses,
-                                                                      rests, hulls, joints, vehicles, ids, actions,
-                                                                      contacts_before, impulses_before, first_contacts_before});
+    CHECK(std::set<Table>(lasting.begin(), lasting.end()) ==
+          std::set{parameters, counts,   traits, poses,     velocities,      masses,          rests,
+                   strains,    hulls,    parts,  fractures, pieces,          tyres,           way_points,
+                   joints,     vehicles, ids,    actions,   contacts_before, impulses_before, first_contacts});
 }
 
 TEST_CASE("what is compared after a stage is whole there, and every table that outlasts a step is compared once it is written") {
@@ -78,9 +79,9 @@ TEST_CASE("what is compared after a stage is whole there, and every table that o
         for (const Compared& each : stage.compared) compared.insert(each.table);
     using enum Table;
     for (const Table table :
-         {counts,      traits,     poses,       velocities, masses,   loads,          bounds,   cells,    cell_entries,
-          pair_starts, pairs,      binned,      manifolds,  touching, contact_starts, contacts, impulses, first_contacts,
-          slot_ends,   slot_sides, constraints, slots,      rests,    joints,         vehicles})
+         {counts,      traits,         poses,     velocities,    masses,      loads,     bounds,   cell_ends,      cell_entries,
+          kind_starts, pair_starts,    pairs,     pairs_by_kind, strains,     manifolds, touching, contact_starts, contacts,
+          impulses,    first_contacts, slot_ends, slot_sides,    constraints, slots,     rests,    joints,         vehicles})
         CHECK(compared.contains(table));
 }
 

@@ -116,11 +116,8 @@ SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const
 SCREE_INLINE void feel(const WideTables& tables, const Group& group, const Impulse& impulse, std::size_t items) {
     const Float carried = pressing(impulse);
     for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
-        std::uint32_t* const sum = tables.felt + std::size_t{2} * group.contacts.of[lane];
-        float one = carried.v[lane], before = 0;
-        __builtin_memcpy(&before, sum, sizeof before);
-        if (!tables.first) one = before + one;
-        __builtin_memcpy(sum, &one, sizeof one);
+        float& sum = tables.carried[group.contacts.of[lane]];
+        sum = tables.first ? carried.v[lane] : sum + carried.v[lane];
     }
 }
 
@@ -132,7 +129,7 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
         const Solved after = relaxed(group.c, was, group.before, ma, mb, group.pull(tables), p);
-        if (tables.felt != nullptr) feel(tables, group, after.impulse, last - first);
+        if (tables.carried != nullptr) feel(tables, group, after.impulse, last - first);
         Impulse impulse = without_blows(after.impulse, group.c.count);
         impulse.pressed = pressing(impulse);
         Couple share = shares_of(group.before, after.couple, ma, mb);

@@ -21,7 +21,7 @@ struct WideTables {
     std::uint32_t* impulses;
     std::uint32_t* slots;
     const std::uint32_t* told = nullptr;  // a float per body: what it tells of its rest; null but in the last pass
-    std::uint32_t* felt = nullptr;        // where bodies may break: two words a contact, of which the first is what it carried
+    float* carried = nullptr;             // where bodies may break: of each contact, N s
     std::uint32_t steps = 0;              // Counts::steps in the first substep, whose crowds drift
     bool first = false;
 };

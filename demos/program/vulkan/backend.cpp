@@ -88,22 +88,27 @@ std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const h
 host::BodyTables tables_on_device(Runner& runner) {
     const auto& device = dynamic_cast<DeviceRunner&>(runner);
     physics::Counts counts{};
-    device.counts().read(&counts, sizeof counts);
-    host::BodyTables tables{&device.traits(),   &device.poses(),    &device.velocities(),
-                            &device.contacts(), &device.impulses(), counts.contacts};
-    tables.slot_ends = &device.slot_ends();
-    tables.slot_sides = &device.slot_sides();
-    tables.rests = &device.rests();
-    tables.bounds = &device.bounds();
-    tables.ids = &device.ids();
-    tables.joints = &device.joints();
+    device.read(Table::counts, std::as_writable_bytes(std::span(&counts, 1)));
+    const auto view = [&](Table table) {
+        const DeviceRunner::Range range = device.range(table);
+        return host::TableView(range.buffer, range.offset, range.bytes);
+    };
+    host::BodyTables tables{view(Table::traits),   view(Table::poses),    view(Table::velocities),
+                            view(Table::contacts), view(Table::impulses), counts.contacts};
+    tables.slot_ends = view(Table::slot_ends);
+    tables.slot_sides = view(Table::slot_sides);
+    tables.rests = view(Table::rests);
+    tables.bounds = view(Table::bounds);
+    tables.ids = view(Table::ids);
+    tables.joints = view(Table::joints);
     tables.joint_count = device.joint_records();
     return tables;
 }
 
 vec3 position_on_device(Runner& runner, std::size_t row) {
     physics::Pose pose{};
-    dynamic_cast<DeviceRunner&>(runner).poses().read(&pose, sizeof pose, row * sizeof pose);
+    const auto bytes = std::as_writable_bytes(std::span(&pose, 1));
+    dynamic_cast<DeviceRunner&>(runner).read(Table::poses, bytes, row * sizeof pose);
     return pose.position;
 }
 

@@ -54,37 +54,38 @@ void VulkanCanvas::Interior::make_layout() {
 }
 
 // The buffer that a shader reads, filled with what lies in host memory.
-const Buffer& VulkanCanvas::Interior::table_of(std::uint32_t binding, ColorBy by) {
+VkDescriptorBufferInfo VulkanCanvas::Interior::table_of(std::uint32_t binding, ColorBy by) {
+    const auto all_of = [](const Buffer& buffer) { return VkDescriptorBufferInfo{buffer.handle(), 0, VK_WHOLE_SIZE}; };
     switch (binding) {
         case INSTANCES:
-            return instances;
+            return all_of(instances);
         case FRAME:
-            return frame;
+            return all_of(frame);
         case QUADS:
-            return quads;
+            return all_of(quads);
         case DIRECTIONS:
-            return directions;
+            return all_of(directions);
         case RUN_TABLE:
-            return runs;
+            return all_of(runs);
         case ARGUMENTS:
-            return arguments;
+            return all_of(arguments);
         case GROUP_COUNTS:
-            return group_counts;
+            return all_of(group_counts);
         case TINTS:
-            return tints;
+            return all_of(tints);
         default:
             break;
     }
     const BindingInfo& info = binding_infos()[binding];
     // What nothing reads has a descriptor, which must name something.
-    if (!reads(binding, options, by)) return instances;
+    if (!reads(binding, options, by)) return all_of(instances);
     const TableView& table = tables.*info.table;
-    if (table.buffer != nullptr) return *table.buffer;
-    if (table.bytes.empty()) return instances;
+    if (table.buffer != nullptr) return {table.buffer->handle(), table.offset, table.size ? table.size : VK_WHOLE_SIZE};
+    if (table.bytes.empty()) return all_of(instances);
     Buffer& copy = copies[binding];
     if (copy.bytes() < table.bytes.size()) copy = Buffer(device, "canvas copy", table.bytes.size() + table.bytes.size() / 2);
     copy.write(table.bytes.data(), table.bytes.size());
-    return copy;
+    return all_of(copy);
 }
 
 void VulkanCanvas::Interior::write_set(ColorBy by) {
@@ -104,7 +105,7 @@ void VulkanCanvas::Interior::write_set(ColorBy by) {
         writes[i].dstBinding = i;
         writes[i].descriptorCount = 1;
         writes[i].descriptorType = is_sampler(i) ? VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
-        if (!is_sampler(i)) buffer_infos[i] = {table_of(i, by).handle(), 0, VK_WHOLE_SIZE};
+        if (!is_sampler(i)) buffer_infos[i] = table_of(i, by);
         writes[i].pBufferInfo = &buffer_infos[i];
         writes[i].pImageInfo = &image_infos[i];
     }

@@ -56,7 +56,7 @@ struct VulkanCanvas::Interior {
     void make_looks();
     void make_commands();
     void upload_glyphs();
-    const Buffer& table_of(std::uint32_t binding, ColorBy by);
+    VkDescriptorBufferInfo table_of(std::uint32_t binding, ColorBy by);
     void write_set(ColorBy by);
 
     // All of a picture, up to `target`.

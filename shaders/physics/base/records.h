@@ -12,8 +12,7 @@ CONSTANT uint MOTION_FIXED = 1u;
 CONSTANT uint MOTION_KINEMATIC = 2u;
 CONSTANT uint MOTION_UNBORN = 3u;  // a piece of a body that is still whole: it is nowhere
 CONSTANT uint MOTION_BROKEN = 4u;  // its pieces are there in its place
-// With one of these: a part of a body that moves so, a row of its own that the solver never moves. Where it lies in its body says
-// its Traits: position inverse_inertia, m; orientation inverse_mass, gravity_scale, linear_damping, angular_damping.
+// With one of these: a part of a body that moves so, a row of its own that the solver never moves (compound.h).
 CONSTANT uint MOTION_OF_PART = 8u;
 
 CONSTANT uint NONE = 0xFFFFFFFFu;
@@ -22,8 +21,8 @@ CONSTANT uint NONE = 0xFFFFFFFFu;
 struct Traits {
     vec3 size;  // see SHAPE_*, m
     uint shape;
-    vec3 inverse_inertia;      // principal, body frame, 1/(kg m^2); 0 if not dynamic
-    float inverse_mass;        // 1/kg; 0 if not dynamic
+    vec3 inverse_inertia;      // principal, body frame, 1/(kg m^2); 0 if not dynamic, and of a part
+    float inverse_mass;        // 1/kg; 0 if not dynamic, and of a part
     float friction;            // Coulomb coefficient; a pair takes the geometric mean
     float restitution;         // 0 to 1; a pair takes the larger
     float rolling_resistance;  // m, lever arm of the normal force that resists rolling; a pair takes the larger
@@ -31,13 +30,32 @@ struct Traits {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    // Bit 0: kept out of the grid, in the short list of large bodies; the others: its hull's place (shape_data.h), or that of its
-    // tyre (tyre.h).
-    uint large;
-    uint owner;     // the body that this one is a part of; itself for a body
-    uint fracture;  // where its fracture's description begins (fracture.h); NONE: it does not break
-    uint joints;    // where the list of its joints begins; NONE: it has none
-    uint strain;    // of a body that breaks, what the step before left of a blow: the bits of a float >= 0 (fracture.h)
+    uint large;       // 1: kept out of the grid, in the short list of large bodies
+    uint owner;       // the body that this row is a part of; itself for a body
+    uint fracture;    // in the table of fractures; NONE: it does not break
+    uint joints;      // where the list of its joints begins; NONE: it has none
+    uint shape_data;  // the record that completes its shape (shape_data.h: hull_of, tyre_of)
+};
+// Where a part lies in its body, or a piece in the body that breaks into it.
+struct PoseInBody {
+    vec3 position;  // from the body's centre of mass, along its axes, m
+    float pad0;
+    vec4 orientation;  // unit quaternion, from the part's axes to the body's
+};
+// How a body breaks (fracture.h).
+struct Fracturing {
+    float threshold;   // N s
+    uint of_momentum;  // 1: the body's own; 0: an impulse
+    uint first_row;    // of its pieces, which follow each other
+    uint count;        // of its pieces
+    uint first_pose;   // in the table of pieces, where equal bodies have the same
+    uint pad0, pad1, pad2;
+};
+// Rubber on a wheel (tyre.h).
+struct Tyre {
+    float best_slip;  // at which it holds best
+    float sliding;    // part of the friction that is left when it slides
+    float pad0, pad1;
 };
 
 // ---- bodies, state
@@ -305,11 +323,16 @@ struct VehicleWheel {
     float skid;        // part of the steering that is added to its throttle, -1 to 1
     uint steers;       // 1: its joint is turned
 };
+// A point of a route.
+struct WayPoint {
+    vec3 position;  // m
+    float speed;    // there, m/s
+};
 // How a vehicle is driven: all of it but its wheels.
 struct Handling {
     uint chassis;
     uint wheels;
-    uint route;        // where its way points begin in the table of hulls: x, y, z, m, and the speed there, m/s
+    uint route;        // where its route begins in the table of way points
     uint points;       // of the route; 0: it has none
     vec4 frame;        // from its axes (x to the left, y up, z ahead) to those of the chassis
     float top_speed;   // m/s
@@ -367,7 +390,29 @@ struct Parameters {  // the same for every thread of a step
     uint first_part;          // from this row on, rows are parts of bodies
     uint joint_blocks;
     uint vehicles;
-    uint pad0, pad1;
+    // Where each of the tables begins that share a buffer, in words and in quads of it (shaders/stages/lib/tables.h).
+    uint cell_ends_offset;
+    uint pair_starts_offset;
+    uint slot_ends_offset;
+    uint first_contacts_offset;
+    uint rests_offset;
+    uint ids_offset;
+    uint strains_offset;
+    uint touching_offset;
+    uint pairs_by_kind_offset;
+    uint solved_contacts_offset;
+    uint kind_starts_offset;
+    uint contact_starts_offset;
+    uint carried_offset;
+    uint slot_sides_offset;
+    uint scan_sums_offset;
+    uint hulls_offset;
+    uint parts_offset;
+    uint fractures_offset;
+    uint pieces_offset;
+    uint tyres_offset;
+    uint way_points_offset;
+    uint pad0;
     Grip grips[4];  // MOST_GRIPS
 };
 
@@ -412,7 +457,7 @@ struct Counts {  // what the device counts in a step
     uint large_stirring;   // 1: some large body stirs
     uint sleepers;         // 1: some body is asleep as the step begins
     uint solved;           // contacts that move somebody: those of the solver
-    uint kind_first[20];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of the binned list
+    uint kind_first[20];   // pairs of kind k are [kind_first[k], kind_first[k + 1]) of pairs_by_kind
     uint fast;             // 1: some body will be fast in this step
     uint broken;           // bodies that break in this step
     uint pad0, pad1;

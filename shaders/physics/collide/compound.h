@@ -19,32 +19,25 @@ LAW uint motion_of(Traits traits) {
     return traits.motion & 3u;
 }
 
-LAW vec3 place_in_body(Traits part) {
-    return part.inverse_inertia;
-}
-LAW vec4 turn_in_body(Traits part) {
-    return vec4(part.inverse_mass, part.gravity_scale, part.linear_damping, part.angular_damping);
-}
-
-LAW Pose pose_of_part(vec3 place, vec4 turn, Pose owner) {
+LAW Pose pose_of_part(PoseInBody part, Pose owner) {
     Pose pose;
-    pose.position = owner.position + rotate(owner.orientation, place);
+    pose.position = owner.position + rotate(owner.orientation, part.position);
     pose.rest_x = 0.0f;
-    pose.orientation = compose(owner.orientation, turn);
+    pose.orientation = compose(owner.orientation, part.orientation);
     return pose;
 }
-LAW Velocity velocity_of_part(Traits part, Pose owner, Velocity velocity) {
+LAW Velocity velocity_of_part(PoseInBody part, Pose owner, Velocity velocity) {
     Velocity own = velocity;
-    own.linear = velocity.linear + cross3(velocity.angular, rotate(owner.orientation, place_in_body(part)));
+    own.linear = velocity.linear + cross3(velocity.angular, rotate(owner.orientation, part.position));
     own.rest_y = 0.0f;
     own.rest_z = 0.0f;
     return own;
 }
 
 // How far a part's way in a step bends away from its velocity, m: its body turns.
-LAW float bend_of_way(Traits part, Velocity velocity, Parameters parameters) {
+LAW float bend_of_way(PoseInBody part, Velocity velocity, Parameters parameters) {
     float turn_squared = dot3(velocity.angular, velocity.angular) * (parameters.dt * parameters.dt);
-    return 0.5f * turn_squared * length3(place_in_body(part));
+    return 0.5f * turn_squared * length3(part.position);
 }
 
 LAWS_END

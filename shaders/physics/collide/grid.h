@@ -64,15 +64,15 @@ LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
 }
 
 LAW bool is_large(Traits traits) {
-    return (traits.large & 1u) != 0u;
+    return traits.large != 0u;
 }
 
 // The level of what is nowhere in the grid: a body that touches with its parts only, or is not there.
 CONSTANT uint NOWHERE = 0x40u;
 
 // Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
-// fast may not leave them, so the fall is in them too.
-LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Parameters parameters) {
+// fast may not leave them, so the fall is in them too. `bend`: of a part's way (bend_of_way); 0 of a body.
+LAW Bounds bounds_of(Traits traits, float bend, Pose pose, Velocity velocity, Load load, Parameters parameters) {
     vec3 half_size = half_extents_of(traits, pose.orientation);
     bool moves = in_motion(velocity);
     if (traits.shape == SHAPE_PLANE) {
@@ -84,7 +84,7 @@ LAW Bounds bounds_of(Traits traits, Pose pose, Velocity velocity, Load load, Par
         half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
     }
     half_size = half_size + vec3(parameters.speculative);
-    if (moves && is_part(traits)) half_size = half_size + vec3(bend_of_way(traits, velocity, parameters));
+    if (moves && is_part(traits)) half_size = half_size + vec3(bend);
     vec3 way = velocity.linear * parameters.dt;
     Bounds bounds;
     bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));

@@ -1,4 +1,5 @@
-// Convex hulls in the one table that all bodies of such a shape look into, each at its place; equal hulls lie there once.
+// What completes a body's shape, in a table of its kind (Traits.shape_data): convex hulls, and triangles of meshes, which lie
+// there as hulls of one face (triangle.h), each at its place in the table of hulls, equal hulls once; and tyres (tyre.h).
 //
 // From a hull's place on: one record (vertices, faces and cells as uints, inner radius in m); a record a vertex (m); a record a
 // face (its unit normal outward, and its distance from the centre, m); another a face (its first corner in the list, how many, -,
@@ -14,6 +15,7 @@
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"
+#include "shaders/physics/collide/shapes.h"
 
 LAWS_BEGIN
 
@@ -21,7 +23,7 @@ CONSTANT uint MOST_CORNERS = 64u;     // of a hull; a corner's number fits a byt
 CONSTANT uint LISTED_VERTICES = 15u;  // of a cell, at most
 CONSTANT uint LISTED_FACES = 14u;
 
-// What a law is given to look into the table: in C++ a pointer, on a device nothing, because there the table is bound.
+// What a law is given to look into the table of hulls: in C++ a pointer, on a device nothing, because there the table is bound.
 #ifdef __cplusplus
 struct Hulls {
     const uvec4* records;
@@ -37,7 +39,11 @@ uvec4 hull_record(Hulls table, uint place);  // shaders/stages/lib/shape_data.gl
 #endif
 
 LAW uint hull_of(Traits traits) {
-    return traits.large >> 1u;
+    return traits.shape_data;
+}
+// In the table of tyres, counted from 1; 0: no tyre.
+LAW uint tyre_of(Traits traits) {
+    return takes_tyre(traits.shape) ? traits.shape_data : 0u;
 }
 LAW vec3 point_in(uvec4 record) {
     return vec3(uintBitsToFloat(record.x), uintBitsToFloat(record.y), uintBitsToFloat(record.z));

@@ -14,7 +14,6 @@
 #ifndef SCREE_PHYSICS_FRACTURE_H
 #define SCREE_PHYSICS_FRACTURE_H
 
-#include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
 
@@ -23,36 +22,18 @@ LAWS_BEGIN
 // Of a threshold of momentum: less is no blow but a touch, and what slides along the ground would break.
 CONSTANT float LEAST_BLOW = 0.1f;
 
-// In the table of hulls, at Traits.fracture: one record (threshold as a float, 1 if it is one of momentum, row of the first
-// piece, where the cut begins). A cut, which equal bodies share: one record (pieces, -, -, -), and for each piece one of its
-// centre from the body's, m, and one of its orientation in the body's frame.
-struct Fracturing {
-    float threshold;  // N s
-    uint of_momentum;
-    uint first_piece;
-    uint cut;
-};
-LAW Fracturing fracturing_of(Hulls table, uint place) {
-    uvec4 record = hull_record(table, place);
-    Fracturing fracturing;
-    fracturing.threshold = uintBitsToFloat(record.x);
-    fracturing.of_momentum = record.y;
-    fracturing.first_piece = record.z;
-    fracturing.cut = record.w;
-    return fracturing;
-}
 LAW bool may_break(Traits traits) {
     return traits.fracture != NONE && traits.motion == MOTION_DYNAMIC;
 }
 
-// What a body remembers for the next step.
-LAW uint strain_after(Fracturing fracturing, float blow, Traits traits, Velocity velocity) {
-    if (fracturing.of_momentum == 0u) return floatBitsToUint(blow);
-    return floatBitsToUint(length3(velocity.linear) * reciprocal(traits.inverse_mass));
+// What a body remembers for the next step, N s: the blow, or its momentum.
+LAW float strain_after(Fracturing fracturing, float blow, Traits traits, Velocity velocity) {
+    if (fracturing.of_momentum == 0u) return blow;
+    return length3(velocity.linear) * reciprocal(traits.inverse_mass);
 }
-// The part of their impulses that its contacts keep, 1 if it stays whole. `blow`: the greatest impulse of one contact, N s.
-LAW float kept_part(Fracturing fracturing, float blow, Traits traits) {
-    float strain = uintBitsToFloat(traits.strain);
+// The part of their impulses that its contacts keep, 1 if it stays whole. `blow`: the greatest impulse of one contact, N s;
+// `strain`: what the step before left.
+LAW float kept_part(Fracturing fracturing, float blow, float strain) {
     float felt = fracturing.of_momentum == 0u ? blow + strain : strain;
     float least = fracturing.of_momentum == 0u ? 0.0f : LEAST_BLOW * fracturing.threshold;
     if (!(felt > fracturing.threshold) || !(blow > least)) return 1.0f;
@@ -69,21 +50,15 @@ LAW Velocity given_back(Velocity velocity, Mass mass, Constraint c, Impulse cont
     return velocity;
 }
 
-LAW uint pieces_of(Hulls table, Fracturing fracturing) {
-    return hull_record(table, fracturing.cut).x;
-}
 // A piece of the body where it belongs, and as fast as a part of the whole.
-LAW Moved piece_of(Hulls table, Fracturing fracturing, uint piece, Pose pose, Velocity velocity) {
-    vec3 centre = point_in(hull_record(table, fracturing.cut + 1u + 2u * piece));
-    uvec4 turn = hull_record(table, fracturing.cut + 2u + 2u * piece);
-    vec3 arm = rotate(pose.orientation, centre);
+LAW Moved piece_of(PoseInBody piece, Pose pose, Velocity velocity) {
+    vec3 arm = rotate(pose.orientation, piece.position);
     vec3 way = arm + vec3(pose.rest_x, velocity.rest_y, velocity.rest_z);
     Moved part;
     part.pose.position = pose.position + way;
     vec3 rest = way - (part.pose.position - pose.position);
     part.pose.rest_x = rest.x;
-    part.pose.orientation = unit_quaternion(compose(pose.orientation, vec4(uintBitsToFloat(turn.x), uintBitsToFloat(turn.y),
-                                                                           uintBitsToFloat(turn.z), uintBitsToFloat(turn.w))));
+    part.pose.orientation = unit_quaternion(compose(pose.orientation, piece.orientation));
     part.velocity.linear = velocity.linear + cross3(velocity.angular, arm);
     part.velocity.rest_y = rest.y;
     part.velocity.angular = velocity.angular;

@@ -26,12 +26,11 @@ struct Course {
     vec3 way;     // m
     float sweep;  // bound on the speed of its surface by turning, about an axis across the gap, m per step
     vec4 orientation;
-    vec4 turn;       // of the quaternion
-    vec3 axis;       // of the turn, unit
-    float most;      // bound on the same whatever the gap's direction, m per step
-    vec4 part_turn;  // of a part in the body whose course this is
-    vec3 part_place;
-    uint of_part;  // 1: of a part
+    vec4 turn;        // of the quaternion
+    vec3 axis;        // of the turn, unit
+    float most;       // bound on the same whatever the gap's direction, m per step
+    PoseInBody part;  // where it lies in the body whose course this is
+    uint of_part;     // 1: it is a part
 };
 LAW Course course_of(Traits traits, vec3 start, vec4 orientation, Pose end, float until) {
     Course course;
@@ -45,24 +44,24 @@ LAW Course course_of(Traits traits, vec3 start, vec4 orientation, Pose end, floa
     course.sweep = turning_of(orientation, course.turn) * lever_of(traits);
     course.most = course.sweep;
     if (traits.shape == SHAPE_CAPSULE) course.most = course.sweep * length3(cross3(course.axis, upright(orientation)));
-    course.part_turn = vec4(0.0f);
-    course.part_place = vec3(0.0f);
+    course.part.position = vec3(0.0f);
+    course.part.pad0 = 0.0f;
+    course.part.orientation = vec4(0.0f);
     course.of_part = 0u;
     return course;
 }
 // A part's, where that is its body's.
-LAW Course course_of_part(Traits part, Course body) {
+LAW Course course_of_part(Traits traits, PoseInBody part, Course body) {
     Course course = body;
-    course.sweep = turning_of(body.orientation, body.turn) * (length3(place_in_body(part)) + lever_of(part));
+    course.sweep = turning_of(body.orientation, body.turn) * (length3(part.position) + lever_of(traits));
     course.most = course.sweep;
-    course.part_turn = turn_in_body(part);
-    course.part_place = place_in_body(part);
+    course.part = part;
     course.of_part = 1u;
     return course;
 }
 LAW Pose pose_on(Course course, float fraction) {
     Pose pose = pose_along(course.start, course.way, course.orientation, course.turn, smaller(fraction, course.until));
-    if (course.of_part != 0u) pose = pose_of_part(course.part_place, course.part_turn, pose);
+    if (course.of_part != 0u) pose = pose_of_part(course.part, pose);
     return pose;
 }
 LAW float arc_along(Course course, vec3 normal) {

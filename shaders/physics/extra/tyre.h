@@ -17,18 +17,12 @@
 
 LAWS_BEGIN
 
-// Where the tyre's record (best slip, part of the friction that is left when it slides, -, -) lies in the table of hulls, counted
-// from 1; 0: no tyre.
-LAW uint tyre_of(Traits traits) {
-    return takes_tyre(traits.shape) ? traits.large >> 1u : 0u;
-}
-
 LAW vec3 along_surface(vec3 normal, vec3 v) {
     return v - normal * dot3(normal, v);
 }
 
 // The constraint of a contact of a tyre: of A, or of B. `v`: of the two bodies as the step begins; d as in Contact.
-LAW Constraint on_tyre(Constraint c, bool is_a, uvec4 tyre, vec3 d, Couple v) {
+LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, Couple v) {
     if (c.anchor == ANCHOR_ROUND) return c;
     Levers r = levers_of(c, c.centre, d);
     vec3 slip = along_surface(c.normal, velocity_at(r, v));
@@ -36,11 +30,10 @@ LAW Constraint on_tyre(Constraint c, bool is_a, uvec4 tyre, vec3 d, Couple v) {
     vec3 way = is_a ? (v.b.linear + cross3(v.b.angular, r.b)) - v.a.linear : v.b.linear - (v.a.linear + cross3(v.a.angular, r.a));
     way = along_surface(c.normal, way);
     float pace = larger(length3(way), length3(slip - way));
-    float best = uintBitsToFloat(tyre.x), sliding = uintBitsToFloat(tyre.y);
     float slipping = length3(slip) * reciprocal(larger(pace, 1.0e-6f));
-    float beyond = clamped((slipping - best) * reciprocal(1.0f - best), 0.0f, 1.0f);
-    c.friction = c.friction * (1.0f - beyond * (1.0f - sliding));
-    c.radius_a = best * pace;
+    float beyond = clamped((slipping - tyre.best_slip) * reciprocal(1.0f - tyre.best_slip), 0.0f, 1.0f);
+    c.friction = c.friction * (1.0f - beyond * (1.0f - tyre.sliding));
+    c.radius_a = tyre.best_slip * pace;
     c.reach = 0.0f;  // what twists a tread on the ground is small, and would hold the car straight
     return c;
 }

@@ -5,7 +5,7 @@
 #ifndef SCREE_PHYSICS_VEHICLE_H
 #define SCREE_PHYSICS_VEHICLE_H
 
-#include "shaders/physics/collide/shape_data.h"
+#include "shaders/physics/base/records.h"
 #include "shaders/physics/solve/joint_axis.h"
 
 LAWS_BEGIN
@@ -27,10 +27,24 @@ LAW float tightest_now(Handling v) {
     return smaller(v.tightest, v.lateral * reciprocal(larger(v.speed * v.speed, 0.01f)));
 }
 
-LAW vec4 way_point(Hulls table, Handling v, uint k) {
-    uvec4 record = hull_record(table, v.route + k);
-    vec3 place = point_in(record);
-    return vec4(place.x, place.y, place.z, uintBitsToFloat(record.w));
+// What a law is given to look into the table of way points; on a device nothing, because there it is bound.
+#ifdef __cplusplus
+struct Routes {
+    const WayPoint* points;
+};
+LAW WayPoint way_point_at(Routes routes, uint place) {
+    return routes.points[place];
+}
+#else
+struct Routes {
+    uint bound;
+};
+WayPoint way_point_at(Routes routes, uint place);  // shaders/stages/drive_vehicles.comp
+#endif
+
+LAW vec4 way_point(Routes routes, Handling v, uint k) {
+    WayPoint point = way_point_at(routes, v.route + k);
+    return vec4(point.position.x, point.position.y, point.position.z, point.speed);
 }
 LAW bool has_arrived(Handling v) {
     return v.next >= v.points;
@@ -54,17 +68,17 @@ LAW Handling parked(Handling v) {
 
 // The driver: towards a point of the route that lies ahead, on the circle through it (pure pursuit: Coulter, CMU-RI-TR-92-01,
 // 1992), as fast as the route says.
-LAW Handling by_route(Handling v, Hulls table, Axes axes, vec3 place) {
+LAW Handling by_route(Handling v, Routes routes, Axes axes, vec3 place) {
     if (has_arrived(v)) return parked(v);
-    vec4 from = way_point(table, v, v.next == 0u ? v.points - 1u : v.next - 1u);
-    vec4 to = way_point(table, v, v.next);
+    vec4 from = way_point(routes, v, v.next == 0u ? v.points - 1u : v.next - 1u);
+    vec4 to = way_point(routes, v, v.next);
     float along = part_of_leg(from, to, place);
     if (along >= 1.0f) {
         v.passed = v.passed + 1u;
         v.next = v.loops == 0u && v.next + 1u == v.points ? v.points : behind_point(v, v.next);
         if (has_arrived(v)) return parked(v);
         from = to;
-        to = way_point(table, v, v.next);
+        to = way_point(routes, v, v.next);
         along = part_of_leg(from, to, place);
     }
     along = clamped(along, 0.0f, 1.0f);
@@ -75,7 +89,7 @@ LAW Handling by_route(Handling v, Hulls table, Axes axes, vec3 place) {
     if (look < left) {
         aim = aim + unit3(leg, axes.z) * look;
     } else {
-        vec3 after = xyz(way_point(table, v, behind_point(v, v.next))) - xyz(to);
+        vec3 after = xyz(way_point(routes, v, behind_point(v, v.next))) - xyz(to);
         aim = xyz(to) + unit3(after, unit3(leg, axes.z)) * smaller(look - left, larger(length3(after), LEAST_LOOK));
     }
     vec3 away = aim - place;
@@ -91,10 +105,10 @@ LAW Handling by_route(Handling v, Hulls table, Axes axes, vec3 place) {
 }
 
 // Once a step: what the driver does, and how the wheels are turned by now.
-LAW Handling driven(Handling v, Hulls table, Pose pose, Velocity velocity, Parameters parameters) {
+LAW Handling driven(Handling v, Routes routes, Pose pose, Velocity velocity, Parameters parameters) {
     Axes axes = vehicle_axes(v, pose.orientation);
     v.speed = dot3(axes.z, velocity.linear);
-    if (v.by_route != 0u && v.points != 0u) v = by_route(v, table, axes, pose.position);
+    if (v.by_route != 0u && v.points != 0u) v = by_route(v, routes, axes, pose.position);
     float wanted = v.steer * tightest_now(v), most = v.turning * parameters.dt;
     v.curvature = v.curvature + clamped(wanted - v.curvature, -most, most);
     return v;

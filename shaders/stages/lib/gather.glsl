@@ -16,8 +16,8 @@ Gathered gather(uint body) {
     sum.carrying = 0.0f;
     sum.told = FOREVER;
     sum.pressing = 0.0f;
-    uint last = READ(slot_ends, body);
-    for (uint k = body == 0u ? 0u : READ(slot_ends, body - 1u); k < last; ++k) {
+    uint last = READ_WORD(slot_ends, body);
+    for (uint k = body == 0u ? 0u : READ_WORD(slot_ends, body - 1u); k < last; ++k) {
         Slot slot = READ(slots, k);
         sum.change.linear = sum.change.linear + slot.linear;
         sum.change.angular = sum.change.angular + slot.angular;

@@ -7,7 +7,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 uint id_of(uint row) {
-    return REORDERED ? READ(ids, row) : row;
+    return REORDERED ? READ_WORD(ids, row) : row;
 }
 
 #endif

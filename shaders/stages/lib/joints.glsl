@@ -64,8 +64,9 @@ void take_velocities(bool biased) {
         uint body = joints.at[m].member;
         Velocity velocity = velocities.at[body];
         if (biased && joints.at[m].slot != NONE) {
-            uint last = slot_ends.at[body] - joints.at[m].blocks;
-            for (uint k = body == 0u ? 0u : slot_ends.at[body - 1u]; k < last; ++k) velocity = changed_by(velocity, slots.at[k]);
+            uint last = WORD(slot_ends, body) - joints.at[m].blocks;
+            for (uint k = body == 0u ? 0u : WORD(slot_ends, body - 1u); k < last; ++k)
+                velocity = changed_by(velocity, slots.at[k]);
         }
         joints.at[m].velocity_before = velocity;
         joints.at[m].velocity = velocity;

@@ -27,7 +27,7 @@ void meets(uint body, uint other) {
 }
 
 void look_through_large(uint body, Traits own, Bounds around) {
-    for (uint k = READ(cells, PARAMETERS.buckets - 1u); k < READ(cells, PARAMETERS.buckets); ++k) {
+    for (uint k = READ_WORD(cell_ends, PARAMETERS.buckets - 1u); k < READ_WORD(cell_ends, PARAMETERS.buckets); ++k) {
         uint other = READ(cell_entries, k).body;
         CellEntry entry = READ(cell_entries, k);
         if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
@@ -47,10 +47,10 @@ void look_through_large(uint body, Traits own, Bounds around) {
 void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last_x, uint level) {
     uint low = bucket_of(from, level, PARAMETERS.buckets);
     uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
-    uint end = READ(cells, PARAMETERS.buckets - 1u);
-    uint first = low == 0u ? 0u : READ(cells, low - 1u);
+    uint end = READ_WORD(cell_ends, PARAMETERS.buckets - 1u);
+    uint first = low == 0u ? 0u : READ_WORD(cell_ends, low - 1u);
     uint id = id_of(body);
-    uint entries = low <= high ? READ(cells, high) - first : end - first + READ(cells, high);
+    uint entries = low <= high ? READ_WORD(cell_ends, high) - first : end - first + READ_WORD(cell_ends, high);
     for (uint k = 0u; k < entries; ++k) {
         uint place = first + k < end ? first + k : first + k - end;
         CellEntry entry = READ(cell_entries, place);
@@ -65,8 +65,8 @@ void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last
 }
 
 void carry_over(uint body) {
-    uint last = READ(first_contacts_before, body + 1u);
-    for (uint k = READ(first_contacts_before, body); k < last; ++k) {
+    uint last = READ_WORD(first_contacts, body + 1u);
+    for (uint k = READ_WORD(first_contacts, body); k < last; ++k) {
         uint a = READ(contacts_before, k).a;
         uint other = a == body ? READ(contacts_before, k).b : a;
         if ((READ(bounds, other).level & STILL) != 0u) found(other);

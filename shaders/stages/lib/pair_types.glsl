@@ -11,7 +11,7 @@ void count_kinds_of(uint span) {
     for (uint k = 0u; k < KINDS; ++k) found[k] = 0u;
     uint last = min((span + 1u) * SPAN, COUNTED.pairs);
     for (uint pair = span * SPAN; pair < last; ++pair) ++found[READ(pairs, pair).kind];
-    for (uint k = 0u; k < KINDS; ++k) contact_starts.at[k * spans + span] = found[k];
+    for (uint k = 0u; k < KINDS; ++k) WORD(kind_counts, k * spans + span) = found[k];
 }
 
 // In their order.
@@ -19,16 +19,16 @@ void list_kinds_of(uint span) {
     uint spans = spans_of(COUNTED.pairs);
     if (span >= spans) return;
     uint next[KINDS];
-    for (uint k = 0u; k < KINDS; ++k) next[k] = READ(contact_starts, k * spans + span);
+    for (uint k = 0u; k < KINDS; ++k) next[k] = READ_WORD(kind_starts, k * spans + span);
     uint last = min((span + 1u) * SPAN, COUNTED.pairs);
-    for (uint pair = span * SPAN; pair < last; ++pair) binned.at[next[READ(pairs, pair).kind]++] = pair;
+    for (uint pair = span * SPAN; pair < last; ++pair) WORD(pairs_by_kind, next[READ(pairs, pair).kind]++) = pair;
 }
 
 // Says how many pairs of a kind there are.
 void tell_kind(uint kind) {
     uint spans = spans_of(COUNTED.pairs);
     if (kind >= KINDS || spans == 0u) return;
-    uint first = READ(contact_starts, kind * spans), last = READ(contact_starts, (kind + 1u) * spans);
+    uint first = READ_WORD(kind_starts, kind * spans), last = READ_WORD(kind_starts, (kind + 1u) * spans);
     COUNTS.kind_first[kind + 1u] = last;
     COUNTS.arguments[WORK_KIND + kind] = work_for(last - first, PARAMETERS);
 }

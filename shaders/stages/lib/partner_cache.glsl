@@ -1,36 +1,53 @@
-// The first partners that each body finds while they are counted, noted so that they need not be sought again to be listed. They
-// stand in the table of pairs, which nobody reads before it is made anew, twelve in three records for each body.
+// The first partners that each body finds while they are counted, kept so that they need not be sought again to be listed: twelve
+// in three quads for each body. They lie in the memory of the table of pairs, which nobody reads before it is made anew.
 #ifndef SCREE_STAGES_NOTES_GLSL
 #define SCREE_STAGES_NOTES_GLSL
 
 #include "shaders/stages/lib/stage.glsl"
 
-const uint NOTED = 12u;
-bool has_notes(uint body) {
+// The same memory as quads: partner_cache.at[i], and CACHED(i) to be read.
+#ifdef SCREE_BDA
+layout(std430, buffer_reference, buffer_reference_align = 16) buffer PartnerCacheTable {
+    uvec4 at[];
+};
+#define partner_cache PartnerCacheTable(pairs)
+#else
+#define SCREE_BINDING(index, name, block, record, length) const int name##_binding = index;
+SCREE_BUFFERS(SCREE_BINDING)
+layout(std430, set = 0, binding = pairs_binding) buffer PartnerCacheTable {
+    uvec4 at[];
+}
+partner_cache;
+#endif
+#ifdef SCREE_TEXELS
+#define CACHED(i) texelFetch(pairs_texels, int(i))
+#else
+#define CACHED(i) partner_cache.at[i]
+#endif
+
+const uint CACHED_PARTNERS = 12u;
+bool has_cache(uint body) {
     return 3u * body + 3u <= PARAMETERS.pair_capacity;
 }
 
-struct Notes {
+struct Partners {
     uvec4 first, second, third;
 };
-uvec4 noted(uvec4 four, uint place, uint partner) {
+uvec4 with_partner(uvec4 four, uint place, uint partner) {
     return uvec4(place == 0u ? partner : four.x, place == 1u ? partner : four.y, place == 2u ? partner : four.z,
                  place == 3u ? partner : four.w);
 }
 // As the k-th. Into registers all the same: a software device stores word by word, for every place where it might.
-void note(inout Notes notes, uint k, uint partner) {
-    notes.first = noted(notes.first, k, partner);
-    notes.second = noted(notes.second, k - 4u, partner);
-    notes.third = noted(notes.third, k - 8u, partner);
+void note(inout Partners partners, uint k, uint partner) {
+    partners.first = with_partner(partners.first, k, partner);
+    partners.second = with_partner(partners.second, k - 4u, partner);
+    partners.third = with_partner(partners.third, k - 8u, partner);
 }
-Pair packed(uvec4 four) {
-    return Pair(four.x, four.y, four.z, four.w);
-}
-void keep(Notes notes, uint body) {
-    if (!has_notes(body)) return;
-    pairs.at[3u * body] = packed(notes.first);
-    pairs.at[3u * body + 1u] = packed(notes.second);
-    pairs.at[3u * body + 2u] = packed(notes.third);
+void keep(Partners partners, uint body) {
+    if (!has_cache(body)) return;
+    partner_cache.at[3u * body] = partners.first;
+    partner_cache.at[3u * body + 1u] = partners.second;
+    partner_cache.at[3u * body + 2u] = partners.third;
 }
 
 #endif

@@ -15,7 +15,7 @@
 // Gathers warm starts (and the last substep's relaxation), adds forces, pulls what the user holds, and splits the body among the
 // contacts that carry.
 void begin_body(uint i, bool first) {
-    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ(rests, i), PARAMETERS.sleep_steps)) return;
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(rests, i), PARAMETERS.sleep_steps)) return;
     Traits body = READ(traits, i);
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
@@ -32,7 +32,7 @@ void begin_body(uint i, bool first) {
 
 // Gathers the biased pass and moves the body by a substep.
 void move_body(uint i) {
-    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ(rests, i), PARAMETERS.sleep_steps)) return;
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(rests, i), PARAMETERS.sleep_steps)) return;
     Traits body = READ(traits, i);
     if (body.motion == MOTION_FIXED || is_part(body) || is_absent(body.motion)) return;
     Velocity velocity = READ(velocities, i);

@@ -10,7 +10,7 @@
 // With bias.
 void solve_contact(uint place) {
     if (place >= COUNTED.solved) return;
-    uint i = READ(binned, place);
+    uint i = READ_WORD(solved_contacts, place);
     Constraint c = narrowed(READ(constraints, i));
     Impulse impulse = narrowed(READ(impulses, i));
     Mass ma = lent(READ(masses, c.a), impulse, PARAMETERS);
@@ -37,7 +37,7 @@ const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
 // rest. Where bodies may break it also adds up what each contact carries in the step.
 void relax_contact(uint place, uint pass) {
     if (place >= COUNTED.solved) return;
-    uint i = READ(binned, place);
+    uint i = READ_WORD(solved_contacts, place);
     Constraint c = narrowed(READ(constraints, i));
     Impulse impulse = narrowed(READ(impulses, i));
     Mass ma = shared_for(impulse, READ(masses, c.a), READ(loads, c.a), PARAMETERS);
@@ -48,9 +48,9 @@ void relax_contact(uint place, uint pass) {
     vec3 pull = c.restitution > 0.0f ? pull_of(READ(loads, c.a), READ(loads, c.b)) : vec3(0.0f);
     Solved after = relaxed(c, impulse, before, ma, mb, pull, PARAMETERS);
     if (BREAKING) {
-        float carried = pressing(after.impulse);
-        if ((pass & FIRST_SUBSTEP) == 0u) carried = uintBitsToFloat(candidates.at[i].owner) + carried;
-        candidates.at[i].owner = floatBitsToUint(carried);
+        float sum = pressing(after.impulse);
+        if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
+        SET_FLOAT(carried, i, sum);
     }
     impulse = without_blows(after.impulse, c.count);
     impulse.pressed = pressing(impulse);
@@ -67,8 +67,8 @@ void relax_contact(uint place, uint pass) {
     if ((pass & LAST_SUBSTEP) == 0u) {
         share = warm_start(c, impulse, share, ma, mb);
     } else {
-        told_a = told_quiet(READ(traits, c.a).motion, before.a, READ(rests, c.a));
-        told_b = told_quiet(READ(traits, c.b).motion, before.b, READ(rests, c.b));
+        told_a = told_quiet(READ(traits, c.a).motion, before.a, READ_WORD(rests, c.a));
+        told_b = told_quiet(READ(traits, c.b).motion, before.b, READ_WORD(rests, c.b));
     }
     float carrying = carries(c, impulse, after.couple, PARAMETERS);
     if (c.slot_a != NONE) slots.at[c.slot_a] = slot_of(share.a, carrying, told_b);

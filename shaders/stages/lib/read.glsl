@@ -11,24 +11,16 @@
 #define READ(table, i) read_##table(i)
 
 #define SCREE_COUNT(index, name, block, record, length) +1
-const int TABLES = 0 SCREE_TABLES(SCREE_COUNT);
-// After the bindings of the tables themselves.
+const int BUFFERS = 0 SCREE_BUFFERS(SCREE_COUNT);
+// After the bindings of the buffers themselves.
 #define SCREE_DECLARE_TEXELS(index, name, block, record, length) \
-    layout(set = 0, binding = TABLES + index) uniform usamplerBuffer name##_texels;
-SCREE_TABLES(SCREE_DECLARE_TEXELS)
+    layout(set = 0, binding = BUFFERS + index) uniform usamplerBuffer name##_texels;
+SCREE_BUFFERS(SCREE_DECLARE_TEXELS)
 
 #define SCREE_TEXEL(table, i) texelFetch(table##_texels, int(i))
 
 // For each record how it is put together from texels: made from records.h when the project is built.
 #include "shaders/stages/lib/record_readers.glsl"
-#define SCREE_READER_uint(table, TEXEL) \
-    uint read_##table(uint i) {         \
-        return TEXEL(table, i).x;       \
-    }
-#define SCREE_READER_uvec4(table, TEXEL) \
-    uvec4 read_##table(uint i) {         \
-        return TEXEL(table, i);          \
-    }
 
 #define SCREE_READ(table, record) SCREE_READER_##record(table, SCREE_TEXEL)
 // What the threads of a fused stage write for each other.
@@ -53,26 +45,15 @@ SCREE_READ_OF_SOLVER(velocities, Velocity)
 SCREE_READ_OF_SOLVER(masses, Mass)
 SCREE_READ_OF_SOLVER(loads, Load)
 SCREE_READ(bounds, Bounds)
-SCREE_READ_OF_LISTS(cells, uint)
 SCREE_READ(cell_entries, CellEntry)
-SCREE_READ_OF_LISTS(pair_starts, uint)
 SCREE_READ(pairs, Pair)
-SCREE_READ_OF_LISTS(binned, uint)
 SCREE_READ(manifolds, Manifold)
-SCREE_READ_OF_LISTS(touching, uint)
-SCREE_READ_OF_LISTS(contact_starts, uint)
 SCREE_READ(contacts_before, Contact)
 SCREE_READ_OF_SOLVER(impulses, Impulse)
 SCREE_READ(impulses_before, Impulse)
-SCREE_READ(first_contacts_before, uint)
-SCREE_READ_OF_LISTS(slot_ends, uint)
-SCREE_READ_OF_LISTS(slot_sides, uint)
 SCREE_READ_OF_LISTS(constraints, Constraint)
 SCREE_READ_OF_SOLVER(slots, Slot)
 SCREE_READ(candidates, Candidate)
-SCREE_READ_OF_LISTS(rests, uint)
-SCREE_READ(hulls, uvec4)
-SCREE_READ(ids, uint)
 #endif
 
 #endif

@@ -6,11 +6,11 @@
 #define SCREE_STAGES_READ_COHERENT_GLSL
 
 #define SCREE_PLACE(index, name, block, record, length) const int name##_place = index;
-SCREE_TABLES(SCREE_PLACE)
+SCREE_BUFFERS(SCREE_PLACE)
 
 // After the bindings of the tables themselves and of their texels.
 #define SCREE_DECLARE_COHERENT(name) \
-    layout(set = 0, binding = 2 * TABLES + name##_place, rgba32ui) coherent readonly uniform uimageBuffer name##_coherent;
+    layout(set = 0, binding = 2 * BUFFERS + name##_place, rgba32ui) coherent readonly uniform uimageBuffer name##_coherent;
 SCREE_DECLARE_COHERENT(poses)
 SCREE_DECLARE_COHERENT(velocities)
 SCREE_DECLARE_COHERENT(masses)

@@ -30,26 +30,28 @@ uint scan_items() {
 uint scan_read(uint i) {
     uint value = 0u;
     if (SCANNED == SCAN_CELLS)
-        value = READ(cells, i);
+        value = READ_WORD(cell_counts, i);
     else if (SCANNED == SCAN_PAIRS)
-        value = READ(pair_starts, i);
+        value = READ_WORD(pair_counts, i);
     else if (SCANNED == SCAN_KINDS)
-        value = READ(contact_starts, i);
+        value = READ_WORD(kind_counts, i);
     else if (SCANNED == SCAN_CONTACTS)
-        value = READ(touching, i) > 0u ? 1u : 0u;
+        value = READ_WORD(touching, i) > 0u ? 1u : 0u;
     else
-        value = READ(slot_ends, i);
+        value = READ_WORD(slot_counts, i);
     return value;
 }
 void scan_write(uint i, uint sum) {
     if (SCANNED == SCAN_CELLS)
-        cells.at[i] = sum;
+        WORD(cell_starts, i) = sum;
     else if (SCANNED == SCAN_PAIRS)
-        pair_starts.at[i] = sum;
+        WORD(pair_starts, i) = sum;
     else if (SCANNED == SCAN_SLOTS)
-        slot_ends.at[i] = sum;
+        WORD(slot_starts, i) = sum;
+    else if (SCANNED == SCAN_KINDS)
+        WORD(kind_starts, i) = sum;
     else
-        contact_starts.at[i] = sum;
+        WORD(contact_starts, i) = sum;
 }
 // What the total, written behind the last item, means for the rest of the step.
 void scan_total(uint total) {

@@ -6,7 +6,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 uvec4 hull_record(Hulls table, uint place) {
-    return READ(hulls, place);
+    return READ_QUADS(hulls, place);
 }
 
 #endif

@@ -6,7 +6,7 @@
 #include "shaders/stages/lib/ids.glsl"
 
 bool can_be_moved(uint body) {
-    return is_movable(READ(traits, body).motion, READ(rests, body), PARAMETERS.sleep_steps);
+    return is_movable(READ(traits, body).motion, READ_WORD(rests, body), PARAMETERS.sleep_steps);
 }
 
 // Of each body that can be moved.
@@ -14,8 +14,8 @@ void count_slots_of(uint contact) {
     if (contact >= COUNTED.contacts || !any_stirs(COUNTED)) return;
     Pair pair = READ(pairs, READ(constraints, contact).pair);
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    if (can_be_moved(of_a)) atomicAdd(slot_ends.at[of_a], 1u);
-    if (can_be_moved(of_b)) atomicAdd(slot_ends.at[of_b], 1u);
+    if (can_be_moved(of_a)) atomicAdd(WORD(slot_counts, of_a), 1u);
+    if (can_be_moved(of_b)) atomicAdd(WORD(slot_counts, of_b), 1u);
 }
 
 // Also lists the contacts that have one, in any order.
@@ -25,11 +25,11 @@ void fill_slots_of(uint contact) {
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     bool moves_a = can_be_moved(of_a);
     bool moves_b = can_be_moved(of_b);
-    if (moves_a) slot_sides.at[atomicAdd(slot_ends.at[of_a], 1u)] = 2u * contact;
-    if (moves_b) slot_sides.at[atomicAdd(slot_ends.at[of_b], 1u)] = 2u * contact + 1u;
+    if (moves_a) WORD(slot_sides, atomicAdd(WORD(slot_starts, of_a), 1u)) = 2u * contact;
+    if (moves_b) WORD(slot_sides, atomicAdd(WORD(slot_starts, of_b), 1u)) = 2u * contact + 1u;
     if (!moves_a && !moves_b) return;
     uint place = atomicAdd(COUNTS.solved, 1u);
-    binned.at[place] = contact;
+    WORD(solved_contacts, place) = contact;
     uint group = place >> PARAMETERS.group_shift;
     if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVED].x, group + 1u);
 }
@@ -42,22 +42,22 @@ bool comes_before(uint side, uint other) {
     if ((other & OF_JOINT) == 0u) other_owner = constraints.at[other >> 1].a;
     return owner < other_owner || (owner == other_owner && side < other);
 }
-#define SORT_GET(i) slot_sides.at[i]
-#define SORT_SET(i, value) slot_sides.at[i] = value
+#define SORT_GET(i) WORD(slot_sides, i)
+#define SORT_SET(i, value) WORD(slot_sides, i) = value
 #define SORT_BEFORE(x, y) comes_before(x, y)
 #include "shaders/stages/lib/sort.glsl"
 
 // Also says where the contacts that the body owns begin.
 void order_slots_of(uint body) {
     if (COUNTED.overflow != 0u) return;
-    if (body == 0u) first_contacts.at[PARAMETERS.bodies] = COUNTED.contacts;  // even of no bodies
+    if (body == 0u) WORD(first_contacts, PARAMETERS.bodies) = COUNTED.contacts;  // even of no bodies
     if (body >= PARAMETERS.bodies) return;
-    first_contacts.at[body] = READ(contact_starts, READ(pair_starts, body));
-    uint first = body == 0u ? 0u : READ(slot_ends, body - 1u);
-    uint count = READ(slot_ends, body) - first;
+    WORD(first_contacts, body) = READ_WORD(contact_starts, READ_WORD(pair_starts, body));
+    uint first = body == 0u ? 0u : READ_WORD(slot_ends, body - 1u);
+    uint count = READ_WORD(slot_ends, body) - first;
     sort_range(first, count);
     for (uint k = first; k < first + count; ++k) {
-        uint side = slot_sides.at[k];
+        uint side = WORD(slot_sides, k);
         if ((side & OF_JOINT) != 0u)
             joints.at[side & ~OF_JOINT].slot = k;
         else if ((side & 1u) == 0u)

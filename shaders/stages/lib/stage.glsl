@@ -1,5 +1,5 @@
-// What every stage begins with: the tables of a step, and a workgroup whose size the host chooses. Item i of a table is
-// name.at[i].
+// What every stage begins with: the tables of a step, and a workgroup whose size the host chooses. Record i of a table that has a
+// buffer of its own is name.at[i]; words.glsl and quads.glsl reach the others.
 //
 // Each stage is compiled for every way of reaching them: for tables that are bound, and (SCREE_BDA) for tables found by their
 // addresses, which may be longer and more than a device binds; and either with SCREE_TEXELS, where what a stage only reads comes
@@ -27,9 +27,9 @@ layout(local_size_x_id = 0) in;
     layout(std430, buffer_reference, buffer_reference_align = 16) SCREE_SHARED buffer block { \
         record at[];                                                                          \
     };
-SCREE_TABLES(SCREE_DECLARE)
+SCREE_BUFFERS(SCREE_DECLARE)
 #define SCREE_POINT(index, name, block, record, length) block name;
-layout(std140, set = 0, binding = 0) uniform Addresses{SCREE_TABLES(SCREE_POINT)};
+layout(std140, set = 0, binding = 0) uniform Addresses{SCREE_BUFFERS(SCREE_POINT)};
 #else
 layout(std140, set = 0, binding = 0) uniform ParametersTable {
     Parameters at[1];
@@ -40,7 +40,7 @@ parameters;
         record at[];                                                     \
     }                                                                    \
     name;
-SCREE_CHANGING_TABLES(SCREE_DECLARE)
+SCREE_STORAGE_BUFFERS(SCREE_DECLARE)
 #endif
 
 layout(push_constant) uniform Push {
@@ -53,6 +53,10 @@ push;
 #define COUNTED READ(counts, 0u)  // to be read: all but the arguments
 
 #include "shaders/stages/lib/read.glsl"
+
+// after the buffers that they look into
+#include "shaders/stages/lib/quads.glsl"
+#include "shaders/stages/lib/words.glsl"
 
 // The body that a row belongs to.
 uint body_of(uint row) {

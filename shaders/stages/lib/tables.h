@@ -1,47 +1,93 @@
-// The one table of buffers of a step: binding, name, record, and what it is as long as. C++ and GLSL both expand it.
+// The tables of a step, each with its record, its length and its one meaning, and the buffers that hold them on a device. C++ and
+// GLSL both expand these lists.
 //
-// *_before are last step's contacts: their buffers and those without the suffix change places after every step.
+// Wide tables have a buffer each. Tables of single words share one buffer, and so do tables of whole quads (16 bytes), because
+// devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_offset says where each begins, and
+// shaders/stages/lib/words.glsl and quads.glsl read them. On the host every table is a list of its own (compute/step/state.h).
+//
+// *_before are the contacts of the last step: their buffers and those without the suffix change places after every step.
 #ifndef SCREE_STAGES_TABLES_H
 #define SCREE_STAGES_TABLES_H
 
-//   binding, name, block, record, length
+// ---- tables: buffer, name, block, record, length
+#define SCREE_WIDE_TABLES(X)                                                                     \
+    X(1, counts, CountsTable, Counts, one)                                                       \
+    X(2, traits, TraitsTable, Traits, bodies)                                                    \
+    X(3, poses, PosesTable, Pose, bodies)                                                        \
+    X(4, velocities, VelocitiesTable, Velocity, bodies)                                          \
+    X(5, masses, MassesTable, Mass, bodies)                                                      \
+    X(6, loads, LoadsTable, Load, bodies)                                                        \
+    X(7, actions, ActionsTable, Action, actions)                                                 \
+    X(8, bounds, BoundsTable, Bounds, bodies)                                                    \
+    X(9, cell_entries, CellEntriesTable, CellEntry, bodies)                                      \
+    X(10, pairs, PairsTable, Pair, pairs)                                                        \
+    X(11, manifolds, ManifoldsTable, Manifold, pairs)                                            \
+    X(12, contacts, ContactsTable, Contact, contacts)                                            \
+    X(13, contacts_before, ContactsBeforeTable, Contact, contacts)                               \
+    X(14, impulses, ImpulsesTable, Impulse, contacts)                                            \
+    X(15, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                               \
+    X(16, constraints, ConstraintsTable, Constraint, contacts)                                   \
+    X(17, slots, SlotsTable, Slot, slots)                                                        \
+    X(18, candidates, CandidatesTable, Candidate, candidates) /* near each body, in any order */ \
+    X(19, joints, JointsTable, Joint, joints)                                                    \
+    X(20, vehicles, VehiclesTable, Vehicle, vehicles)
+
+// Lists that are counted, scanned and then filled bear the name of what they end up with; what they are until then has a name of
+// its own (SCREE_VIEWS).
+#define SCREE_WORD_TABLES(X)                                                                                                   \
+    X(21, cell_ends, WordsTable, uint, buckets)             /* of each bucket's entries in cell_entries */                     \
+    X(21, pair_starts, WordsTable, uint, bodies_and_end)    /* of the pairs that each row owns */                              \
+    X(21, slot_ends, WordsTable, uint, bodies_and_end)      /* of each body's slots */                                         \
+    X(21, first_contacts, WordsTable, uint, bodies_and_end) /* that each row owns; until order_slots, of the last step */      \
+    X(21, rests, WordsTable, uint, bodies)                  /* how long each body has been quiet, and what woke it: sleep.h */ \
+    X(21, ids, WordsTable, uint, bodies)                    /* which of the scene's bodies, or which part, is in each row */   \
+    X(21, strains, WordsTable, float, bodies)               /* of bodies that break: what the last step left: fracture.h */    \
+    X(21, touching, WordsTable, uint, pairs)                /* points of each pair's manifold; with DOUBTFUL */                \
+    X(21, pairs_by_kind, WordsTable, uint, pairs)                                                                              \
+    X(21, solved_contacts, WordsTable, uint, contacts)     /* those that move somebody, in any order */                        \
+    X(21, kind_starts, WordsTable, uint, kinds)            /* in pairs_by_kind, of each kind's pairs in each span */           \
+    X(21, contact_starts, WordsTable, uint, pairs_and_end) /* of each pair's contact: the contact itself, if it has one */     \
+    X(21, carried, WordsTable, float, contacts)            /* where bodies may break: normal impulse in this step, N s */      \
+    X(21, slot_sides, WordsTable, uint, slots)             /* whose each slot is: 2 * contact + side, or OF_JOINT | record */  \
+    X(21, scan_sums, WordsTable, uint, scan_blocks)
+
+#define SCREE_QUAD_TABLES(X)                                                                                      \
+    X(22, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, and triangles of meshes: shape_data.h */ \
+    X(22, parts, QuadsTable, PoseInBody, parts)         /* where the rows behind all bodies lie in theirs */      \
+    X(22, fractures, QuadsTable, Fracturing, fractures) /* how each body that can breaks */                       \
+    X(22, pieces, QuadsTable, PoseInBody, pieces)       /* where the pieces lie in bodies that break */           \
+    X(22, tyres, QuadsTable, Tyre, tyres)                                                                         \
+    X(22, way_points, QuadsTable, WayPoint, way_points) /* of the routes of vehicles */
+
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \
-    SCREE_CHANGING_TABLES(X)
+    SCREE_WIDE_TABLES(X)                               \
+    SCREE_WORD_TABLES(X)                               \
+    SCREE_QUAD_TABLES(X)
 
+// ---- buffers, in the order of their bindings
+#define SCREE_BUFFERS(X)                               \
+    X(0, parameters, ParametersTable, Parameters, one) \
+    SCREE_STORAGE_BUFFERS(X)
 // All but the parameters, which no stage writes.
-#define SCREE_CHANGING_TABLES(X)                                                                                                 \
-    X(1, counts, CountsTable, Counts, one)                                                                                       \
-    X(2, traits, TraitsTable, Traits, bodies)                                                                                    \
-    X(3, poses, PosesTable, Pose, bodies)                                                                                        \
-    X(4, velocities, VelocitiesTable, Velocity, bodies)                                                                          \
-    X(5, masses, MassesTable, Mass, bodies)                                                                                      \
-    X(6, loads, LoadsTable, Load, bodies)                                                                                        \
-    X(7, actions, ActionsTable, Action, actions)                                                                                 \
-    X(8, bounds, BoundsTable, Bounds, bodies)                                                                                    \
-    X(9, cells, CellsTable, uint, buckets) /* counted, scanned, and after filling the end of each bucket's entries */            \
-    X(10, cell_entries, CellEntriesTable, CellEntry, bodies)                                                                     \
-    X(11, pair_starts, PairStartsTable, uint, bodies_and_end)                                                                    \
-    X(12, pairs, PairsTable, Pair, pairs)                                                                                        \
-    X(13, binned, BinnedTable, uint, pairs) /* pairs by kind; later the contacts that the solver works on */                     \
-    X(14, manifolds, ManifoldsTable, Manifold, pairs)                                                                            \
-    X(15, touching, TouchingTable, uint, pairs)                    /* points of each pair's manifold */                          \
-    X(16, contact_starts, ContactStartsTable, uint, pairs_and_end) /* before: where the kinds of each span begin in `binned` */  \
-    X(17, contacts, ContactsTable, Contact, contacts)                                                                            \
-    X(18, contacts_before, ContactsBeforeTable, Contact, contacts)                                                               \
-    X(19, impulses, ImpulsesTable, Impulse, contacts)                                                                            \
-    X(20, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                                                               \
-    X(21, first_contacts, FirstContactsTable, uint, bodies_and_end) /* of those that a body owns */                              \
-    X(22, first_contacts_before, FirstContactsBeforeTable, uint, bodies_and_end)                                                 \
-    X(23, slot_ends, SlotEndsTable, uint, bodies_and_end) /* counted, scanned, and after filling the end of each body's slots */ \
-    X(24, slot_sides, SlotSidesTable, uint, slots)        /* which side of which contact owns a slot: 2 * contact + side */      \
-    X(25, constraints, ConstraintsTable, Constraint, contacts)                                                                   \
-    X(26, slots, SlotsTable, Slot, slots)                                                                                        \
-    X(27, candidates, CandidatesTable, Candidate, candidates) /* near each body, in any order; or a scan's sums */               \
-    X(28, rests, RestsTable, uint, bodies)                    /* how long each body has been quiet, and what woke it: sleep.h */ \
-    X(29, hulls, HullsTable, uvec4, hulls)                    /* the convex hulls that there are, in the form of shape_data.h */ \
-    X(30, joints, JointsTable, Joint, joints)                                                                                    \
-    X(31, vehicles, VehiclesTable, Vehicle, vehicles)                                                                            \
-    X(32, ids, IdsTable, uint, bodies) /* which of the scene's bodies, or which part, is in each row */
+#define SCREE_STORAGE_BUFFERS(X)           \
+    SCREE_WIDE_TABLES(X)                   \
+    X(21, words, WordsTable, uint, shared) \
+    X(22, quads, QuadsTable, uvec4, shared)
+
+// ---- what a table of words is before it is what its name says: table, until then
+#define SCREE_VIEWS(X)          \
+    X(cell_ends, cell_counts)   \
+    X(cell_ends, cell_starts)   \
+    X(pair_starts, pair_counts) \
+    X(slot_ends, slot_counts)   \
+    X(slot_ends, slot_starts)   \
+    X(kind_starts, kind_counts)
+
+// ---- tables of words that take turns in the same memory of a device: each is dead when the next is written
+#define SCREE_SHARES(X)               /* table, whose memory it takes over */        \
+    X(contact_starts, kind_starts)    /* when the pairs are sorted by kind */        \
+    X(carried, contact_starts)        /* when bodies know which contacts they own */ \
+    X(solved_contacts, pairs_by_kind) /* when all pairs have been collided */
 
 #endif

@@ -2,32 +2,70 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compute/step/plan.h"
 #include "compute/step/stage_fusion.h"
+#include "compute/step/table_layout.h"
 #include "shaders/embedded.h"
+#include "shaders/stages/lib/record_layouts.h"
 #include "tests/house/vulkan/spirv_access.h"
 
 using namespace scree;
 
 namespace {
 
-const std::vector<std::string> ways = {"", ".far", ".texels", ".far.texels"};  // shaders/stages/lib/stage.glsl
+const std::vector<std::string> ways = {"", ".bda", ".texels", ".bda.texels"};  // shaders/stages/lib/stage.glsl
+
+std::optional<Table> table_called(std::string_view name) {
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (table_infos()[i].name == name) return static_cast<Table>(i);
+    return std::nullopt;
+}
+
+// The table that has a buffer of its own; none for those of words and of quads.
+std::optional<Table> table_in(std::size_t buffer) {
+    return table_called(buffer_infos()[buffer].name);
+}
+
+// The table that begins where a member of the parameters says.
+std::optional<Table> table_that_begins_at(std::uint32_t member) {
+    static const std::vector<std::string> members = [] {
+        std::vector<std::string> all;
+#define SCREE_RECORD(record, size)
+#define SCREE_MEMBER(record, member, offset) \
+    if (std::string_view(#record) == "Parameters") all.push_back(#member);
+        SCREE_RECORDS(SCREE_RECORD, SCREE_MEMBER)
+#undef SCREE_RECORD
+#undef SCREE_MEMBER
+        return all;
+    }();
+    const std::string& name = members.at(member);
+    constexpr std::string_view ending = "_offset";
+    if (!name.ends_with(ending)) return std::nullopt;
+    return table_called(std::string_view(name).substr(0, name.size() - ending.size()));
+}
 
 // By table, whether it comes as itself, as texels, or as texels that change.
 std::map<Table, house::BufferAccess> shader_accesses(const house::Accesses& accesses) {
     std::map<Table, house::BufferAccess> all;
-    for (const auto& [binding, access] : accesses.of) {
-        const auto table = static_cast<Table>(binding % table_count);
-        if (table == Table::parameters) continue;
-        all[table].loads |= access.loads;
-        all[table].stores |= access.stores;
-        all[table].atomics |= access.atomics;
-    }
+    const auto add = [&](std::optional<Table> table, const house::BufferAccess& access) {
+        if (!table || *table == Table::parameters) return;
+        all[*table].loads |= access.loads;
+        all[*table].stores |= access.stores;
+        all[*table].atomics |= access.atomics;
+    };
+    for (const auto& [binding, access] : accesses.of) add(table_in(binding % buffer_count), access);
+    for (const auto& [member, access] : accesses.of_member) add(table_that_begins_at(member), access);
     return all;
+}
+
+house::Accesses accesses_of_shader(const std::string& name) {
+    return house::accesses_of(shaders::find(name), shaders::variant_of(name));
 }
 
 const Access* find(const std::vector<Access>& list, Table table) {
@@ -42,7 +80,7 @@ std::string name_of(Table table) {
 void require_as_compiled(const StageDeclaration& stage) {
     for (const std::string& way : ways) {
         INFO("shader " << stage.name << way);
-        const house::Accesses accesses = house::accesses_of(shaders::find(stage.name + way));
+        const house::Accesses accesses = accesses_of_shader(stage.name + way);
         CHECK(accesses.tested_bits == stage.features);
         const auto compiled = shader_accesses(accesses);
         for (const auto& [table, access] : compiled) {
@@ -97,7 +135,7 @@ TEST_CASE("house: a stage that is several in turn reads and writes no table that
             if (stage.reference) continue;
             for (const std::string& way : ways) {
                 INFO("shader " << stage.name << way);
-                const house::Accesses accesses = house::accesses_of(shaders::find(stage.name + way));
+                const house::Accesses accesses = accesses_of_shader(stage.name + way);
                 CHECK(accesses.tested_bits == stage.features);
                 for (const auto& [table, access] : shader_accesses(accesses)) {
                     INFO("table " << name_of(table));

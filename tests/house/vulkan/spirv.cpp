@@ -61,8 +61,11 @@ struct TableEntry {
 std::map<std::string, TableEntry> tables() {
     using namespace physics;
 #define SCREE_ENTRY(binding, name, block, record, length) {#block, {binding, #record, sizeof(record)}},
-    return {SCREE_TABLES(SCREE_ENTRY)};
+    std::map<std::string, TableEntry> all = {SCREE_BUFFERS(SCREE_ENTRY)};
 #undef SCREE_ENTRY
+    // What lies in the table of pairs until that is made (shaders/stages/lib/partner_cache.glsl).
+    all["PartnerCacheTable"] = {all.at("PairsTable").binding, "uvec4", sizeof(uvec4)};
+    return all;
 }
 
 }  // namespace

@@ -1,0 +1,89 @@
+// Puts the tables that share a buffer one after the other.
+#include "compute/step/table_layout.h"
+
+#include <algorithm>
+
+namespace scree {
+
+namespace {
+
+// A canvas binds single tables of a shared buffer: no device asks for more (Vulkan 1.3, minStorageBufferOffsetAlignment).
+constexpr std::size_t alignment = 256;
+
+// The table in whose memory this one lies.
+Table first_owner(Table table) {
+    switch (table) {
+#define SCREE_SHARE(later, earlier) \
+    case Table::later:              \
+        return first_owner(Table::earlier);
+        SCREE_SHARES(SCREE_SHARE)
+#undef SCREE_SHARE
+        default:
+            return table;
+    }
+}
+
+#define SCREE_CHECK(buffer, name, block, record, length) static_assert(sizeof(physics::records::name) == 4);
+SCREE_WORD_TABLES(SCREE_CHECK)
+#undef SCREE_CHECK
+#define SCREE_CHECK(buffer, name, block, record, length) static_assert(sizeof(physics::records::name) % 16 == 0);
+SCREE_QUAD_TABLES(SCREE_CHECK)
+#undef SCREE_CHECK
+
+std::size_t index_of(Table table) {
+    return static_cast<std::size_t>(table);
+}
+
+}  // namespace
+
+const std::array<BufferInfo, buffer_count>& buffer_infos() {
+    static const std::array<BufferInfo, buffer_count> infos{{
+#define SCREE_INFO(buffer, name, block, record, length) {#name, sizeof(physics::record)},
+        SCREE_BUFFERS(SCREE_INFO)
+#undef SCREE_INFO
+    }};
+    return infos;
+}
+
+bool share_memory(Table one, Table other) {
+    return first_owner(one) == first_owner(other);
+}
+
+TableOffsets table_offsets(const State& state, const std::function<std::size_t(Length)>& spare) {
+    TableOffsets offsets;
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const TableInfo& info = table_infos()[i];
+        const std::size_t records = state.allocated(info.length) + (spare ? spare(info.length) : 0);
+        std::size_t& room = offsets.room[index_of(first_owner(static_cast<Table>(i)))];
+        room = std::max(room, records * info.record_bytes);
+    }
+    for (std::size_t i = 0; i < table_count; ++i) {
+        if (first_owner(static_cast<Table>(i)) != static_cast<Table>(i)) continue;
+        std::size_t& end = offsets.bytes[table_infos()[i].buffer];
+        offsets.begin[i] = (end + alignment - 1) / alignment * alignment;
+        end = offsets.begin[i] + offsets.room[i];
+    }
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const std::size_t owner = index_of(first_owner(static_cast<Table>(i)));
+        offsets.begin[i] = offsets.begin[owner];
+        offsets.room[i] = offsets.room[owner];
+    }
+    return offsets;
+}
+
+bool have_room(const TableOffsets& offsets, std::size_t buffer, const State& state) {
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (table_infos()[i].buffer == buffer && state.raw_bytes(static_cast<Table>(i)) > offsets.room[i]) return false;
+    return true;
+}
+
+void tell_offsets(const TableOffsets& offsets, physics::Parameters& parameters) {
+#define SCREE_TELL(buffer, name, block, record, length) \
+    parameters.name##_offset =                          \
+        static_cast<physics::uint>(offsets.begin[index_of(Table::name)] / buffer_infos()[buffer].record_bytes);
+    SCREE_WORD_TABLES(SCREE_TELL)
+    SCREE_QUAD_TABLES(SCREE_TELL)
+#undef SCREE_TELL
+}
+
+}  // namespace scree
