@@ -51,7 +51,7 @@ constexpr std::size_t top = 10;
 }  // namespace
 
 TEST_CASE("a ray through a pixel meets what is seen there") {
-    Eye eye(Viewpoint{vec3(3, 5, 8), vec3(0.5f, 1, -1), 50});
+    OrbitCamera eye(Viewpoint{vec3(3, 5, 8), vec3(0.5f, 1, -1), 50});
     for (const vec3 point : {vec3(0.5f, 1, -1), vec3(2, 0, 1), vec3(-3, 4, -9)}) {
         const glm::vec2 pixel = eye.pixel_of(point, extent).value();
         const Ray ray = eye.ray(pixel.x, pixel.y, extent);
@@ -118,7 +118,7 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
     const vec3 start = played.session.world().body(top).position;
     const glm::vec2 pixel = played.pixel_of(top);
     played.at(EventKind::moved, pixel);
-    played.at(EventKind::pressed, pixel);
+    played.at(EventKind::normal_sum, pixel);
     REQUIRE(played.hands.selected() == top);
     for (int i = 1; i <= 30; ++i) {
         played.at(EventKind::moved, pixel + glm::vec2(2, -2) * static_cast<float>(i));
@@ -131,7 +131,7 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
     const Pull pull = played.hands.pull().value();
     REQUIRE(glm::length(pull.to - pull.from) < 0.03f);  // it hangs from the spring by so much
     // 60 pixels to the right and up, in the plane of the point that was taken hold of.
-    const Eye& eye = played.hands.eye();
+    const OrbitCamera& eye = played.hands.eye();
     const glm::vec2 now = eye.pixel_of(pull.from, extent).value();
     REQUIRE(now.x == Approx(pixel.x + 60).margin(1.5));
     REQUIRE(now.y == Approx(pixel.y - 60).margin(1.5));
@@ -153,7 +153,7 @@ TEST_CASE("the wheel draws a held body nearer, and else brings the eye nearer") 
     played.hands.on({.kind = EventKind::scrolled, .amount = 2});
     REQUIRE(played.hands.eye().distance() < distance);
     const glm::vec2 pixel = played.pixel_of(top);
-    played.at(EventKind::pressed, pixel);
+    played.at(EventKind::normal_sum, pixel);
     const vec3 target = played.hands.pull()->to;
     const float held = played.hands.eye().distance();
     played.hands.on({.kind = EventKind::scrolled, .x = pixel.x, .y = pixel.y, .amount = -1});
@@ -164,18 +164,18 @@ TEST_CASE("the wheel draws a held body nearer, and else brings the eye nearer") 
 
 TEST_CASE("beside bodies a drag looks round, and with the middle button it moves the view") {
     Played played;
-    const Eye before = played.hands.eye();
+    const OrbitCamera before = played.hands.eye();
     played.at(EventKind::moved, {5, 5});
-    played.at(EventKind::pressed, {5, 5});  // the sky
+    played.at(EventKind::normal_sum, {5, 5});  // the sky
     played.at(EventKind::moved, {55, 5});
     played.at(EventKind::released, {55, 5});
     REQUIRE(played.hands.eye().target() == before.target());
     REQUIRE(glm::length(played.hands.eye().position() - before.position()) > 0.1f);
     REQUIRE(played.hands.eye().distance() == before.distance());
     REQUIRE_FALSE(played.hands.selected());
-    const Eye turned = played.hands.eye();
+    const OrbitCamera turned = played.hands.eye();
     const glm::vec2 pixel = turned.pixel_of(turned.target(), extent).value();
-    played.at(EventKind::pressed, {55, 5}, Button::middle);
+    played.at(EventKind::normal_sum, {55, 5}, Button::middle);
     played.at(EventKind::moved, {75, 15});
     played.at(EventKind::released, {75, 15}, Button::middle);
     // What was in the middle went with the pointer.
@@ -222,7 +222,7 @@ TEST_CASE("arrow keys push the selected body, as the view sees it, for as long a
     for (const auto& [key, sign] : {std::pair(Key::left, -1.0f), {Key::right, 1.0f}}) {
         Played played;
         const glm::vec2 pixel = played.pixel_of(top);
-        played.at(EventKind::pressed, pixel);
+        played.at(EventKind::normal_sum, pixel);
         played.at(EventKind::released, pixel);
         const vec3 start = played.session.world().body(top).position;
         played.hands.on({.kind = EventKind::key_pressed, .key = key});
@@ -276,7 +276,7 @@ TEST_CASE("a machine that falls behind makes a few steps at a time and forgets t
 TEST_CASE("to begin again and to open the next demo let go of everything") {
     Played played;
     const glm::vec2 pixel = played.pixel_of(top);
-    played.at(EventKind::pressed, pixel);
+    played.at(EventKind::normal_sum, pixel);
     played.pass(0.1);
     played.strike(key_of('R'));
     REQUIRE(played.session.world().steps() == 0);
@@ -295,7 +295,7 @@ TEST_CASE("to begin again and to open the next demo let go of everything") {
 
 TEST_CASE("the view follows the selected body") {
     Played played;
-    played.at(EventKind::pressed, played.pixel_of(top));
+    played.at(EventKind::normal_sum, played.pixel_of(top));
     played.at(EventKind::released, played.pixel_of(top));
     played.strike(key_of('F'));
     played.at(EventKind::moved, {0, 0});
@@ -309,7 +309,7 @@ TEST_CASE("a window of another size sees another ray under the same pixel") {
     played.hands.on({.kind = EventKind::resized, .x = 1280, .y = 720});
     REQUIRE(played.hands.extent().width == 1280);
     const glm::vec2 pixel = played.hands.eye().pixel_of(played.session.world().body(top).position, {1280, 720}).value();
-    played.at(EventKind::pressed, pixel);
+    played.at(EventKind::normal_sum, pixel);
     REQUIRE(played.hands.selected() == top);
 }
 

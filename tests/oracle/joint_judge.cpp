@@ -29,7 +29,7 @@ DenseBody dense(const Body& body, const physics::Pose& pose, const physics::Velo
 
 DenseAxis locked_axis(double at = 0) {
     DenseAxis axis;
-    axis.drive = DenseAxis::Drive::lock;
+    axis.motor_impulse = DenseAxis::Drive::lock;
     axis.rest = at;
     return axis;
 }
@@ -44,13 +44,13 @@ DenseAxis dense(const Axis& axis) {
         made.upper = static_cast<double>(axis.limits->upper);
     }
     if (axis.spring) {
-        made.drive = DenseAxis::Drive::spring;
+        made.motor_impulse = DenseAxis::Drive::spring;
         made.stiffness = static_cast<double>(axis.spring->stiffness);
         made.damping = static_cast<double>(axis.spring->damping);
         made.rest = static_cast<double>(axis.spring->rest);
         made.max_force = static_cast<double>(axis.spring->max_force);
     } else if (axis.motor || axis.friction > 0) {
-        made.drive = DenseAxis::Drive::motor;
+        made.motor_impulse = DenseAxis::Drive::motor;
         made.speed = axis.motor ? static_cast<double>(axis.motor->speed) : 0;
         made.max_force = static_cast<double>(axis.motor ? axis.motor->max_force : axis.friction);
     }
@@ -100,7 +100,7 @@ struct AxesOf {
         to.axes[3] = limited_axis(static_cast<double>(cone.twist.lower), static_cast<double>(cone.twist.upper), cone.friction);
         to.axes[4] = limited_axis(-1e30, static_cast<double>(cone.swing), 0);
     }
-    void operator()(const SixDegrees& six) const {
+    void operator()(const SixDof& six) const {
         const Axis axes[] = {six.x, six.y, six.z, six.twist, six.swing_y, six.swing_z};
         for (std::size_t k = 0; k < 6; ++k) to.axes[k] = dense(axes[k]);
         to.spins = !six.twist.locked;
@@ -122,8 +122,8 @@ DenseJoint dense(const Joint& joint, const physics::Joint& record) {
     made.frame_b = quaternion(joint.frame_b);
     std::visit(AxesOf{made}, joint.kind);
     for (std::size_t k = 0; k < 6; ++k) {
-        made.axes[k].drive_impulse = static_cast<double>(record.rows[k].drive);
-        made.axes[k].stop_impulse = static_cast<double>(record.rows[k].stop);
+        made.axes[k].drive_impulse = static_cast<double>(record.rows[k].motor_impulse);
+        made.axes[k].stop_impulse = static_cast<double>(record.rows[k].limit_impulse);
     }
     return made;
 }
@@ -132,8 +132,8 @@ std::vector<DenseImpulses> impulses_of(const std::vector<DenseJoint>& joints) {
     std::vector<DenseImpulses> impulses(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j)
         for (std::size_t k = 0; k < 6; ++k) {
-            impulses[j].drive[k] = joints[j].axes[k].drive_impulse;
-            impulses[j].stop[k] = joints[j].axes[k].stop_impulse;
+            impulses[j].motor_impulse[k] = joints[j].axes[k].drive_impulse;
+            impulses[j].limit_impulse[k] = joints[j].axes[k].stop_impulse;
         }
     return impulses;
 }
@@ -142,21 +142,21 @@ DenseBranches branches_of(const std::vector<std::uint32_t>& records, const Joint
     DenseBranches branches(records.size());
     for (std::size_t j = 0; j < records.size(); ++j) {
         for (std::size_t k = 0; k < 6; ++k) {
-            switch (tables.joints[records[j]].pins >> (4 * k) & 15) {
-                case physics::PIN_LOW:
+            switch (tables.joints[records[j]].active_set >> (4 * k) & 15) {
+                case physics::MOTOR_AT_MIN:
                     branches[j][k] = DenseBranch::drive_low;
                     break;
-                case physics::PIN_HIGH:
+                case physics::MOTOR_AT_MAX:
                     branches[j][k] = DenseBranch::drive_high;
                     break;
-                case physics::STOP_LOW:
+                case physics::LIMIT_LOWER:
                     branches[j][k] = DenseBranch::stop_low;
                     break;
-                case physics::STOP_HIGH:
+                case physics::LIMIT_UPPER:
                     branches[j][k] = DenseBranch::stop_high;
                     break;
                 default:
-                    branches[j][k] = DenseBranch::drive;
+                    branches[j][k] = DenseBranch::motor_impulse;
             }
         }
     }
@@ -232,7 +232,7 @@ JointVerdict judge_joints(const Scene& scene, const std::vector<std::uint32_t>& 
     };
     const DenseSolution solution = solve_densely(bodies, joints, dense_pass);
     return {error(solve_densely_on(branches_of(records, after), bodies, joints, dense_pass)),
-            solution.solved ? error(solution) : std::numeric_limits<double>::quiet_NaN()};
+            solution.solved_axes ? error(solution) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 double JointVerdicts::worst() const {

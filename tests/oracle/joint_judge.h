@@ -18,7 +18,7 @@ struct JointTablesNow {
     std::vector<physics::Pose> poses;
     std::vector<physics::Velocity> velocities;
     std::vector<physics::Joint> joints;
-    std::vector<physics::Slot> slots;
+    std::vector<physics::VelocityDelta> slots;
     std::vector<physics::uint> slot_ends;
 };
 

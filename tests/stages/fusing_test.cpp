@@ -116,7 +116,7 @@ TEST_CASE("bodies of a small world break with the bits of the CPU path") {
     Both both(breaking());
     REQUIRE(both.runner.is_fused());
     both.step(120);
-    REQUIRE(both.there.statistics().broken > 0);
+    REQUIRE(both.exists.statistics().broken > 0);
     REQUIRE(both.runner.is_fused());
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("a world that grows large goes over to stages of their own, with the s
     REQUIRE(both.runner.is_fused());
     both.step(100);
     REQUIRE_FALSE(both.runner.is_fused());
-    REQUIRE(both.there.buffer_growths() > 3);
+    REQUIRE(both.exists.buffer_growths() > 3);
 }
 
 TEST_CASE("small worlds on a device without texels, or whose tables are found by address, have the same bits") {
@@ -148,7 +148,7 @@ TEST_CASE("small worlds on a device without texels, or whose tables are found by
         options.without_texels = !far;
         options.largest_binding = far ? 1024 : 0;
         Both both(tests::heap(40), {}, host::Device::open(options));
-        REQUIRE(both.runner.reach() == (far ? host::Reach::far : host::Reach::bound));
+        REQUIRE(both.runner.twist_arm() == (far ? host::Reach::far : host::Reach::bound));
         both.step(60);
         REQUIRE(both.runner.is_fused());
     }
@@ -164,7 +164,7 @@ TEST_CASE("stages are timed when that is asked for, fused ones under their own n
     world.step(3);
     REQUIRE(time_of("substeps") == 0);
     REQUIRE(time_of("solve_contacts") == -1);
-    world.time_stages(true);
+    world.set_profiling(true);
     world.step(3);
     REQUIRE(time_of("substeps") > 0);
 }
@@ -173,7 +173,7 @@ TEST_CASE("a fused stage does stages of the plan, once each") {
     physics::Parameters parameters{};
     parameters.contact_capacity = 100;
     for (const bool everything : {false, true}) {
-        const std::vector<Stage> whole = plan(8, everything ? Content::everything() : Content{});
+        const std::vector<Stage> whole = plan(8, everything ? SceneFeatures::everything() : SceneFeatures{});
         std::vector<std::string> parts;
         for (const Stage& stage : fused(whole, parameters, 8)) {
             const std::uint32_t times = stage.reference ? 1 : std::max(1u, stage.pass >> 8 & 0xFFu);

@@ -40,7 +40,7 @@ TEST_CASE("oracle: the joint solver on the device agrees with the dense solution
         DeviceRunner runner(device);
         State state(scene, settings, runner.group_size(), runner.in_place());
         runner.attach(state);
-        const std::vector<Stage> stages = plan(settings.substeps, state.content());
+        const std::vector<Stage> stages = plan(settings.substeps, state.features());
         for (int step = 0; step < judged_steps; ++step) {
             runner.begin_step();
             for (std::size_t i = 0; i < stages.size(); ++i) {
