@@ -14,7 +14,7 @@ std::uint32_t feature_bits(const SceneFeatures& features) {
     return (features.bounces ? physics::FEATURE_BOUNCES : 0) | (features.rolls ? physics::FEATURE_ROLLS : 0) |
            (features.round ? physics::FEATURE_ROUND : 0) | (features.tyres ? physics::FEATURE_TYRES : 0) |
            (features.moving_parts ? physics::FEATURE_PARTS : 0) | (features.reordered ? physics::FEATURE_REORDERED : 0) |
-           (features.joints ? physics::CONTENT_JOINTS : 0) | (features.breaking ? physics::CONTENT_BREAKING : 0);
+           (features.joints ? physics::FEATURE_JOINTS : 0) | (features.breaking ? physics::FEATURE_BREAKING : 0);
 }
 
 struct Order {
@@ -22,14 +22,14 @@ struct Order {
     std::uint32_t features;
     void add(const std::string& name, std::uint32_t pass = 0) {
         const StageDeclaration& declared = stage_declaration(name);
-        stages.push_back({declared, pass, features & declared.features});
+        stages.push_back({declared, pass, features & declared.tested_features});
     }
     void add_scan(const std::string& what) {
         for (const char* part : {"_sums", "_spine", "_offsets"}) add("scan_" + what + part);
     }
 };
 
-bool has_kind(const SceneFeatures& features, std::uint32_t pair_type) {
+bool has_pair_type(const SceneFeatures& features, std::uint32_t pair_type) {
     if (pair_type >= physics::PAIR_PERSISTENT) return true;
     if (pair_type == physics::PAIR_HULL_HULL) return features.hulls;
     if (pair_type >= physics::PAIR_SPHERE_TRIANGLE) return features.triangles;
@@ -96,7 +96,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add_scan("pair_types");
     s.add("fill_pair_types");
     for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_TYPES; ++pair_type)
-        if (has_kind(features, pair_type)) s.add(name_of_kind(pair_type), pair_type);
+        if (has_pair_type(features, pair_type)) s.add(name_of_pair_type(pair_type), pair_type);
     s.add(convex ? "predict_impacts_convex" : "predict_impacts");
     s.add("cull_speculative");
     // contacts: who touches

@@ -16,7 +16,7 @@ struct Compared {
 };
 
 struct Stage : StageDeclaration {
-    std::uint32_t pass = 0;      // told to the stage; for Over::kind which kind
+    std::uint32_t pass = 0;      // told to the stage; for DispatchDomain::pair_type which pair type
     std::uint32_t features = 0;  // of its features, those that the scene has
     bool barrier_after = true;   // and other stages may follow
     std::vector<Compared> compared = {};

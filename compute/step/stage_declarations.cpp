@@ -29,7 +29,7 @@ Access some_only(Access access) { return with(access, Manner::some_only); }
 Access as_long_as(BufferLength length, Access access) { access.as_long_as = length; return access; }
 // clang-format on
 
-// By kind, KIND_*.
+// By pair_type, PAIR_*.
 constexpr std::array<const char*, physics::PAIR_TYPES> pair_type_names{
     "collide_sphere_sphere",   "collide_sphere_capsule",  "collide_sphere_box",    "collide_sphere_plane",
     "collide_capsule_capsule", "collide_capsule_box",     "collide_capsule_plane", "collide_box_box",
@@ -71,7 +71,7 @@ void declare_convex(std::vector<StageDeclaration>& all) {
 }
 
 void declare_broadphase(std::vector<StageDeclaration>& all) {
-    constexpr std::uint32_t features = physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::CONTENT_JOINTS;
+    constexpr std::uint32_t features = physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS;
     declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
         {{bounds, A::bodies, 1}, {cell_ends, A::bodies}},
@@ -103,16 +103,16 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
     all.push_back({"fill_pair_types", DispatchDomain::pair_blocks, fill_pair_types,
         {{counts}, {pairs, A::pairs}, {pair_type_starts, A::pair_types}},
         {{pairs_by_type, A::pairs}, {counts}}});
-    for (std::uint32_t kind = 0; kind < physics::PAIR_PERSISTENT; ++kind) {
-        all.push_back({pair_type_names[kind], DispatchDomain::kind, collide,
+    for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_PERSISTENT; ++pair_type) {
+        all.push_back({pair_type_names[pair_type], DispatchDomain::pair_type, collide,
             {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {properties, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
             {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
-        if (kind >= physics::PAIR_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
+        if (pair_type >= physics::PAIR_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
     }
-    all.push_back({pair_type_names[physics::PAIR_PERSISTENT], DispatchDomain::kind, collide_persistent,
+    all.push_back({pair_type_names[physics::PAIR_PERSISTENT], DispatchDomain::pair_type, collide_persistent,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}, {properties}},
         {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
-    all.push_back({pair_type_names[physics::PAIR_INACTIVE], DispatchDomain::kind, collide_inactive,
+    all.push_back({pair_type_names[physics::PAIR_INACTIVE], DispatchDomain::pair_type, collide_inactive,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
         {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
     // Few pairs are fast: most are looked at no further.
@@ -154,7 +154,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     declare_scan(all, {"slots", DispatchDomain::body_scan_blocks, slot_ends, slot_ends, A::bodies, scan_nothing, scan_slots_offsets});
     all.push_back({"fill_slots", DispatchDomain::contacts, fill_slots,
         {in_parts({counts}), {constraints, A::contacts, 1}, {pairs, A::contacts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
-        {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({contacts_to_solve, A::solved}), in_parts({counts})}});
+        {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({contacts_to_solve, A::solver_contacts}), in_parts({counts})}});
     all.push_back({"fill_joint_slots", DispatchDomain::joint_blocks, fill_joint_slots,
         {in_parts({counts}), {joints, A::joints, 2}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
@@ -176,19 +176,19 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}},
         {{velocities, A::movers}, {masses, A::movers, 1}}});
-    all.push_back({"solve_contacts", DispatchDomain::solved, solve_contacts,
-        {{counts}, {contacts_to_solve, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {velocities, A::movers}, {forces}},
-        {{impulses, A::solved}, in_parts({slots, A::slots})}, features});
+    all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}},
+        {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
     all.push_back({"solve_joints", DispatchDomain::joint_blocks, solve_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}}});
-    all.push_back({"relax_contacts", DispatchDomain::solved, relax_contacts,
-        {{counts}, {contacts_to_solve, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
+    all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
          {velocities, A::movers}, {properties}, {sleep_states}},
-        {{impulses, A::solved}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::CONTENT_BREAKING});
+        {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_BREAKING});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, in_parts({slots}), {properties}, {sleep_states}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
@@ -226,11 +226,11 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {bounds, A::ccd_bodies, 1}, {properties}, {poses}, {velocities}, {forces}},
         {{poses}, {velocities}}});
     all.push_back({"find_broken", DispatchDomain::bodies, find_broken,
-        {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solved}, {velocities}, {fractures}, {strains}},
+        {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solver_contacts}, {velocities}, {fractures}, {strains}},
         {some_only({strains, A::movers}), {forces}, {counts}}});
     all.push_back({"return_excess_impulse", DispatchDomain::bodies, return_excess_impulse,
-        {{counts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solved}, {impulses}, {masses},
-         {forces, A::bodies, 1}, {carried, A::solved}, {velocities, A::movers}},
+        {{counts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solver_contacts}, {impulses}, {masses},
+         {forces, A::bodies, 1}, {carried, A::solver_contacts}, {velocities, A::movers}},
         {{velocities, A::movers}}});
     all.push_back({"break_bodies", DispatchDomain::bodies, break_bodies,
         {{counts}, {forces, A::bodies, 1}, {properties}, {poses}, {velocities}, {fractures}, {pieces}},
@@ -280,8 +280,8 @@ const StageDeclaration& stage_declaration(const std::string& name) {
     return *found->second;
 }
 
-const char* name_of_kind(std::uint32_t kind) {
-    return pair_type_names.at(kind);
+const char* name_of_pair_type(std::uint32_t pair_type) {
+    return pair_type_names.at(pair_type);
 }
 
 bool conflict(const StageDeclaration& before, const StageDeclaration& after) {

@@ -32,8 +32,8 @@ enum class DispatchDomain {
     pair_scan_blocks,
     contacts,
     wake_contacts,
-    solved,
-    kind,
+    solver_contacts,
+    pair_type,
     ccd_pairs
 };
 bool is_indirect(DispatchDomain domain);
@@ -49,10 +49,10 @@ enum class Amount {
     pair_types,
     pairs,
     contacts,
-    solved,
-    breakable,  // solved, if some body may break, else none
+    solver_contacts,
+    breakable,  // solver_contacts, if some body may break, else none
     slots,
-    binned,         // pairs of the stage's kind
+    binned,         // pairs of the stage's pair_type
     binned_bodies,  // their bodies, at most all
     binned_hulls,   // records of their hulls, each once
     joints,
@@ -86,14 +86,14 @@ struct StageDeclaration {
     DispatchDomain domain = DispatchDomain::one_group;
     void (*reference)(State&, const Threads&, std::uint32_t pass) = nullptr;  // none for one that is several in turn
     std::vector<Access> reads, writes;                                        // all but the parameters, which nobody writes
-    std::uint32_t features = 0;  // the CONTENT_* that its shader tells apart (shaders/stages/lib/features.glsl)
+    std::uint32_t tested_features = 0;  // the FEATURE_* that its shader tells apart (shaders/stages/lib/features.glsl)
 };
 
 const std::vector<StageDeclaration>& stage_declarations();
 // Throws std::logic_error for a name that is not declared.
 const StageDeclaration& stage_declaration(const std::string& name);
-// Of the stage for pairs of a kind (KIND_*).
-const char* name_of_kind(std::uint32_t kind);
+// Of the stage for pairs of a pair_type (PAIR_*).
+const char* name_of_pair_type(std::uint32_t pair_type);
 
 // Whether what one stage does is not sure to be right if the other runs at the same time.
 bool conflict(const StageDeclaration& before, const StageDeclaration& after);

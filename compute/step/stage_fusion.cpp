@@ -91,7 +91,7 @@ Stage in_one(const Run& run, const std::vector<Stage>& plan, std::size_t first) 
         const Stage& part = plan[first + k];
         for (const Access& access : part.reads) all.reads.push_back({access.table});
         for (const Access& access : part.writes) all.writes.push_back({access.table});
-        all.features |= part.features;
+        all.tested_features |= part.tested_features;
         all.features |= part.features;
     }
     return all;
@@ -127,12 +127,12 @@ std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std:
     for (std::uint32_t b = 0; b < blocks; ++b) {
         const physics::Joint& first = records[records[b].first_of_block];
         const auto block = records.subspan(records[b].first_of_block, first.block_joints);
-        members = std::max(members, first.block_members);
+        members = std::max(members, first.block_bodies);
         from_first.resize(std::max(from_first.size(), block.size()));
         from_last.resize(from_first.size());
         for (std::size_t j = 0; j < block.size(); ++j) {
-            from_first[j] = std::max(from_first[j], block[j].links);
-            from_last[j] = std::max(from_last[j], block[block.size() - 1 - j].links);
+            from_first[j] = std::max(from_first[j], block[j].fill_in);
+            from_last[j] = std::max(from_last[j], block[block.size() - 1 - j].fill_in);
         }
     }
     const auto joints = static_cast<std::uint32_t>(from_first.size());

@@ -179,7 +179,7 @@ TableRanges StateEditor::add(const Body& body) {
     state_.sleep_states[row] = 0;
     state_.strains[row] = SceneCompiler::start_strain_of(body, state_.properties[row]);
     const std::uint32_t first_part = std::max(rows_before, row + 1);
-    for (std::uint32_t part = first_part; part < p.bodies; ++part) compiler.coordinate(part);
+    for (std::uint32_t part = first_part; part < p.bodies; ++part) compiler.place(part);
     state_.note_content(row, 1);
     state_.note_content(first_part, p.bodies - first_part);
     if (row < rows_before)

@@ -101,7 +101,7 @@ DemoScene shots(const DemoOptions& options) {
         shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
         scene.bodies.push_back(shot);
     }
-    for (std::size_t i = options.bodies; i < front.coordinates(); ++i) add_piece(i);  // no hole in the last row
+    for (std::size_t i = options.bodies; i < front.places(); ++i) add_piece(i);  // no hole in the last row
     add_margin(scene, front, thin, seconds);
     return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
 }

@@ -118,7 +118,7 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
     const vec3 start = played.session.world().body(top).position;
     const glm::vec2 pixel = played.pixel_of(top);
     played.at(EventKind::moved, pixel);
-    played.at(EventKind::normal_sum, pixel);
+    played.at(EventKind::pressed, pixel);
     REQUIRE(played.hands.selected() == top);
     for (int i = 1; i <= 30; ++i) {
         played.at(EventKind::moved, pixel + glm::vec2(2, -2) * static_cast<float>(i));
@@ -153,7 +153,7 @@ TEST_CASE("the wheel draws a held body nearer, and else brings the eye nearer") 
     played.hands.on({.kind = EventKind::scrolled, .amount = 2});
     REQUIRE(played.hands.eye().distance() < distance);
     const glm::vec2 pixel = played.pixel_of(top);
-    played.at(EventKind::normal_sum, pixel);
+    played.at(EventKind::pressed, pixel);
     const vec3 target = played.hands.pull()->to;
     const float held = played.hands.eye().distance();
     played.hands.on({.kind = EventKind::scrolled, .x = pixel.x, .y = pixel.y, .amount = -1});
@@ -166,7 +166,7 @@ TEST_CASE("beside bodies a drag looks round, and with the middle button it moves
     Played played;
     const OrbitCamera before = played.hands.eye();
     played.at(EventKind::moved, {5, 5});
-    played.at(EventKind::normal_sum, {5, 5});  // the sky
+    played.at(EventKind::pressed, {5, 5});  // the sky
     played.at(EventKind::moved, {55, 5});
     played.at(EventKind::released, {55, 5});
     REQUIRE(played.hands.eye().target() == before.target());
@@ -175,7 +175,7 @@ TEST_CASE("beside bodies a drag looks round, and with the middle button it moves
     REQUIRE_FALSE(played.hands.selected());
     const OrbitCamera turned = played.hands.eye();
     const glm::vec2 pixel = turned.pixel_of(turned.target(), extent).value();
-    played.at(EventKind::normal_sum, {55, 5}, Button::middle);
+    played.at(EventKind::pressed, {55, 5}, Button::middle);
     played.at(EventKind::moved, {75, 15});
     played.at(EventKind::released, {75, 15}, Button::middle);
     // What was in the middle went with the pointer.
@@ -222,7 +222,7 @@ TEST_CASE("arrow keys push the selected body, as the view sees it, for as long a
     for (const auto& [key, sign] : {std::pair(Key::left, -1.0f), {Key::right, 1.0f}}) {
         Played played;
         const glm::vec2 pixel = played.pixel_of(top);
-        played.at(EventKind::normal_sum, pixel);
+        played.at(EventKind::pressed, pixel);
         played.at(EventKind::released, pixel);
         const vec3 start = played.session.world().body(top).position;
         played.hands.on({.kind = EventKind::key_pressed, .key = key});
@@ -276,7 +276,7 @@ TEST_CASE("a machine that falls behind makes a few steps at a time and forgets t
 TEST_CASE("to begin again and to open the next demo let go of everything") {
     Played played;
     const glm::vec2 pixel = played.pixel_of(top);
-    played.at(EventKind::normal_sum, pixel);
+    played.at(EventKind::pressed, pixel);
     played.pass(0.1);
     played.strike(key_of('R'));
     REQUIRE(played.session.world().steps() == 0);
@@ -295,7 +295,7 @@ TEST_CASE("to begin again and to open the next demo let go of everything") {
 
 TEST_CASE("the view follows the selected body") {
     Played played;
-    played.at(EventKind::normal_sum, played.pixel_of(top));
+    played.at(EventKind::pressed, played.pixel_of(top));
     played.at(EventKind::released, played.pixel_of(top));
     played.strike(key_of('F'));
     played.at(EventKind::moved, {0, 0});
@@ -309,7 +309,7 @@ TEST_CASE("a window of another size sees another ray under the same pixel") {
     played.hands.on({.kind = EventKind::resized, .x = 1280, .y = 720});
     REQUIRE(played.hands.extent().width == 1280);
     const glm::vec2 pixel = played.hands.eye().pixel_of(played.session.world().body(top).position, {1280, 720}).value();
-    played.at(EventKind::normal_sum, pixel);
+    played.at(EventKind::pressed, pixel);
     REQUIRE(played.hands.selected() == top);
 }
 

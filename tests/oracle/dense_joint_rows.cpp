@@ -53,10 +53,10 @@ DenseJacobian row_by_differences(const DenseJoint& joint, std::size_t axis, cons
                             : coordinates(joint, displaced(a, by, turn), b)[axis];
             });
         };
-        row.linear_a[i] = integrate(false, false);
-        row.angular_a[i] = integrate(false, true);
-        row.linear_b[i] = integrate(true, false);
-        row.angular_b[i] = integrate(true, true);
+        row.linear_a[i] = moved(false, false);
+        row.angular_a[i] = moved(false, true);
+        row.linear_b[i] = moved(true, false);
+        row.angular_b[i] = moved(true, true);
     }
     return row;
 }
@@ -96,7 +96,7 @@ DenseRow dense_row(const std::vector<DenseBody>& bodies, const DenseJoint& joint
     DenseRow row;
     row.joint = index;
     row.axis = axis;
-    row.coordinate = coordinates(joint, a, b)[axis];
+    row.place = coordinates(joint, a, b)[axis];
     const bool by_differences = axis < 4 || joint.cone;
     row.jacobian = by_differences ? row_by_differences(joint, axis, a, b) : swing_row(joint, axis, a);
     if (axis > 3 && joint.spins) {

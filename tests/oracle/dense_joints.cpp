@@ -64,39 +64,39 @@ public:
     }
     // Whether the impulse of the drive is one of the unknowns.
     bool is_solved(Branch branch) const {
-        if (axis_.motor_impulse == DenseAxis::Drive::lock) return true;
-        if (branch != Branch::motor_impulse) return is_stop(branch);
-        if (axis_.motor_impulse == DenseAxis::Drive::spring) return pass_.biased && !is_gentle();
-        return axis_.motor_impulse == DenseAxis::Drive::motor;
+        if (axis_.drive == DenseAxis::Drive::lock) return true;
+        if (branch != Branch::drive) return is_stop(branch);
+        if (axis_.drive == DenseAxis::Drive::spring) return pass_.biased && !is_gentle();
+        return axis_.drive == DenseAxis::Drive::motor;
     }
     // The drive's impulse where it is not: at its greatest, a weak spring's force as it is when the pass begins, a spring at a
     // stop that lets nothing move; and in the pass without bias springs keep what they have.
     double given_drive(Branch branch) const {
-        if (axis_.motor_impulse == DenseAxis::Drive::spring) {
+        if (axis_.drive == DenseAxis::Drive::spring) {
             if (!pass_.biased) return axis_.drive_impulse;
             if (is_stop(branch) || is_gentle()) {
                 const double speed = is_stop(branch) ? 0 : row_.speed;
-                const double force = axis_.stiffness * (axis_.rest - row_.coordinate) + axis_.damping * (axis_.speed - speed);
+                const double force = axis_.stiffness * (axis_.rest - row_.place) + axis_.damping * (axis_.speed - speed);
                 return std::clamp(force * pass_.h, -most_, most_);
             }
         }
-        if (axis_.motor_impulse == DenseAxis::Drive::motor && is_stop(branch)) {
+        if (axis_.drive == DenseAxis::Drive::motor && is_stop(branch)) {
             if (axis_.speed != 0) return axis_.speed > 0 ? most_ : -most_;
             return std::clamp(axis_.drive_impulse, -most_, most_);
         }
         if (branch == Branch::drive_low) return -most_;
         return branch == Branch::drive_high ? most_ : 0;
     }
-    Equation motor_impulse() const {
-        switch (axis_.motor_impulse) {
+    Equation drive() const {
+        switch (axis_.drive) {
             case DenseAxis::Drive::lock:
                 if (!pass_.biased) return {0, soft_};
-                return {closing(row_.coordinate - axis_.rest) + row_.drift + soft_ * axis_.drive_impulse, soft_};
+                return {closing(row_.place - axis_.rest) + row_.drift + soft_ * axis_.drive_impulse, soft_};
             case DenseAxis::Drive::spring: {
                 // l = -h (k (place + h v - rest) + c (v - speed)), solved for v
                 const double resistance = axis_.damping + pass_.h * axis_.stiffness;
                 const double compliance = 1 / (pass_.h * resistance);
-                const double force = axis_.stiffness * (row_.coordinate - axis_.rest) - axis_.damping * axis_.speed;
+                const double force = axis_.stiffness * (row_.place - axis_.rest) - axis_.damping * axis_.speed;
                 return {force / resistance + compliance * axis_.drive_impulse, compliance};
             }
             default:
@@ -104,8 +104,8 @@ public:
         }
     }
     // Of the lower limit, or seen from the other side of the upper one.
-    Equation limit_impulse(bool low) const {
-        const double room = low ? row_.coordinate - axis_.lower : axis_.upper - row_.coordinate;
+    Equation stop(bool low) const {
+        const double room = low ? row_.place - axis_.lower : axis_.upper - row_.place;
         const double drift = low ? row_.drift : -row_.drift;
         double bias = room > 0 ? room / pass_.h : 0;
         if (pass_.biased) bias = (room > 0 ? room / pass_.h : closing(room)) + drift;
@@ -116,23 +116,22 @@ public:
 
     // Given the impulses' changes and the row's speed afterwards: the branch on which the law would be met.
     Branch better(Branch branch, double change, double speed) const {
-        if (branch == Branch::stop_low) return axis_.stop_impulse + change < 0 ? Branch::motor_impulse : branch;
-        if (branch == Branch::stop_high) return axis_.stop_impulse + change > 0 ? Branch::motor_impulse : branch;
-        if (axis_.limited && axis_.motor_impulse != DenseAxis::Drive::lock) {
-            if (speed + limit_impulse(true).bias < 0) return Branch::stop_low;
-            if (speed + limit_impulse(false).bias > 0) return Branch::stop_high;
+        if (branch == Branch::stop_low) return axis_.stop_impulse + change < 0 ? Branch::drive : branch;
+        if (branch == Branch::stop_high) return axis_.stop_impulse + change > 0 ? Branch::drive : branch;
+        if (axis_.limited && axis_.drive != DenseAxis::Drive::lock) {
+            if (speed + stop(true).bias < 0) return Branch::stop_low;
+            if (speed + stop(false).bias > 0) return Branch::stop_high;
         }
-        if (axis_.motor_impulse != DenseAxis::Drive::motor && axis_.motor_impulse != DenseAxis::Drive::spring) return branch;
-        if (branch == Branch::motor_impulse) {
+        if (axis_.drive != DenseAxis::Drive::motor && axis_.drive != DenseAxis::Drive::spring) return branch;
+        if (branch == Branch::drive) {
             if (!is_solved(branch)) return branch;
             if (axis_.drive_impulse + change < -most_) return Branch::drive_low;
             return axis_.drive_impulse + change > most_ ? Branch::drive_high : branch;
         }
         // At its greatest it stays only while the row goes the other way.
-        const double error =
-            speed + motor_impulse().bias + motor_impulse().compliance * (given_drive(branch) - axis_.drive_impulse);
-        if (branch == Branch::drive_low) return error < 0 ? Branch::motor_impulse : branch;
-        return error > 0 ? Branch::motor_impulse : branch;
+        const double error = speed + drive().bias + drive().compliance * (given_drive(branch) - axis_.drive_impulse);
+        if (branch == Branch::drive_low) return error < 0 ? Branch::drive : branch;
+        return error > 0 ? Branch::drive : branch;
     }
 
 private:
@@ -154,7 +153,7 @@ struct Problem {
 
 // The changes of drive and stop on given branches.
 struct Changes {
-    std::vector<double> motor_impulse, limit_impulse, speed;
+    std::vector<double> drive, stop, speed;
 };
 Changes solve_branches(const Problem& problem, const std::vector<DenseJoint>& joints, const std::vector<Branch>& branches) {
     const std::size_t n = problem.rows.size();
@@ -165,16 +164,16 @@ Changes solve_branches(const Problem& problem, const std::vector<DenseJoint>& jo
         const DenseAxis& axis = joints[problem.rows[i].joint].axes[problem.rows[i].axis];
         const bool stopped = is_stop(branches[i]), solved = problem.laws[i].is_solved(branches[i]);
         if (stopped || solved) unknown.push_back(i);
-        if (!stopped) changes.limit_impulse[i] = -axis.stop_impulse;
-        if (stopped || !solved) changes.motor_impulse[i] = problem.laws[i].given_drive(branches[i]) - axis.drive_impulse;
-        given[i] = changes.motor_impulse[i] + changes.limit_impulse[i];
+        if (!stopped) changes.stop[i] = -axis.stop_impulse;
+        if (stopped || !solved) changes.drive[i] = problem.laws[i].given_drive(branches[i]) - axis.drive_impulse;
+        given[i] = changes.drive[i] + changes.stop[i];
     }
     Matrix a(unknown.size(), std::vector<double>(unknown.size()));
     std::vector<double> y(unknown.size());
     for (std::size_t r = 0; r < unknown.size(); ++r) {
         const std::size_t i = unknown[r];
-        const Equation equation = is_stop(branches[i]) ? problem.laws[i].limit_impulse(branches[i] == Branch::stop_low)
-                                                       : problem.laws[i].motor_impulse();
+        const Equation equation =
+            is_stop(branches[i]) ? problem.laws[i].stop(branches[i] == Branch::stop_low) : problem.laws[i].drive();
         y[r] = -(problem.rows[i].speed + equation.bias);
         for (std::size_t j = 0; j < n; ++j) y[r] -= problem.gives[i][j] * given[j];
         for (std::size_t c = 0; c < unknown.size(); ++c) a[r][c] = problem.gives[i][unknown[c]];
@@ -182,11 +181,10 @@ Changes solve_branches(const Problem& problem, const std::vector<DenseJoint>& jo
     }
     const std::vector<double> x = solve_linear(std::move(a), std::move(y));
     for (std::size_t r = 0; r < unknown.size(); ++r)
-        (is_stop(branches[unknown[r]]) ? changes.limit_impulse : changes.motor_impulse)[unknown[r]] = x[r];
+        (is_stop(branches[unknown[r]]) ? changes.stop : changes.drive)[unknown[r]] = x[r];
     for (std::size_t i = 0; i < n; ++i) {
         changes.speed[i] = problem.rows[i].speed;
-        for (std::size_t j = 0; j < n; ++j)
-            changes.speed[i] += problem.gives[i][j] * (changes.motor_impulse[j] + changes.limit_impulse[j]);
+        for (std::size_t j = 0; j < n; ++j) changes.speed[i] += problem.gives[i][j] * (changes.drive[j] + changes.stop[j]);
     }
     return changes;
 }
@@ -195,7 +193,7 @@ Problem problem_of(const std::vector<DenseBody>& bodies, const std::vector<Dense
     Problem problem;
     for (std::size_t j = 0; j < joints.size(); ++j)
         for (std::size_t k = 0; k < 6; ++k)
-            if (joints[j].axes[k].motor_impulse != DenseAxis::Drive::none || joints[j].axes[k].limited)
+            if (joints[j].axes[k].drive != DenseAxis::Drive::none || joints[j].axes[k].limited)
                 problem.rows.push_back(dense_row(bodies, joints[j], j, k, pass.h));
     const std::size_t n = problem.rows.size();
     problem.gives.assign(n, std::vector<double>(n));
@@ -212,7 +210,7 @@ Problem problem_of(const std::vector<DenseBody>& bodies, const std::vector<Dense
 bool exchange(const Problem& problem, const Changes& changes, std::vector<Branch>& branches, bool only_one) {
     bool met = true;
     for (std::size_t i = 0; i < branches.size() && (met || !only_one); ++i) {
-        const double change = is_stop(branches[i]) ? changes.limit_impulse[i] : changes.motor_impulse[i];
+        const double change = is_stop(branches[i]) ? changes.stop[i] : changes.drive[i];
         const Branch better = problem.laws[i].better(branches[i], change, changes.speed[i]);
         met = met && better == branches[i];
         branches[i] = better;
@@ -224,15 +222,15 @@ DenseSolution solution_of(const Problem& problem, const std::vector<DenseBody>& 
                           const Changes& changes, bool solved) {
     std::vector<DenseImpulses> by(joints.size());
     for (std::size_t i = 0; i < problem.rows.size(); ++i) {
-        by[problem.rows[i].joint].motor_impulse[problem.rows[i].axis] = changes.motor_impulse[i];
-        by[problem.rows[i].joint].limit_impulse[problem.rows[i].axis] = changes.limit_impulse[i];
+        by[problem.rows[i].joint].drive[problem.rows[i].axis] = changes.drive[i];
+        by[problem.rows[i].joint].stop[problem.rows[i].axis] = changes.stop[i];
     }
     DenseSolution solution = push_densely(bodies, joints, by);
-    solution.solved_axes = solved;
+    solution.solved = solved;
     for (std::size_t j = 0; j < joints.size(); ++j) {
         for (std::size_t k = 0; k < 6; ++k) {
-            solution.joints[j].motor_impulse[k] += joints[j].axes[k].drive_impulse;
-            solution.joints[j].limit_impulse[k] += joints[j].axes[k].stop_impulse;
+            solution.joints[j].drive[k] += joints[j].axes[k].drive_impulse;
+            solution.joints[j].stop[k] += joints[j].axes[k].stop_impulse;
         }
     }
     return solution;
@@ -248,7 +246,7 @@ DenseSolution push_densely(const std::vector<DenseBody>& bodies, const std::vect
     solution.spin.assign(bodies.size(), dvec3(0));
     for (std::size_t j = 0; j < joints.size(); ++j) {
         for (std::size_t k = 0; k < 6; ++k) {
-            const double impulse = impulses[j].motor_impulse[k] + impulses[j].limit_impulse[k];
+            const double impulse = impulses[j].drive[k] + impulses[j].stop[k];
             if (impulse == 0) continue;
             const DenseJacobian row = dense_row(bodies, joints[j], j, k, 1).jacobian;
             const auto push = [&](std::size_t body, const dvec3& linear, const dvec3& angular) {
@@ -266,7 +264,7 @@ DenseSolution push_densely(const std::vector<DenseBody>& bodies, const std::vect
 
 DenseSolution solve_densely(const std::vector<DenseBody>& bodies, const std::vector<DenseJoint>& joints, const DensePass& pass) {
     const Problem problem = problem_of(bodies, joints, pass);
-    std::vector<Branch> branches(problem.rows.size(), Branch::motor_impulse);
+    std::vector<Branch> branches(problem.rows.size(), Branch::drive);
     Changes changes;
     bool solved = false;
     const int block_rounds = 20, most_rounds = 200;

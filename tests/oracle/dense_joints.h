@@ -34,7 +34,7 @@ struct DenseBody {
 
 struct DenseAxis {
     enum class Drive { none, lock, motor, spring };
-    Drive motor_impulse = Drive::none;
+    Drive drive = Drive::none;
     double rest = 0;       // m or rad, of a lock or spring
     double stiffness = 0;  // N/m or N m/rad
     double damping = 0;    // N s/m or N m s/rad
@@ -68,10 +68,10 @@ struct DensePass {
 };
 
 struct DenseImpulses {
-    std::array<double, 6> motor_impulse{}, limit_impulse{};
+    std::array<double, 6> drive{}, stop{};
 };
 // Which part of its law a row is on: its drive within its bounds, at one of them, or at a limit.
-enum class DenseBranch { motor_impulse, drive_low, drive_high, stop_low, stop_high };
+enum class DenseBranch { drive, drive_low, drive_high, stop_low, stop_high };
 using DenseBranches = std::vector<std::array<DenseBranch, 6>>;  // by joint
 struct DenseSolution {
     std::vector<DenseImpulses> joints;  // after the pass

@@ -17,7 +17,7 @@ namespace {
 
 DenseAxis lock() {
     DenseAxis axis;
-    axis.motor_impulse = DenseAxis::Drive::lock;
+    axis.drive = DenseAxis::Drive::lock;
     return axis;
 }
 
@@ -46,7 +46,7 @@ void judge_steps(const Scene& scene, JointVerdicts& verdicts) {
     const Threads threads(1);
     for (int step = 0; step < judged_steps; ++step) {
         state.turn_over();
-        for (const Stage& stage : plan(settings.substeps, state.content())) {
+        for (const Stage& stage : plan(settings.substeps, state.features())) {
             const auto pass = joint_pass_of(stage.name, stage.pass);
             const JointTablesNow before = pass ? tables_of(state) : JointTablesNow{};
             stage.reference(state, threads, stage.pass);
@@ -69,7 +69,7 @@ TEST_CASE("oracle: a bob on a rigid rod keeps the speed around its pivot and los
     rod.axes[0] = lock();
     rod.axes[0].rest = 2;
     const DenseSolution told = solve_densely({bob}, {rod}, {true, 0.001});
-    REQUIRE(told.solved_axes);
+    REQUIRE(told.solved);
     CHECK(told.velocity[0].x == Approx(0).margin(1e-9));
     // And half a substep's centripetal acceleration v^2 / r inwards; a rigid row yields by a thousandth.
     CHECK(told.velocity[0].y == Approx((-1 + 0.5 * 0.001 * 9 / 2) / 1.001).epsilon(1e-6));
@@ -90,7 +90,7 @@ TEST_CASE("oracle: two bodies held together go on with their common momentum", "
     joint.anchor_b = dvec3(-0.5, -0.3, 0.2);
     joint.axes.fill(lock());
     const DenseSolution told = solve_densely({a, b}, {joint}, {false, 0.001});
-    REQUIRE(told.solved_axes);
+    REQUIRE(told.solved);
     CHECK(glm::length(told.velocity[0] + 4.0 * told.velocity[1]) < 1e-9);
     const dvec3 inertia = 1.0 / a.inverse_inertia;
     const dvec3 spun = inertia * (told.spin[0] + told.spin[1]);
@@ -102,7 +102,7 @@ TEST_CASE("oracle: two bodies held together go on with their common momentum", "
 
 TEST_CASE("oracle: a motor drives with its force and no more, up to its speed", "[oracle]") {
     DenseAxis axis;
-    axis.motor_impulse = DenseAxis::Drive::motor;
+    axis.drive = DenseAxis::Drive::motor;
     axis.speed = 3;
     axis.max_force = 40;
     CHECK(slid(axis, 0).velocity[0].x == Approx(40 * 0.01 / 2));
@@ -124,7 +124,7 @@ TEST_CASE("oracle: a limit stops what would pass it within the substep and leave
 
 TEST_CASE("oracle: a stiff spring is solved by implicit Euler, a weak one by its force", "[oracle]") {
     DenseAxis axis;
-    axis.motor_impulse = DenseAxis::Drive::spring;
+    axis.drive = DenseAxis::Drive::spring;
     axis.stiffness = 1e5;
     axis.damping = 100;
     axis.max_force = 1e30;

@@ -29,7 +29,7 @@ DenseBody dense(const Body& body, const physics::Pose& pose, const physics::Velo
 
 DenseAxis locked_axis(double at = 0) {
     DenseAxis axis;
-    axis.motor_impulse = DenseAxis::Drive::lock;
+    axis.drive = DenseAxis::Drive::lock;
     axis.rest = at;
     return axis;
 }
@@ -44,13 +44,13 @@ DenseAxis dense(const Axis& axis) {
         made.upper = static_cast<double>(axis.limits->upper);
     }
     if (axis.spring) {
-        made.motor_impulse = DenseAxis::Drive::spring;
+        made.drive = DenseAxis::Drive::spring;
         made.stiffness = static_cast<double>(axis.spring->stiffness);
         made.damping = static_cast<double>(axis.spring->damping);
         made.rest = static_cast<double>(axis.spring->rest);
         made.max_force = static_cast<double>(axis.spring->max_force);
     } else if (axis.motor || axis.friction > 0) {
-        made.motor_impulse = DenseAxis::Drive::motor;
+        made.drive = DenseAxis::Drive::motor;
         made.speed = axis.motor ? static_cast<double>(axis.motor->speed) : 0;
         made.max_force = static_cast<double>(axis.motor ? axis.motor->max_force : axis.friction);
     }
@@ -132,13 +132,13 @@ std::vector<DenseImpulses> impulses_of(const std::vector<DenseJoint>& joints) {
     std::vector<DenseImpulses> impulses(joints.size());
     for (std::size_t j = 0; j < joints.size(); ++j)
         for (std::size_t k = 0; k < 6; ++k) {
-            impulses[j].motor_impulse[k] = joints[j].axes[k].drive_impulse;
-            impulses[j].limit_impulse[k] = joints[j].axes[k].stop_impulse;
+            impulses[j].drive[k] = joints[j].axes[k].drive_impulse;
+            impulses[j].stop[k] = joints[j].axes[k].stop_impulse;
         }
     return impulses;
 }
 
-DenseBranches branches_of(const std::vector<std::uint32_t>& records, const JointTablesNow& tables) {
+DenseBranches branches_of(std::span<const std::uint32_t> records, const JointTablesNow& tables) {
     DenseBranches branches(records.size());
     for (std::size_t j = 0; j < records.size(); ++j) {
         for (std::size_t k = 0; k < 6; ++k) {
@@ -156,7 +156,7 @@ DenseBranches branches_of(const std::vector<std::uint32_t>& records, const Joint
                     branches[j][k] = DenseBranch::stop_high;
                     break;
                 default:
-                    branches[j][k] = DenseBranch::motor_impulse;
+                    branches[j][k] = DenseBranch::drive;
             }
         }
     }
@@ -177,12 +177,13 @@ Change change_of(std::size_t body, const JointTablesNow& tables) {
     return change;
 }
 
-double difference(const std::vector<DenseBody>& bodies, const DenseSolution& told, const JointTablesNow& after) {
+double difference(const std::vector<DenseBody>& bodies, const DenseSolution& told, const JointTablesNow& after,
+                  std::size_t first_body) {
     const double half_width = 0.15;  // m
     double greatest = 0, scale = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies[i].inverse_mass == 0) continue;
-        const Change change = change_of(i, after);
+        const Change change = change_of(first_body + i, after);
         scale = std::max({scale, glm::length(change.velocity), half_width * glm::length(change.spin)});
         greatest = std::max(
             {greatest, glm::length(change.velocity - told.velocity[i]), half_width * glm::length(change.spin - told.spin[i])});
@@ -206,15 +207,15 @@ Settings joint_settings() {
     return settings;
 }
 
-JointVerdict judge_joints(const Scene& scene, const std::vector<std::uint32_t>& records, const physics::Parameters& parameters,
-                          const JointTablesNow& before, const JointTablesNow& after, JointPass pass) {
+JointVerdict judge_joints(const Scene& scene, std::span<const std::uint32_t> records, const physics::Parameters& parameters,
+                          const JointTablesNow& before, const JointTablesNow& after, JointPass pass, std::size_t first_body) {
     std::vector<DenseBody> bodies;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        bodies.push_back(dense(scene.bodies[i], before.poses[i], before.velocities[i]));
+        bodies.push_back(dense(scene.bodies[i], before.poses[first_body + i], before.velocities[first_body + i]));
     std::vector<DenseJoint> joints;
     for (std::size_t j = 0; j < scene.joints.size(); ++j) joints.push_back(dense(scene.joints[j], before.joints[records[j]]));
     if (pass == JointPass::warm_start) {
-        const double error = difference(bodies, push_densely(bodies, joints, impulses_of(joints)), after);
+        const double error = difference(bodies, push_densely(bodies, joints, impulses_of(joints)), after, first_body);
         return {error, error};
     }
     const DensePass dense_pass{pass == JointPass::biased, static_cast<double>(parameters.h),
@@ -228,11 +229,11 @@ JointVerdict judge_joints(const Scene& scene, const std::vector<std::uint32_t>& 
                 solution.spin[i] += warm.spin[i];
             }
         }
-        return difference(bodies, solution, after);
+        return difference(bodies, solution, after, first_body);
     };
     const DenseSolution solution = solve_densely(bodies, joints, dense_pass);
     return {error(solve_densely_on(branches_of(records, after), bodies, joints, dense_pass)),
-            solution.solved_axes ? error(solution) : std::numeric_limits<double>::quiet_NaN()};
+            solution.solved ? error(solution) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 double JointVerdicts::worst() const {

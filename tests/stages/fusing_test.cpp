@@ -116,7 +116,7 @@ TEST_CASE("bodies of a small world break with the bits of the CPU path") {
     Both both(breaking());
     REQUIRE(both.runner.is_fused());
     both.step(120);
-    REQUIRE(both.exists.statistics().broken > 0);
+    REQUIRE(both.there.statistics().broken > 0);
     REQUIRE(both.runner.is_fused());
 }
 
@@ -138,7 +138,7 @@ TEST_CASE("a world that grows large goes over to stages of their own, with the s
     REQUIRE(both.runner.is_fused());
     both.step(100);
     REQUIRE_FALSE(both.runner.is_fused());
-    REQUIRE(both.exists.buffer_growths() > 3);
+    REQUIRE(both.there.buffer_growths() > 3);
 }
 
 TEST_CASE("small worlds on a device without texels, or whose tables are found by address, have the same bits") {
@@ -148,7 +148,7 @@ TEST_CASE("small worlds on a device without texels, or whose tables are found by
         options.without_texels = !far;
         options.largest_binding = far ? 1024 : 0;
         Both both(tests::heap(40), {}, host::Device::open(options));
-        REQUIRE(both.runner.twist_arm() == (far ? host::Reach::far : host::Reach::bound));
+        REQUIRE(both.runner.reach() == (far ? host::Reach::far : host::Reach::bound));
         both.step(60);
         REQUIRE(both.runner.is_fused());
     }

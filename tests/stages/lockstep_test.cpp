@@ -60,12 +60,12 @@ TEST_CASE("tables longer than a binding are found by address, from the start or 
         CAPTURE(largest_binding, without_texels);
         const Watched watched(largest_binding, without_texels);
         Lockstep lockstep(tests::packed(300), small, watched.device, 1);
-        REQUIRE(lockstep.device().twist_arm() == (largest_binding == 1024 ? host::Reach::far : host::Reach::bound));
+        REQUIRE(lockstep.device().reach() == (largest_binding == 1024 ? host::Reach::far : host::Reach::bound));
         for (int step = 0; step < 10; ++step) {
             lockstep.step();
             require_equal(lockstep.result());
         }
-        REQUIRE(lockstep.device().twist_arm() == host::Reach::far);
+        REQUIRE(lockstep.device().reach() == host::Reach::far);
     }
 }
 

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "compute/step/scene_compiler.h"
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"

@@ -80,7 +80,7 @@ TEST_CASE("what is compared after a stage is whole there, and every table that o
     using enum Table;
     for (const Table table :
          {counts,         properties,       poses,       velocities,     masses,        forces,     bounds,      cell_ends,
-          cell_entries,   pair_type_starts, pair_starts, pairs,          pairs_by_type, strains,    manifolds,   touching,
+          cell_entries,   pair_type_starts, pair_starts, pairs,          pairs_by_type, strains,    manifolds,   point_counts,
           contact_starts, contacts,         impulses,    first_contacts, slot_ends,     slot_sides, constraints, slots,
           sleep_states,   joints,           vehicles})
         CHECK(compared.contains(table));

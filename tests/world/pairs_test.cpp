@@ -123,9 +123,9 @@ TEST_CASE("of the overlapping pairs those are found once in which one body stirs
         const physics::Pair& pair = state.pairs[i];
         CAPTURE(pair.a, pair.b);
         REQUIRE(found.emplace(pair.a, pair.b).second);
-        REQUIRE((pair.kind == physics::PAIR_INACTIVE) == (!stirs(pair.a) && !stirs(pair.b)));
-        if (pair.kind == physics::PAIR_INACTIVE) REQUIRE(touched.contains({pair.a, pair.b}));
-        carried += pair.kind == physics::PAIR_INACTIVE;
+        REQUIRE((pair.pair_type == physics::PAIR_INACTIVE) == (!stirs(pair.a) && !stirs(pair.b)));
+        if (pair.pair_type == physics::PAIR_INACTIVE) REQUIRE(touched.contains({pair.a, pair.b}));
+        carried += pair.pair_type == physics::PAIR_INACTIVE;
     }
     Scene now = scene;
     for (std::size_t i = 0; i < now.bodies.size(); ++i) {

@@ -93,7 +93,7 @@ host::BodyTables tables_on_device(Runner& runner) {
         const DeviceRunner::Range range = device.range(table);
         return host::TableView(range.buffer, range.offset, range.bytes);
     };
-    host::BodyTables tables{view(Table::traits),   view(Table::poses),    view(Table::velocities),
+    host::BodyTables tables{view(Table::properties),   view(Table::poses),    view(Table::velocities),
                             view(Table::contacts), view(Table::impulses), counts.contacts};
     tables.slot_ends = view(Table::slot_ends);
     tables.slot_sides = view(Table::slot_sides);

@@ -165,7 +165,7 @@ struct Candidate {
 };
 struct Pair {
     uint a, b;       // rows of bodies or parts, the lower id first
-    uint pair_type;  // KIND_*
+    uint pair_type;  // PAIR_*
     uint previous;   // its contact in the last step, or NONE
 };
 
@@ -424,8 +424,8 @@ CONSTANT uint FEATURE_ROUND = 4u;    // round bodies
 CONSTANT uint FEATURE_TYRES = 8u;
 CONSTANT uint FEATURE_PARTS = 16u;      // bodies of several parts that move
 CONSTANT uint FEATURE_REORDERED = 32u;  // bodies whose rows are in another order than their ids
-CONSTANT uint CONTENT_JOINTS = 64u;
-CONSTANT uint CONTENT_BREAKING = 128u;  // bodies that may break
+CONSTANT uint FEATURE_JOINTS = 64u;
+CONSTANT uint FEATURE_BREAKING = 128u;  // bodies that may break
 
 CONSTANT uint PAIR_TYPES = 16u;  // of pairs: fourteen of shapes, those whose contact is kept, and those at rest
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread sorts by kind

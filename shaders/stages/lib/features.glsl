@@ -1,8 +1,8 @@
 // What cannot be in this scene: the driver leaves out what is said for it. A software device runs through both branches of every
 // `if`; a GPU needs registers for both. The stages that look ahead for impacts are two shaders each instead: a software device's
 // driver takes 0.3 s, every time, to read what convex shapes need before it leaves that out.
-#ifndef SCREE_STAGES_CONTENT_GLSL
-#define SCREE_STAGES_CONTENT_GLSL
+#ifndef SCREE_STAGES_FEATURES_GLSL
+#define SCREE_STAGES_FEATURES_GLSL
 
 #include "shaders/physics/base/records.h"
 
@@ -11,8 +11,8 @@ const bool BOUNCES = (FEATURES & FEATURE_BOUNCES) != 0u;
 const bool PARTS = (FEATURES & FEATURE_PARTS) != 0u;
 const bool ROLLS = (FEATURES & FEATURE_ROLLS) != 0u;
 const bool REORDERED = (FEATURES & FEATURE_REORDERED) != 0u;
-const bool JOINTS = (FEATURES & CONTENT_JOINTS) != 0u;
-const bool BREAKING = (FEATURES & CONTENT_BREAKING) != 0u;
+const bool JOINTS = (FEATURES & FEATURE_JOINTS) != 0u;
+const bool BREAKING = (FEATURES & FEATURE_BREAKING) != 0u;
 
 // Which of the stages that share a module this is: the lines `variants` of its file.
 layout(constant_id = 3) const uint VARIANT = 0u;

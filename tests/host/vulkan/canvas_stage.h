@@ -54,10 +54,10 @@ public:
         touch.a = touch.b - 1;
         touch.count = 1;
         touch.normal = normal;
-        touch.d = poses_[touch.b].position - poses_[touch.a].position;
+        touch.center_offset = poses_[touch.b].position - poses_[touch.a].position;
         touch.points[0] = glm::vec4(point - poses_[touch.a].position, 0);
-        touch.turn_a = poses_[touch.a].orientation;
-        touch.turn_b = poses_[touch.b].orientation;
+        touch.orientation_a = poses_[touch.a].orientation;
+        touch.orientation_b = poses_[touch.b].orientation;
         touches_.push_back(touch);
         Impulse impulse{};
         impulse.normal.x = push;
