@@ -130,6 +130,7 @@ struct SixDof {    // every axis as it says; they are free unless they say more
     Axis twist;    // about x, of B against where the swing has brought it
     Axis swing_y, swing_z;
 };
+using SixDegrees [[deprecated("use SixDof")]] = SixDof;
 using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDof>;
 
 constexpr std::size_t the_world = static_cast<std::size_t>(-1);  // in place of a body: what never moves

@@ -36,6 +36,7 @@ struct BodyContact {
     int points;        // 1 to 4
     float force;       // N, along the normal; 0 between bodies that are about to touch
 };
+using Touching [[deprecated("use BodyContact")]] = BodyContact;
 
 // A joint as the last step left it.
 enum class JointAxis { x, y, z, twist, swing_y, swing_z };  // along, then about the axes of its frame in A
@@ -146,6 +147,7 @@ public:
     void drive_by_route(std::size_t vehicle);  // from where it was left; std::invalid_argument if it has none
     // Puts a vehicle on its wheels, at rest, half a metre above where it is.
     void reset_upright(std::size_t vehicle);
+    [[deprecated("use reset_upright")]] void put_upright(std::size_t vehicle) { reset_upright(vehicle); }
 
     // Holds a dynamic body at `anchor` (in its own frame, from its centre; what lies outside of the box around it is brought to
     // that box) and draws that point to `target` (world, within 1e6 m of 0), step by step, until released. A held body is awake.
@@ -190,6 +192,7 @@ public:
     // Read back from wherever the world is.
     BodyState body(std::size_t index) const;                       // throws std::out_of_range
     std::vector<BodyContact> contacts_of(std::size_t body) const;  // throws the same; reads all contacts
+    [[deprecated("use contacts_of")]] std::vector<BodyContact> touching(std::size_t body) const { return contacts_of(body); }
     std::vector<BodyState> bodies() const;
     // The first surface that a ray meets from outside; a shape that it begins in is passed over, and from behind planes and
     // surfaces are not there. Reads all bodies, and asks one after the other. Throws std::invalid_argument for a ray that is not
@@ -212,6 +215,7 @@ public:
     // Whether the steps to come are timed stage by stage. At first they are not on a Vulkan device, where that takes time of its
     // own: 10 us a stage on lavapipe.
     void set_profiling(bool on);
+    [[deprecated("use set_profiling")]] void time_stages(bool on) { set_profiling(on); }
     StageTimes stage_times() const;       // milliseconds per step, mean of those timed so far
     StageTimes last_stage_times() const;  // the same of the last timed step alone
 

@@ -23,19 +23,18 @@ host::Key key(char character) {
 }  // namespace
 
 const char* const key_help =
-    "  left button        take hold of a body and drag it (the wheel draws it nearer or farther);\n"
-    "                     beside bodies: look round\n"
-    "  right button       look round; with Shift, or the middle button: move the view; wheel: nearer, farther\n"
+    "  left button        grab and drag a body (wheel: nearer or farther); beside bodies: orbit\n"
+    "  right button       orbit; with Shift, or the middle button: pan; wheel: zoom\n"
     "  Space, B           throw a ball, a box through the pointer\n"
-    "  arrows, Page Up/Down  push the selected body; X: an explosion where the pointer points\n"
+    "  arrows, Page Up/Down  push the selected body; X: explosion at the pointer\n"
     "  1, 2, 3            add a sphere, a capsule, a box\n"
-    "  where there is a vehicle:\n"
-    "  W, S, A, D or arrows  drive it: accelerate, brake (then backwards), left, right; Space: the hand brake\n"
-    "  Backspace, C       put it on its wheels where it is; the camera chases it, or stays\n"
-    "  F                  follow the selected body; Home: the first view again\n"
-    "  P, .               pause, a single step; L: slower (1/2 to 1/16), then full speed again\n"
-    "  R, Tab             begin again, the next demo (with Shift the one before)\n"
-    "  H, Q               hide the panel, close the window";
+    "  with a vehicle:\n"
+    "  W, S, A, D or arrows  throttle, brake (then reverse), left, right; Space: hand brake\n"
+    "  Backspace, C       reset upright; chase camera on or off\n"
+    "  F                  follow the selected body; Home: first view\n"
+    "  P, .               pause, single step; L: slow motion (1/2 to 1/16), then full speed\n"
+    "  R, Tab             restart, next demo (Shift: previous)\n"
+    "  H, Q               hide the panel, quit";
 
 Interaction::Interaction(Session& session, Extent extent)
     : session_(session), extent_(extent), eye_(session.subject().viewpoint) {

@@ -142,16 +142,13 @@ void add_bench(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     command->add_flag("--quiet,-q", options->bench.quiet, "Print no progress.");
     command->footer(
-        "A stage's time is the GPU's between two timestamps, or the wall clock on the processor. Timestamps take time of their\n"
-        "own, 10 us each on lavapipe: the step is timed in every other step, without them, and there the stages of a small "
-        "world\n"
-        "add up to more. What a stage moves is an estimate: every record that it reads or writes, once. GB/s is that in its "
-        "time,\n"
-        "and the last column sets it beside copying on the same device in the same run, read and written bytes together: a\n"
-        "buffer to another, or memcpy in all threads. Above 100% the\n"
-        "tables lie in a cache. All bodies stay awake; a settled pile is measured with\n"
+        "Stage times are GPU timestamps, or wall-clock time with --backend cpu. Timestamps cost 10 us each on\n"
+        "lavapipe, so whole steps are timed without them, in every other step: the stages of a small world\n"
+        "add up to more than the step. Bytes are an estimate: each record that a stage reads or writes, once.\n"
+        "The last column compares that rate with a memory copy on the same device (above 100%: cached).\n"
+        "All bodies stay awake. A settled pile, and its cost against the number of bodies as a picture:\n"
         "  scree bench pile mix --bodies 1k,4k,16k --settle 12 --csv piles.csv\n"
-        "and demos/plot piles.csv draws the cost against the number of bodies.");
+        "  demos/plot piles.csv");
     command->callback([options, &status] { status = bench(*options); });
 }
 

@@ -284,9 +284,10 @@ void add_run(CLI::App& program, int& status) {
         "Examples:\n  scree run tower\n  scree run --input played.json --video played.mp4\n  scree run avalanche --bodies 20k "
         "--seconds 10 --video avalanche.mp4\n"
         "  scree run wall --camera fit,orbit:10 --preview wall.gif\n"
-        "  scree run dominoes --camera follow:7 --raw - | ffplay -f rawvideo -pixel_format rgb24 -video_size 1280x720 -\n"
+        "  scree run dominoes --camera follow:7 --preview dominoes.gif\n"
         "  scree run scene.json --backend cpu --threads 4 --report -\n"
-        "  scree run pile --bodies 10k --no-sleep --seconds 15 --save settled.json && scree run settled.json --video later.mp4");
+        "  scree run pile --bodies 10k --no-sleep --seconds 15 --save settled.json\n"
+        "  scree run settled.json --video later.mp4");
     command->callback([command, options, &status] { status = run(*command, *options); });
 }
 

@@ -93,8 +93,8 @@ host::BodyTables tables_on_device(Runner& runner) {
         const DeviceRunner::Range range = device.range(table);
         return host::TableView(range.buffer, range.offset, range.bytes);
     };
-    host::BodyTables tables{view(Table::properties),   view(Table::poses),    view(Table::velocities),
-                            view(Table::contacts), view(Table::impulses), counts.contacts};
+    host::BodyTables tables{view(Table::properties), view(Table::poses),    view(Table::velocities),
+                            view(Table::contacts),   view(Table::impulses), counts.contacts};
     tables.slot_ends = view(Table::slot_ends);
     tables.slot_sides = view(Table::slot_sides);
     tables.sleep_states = view(Table::sleep_states);

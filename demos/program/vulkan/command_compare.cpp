@@ -67,8 +67,8 @@ void add_compare(CLI::App& program, int& status) {
     command->add_flag("--validate", options->machine.validate, "Check every Vulkan call with the validation layers (slow).");
     command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(
-        "Compares one simulated second unless --steps or --seconds says otherwise. Scripted events of a scene (an impulse, a\n"
-        "change of settings) are left out. Exit status 1 if anything differs.");
+        "Compares one simulated second unless --steps or --seconds says otherwise. Scripted events of a\n"
+        "scene (an impulse, a change of settings) are left out. Exit status 1 if anything differs.");
     command->callback([options, &status] { status = compare(*options); });
 }
 
