@@ -3,8 +3,7 @@
 // Validation, scene files, the check of their schema and messages follow from this list, and the order of SimpleShape is that of
 // the shape ids of a step. To add a convex shape: its struct, its place in SimpleShape and its ShapeInfo here; its id and its
 // laws in shaders/physics/collide/shapes.h; what the host measures of it in compute/scene/shape_geometry.cpp and ray_cast.cpp;
-// its entry in compute/scene_file/scene.schema.json; how it is drawn in demos/film/drawing.cpp. The compiler or a test tells what
-// is missing.
+// its normal in surface_normal.cpp; how it is drawn in demos/film/drawing.cpp. The compiler or a test tells what is missing.
 #pragma once
 
 #include <cstddef>
@@ -45,13 +44,16 @@ struct Cone {             // along the body's y axis, the apex up; its centre of
     float radius = 0.3f;  // of the base, m
     float height = 0.6f;  // m
 };
+struct Ellipsoid {
+    vec3 radii{0.5f, 0.3f, 0.4f};  // m, along x, y and z
+};
 struct HullForm;                             // compute/scene/hull.h
 struct Hull {                                // the convex hull of points
     std::vector<vec3> points;                // m, at least 4, not in a plane; inner and repeated ones do not matter
     std::shared_ptr<const HullForm> form{};  // made when the scene is checked
 };
 // The convex shapes and the plane. A shape's place here is its id in the step.
-using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Hull>;
+using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Ellipsoid, Hull>;
 
 struct Part {  // of a compound
     SimpleShape shape = Box{};
@@ -153,6 +155,12 @@ struct ShapeInfo<Cone> {
     static constexpr const char* about = "along the body's y axis, the apex up; its centre of mass lies a quarter of its height above its base";
     static constexpr std::tuple fields{ShapeField{"radius", &Cone::radius, size_range, " m", "m, of the base"},
                                        ShapeField{"height", &Cone::height, size_range, " m", "m"}};
+};
+template <>
+struct ShapeInfo<Ellipsoid> {
+    static constexpr const char* name = "ellipsoid";
+    static constexpr const char* about = "semi-axes along the body's axes";
+    static constexpr std::tuple fields{ShapeField{"radii", &Ellipsoid::radii, size_range, " m", "m, semi-axes"}};
 };
 template <>
 struct ShapeInfo<Hull> {

@@ -4,7 +4,9 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <cinttypes>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 
@@ -130,6 +132,12 @@ std::uint64_t hash_of(const State& state) {
     for (std::size_t i = 0; i < bodies; ++i) there.push_back(state.traits[state.row_of(i)].motion);
     for (std::size_t row = state.fixed().first_part; row < state.fixed().bodies; ++row) there.push_back(state.traits[row].motion);
     return XXH64(there.data(), there.size() * sizeof(physics::uint), hash);
+}
+
+std::string hash_text(std::uint64_t hash) {
+    char text[17];
+    std::snprintf(text, sizeof text, "%016" PRIx64, hash);
+    return text;
 }
 
 }  // namespace scree

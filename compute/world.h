@@ -9,9 +9,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "compute/ray.h"
 #include "compute/runner.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
@@ -142,7 +144,7 @@ public:
     // std::out_of_range for the index, std::invalid_argument for values out of range.
     void drive(std::size_t vehicle, const Controls& controls);
     void drive_by_route(std::size_t vehicle);  // from where it was left; std::invalid_argument if it has none
-    // Puts a vehicle on its wheels, at rest, half a metre above where it is. It reads everything back and sends it again once.
+    // Puts a vehicle on its wheels, at rest, half a metre above where it is.
     void put_upright(std::size_t vehicle);
 
     // Holds a dynamic body at `anchor` (in its own frame, from its centre; what lies outside of the box around it is brought to
@@ -159,17 +161,18 @@ public:
     // From the next step on; they wake everybody. They throw for what a scene or Settings would not take.
     void set_gravity(vec3 gravity);          // m/s^2
     void set_friction_factor(float factor);  // on the friction of every pair, 0 to 10
-    // Of every pair, 0 to 1. Where nothing else bounces, beginning or ending to do so reads everything back and sends it once.
+    // Of every pair, 0 to 1.
     void set_least_restitution(float restitution);
-    // From the next step on. It reads everything back and sends it again once.
+    // From the next step on. It reads contacts and joints back and sends them again once.
     void set_substeps(int substeps);  // 1 to 64
 
-    // One more body; returns its index. The highest, unless it may break: then its pieces follow it. It reads everything back and
-    // sends it again once. Throws SceneError as the constructor does. Buffers that a canvas draws from are others afterwards.
+    // One more body; returns its index. The highest, unless it may break: then its pieces follow it. It sends that body alone,
+    // but for once in half as many bodies as there are, when the tables grow. Throws SceneError as the constructor does. Buffers
+    // that a canvas draws from may be others afterwards.
     std::size_t add_body(const Body& body);
 
-    // One more joint; returns its index, the highest. It wakes the joint's bodies, and reads everything back and sends it again
-    // once. Throws SceneError for what a scene would not take, and for a body that is not there.
+    // One more joint; returns its index, the highest. It wakes the joint's bodies. It reads all joints and sends those
+    // that have changed. Throws SceneError for what a scene would not take, and for a body that is not there.
     std::size_t add_joint(const Joint& joint);
     // Takes a joint away, at the same cost; those behind it move up by one. What it held wakes and goes on as it moves. Throws
     // std::out_of_range, and std::invalid_argument for the joint of a vehicle's wheel.
@@ -188,6 +191,10 @@ public:
     BodyState body(std::size_t index) const;                 // throws std::out_of_range
     std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts
     std::vector<BodyState> bodies() const;
+    // The first surface that a ray meets from outside; a shape that it begins in is passed over, and from behind planes and
+    // surfaces are not there. Reads all bodies, and asks one after the other. Throws std::invalid_argument for a ray that is not
+    // finite or whose direction is not of length 1.
+    std::optional<RayHit> cast_ray(const Ray& ray) const;
     JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
     VehicleState vehicle(std::size_t index) const;  // throws std::out_of_range; reads all vehicles
@@ -212,5 +219,7 @@ private:
     struct Interior;
     std::unique_ptr<Interior> interior_;
 };
+
+std::string hash_text(std::uint64_t hash);  // of a state: 16 hexadecimal digits
 
 }  // namespace scree

@@ -17,6 +17,7 @@
 #include "shaders/physics/collide/collide_triangle.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/manifold.h"
+#include "shaders/physics/collide/rolling_contact.h"
 #include "shaders/physics/solve/persistence.h"
 
 namespace scree::reference {
@@ -31,6 +32,13 @@ constexpr std::array<Law, 9> laws{physics::collide_sphere_sphere, physics::colli
 using ConvexLaw = physics::Touch (*)(physics::Traits, physics::Pose, physics::Traits, physics::Pose, float, physics::Hulls);
 constexpr std::array<ConvexLaw, 5> laws_of_convex{physics::collide_plane_convex, physics::collide_convex, physics::collide_convex,
                                                   physics::collide_sphere_triangle, physics::collide_convex_triangle};
+
+// The simpler shape first.
+physics::Touch touch_of(std::uint32_t kind, const physics::Traits& ta, const physics::Pose& pa, const physics::Traits& tb,
+                        const physics::Pose& pb, float margin, const State& state) {
+    if (kind < laws.size()) return laws[kind](ta, pa, tb, pb, margin);
+    return laws_of_convex[kind - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
+}
 
 std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
     const std::size_t first = span * physics::SPAN;
@@ -67,19 +75,22 @@ void collide(State& state, const Threads& threads, std::uint32_t kind) {
     const std::size_t first = state.counted().kind_first[kind];
     threads.for_each(state.counted().kind_first[kind + 1] - first, [&](std::size_t i) {
         const std::size_t index = state.pairs_by_kind[first + i];
-        std::size_t simpler = state.pairs[index].a, other = state.pairs[index].b;
-        const float margin = physics::margin_of(state.traits[simpler], state.velocities[simpler], state.traits[other],
-                                                state.velocities[other], state.fixed());
-        const bool swapped = state.traits[simpler].shape > state.traits[other].shape;
-        if (swapped) std::swap(simpler, other);
-        const physics::Traits &ta = state.traits[simpler], &tb = state.traits[other];
-        const physics::Pose &pa = state.poses[simpler], &pb = state.poses[other];
-        physics::Touch touch = kind < laws.size()
-                                   ? laws[kind](ta, pa, tb, pb, margin)
-                                   : laws_of_convex[kind - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
-        if (swapped) touch = physics::flipped(touch, state.poses[other].position - state.poses[simpler].position);
-        const std::size_t row = state.pairs[index].a, body = state.body_of(state.pairs[index].a);
-        if (row != body) touch = physics::from_body(touch, state.poses[row].position - state.poses[body].position);
+        const std::size_t a = state.pairs[index].a, b = state.pairs[index].b;
+        const physics::Traits &ta = state.traits[a], &tb = state.traits[b];
+        const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
+        physics::Pose pa = state.poses[a], pb = state.poses[b];
+        const float margin = physics::margin_of(ta, va, tb, vb, state.fixed());
+        const float ahead = physics::time_ahead(ta, va, tb, vb, state.fixed());
+        if (ahead > 0) {
+            pa = physics::pose_ahead(pa, va, ahead);
+            pb = physics::pose_ahead(pb, vb, ahead);
+        }
+        physics::Touch touch = ta.shape > tb.shape
+                                   ? physics::flipped(touch_of(kind, tb, pb, ta, pa, margin, state), pa.position - pb.position)
+                                   : touch_of(kind, ta, pa, tb, pb, margin, state);
+        if (ahead > 0) touch = physics::brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
+        const std::size_t body = state.body_of(state.pairs[index].a);
+        if (a != body) touch = physics::from_body(touch, state.poses[a].position - state.poses[body].position);
         state.manifolds[index] = touch.manifold;
         state.touching[index] = touch.count;
     });

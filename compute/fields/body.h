@@ -64,7 +64,8 @@ inline constexpr auto table<Body> = table_of(
     field("linear_damping", &Body::linear_damping, between(0, 1e4), "1/s", "Rate at which its velocity decays"),
     field("angular_damping", &Body::angular_damping, between(0, 1e4), "1/s", "Rate at which its angular velocity decays"),
     field("gravity_scale", &Body::gravity_scale, within(1e3), "", "Factor on gravity"),
-    field("tyre", &Body::tyre, "Rubber: friction with slip; left out: plain friction"),
-    field("fracture", &Body::fracture, "How it breaks; left out: it never does"));
+    field("tyre", &Body::tyre,
+          "Friction with slip, of a sphere, capsule or cylinder, or of a compound's parts that are; left out: plain friction"),
+    field("fracture", &Body::fracture, "What breaks a dynamic body, and into what; left out: it never breaks"));
 
 }  // namespace scree::fields

@@ -26,8 +26,7 @@ inline constexpr auto table<Spring> =
 
 template <>
 inline constexpr auto table<Motor> =
-    table_of("motor", "Drives b against a",
-             field("speed", &Motor::speed, within(1e4), "m/s or rad/s", "Speed that it keeps up").required(),
+    table_of("motor", "Drives b against a", field("speed", &Motor::speed, within(1e4), "m/s or rad/s", "Target speed").required(),
              field("max_force", &Motor::max_force, any_force, "N or N m", "Greatest force").required());
 
 template <>

@@ -142,6 +142,14 @@ std::optional<double> meet(const Cylinder& c, const LocalRay& ray) {
 std::optional<double> meet(const Cone& c, const LocalRay& ray) {
     return to_frustum(ray.from, ray.along, -0.25 * c.height, 0.75 * c.height, static_cast<double>(c.radius), 0);
 }
+// In units of its radii it is a ball.
+std::optional<double> meet(const Ellipsoid& e, const LocalRay& ray) {
+    const dvec3 along = ray.along / dvec3(e.radii);
+    const double scale = glm::length(along);
+    const std::optional<double> at = to_sphere(ray.from / dvec3(e.radii), along / scale, dvec3(0), 1);
+    if (at) return *at / scale;
+    return std::nullopt;
+}
 std::optional<double> meet(const Hull& h, const LocalRay& ray) {
     return to_planes(ray.from, ray.along, h.form->faces);
 }

@@ -25,7 +25,8 @@ constexpr bool has_id = std::is_same_v<std::variant_alternative_t<id, SimpleShap
 static_assert(has_id<physics::SHAPE_SPHERE, Sphere> && has_id<physics::SHAPE_CAPSULE, Capsule> &&
               has_id<physics::SHAPE_BOX, Box> && has_id<physics::SHAPE_PLANE, Plane> &&
               has_id<physics::SHAPE_CYLINDER, Cylinder> && has_id<physics::SHAPE_CONE, Cone> &&
-              has_id<physics::SHAPE_HULL, Hull> && std::variant_size_v<SimpleShape> == physics::SHAPE_TRIANGLE);
+              has_id<physics::SHAPE_ELLIPSOID, Ellipsoid> && has_id<physics::SHAPE_HULL, Hull> &&
+              std::variant_size_v<SimpleShape> == physics::SHAPE_TRIANGLE);
 
 // Of a solid of revolution about the y axis.
 MassProperties mass_about_y(double mass, double across, double along) {
@@ -160,6 +161,28 @@ MassProperties mass(const Cone& c, double density) {
 void add_planes(const Cone& c, TouchingPlanes& planes, bool) {
     planes.touch_around(static_cast<double>(c.radius) / static_cast<double>(c.height));
     planes.touch({0, -1, 0});
+}
+
+// ---- ellipsoid
+vec3 size(const Ellipsoid& e) {
+    return e.radii;
+}
+double reach(const Ellipsoid& e, dvec3 n) {
+    return glm::length(n * dvec3(e.radii));
+}
+vec3 extents(const Ellipsoid& e) {
+    return e.radii;
+}
+float radius(const Ellipsoid& e) {
+    return std::max({e.radii.x, e.radii.y, e.radii.z});
+}
+MassProperties mass(const Ellipsoid& e, double density) {
+    const dvec3 squares = dvec3(e.radii) * dvec3(e.radii);
+    const double m = density * 4 / 3 * std::numbers::pi * e.radii.x * e.radii.y * e.radii.z;
+    return {static_cast<float>(m), vec3(dvec3(squares.y + squares.z, squares.x + squares.z, squares.x + squares.y) * (m / 5))};
+}
+void add_planes(const Ellipsoid& e, TouchingPlanes& planes, bool fine) {
+    planes.touch_all_over(fine, e.radii);
 }
 
 // ---- hull

@@ -60,7 +60,7 @@ json array_of(const json& items, glm::length_t size) {
     return {{"type", "array"}, {"items", items}, {"minItems", size}, {"maxItems", size}};
 }
 
-// What must be of an object beyond its fields.
+// What must be of an object beyond its fields; null takes a key away.
 template <class Struct>
 json conditions() {
     if constexpr (std::is_same_v<Struct, Fracture>)
@@ -68,7 +68,8 @@ json conditions() {
     if constexpr (std::is_same_v<Struct, Viewpoint>)
         return json::parse(R"({"oneOf": [{"required": ["eye", "target"], "not": {"required": ["path"]}},
             {"required": ["path"], "not": {"anyOf": [{"required": ["eye"]}, {"required": ["target"]},
-                                                     {"required": ["vertical_fov"]}]}}]})");
+                                                     {"required": ["vertical_fov"]}]}}],
+            "properties": {"eye": {"default": null}, "target": {"default": null}}})");
     return json::object();
 }
 
@@ -80,10 +81,10 @@ public:
         json required = json::array(), properties = json::object();
         add_fields<Struct>(required, properties);
         json made = {{"description", about}, {"type", "object"}};
-        made.update(conditions<Struct>());
         if (!required.empty()) made["required"] = required;
         made["additionalProperties"] = false;
         made["properties"] = properties;
+        made.merge_patch(conditions<Struct>());
         return made;
     }
     void define(const std::string& name, json schema) { defs_[name] = std::move(schema); }

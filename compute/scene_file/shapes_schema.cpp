@@ -2,6 +2,7 @@
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
+#include "compute/fields/range_text.h"
 #include "compute/scene_file/shapes_json.h"
 
 namespace scree {

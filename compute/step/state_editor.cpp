@@ -21,14 +21,19 @@ physics::Impulse scaled(physics::Impulse impulse, float factor) {
     return impulse;
 }
 
+// Of records that are told in their order.
+void add_to_run(TableRanges& runs, Table table, std::size_t record) {
+    if (runs.empty() || runs.back().first + runs.back().count != record) runs.push_back({table, record, 0});
+    ++runs.back().count;
+}
+
 // Runs of records that are not what they were.
 template <typename Record>
 TableRanges differing(Table table, const std::vector<Record>& before, const std::vector<Record>& now) {
     TableRanges runs;
     for (std::size_t i = 0; i < now.size(); ++i) {
         if (i < before.size() && std::memcmp(&before[i], &now[i], sizeof(Record)) == 0) continue;
-        if (runs.empty() || runs.back().first + runs.back().count != i) runs.push_back({table, i, 0});
-        ++runs.back().count;
+        add_to_run(runs, table, i);
     }
     return runs;
 }
@@ -98,18 +103,22 @@ bool StateEditor::has_room_for_a_body() const {
     return state_.body_count < p.first_part || p.first_part == p.bodies;
 }
 
+// The rows of parts, which move, and contacts, which know them by their rows.
 TableRanges StateEditor::needed_to_add() const {
     if (has_room_for_a_body()) return {};
-    return lasting_ranges(state_);
+    const physics::Parameters& p = state_.fixed();
+    const std::size_t parts = p.bodies - p.first_part;
+    TableRanges needed{{Table::first_contacts, p.first_part, parts + 1}, {Table::contacts, 0, state_.live(Length::contacts)}};
+    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::masses})
+        needed.push_back({table, p.first_part, parts});
+    return needed;
 }
 
 // Rows that no body is in yet, between those of bodies and those of parts, which move up.
-void StateEditor::make_room_for_bodies() {
+TableRanges StateEditor::make_room_for_bodies() {
     physics::Parameters& p = state_.fixed();
     const std::uint32_t first = p.first_part, count = std::max(16u, first / 2);
-    const auto insert = [&](auto& table, const auto& record) {
-        if (table.size() >= first) table.insert(table.begin() + first, count, record);
-    };
+    const auto insert = [&](auto& table, const auto& record) { table.insert(table.begin() + first, count, record); };
     insert(state_.traits, physics::Traits{});
     for (std::uint32_t row = first; row < first + count; ++row) state_.traits[row] = spare_row(row);
     insert(state_.poses, physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)});
@@ -118,14 +127,23 @@ void StateEditor::make_room_for_bodies() {
     insert(state_.strains, 0.0f);
     insert(state_.masses, physics::Mass{});
     // They have no contacts: where these begin, they end.
-    if (state_.first_contacts.size() > first) insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
-    for (physics::Contact& contact : state_.contacts)
+    insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
+    TableRanges changed;
+    for (std::size_t i = 0; i < state_.live(Length::contacts); ++i) {
+        physics::Contact& contact = state_.contacts[i];
+        if (contact.a < first && contact.b < first) continue;
         for (physics::uint* row : {&contact.a, &contact.b})
             if (*row >= first) *row += count;
+        add_to_run(changed, Table::contacts, i);
+    }
     p.first_part += count;
     p.bodies += count;
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
     state_.allocate();
+    changed.push_back({Table::first_contacts, first, p.bodies + 1 - first});
+    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::masses, Table::ids})
+        changed.push_back({table, first, p.bodies - first});
+    return changed;
 }
 
 // What a step finds in rows behind those that were there: parts are where their bodies are, and nobody has contacts yet.
@@ -140,12 +158,7 @@ TableRanges StateEditor::rows_added(std::uint32_t first, std::uint32_t count) {
 }
 
 TableRanges StateEditor::add(const Body& body) {
-    TableRanges changed;
-    if (!has_room_for_a_body()) {
-        make_room_for_bodies();
-        changed = lasting_ranges(state_);
-        changed.push_back({Table::ids, 0, state_.fixed().bodies});
-    }
+    TableRanges changed = has_room_for_a_body() ? TableRanges{} : make_room_for_bodies();
     SceneCompiler compiler(state_);
     physics::Parameters& p = state_.fixed();
     const std::uint32_t row = state_.body_count, rows_before = p.bodies;

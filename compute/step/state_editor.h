@@ -30,7 +30,7 @@ public:
 
 private:
     bool has_room_for_a_body() const;
-    void make_room_for_bodies();
+    TableRanges make_room_for_bodies();
     TableRanges rows_added(std::uint32_t first, std::uint32_t count);
 
     State& state_;

@@ -35,6 +35,7 @@ public:
 
 private:
     void draw(std::uint32_t row, const Sphere&) { made.spheres.push_back(row); }
+    void draw(std::uint32_t row, const Ellipsoid&) { made.spheres.push_back(row); }
     void draw(std::uint32_t row, const Capsule&) { made.capsules.push_back(row); }
     void draw(std::uint32_t row, const Box&) { made.boxes.push_back(row); }
     void draw(std::uint32_t row, const Plane&) { made.planes.push_back(row); }

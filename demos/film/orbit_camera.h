@@ -4,14 +4,10 @@
 #include <glm/glm.hpp>
 #include <optional>
 
+#include "compute/ray.h"
 #include "compute/scene_file/scene_json.h"
 
 namespace scree::demos {
-
-struct Ray {
-    vec3 from{0};          // m
-    vec3 along{0, 0, -1};  // unit
-};
 
 struct Extent {  // of what is seen, pixels
     int width = 1280, height = 720;

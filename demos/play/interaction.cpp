@@ -92,7 +92,7 @@ void Interaction::press(const host::Event& event) {
     }
     motion_ = Motion::orbits;
     if (event.button == host::Button::right) return;
-    const std::optional<Hit> hit = hit_under_pointer();
+    const std::optional<RayHit> hit = hit_under_pointer();
     const bool dynamic = hit && session_.world().scene().bodies[hit->body].motion == scree::Motion::dynamic;
     if (dynamic) {
         selected_ = hit->body;

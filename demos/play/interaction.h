@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "demos/film/orbit_camera.h"
-#include "demos/play/picking.h"
 #include "demos/play/session.h"
 #include "host/window/events.h"
 
@@ -80,7 +79,7 @@ private:
     void scroll(double clicks);
     void press_key(const host::Event& event);
     void begin_again();
-    void grab(const Hit& hit);
+    void grab(const RayHit& hit);
     void let_go();
     void drag();
     void push_selected();
@@ -88,7 +87,7 @@ private:
     void chase(double seconds);  // of the wall clock
     bool is_driving_key(host::Key key) const;
     void make_step();
-    std::optional<Hit> hit_under_pointer();
+    std::optional<RayHit> hit_under_pointer();
     float size_of_a_new_body() const;
 
     Session& session_;

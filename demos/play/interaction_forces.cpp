@@ -20,11 +20,11 @@ Shape shape_of(Kind kind, float size) {
 
 }  // namespace
 
-std::optional<Hit> Interaction::hit_under_pointer() {
-    return pick(session_.world().scene(), session_.world().bodies(), eye_.ray(x_, y_, extent_));
+std::optional<RayHit> Interaction::hit_under_pointer() {
+    return session_.world().cast_ray(eye_.ray(x_, y_, extent_));
 }
 
-void Interaction::grab(const Hit& hit) {
+void Interaction::grab(const RayHit& hit) {
     const BodyState body = session_.world().body(hit.body);
     Hold hold;
     hold.body = hit.body;
@@ -96,17 +96,16 @@ void Interaction::add(Kind kind) {
     body.name = "added";
     body.shape = shape_of(kind, size);
     // From above onto what lies in the middle of the view, or onto what lies on that.
-    const Scene& scene = session_.world().scene();
-    const std::vector<BodyState> states = session_.world().bodies();
-    const std::optional<Hit> seen = pick(scene, states, eye_.ray(0.5 * extent_.width, 0.5 * extent_.height, extent_));
+    const World& world = session_.world();
+    const std::optional<RayHit> seen = world.cast_ray(eye_.ray(0.5 * extent_.width, 0.5 * extent_.height, extent_));
     const vec3 middle = seen ? seen->point : eye_.target();
-    const std::optional<Hit> highest = pick(scene, states, {middle + vec3(0, 1000, 0), vec3(0, -1, 0)});
+    const std::optional<RayHit> highest = world.cast_ray({middle + vec3(0, 1000, 0), vec3(0, -1, 0)});
     body.position = (highest ? highest->point : middle) + vec3(0, 3 * size, 0);
     perform(Add{body});
 }
 
 void Interaction::explode() {
-    const std::optional<Hit> hit = hit_under_pointer();
+    const std::optional<RayHit> hit = hit_under_pointer();
     const vec3 centre = hit ? hit->point : eye_.target();
     perform(Explode{centre, 0.3f * eye_.distance(), std::clamp(0.8f * eye_.distance(), 3.0f, 60.0f)});
 }

@@ -1,66 +1,22 @@
-// A user's input as a file: what was simulated, and what was done to it before which step. It leads to the same state on every
-// processor, bit by bit.
-//
-//     {"scree_input": 1,
-//      "scene": "wall",                    a demo, or a scene file as it was named
-//      "bodies": 0, "seed": 1,             as the options --bodies (0: the demo's own number) and --seed
-//      "rate": 60, "substeps": 8, "sleeping": true,   as it began
-//      "start_hash": "0123456789abcdef",   of the state before the first step; optional
-//      "steps": 600,                       of the whole recording
-//      "end_hash": "0123456789abcdef",     of the state after them; optional
-//      "acts": [                           in the order in which they happen; "step": how many steps were done before
-//       {"step": 3, "grab": {"grip": 0, "body": 17, "anchor": [0, 0.5, 0], "target": [1, 2, 3]}},
-//       {"step": 4, "drag": {"grip": 0, "target": [1, 2.5, 3]}},
-//       {"step": 9, "release": {"grip": 0}},
-//       {"step": 9, "add": {"shape": {"sphere": {"radius": 0.3}}, "position": [0, 2, 9], "velocity": [0, 3, -15]}},
-//       {"step": 9, "join": {"kind": {"ball": {}}, "a": 17, "b": 18, "anchor_a": [0, 0.5, 0], "anchor_b": [0, -0.5, 0]}},
-//       {"step": 15, "unjoin": {"joint": 0}},
-//       {"step": 20, "push": {"body": 17, "force": [500, 0, 0]}},
-//       {"step": 30, "explode": {"centre": [0, 0, 0], "radius": 5, "speed": 10}},
-//       {"step": 40, "turn": {"gravity": [0, -1.6, 0], "substeps": 4, "friction_factor": 0.5, "least_restitution": 0.9,
-//                             "sleeping": false}}
-//       {"step": 50, "drive": {"vehicle": 0, "throttle": 1, "brake": 0, "steer": -0.5, "hand_brake": 0}},
-//       {"step": 90, "righten": {"vehicle": 0}}
-//     ]}
-// Anchors are in the body's frame, "add" takes a body and "join" a joint as a scene file does (bodies by their
-// index, places in their frames), "turn" any of its keys, "drive" holds until the next one. SI units.
+// Recordings of a user's input (compute/replay/replay.h) as files of the program, and as scripts of its runs.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "demos/play/user_commands.h"
+#include "compute/replay/replay.h"
 #include "demos/program/options.h"
 #include "demos/scenes/script.h"
 
 namespace scree::demos {
 
-struct Input {
-    std::string scene;
-    std::size_t bodies = 0;
-    std::uint64_t seed = 1;
-    float rate = 60;
-    int substeps = 8;
-    bool sleeping = true;
-    std::optional<std::uint64_t> start_hash, end_hash;
-    std::uint64_t steps = 0;
-    std::vector<TimedAct> acts;  // by step
-};
-
-std::string json_of(const Input& input);
-
-// Throws SceneError with the JSON pointer of what is wrong, or line and column of what is no JSON.
-Input input_from_json(std::string_view text);
+using namespace replay;
 
 // The input in a file. Throws UsageError naming the file, the place and the reason.
 Input load_input(const std::string& path);
 
 // The script that does what was recorded, after `first` (which may be empty); to be called after the last step, too. It throws
 // UsageError, naming `path` and the place, when an act does not fit the world.
-Script replay(Input input, std::string path, Script first);
+Script script_of(Input input, std::string path, Script first);
 
 // What a session of these options records before anything was done.
 Input begun(const SceneOptions& options, std::uint64_t start_hash);

@@ -38,7 +38,7 @@ void Session::open(const std::string& name) {
 }
 
 void Session::perform(const Act& act) {
-    demos::perform(act, *world_);
+    replay::perform(act, *world_);
     const std::uint64_t step = world_->steps();
     // Of several places that a body was drawn to before one step only the last counts.
     if (const auto* drag = std::get_if<Drag>(&act); drag && !input_.acts.empty()) {

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "demos/play/replay.h"
-#include "demos/play/user_commands.h"
 #include "demos/program/loaded_scene.h"
 
 namespace scree::demos {

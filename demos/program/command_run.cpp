@@ -215,7 +215,7 @@ int run(const Options& options) {
     require_writable(options);
     Subject subject = load_subject(options.scene);
     if (options.played) {  // happens again, and the demo's promise no longer binds
-        subject.before_step = replay(*options.played, options.input, std::move(subject.before_step));
+        subject.before_step = script_of(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
     const Machine machine = choose_machine(options.machine, Choice::fastest);

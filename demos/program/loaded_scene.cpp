@@ -9,14 +9,13 @@
 #include <limits>
 
 #include "compute/scene/shape_geometry.h"
+#include "compute/scene_file/load_scene.h"
 #include "demos/film/camera.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
-#include "host/files/file.h"
-#include "host/files/mesh_file.h"
 
 namespace scree::demos {
 
@@ -73,22 +72,6 @@ void set_bounds(Subject& subject) {
     subject.high = high;
 }
 
-// The files that meshes name, which lie beside the scene's.
-void read_meshes(Scene& scene, const std::filesystem::path& folder) {
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        auto* mesh = std::get_if<Mesh>(&scene.bodies[i].shape);
-        if (!mesh || mesh->file.empty()) continue;
-        try {
-            host::MeshFile read = host::read_mesh(folder / mesh->file);
-            mesh->vertices = std::move(read.vertices);
-            mesh->triangles = std::move(read.triangles);
-            for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
-        } catch (const host::FileError& error) {
-            throw SceneError("/bodies/" + std::to_string(i) + "/shape/mesh/file", error.what());
-        }
-    }
-}
-
 std::string free_memory() {
     return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", available_memory() / 1e9,
                        static_cast<double>(most_bodies()) / 1e3);
@@ -116,8 +99,7 @@ Subject from_file(const std::string& path) {
     Subject subject;
     subject.name = path;
     try {
-        SceneDocument document = scene_from_json(host::read_text(path), most_bodies());
-        read_meshes(document.scene, std::filesystem::path(path).parent_path());
+        SceneDocument document = load_scene(path, most_bodies());
         require_memory_for_pieces(document.scene, path);
         std::vector<std::string> notes;
         subject.scene = checked(std::move(document.scene), &notes);

@@ -27,10 +27,6 @@ std::size_t peak_memory() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
 }
 
-std::string hash_text(std::uint64_t hash) {
-    return fmt::format("{:016x}", hash);
-}
-
 namespace {
 
 double per_body(const RunReport& r, std::size_t bytes) {

@@ -39,8 +39,7 @@ struct Spread {
 };
 Spread spread_of(std::vector<double> step_ms);
 
-std::size_t peak_memory();                  // bytes, of this process so far
-std::string hash_text(std::uint64_t hash);  // 16 hexadecimal digits
+std::size_t peak_memory();  // bytes, of this process so far
 std::string json_of(const RunReport& report);
 std::string summary_of(const RunReport& report);
 

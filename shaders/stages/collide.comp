@@ -16,6 +16,10 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#if KIND == 9 || KIND == 10 || KIND == 13
+#define MAY_BE_SMOOTH  // either of the bodies
+#endif
+
 #if KIND == 0
 #include "shaders/physics/collide/collide_sphere_sphere.h"
 #elif KIND == 1
@@ -41,6 +45,7 @@
 #endif
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/manifold.h"
+#include "shaders/physics/collide/rolling_contact.h"
 #ifdef WITH_HULLS
 #include "shaders/stages/lib/shape_data.glsl"
 #define AND_HULLS , Hulls(0u)
@@ -56,7 +61,15 @@ void main() {
     uint a = READ(pairs, pair).a, b = READ(pairs, pair).b;
     Traits ta = READ(traits, a), tb = READ(traits, b);
     Pose pa = READ(poses, a), pb = READ(poses, b);
-    float margin = margin_of(ta, READ(velocities, a), tb, READ(velocities, b), PARAMETERS);
+    Velocity va = READ(velocities, a), vb = READ(velocities, b);
+    float margin = margin_of(ta, va, tb, vb, PARAMETERS);
+#ifdef MAY_BE_SMOOTH
+    float ahead = time_ahead(ta, va, tb, vb, PARAMETERS);
+    if (ahead > 0.0f) {
+        pa = pose_ahead(pa, va, ahead);
+        pb = pose_ahead(pb, vb, ahead);
+    }
+#endif
     // The law wants the simpler shape first.
     bool swap = ta.shape > tb.shape;
     Traits first_traits = swap ? tb : ta;
@@ -65,6 +78,9 @@ void main() {
     Pose second = swap ? pa : pb;
     Touch touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
+#ifdef MAY_BE_SMOOTH
+    if (ahead > 0.0f) touch = brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
+#endif
     if (a >= PARAMETERS.first_part)
         touch = from_body(touch, READ(poses, a).position - READ(poses, READ(traits, a).owner).position);
     manifolds.at[pair] = touch.manifold;

@@ -69,7 +69,7 @@ TEST_CASE("keys take the car over from its driver: they accelerate, steer, brake
 
     const Input input = input_from_json(json_of(played.session.input()));
     World again(played.session.subject().scene, played.session.subject().settings(options_of("drive")), make_reference_runner(2));
-    const Script script = replay(input, "played", {});
+    const Script script = script_of(input, "played", {});
     for (std::uint64_t i = 0; i < input.steps; ++i) {
         script(again);
         again.step();

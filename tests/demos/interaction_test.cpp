@@ -106,7 +106,7 @@ TEST_CASE("a ray meets cylinders, cones and hulls where their surface is") {
     for (int k = 0; k < 8; ++k) cube.points.emplace_back(k & 1 ? 9 : 11, k & 2 ? -1 : 1, k & 4 ? -1 : 1);
     scene.bodies.emplace_back().shape = cube;
     const World world(scene, {}, 1);
-    const auto above = [&](float x) { return pick(world.scene(), world.bodies(), {vec3(x, 5, 0), vec3(0, -1, 0)}); };
+    const auto above = [&](float x) { return world.cast_ray({vec3(x, 5, 0), vec3(0, -1, 0)}); };
     REQUIRE(above(10.9f));
     CHECK(above(10.9f)->distance == Approx(4));
     CHECK_FALSE(above(11.1f));

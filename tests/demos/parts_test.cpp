@@ -4,7 +4,6 @@
 #include "compute/step/state.h"
 #include "compute/world.h"
 #include "demos/film/drawing.h"
-#include "demos/play/picking.h"
 
 using namespace scree;
 
@@ -34,9 +33,7 @@ Scene three_bodies() {
 
 TEST_CASE("a compound is picked through each of its parts and between them is not, and a height field where its ground is") {
     const World world(three_bodies(), {}, 1);
-    const auto below = [&](float x, float z) {
-        return demos::pick(world.scene(), world.bodies(), {vec3(x, 9, z), vec3(0, -1, 0)});
-    };
+    const auto below = [&](float x, float z) { return world.cast_ray({vec3(x, 9, z), vec3(0, -1, 0)}); };
     for (const float x : {-5.0f, -3.0f}) {
         REQUIRE(below(x, 0)->body == 1);
         REQUIRE(below(x, 0)->distance == Approx(5.75));

@@ -35,6 +35,8 @@ const std::vector<Room> rooms = {
     {"shaders/", {"shaders/"}},
     {"host/", {"host/", "shaders/embedded.h", "shaders/render/"}},
     {"compute/device/", {"compute/", "host/", "shaders/"}},
+    // A scene file names meshes in other files: this one file of the library reads them, and knows no more of the host.
+    {"compute/scene_file/load_scene.cpp", {"compute/", "host/files/"}},
     {"compute/", {"compute/", "shaders/physics/", "shaders/stages/"}},
     {"demos/", {"demos/", "compute/", "host/", "shaders/physics/"}},
     {"tests/", {"tests/", "demos/", "compute/", "host/", "shaders/"}},

@@ -1,4 +1,5 @@
-// Cylinders, cones and hulls against each other and all other shapes: an independent search over directions says how far apart.
+// Cylinders, cones, hulls and ellipsoids against each other and all other shapes: an independent search over directions says how
+// far apart.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -31,6 +32,7 @@ Shape any_shape(std::size_t kind, Chance& chance) {
     if (kind == 2) return Box{vec3(between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f))};
     if (kind == 4) return Cylinder{between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f)};
     if (kind == 5) return Cone{between(chance, 0.3f, 0.6f), between(chance, 0.5f, 1.2f)};
+    if (kind == 7) return Ellipsoid{vec3(between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f), between(chance, 0.2f, 0.6f))};
     Hull hull;
     for (int k = 0; k < 14; ++k)
         hull.points.emplace_back(between(chance, -0.6f, 0.6f), between(chance, -0.6f, 0.6f), between(chance, -0.6f, 0.6f));
@@ -48,6 +50,7 @@ double reach(const Body& body, dvec3 direction) {
     if (const auto* c = std::get_if<Cylinder>(&body.shape)) return c->radius * across + c->half_height * std::abs(d.y);
     if (const auto* c = std::get_if<Cone>(&body.shape))
         return std::max(0.75 * c->height * d.y, c->radius * across - 0.25 * c->height * d.y);
+    if (const auto* e = std::get_if<Ellipsoid>(&body.shape)) return glm::length(d * dvec3(e->radii));
     double most = -1e300;
     for (const vec3& point : std::get<Hull>(body.shape).points) most = std::max(most, glm::dot(dvec3(point), d));
     return most;
@@ -106,8 +109,9 @@ Pair any_pair(std::size_t kind_a, std::size_t kind_b, Chance& chance) {
     return Pair(scene);
 }
 
-constexpr std::array<std::pair<std::size_t, std::size_t>, 15> kinds{
-    {{0, 4}, {0, 5}, {0, 6}, {1, 4}, {1, 5}, {1, 6}, {2, 4}, {2, 5}, {2, 6}, {4, 4}, {4, 5}, {4, 6}, {5, 5}, {5, 6}, {6, 6}}};
+constexpr std::array<std::pair<std::size_t, std::size_t>, 22> kinds{
+    {{0, 4}, {0, 5}, {0, 6}, {1, 4}, {1, 5}, {1, 6}, {2, 4}, {2, 5}, {2, 6}, {4, 4}, {4, 5},
+     {4, 6}, {5, 5}, {5, 6}, {6, 6}, {0, 7}, {1, 7}, {2, 7}, {4, 7}, {5, 7}, {7, 6}, {7, 7}}};
 
 }  // namespace
 

@@ -107,7 +107,7 @@ TEST_CASE("program: a scene file that is not there or not JSON is refused with l
 TEST_CASE("program: a scene file with a wrong key or value is refused with its JSON pointer", "[program]") {
     require_scene_refused(scene_with(R"({"shape": {"torus": {"radius": 1}}})"),
                           {"/bodies/1/shape: unknown shape \"torus\"; known: box, capsule, compound, cone, cylinder, "
-                           "height_field, hull, mesh, plane, sphere"});
+                           "ellipsoid, height_field, hull, mesh, plane, sphere"});
     require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "frictoin": 1})"),
                           {"/bodies/1/frictoin: unknown key \"frictoin\"; nearest: \"friction\""});
     require_scene_refused(scene_with(R"({"shape": {"sphere": {"radius": 1}}, "position": [0, NaN, 0]})"),

@@ -1,5 +1,7 @@
 // The list of shapes against all that follows it: scene files, messages, the published schema, the ids of the step.
+#include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -110,8 +112,8 @@ TEST_CASE("every number of a convex shape is held to its range, and refused by i
                 scene.bodies.resize(1);
                 scene.bodies[0].motion = Motion::fixed;
                 scene.bodies[0].shape = wrong;
-                CHECK_THROWS_WITH(checked(scene), Catch::Contains(std::string("/bodies/0/shape/") + ShapeInfo<Kind>::name + "/" +
-                                                                  field.name));
+                CHECK_THROWS_WITH(checked(scene),
+                                  Catch::Contains(std::string("/bodies/0/shape/") + ShapeInfo<Kind>::name + "/" + field.name));
             });
         }
         return true;

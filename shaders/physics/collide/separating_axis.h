@@ -194,7 +194,7 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
     float radii = a.radius + b.radius;
     Separation s = separation_by_faces(a, b, d, enough + radii, hulls);
     float room = PUSH_ROOM * smaller(a.scale, b.scale);
-    bool known = s.over_face, converged = false;
+    bool known = s.over_face, converged = false, curved = is_smooth(a.shape) || is_smooth(b.shape);
     for (uint k = has_side(a.shape) || has_side(b.shape) ? 0u : SIDE_AXES; k < SIDE_AXES + PUSH_ROUNDS; ++k) {
         if (converged || s.distance - radii >= enough || (known && k >= SIDE_AXES)) break;
         bool apart = s.distance >= room;
@@ -206,7 +206,7 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
             vec3 push = apart ? d - d : s.normal * (room - s.distance);
             Simplex nearest = way_between(a, b, d + push, s.normal, hulls);
             normal = unit3(nearest.nearest, s.normal);
-            known = lies_over_triangle(nearest, push);
+            known = !curved && lies_over_triangle(nearest, push);
         }
         float distance = dot3(normal, difference_along(a, b, d, normal, hulls));
         float gain = distance - s.distance;
@@ -215,7 +215,7 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
             s.normal = normal;
             if (k < SIDE_AXES) known = false;
         }
-        converged = k >= SIDE_AXES && (apart || gain < 1.0e-5f * room);
+        converged = k >= SIDE_AXES && ((apart && !curved) || gain < 1.0e-5f * room);
     }
     s.distance = s.distance - radii;
     s.by_face_a = s.by_face_a - radii;

@@ -10,15 +10,16 @@
 
 LAWS_BEGIN
 
-CONSTANT uint SHAPE_SPHERE = 0u;    // size: radius, -, -                     m
-CONSTANT uint SHAPE_CAPSULE = 1u;   // size: radius, half height, - (along y) m
-CONSTANT uint SHAPE_BOX = 2u;       // size: half extents                     m
-CONSTANT uint SHAPE_PLANE = 3u;     // size: unit normal; the pose's position is a point of it
-CONSTANT uint SHAPE_CYLINDER = 4u;  // size: radius, half height, - (along y) m
-CONSTANT uint SHAPE_CONE = 5u;      // size: radius, height, - (along y, apex up) m
-CONSTANT uint SHAPE_HULL = 6u;      // size: half extents of the box about its centre of mass that holds it, m
-CONSTANT uint SHAPE_TRIANGLE = 7u;  // of a mesh, solid behind it; size: as of a hull. In the table of hulls: triangle.h
-CONSTANT uint SHAPE_NONE = 8u;      // only its parts touch. size: its thinnest part's thickness, how far it reaches, - m
+CONSTANT uint SHAPE_SPHERE = 0u;     // size: radius, -, -                     m
+CONSTANT uint SHAPE_CAPSULE = 1u;    // size: radius, half height, - (along y) m
+CONSTANT uint SHAPE_BOX = 2u;        // size: half extents                     m
+CONSTANT uint SHAPE_PLANE = 3u;      // size: unit normal; the pose's position is a point of it
+CONSTANT uint SHAPE_CYLINDER = 4u;   // size: radius, half height, - (along y) m
+CONSTANT uint SHAPE_CONE = 5u;       // size: radius, height, - (along y, apex up) m
+CONSTANT uint SHAPE_ELLIPSOID = 6u;  // size: radii along x, y and z           m
+CONSTANT uint SHAPE_HULL = 7u;       // size: half extents of the box about its centre of mass that holds it, m
+CONSTANT uint SHAPE_TRIANGLE = 8u;   // of a mesh, solid behind it; size: as of a hull. In the table of hulls: triangle.h
+CONSTANT uint SHAPE_NONE = 9u;       // only its parts touch. size: its thinnest part's thickness, how far it reaches, - m
 
 #ifndef SCREE_LANES  // the laws of the solver ask nothing of shapes
 
@@ -31,13 +32,17 @@ LAW bool has_round_core(uint shape) {
 LAW bool is_general_convex(uint shape) {
     return shape >= SHAPE_CYLINDER && shape <= SHAPE_HULL;
 }
+// Is curved everywhere, and by its support alone touches what is flat in one point.
+LAW bool is_smooth(uint shape) {
+    return shape == SHAPE_ELLIPSOID;
+}
 // Touches what is flat in one point, which goes on over it as soon as it turns.
 LAW bool touches_in_a_point(uint shape) {
-    return shape == SHAPE_SPHERE;
+    return shape == SHAPE_SPHERE || is_smooth(shape);
 }
 // Can roll on its side, or on its rim.
 LAW bool can_roll(uint shape) {
-    return has_round_core(shape) || shape == SHAPE_CYLINDER || shape == SHAPE_CONE;
+    return has_round_core(shape) || shape == SHAPE_CYLINDER || shape == SHAPE_CONE || is_smooth(shape);
 }
 LAW bool takes_tyre(uint shape) {
     return has_round_core(shape) || shape == SHAPE_CYLINDER;
@@ -52,7 +57,7 @@ LAW bool has_straight_side(uint shape) {
 }
 // Has a curved side, whose normals are axes to try first (side_normal).
 LAW bool has_side(uint shape) {
-    return has_straight_side(shape);
+    return has_straight_side(shape) || is_smooth(shape);
 }
 // Flat faces that are known without a table.
 LAW uint flat_faces(uint shape) {
@@ -81,12 +86,13 @@ LAW float min_half_width(uint shape, vec3 size) {
     if (shape == SHAPE_CYLINDER) return smaller(size.x, size.y);
     if (shape == SHAPE_CONE) return smaller(0.5f * size.x, 0.25f * size.y);
     if (shape == SHAPE_HULL) return 0.5f * smallest_component(size);
-    return shape == SHAPE_BOX ? smallest_component(size) : size.x;
+    return shape == SHAPE_BOX || shape == SHAPE_ELLIPSOID ? smallest_component(size) : size.x;
 }
 // How far from its centre it reaches; of a hull a bound.
 LAW float bounding_radius(uint shape, vec3 size) {
     if (is_polyhedron(shape)) return length3(size);
     if (shape == SHAPE_NONE) return size.y;
+    if (shape == SHAPE_ELLIPSOID) return largest_component(size);
     if (shape == SHAPE_CAPSULE) return size.x + size.y;
     if (shape == SHAPE_CYLINDER) return square_root(size.x * size.x + size.y * size.y);
     if (shape == SHAPE_CONE) return larger(0.75f * size.y, square_root(size.x * size.x + 0.0625f * (size.y * size.y)));
@@ -96,11 +102,12 @@ LAW float bounding_radius(uint shape, vec3 size) {
 // only its axis.
 LAW float turning_reach(uint shape, vec3 size) {
     if (shape == SHAPE_CAPSULE) return size.y;
+    if (shape == SHAPE_ELLIPSOID) return largest_component(size) - smallest_component(size);
     return shape == SHAPE_SPHERE || shape == SHAPE_PLANE ? 0.0f : bounding_radius(shape, size);
 }
 // Its core reaches at least so far from its centre, in any direction; that of a hull the table knows.
 LAW float inner_radius(uint shape, vec3 size) {
-    if (shape == SHAPE_BOX) return smallest_component(size);
+    if (shape == SHAPE_BOX || shape == SHAPE_ELLIPSOID) return smallest_component(size);
     if (shape == SHAPE_CYLINDER) return smaller(size.x, size.y);
     if (shape != SHAPE_CONE) return size.x - size.x;
     float slope = size.x * inverse_square_root(size.x * size.x + size.y * size.y);
@@ -129,6 +136,10 @@ LAW vec3 world_half_extents(uint shape, vec3 size, vec4 orientation) {
             half_size = larger3(rim + axis * (0.25f * size.y), axis * (0.75f * size.y));
     } else if (shape == SHAPE_NONE) {
         half_size = vec3(size.y);
+    } else if (shape == SHAPE_ELLIPSOID) {
+        Axes axes = axes_of(orientation);
+        vec3 x = axes.x * size.x, y = axes.y * size.y, z = axes.z * size.z;
+        half_size = vec3(length3(vec3(x.x, y.x, z.x)), length3(vec3(x.y, y.y, z.y)), length3(vec3(x.z, y.z, z.z)));
     } else if (is_polyhedron(shape)) {
         Axes axes = axes_of(orientation);
         half_size = absolute3(axes.x) * size.x + absolute3(axes.y) * size.y + absolute3(axes.z) * size.z;
@@ -145,6 +156,7 @@ LAW float volume_of(uint shape, vec3 size) {
     if (shape == SHAPE_BOX) return 8.0f * (size.x * size.y * size.z);
     if (shape == SHAPE_CYLINDER) return 6.28318531f * r * r * size.y;
     if (shape == SHAPE_CONE) return 1.04719755f * r * r * size.y;
+    if (shape == SHAPE_ELLIPSOID) return 4.1887902f * (size.x * size.y * size.z);
     if (shape == SHAPE_HULL) return 4.0f * (size.x * size.y * size.z);
     float ball = 4.1887902f * r * r * r;
     return shape == SHAPE_CAPSULE ? ball + 6.28318531f * r * r * size.y : ball;
@@ -175,14 +187,28 @@ LAW vec3 cone_normal(Axes axes, vec3 size, vec3 outward) {
     return outward * (size.y * scale) + axes.y * (size.x * scale);
 }
 
+// The point of an ellipsoid farthest in a direction: R^2 n / |R n|, with R the radii.
+LAW vec3 ellipsoid_support(vec3 size, Axes axes, vec3 direction) {
+    vec3 stretched = in_body(axes, direction) * size;
+    return in_world(axes, unit3(stretched, vec3(1.0f, 0.0f, 0.0f)) * size);
+}
+// Its normal where the way from its centre to a point comes out: R^-2 p, in units of the smallest radius.
+LAW vec3 ellipsoid_normal(vec3 size, Axes axes, vec3 towards) {
+    float least = smallest_component(size);
+    vec3 flatness = vec3(least * reciprocal(size.x), least * reciprocal(size.y), least * reciprocal(size.z));
+    return unit3(in_world(axes, in_body(axes, towards) * flatness * flatness), axes.x);
+}
+
 // The normal of the curved side that looks towards a point.
 LAW vec3 side_normal(uint shape, vec3 size, Axes axes, vec3 towards) {
+    if (shape == SHAPE_ELLIPSOID) return ellipsoid_normal(size, axes, towards);
     vec3 outward = outward_from_axis(axes, towards);
     return shape == SHAPE_CONE ? cone_normal(axes, size, outward) : outward;
 }
 
 // The point of the core farthest in a direction (of any length but 0), of all but hulls.
 LAW vec3 support_by_size(uint shape, vec3 size, Axes axes, vec3 direction) {
+    if (shape == SHAPE_ELLIPSOID) return ellipsoid_support(size, axes, direction);
     float along = dot3(axes.y, direction);
     if (shape == SHAPE_BOX) {
         vec3 x = axes.x * (dot3(axes.x, direction) < 0.0f ? -size.x : size.x);

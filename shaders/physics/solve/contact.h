@@ -3,6 +3,7 @@
 #define SCREE_PHYSICS_CONTACT_H
 
 #include "shaders/physics/collide/compound.h"
+#include "shaders/physics/collide/rolling_contact.h"
 #include "shaders/physics/extra/sweep.h"
 #include "shaders/physics/solve/motion.h"
 
@@ -96,8 +97,7 @@ LAW vec4 separations_of(Manifold manifold) {
     return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
 }
 
-// The points stay with the rounder body, or with the thinner one: a ball rolls on, a small box slides on over a big one, and the
-// contact goes with it. Between two round bodies the point and the normal follow both.
+// Between two round bodies the point and the normal follow both; others stay with one of them (rolling_contact.h).
 LAW bool is_round(Traits traits) {
     return has_round_core(traits.shape);
 }
@@ -106,8 +106,7 @@ LAW bool rolls(Traits traits) {
 }
 LAW uint anchor_of(Contact contact, Traits a, Traits b) {
     if (is_round(a) && is_round(b) && contact.count == 1u) return ANCHOR_ROUND;
-    if (rolls(a) != rolls(b)) return rolls(a) ? ANCHOR_A : ANCHOR_B;
-    return thickness(b) < thickness(a) ? ANCHOR_B : ANCHOR_A;
+    return stays_with_b(a, b) ? ANCHOR_B : ANCHOR_A;
 }
 
 // Half the least width of a body along its surface, seen against the normal, m: what slides further has left it.

@@ -1,18 +1,17 @@
 // Input as JSON text: one act a line, every float so that it reads back to the same bits.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <concepts>
 #include <nlohmann/json.hpp>
+#include <utility>
 
+#include "compute/replay/replay.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_reading.h"
 #include "compute/scene_file/scene_json.h"
-#include "demos/play/replay.h"
-#include "demos/program/report.h"
 
-namespace scree::demos {
+namespace scree::replay {
 
 namespace {
 
@@ -26,49 +25,65 @@ constexpr std::uint64_t most_steps = 1000000000;  // as --steps
 // ---- writing
 std::string text_of(float value) {
     if (value == 0) return std::signbit(value) ? "-0.0" : "0";
-    const std::string shortest = fmt::format("{}", value);
+    char digits[64];
+    char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     // Readers go through a double; should that round twice to a neighbour, write all digits.
-    return static_cast<float>(std::stod(shortest)) == value ? shortest : fmt::format("{:.17g}", static_cast<double>(value));
+    double wide = 0;
+    std::from_chars(digits, end, wide);
+    if (static_cast<float>(wide) != value) end = std::to_chars(digits, digits + sizeof digits, static_cast<double>(value)).ptr;
+    return {digits, end};
 }
 std::string text_of(vec3 v) {
-    return fmt::format("[{}, {}, {}]", text_of(v.x), text_of(v.y), text_of(v.z));
-}
-std::string text_of(int value) {
-    return std::to_string(value);
+    return "[" + text_of(v.x) + ", " + text_of(v.y) + ", " + text_of(v.z) + "]";
 }
 std::string text_of(bool value) {
     return value ? "true" : "false";
 }
+template <std::integral Number>
+std::string text_of(Number value) {
+    return std::to_string(value);
+}
+std::string hexadecimal(std::uint64_t hash) {
+    return '"' + hash_text(hash) + '"';
+}
+
+// "name": {"key": value, ...}
+template <typename... Pairs>
+std::string act_text(const char* name, const Pairs&... pairs) {
+    std::string inside;
+    ((inside += std::string(inside.empty() ? "\"" : ", \"") + pairs.first + "\": " + text_of(pairs.second)), ...);
+    return std::string("\"") + name + "\": {" + inside + "}";
+}
 
 struct Writer {
     std::string operator()(const Grab& act) const {
-        return fmt::format(R"("grab": {{"grip": {}, "body": {}, "anchor": {}, "target": {}}})", act.grip, act.body,
-                           text_of(act.anchor), text_of(act.target));
+        return act_text("grab", std::pair("grip", act.grip), std::pair("body", act.body), std::pair("anchor", act.anchor),
+                        std::pair("target", act.target));
     }
     std::string operator()(const Drag& act) const {
-        return fmt::format(R"("drag": {{"grip": {}, "target": {}}})", act.grip, text_of(act.target));
+        return act_text("drag", std::pair("grip", act.grip), std::pair("target", act.target));
     }
-    std::string operator()(const Release& act) const { return fmt::format(R"("release": {{"grip": {}}})", act.grip); }
+    std::string operator()(const Release& act) const { return act_text("release", std::pair("grip", act.grip)); }
     std::string operator()(const Add& act) const { return "\"add\": " + body_to_json(act.body); }
     std::string operator()(const Join& act) const { return "\"join\": " + joint_to_json(act.joint); }
-    std::string operator()(const Unjoin& act) const { return fmt::format(R"("unjoin": {{"joint": {}}})", act.joint); }
+    std::string operator()(const Unjoin& act) const { return act_text("unjoin", std::pair("joint", act.joint)); }
     std::string operator()(const Push& act) const {
-        return fmt::format(R"("push": {{"body": {}, "force": {}}})", act.body, text_of(act.force));
+        return act_text("push", std::pair("body", act.body), std::pair("force", act.force));
     }
     std::string operator()(const Explode& act) const {
-        return fmt::format(R"("explode": {{"centre": {}, "radius": {}, "speed": {}}})", text_of(act.centre), text_of(act.radius),
-                           text_of(act.speed));
+        return act_text("explode", std::pair("centre", act.centre), std::pair("radius", act.radius),
+                        std::pair("speed", act.speed));
     }
     std::string operator()(const Drive& act) const {
-        return fmt::format(R"("drive": {{"vehicle": {}, "throttle": {}, "brake": {}, "steer": {}, "hand_brake": {}}})",
-                           act.vehicle, text_of(act.controls.throttle), text_of(act.controls.brake), text_of(act.controls.steer),
-                           text_of(act.controls.hand_brake));
+        return act_text("drive", std::pair("vehicle", act.vehicle), std::pair("throttle", act.controls.throttle),
+                        std::pair("brake", act.controls.brake), std::pair("steer", act.controls.steer),
+                        std::pair("hand_brake", act.controls.hand_brake));
     }
-    std::string operator()(const Righten& act) const { return fmt::format(R"("righten": {{"vehicle": {}}})", act.vehicle); }
+    std::string operator()(const Righten& act) const { return act_text("righten", std::pair("vehicle", act.vehicle)); }
     std::string operator()(const Turn& act) const {
         std::string inside;
         const auto add = [&](const char* key, const auto& value) {
-            if (value) inside += fmt::format("{}\"{}\": {}", inside.empty() ? "" : ", ", key, text_of(*value));
+            if (value) inside += std::string(inside.empty() ? "\"" : ", \"") + key + "\": " + text_of(*value);
         };
         add("gravity", act.gravity);
         add("substeps", act.substeps);
@@ -227,17 +242,17 @@ void read_settings(const json& value, const Place& root, Input& input) {
 
 std::string json_of(const Input& input) {
     std::string text =
-        fmt::format("{{\"scree_input\": 1,\n \"scene\": {},\n \"bodies\": {}, \"seed\": {},\n",
-                    json(input.scene).dump(-1, ' ', false, json::error_handler_t::replace), input.bodies, input.seed);
-    text +=
-        fmt::format(" \"rate\": {}, \"substeps\": {}, \"sleeping\": {},\n", text_of(input.rate), input.substeps, input.sleeping);
-    if (input.start_hash) text += fmt::format(" \"start_hash\": \"{}\",\n", hash_text(*input.start_hash));
-    text += fmt::format(" \"steps\": {},\n", input.steps);
-    if (input.end_hash) text += fmt::format(" \"end_hash\": \"{}\",\n", hash_text(*input.end_hash));
+        "{\"scree_input\": 1,\n \"scene\": " + json(input.scene).dump(-1, ' ', false, json::error_handler_t::replace) +
+        ",\n \"bodies\": " + text_of(input.bodies) + ", \"seed\": " + text_of(input.seed) + ",\n";
+    text += " \"rate\": " + text_of(input.rate) + ", \"substeps\": " + text_of(input.substeps) +
+            ", \"sleeping\": " + text_of(input.sleeping) + ",\n";
+    if (input.start_hash) text += " \"start_hash\": " + hexadecimal(*input.start_hash) + ",\n";
+    text += " \"steps\": " + text_of(input.steps) + ",\n";
+    if (input.end_hash) text += " \"end_hash\": " + hexadecimal(*input.end_hash) + ",\n";
     text += " \"acts\": [";
     const char* between = "\n  ";
     for (const TimedAct& act : input.acts) {
-        text += fmt::format("{}{{\"step\": {}, {}}}", between, act.step, std::visit(Writer{}, act.act));
+        text += between + ("{\"step\": " + text_of(act.step)) + ", " + std::visit(Writer{}, act.act) + "}";
         between = ",\n  ";
     }
     return text + "\n]}\n";
@@ -270,4 +285,4 @@ Input input_from_json(std::string_view text) {
     return input;
 }
 
-}  // namespace scree::demos
+}  // namespace scree::replay

@@ -9,7 +9,7 @@
 
 #include "compute/world.h"
 
-namespace scree::demos {
+namespace scree::replay {
 
 struct Grab {              // takes hold of a body; see World::grip
     std::size_t grip = 0;  // the lowest that is free, 0 to most_grips - 1
@@ -67,4 +67,4 @@ struct TimedAct {
 // Throws what World throws, and std::invalid_argument for a grip that is not the lowest free one.
 void perform(const Act& act, World& world);
 
-}  // namespace scree::demos
+}  // namespace scree::replay

@@ -1,11 +1,10 @@
 // Doing what a user does.
-#include "demos/play/user_commands.h"
-
-#include <fmt/format.h>
+#include "compute/replay/user_commands.h"
 
 #include <stdexcept>
+#include <string>
 
-namespace scree::demos {
+namespace scree::replay {
 
 namespace {
 
@@ -16,7 +15,8 @@ struct Performer {
         const std::size_t grip = world.grip(act.body, act.anchor, act.target);
         if (grip == act.grip) return;
         world.release(grip);
-        throw std::invalid_argument(fmt::format("the lowest grip that is free is {}, not {}", grip, act.grip));
+        throw std::invalid_argument("the lowest grip that is free is " + std::to_string(grip) + ", not " +
+                                    std::to_string(act.grip));
     }
     void operator()(const Drag& act) const { world.move_grip(act.grip, act.target); }
     void operator()(const Release& act) const { world.release(act.grip); }
@@ -42,4 +42,4 @@ void perform(const Act& act, World& world) {
     std::visit(Performer{world}, act);
 }
 
-}  // namespace scree::demos
+}  // namespace scree::replay

@@ -1,0 +1,66 @@
+// Contacts of what rolls on a curve that is no circle: found where the bodies will be in the middle of the step.
+//
+// A contact's points stay where they are about a body through a step. On a circle that is where they belong. But under an
+// ellipsoid that rocks the point wanders, and a point of the step's beginning lags by half a step: it pulls back too late, and
+// the rocking grows by a tenth in a second. The point of the middle of the step is right on average.
+#ifndef SCREE_PHYSICS_ROLLING_CONTACT_H
+#define SCREE_PHYSICS_ROLLING_CONTACT_H
+
+#include "shaders/physics/collide/manifold.h"
+#include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/solve/motion.h"
+
+LAWS_BEGIN
+
+// So far at most bodies are taken ahead: rad, and of the thinner one's half width. Farther, and what is fast would be found
+// behind what it is about to strike.
+CONSTANT float MOST_TURN_AHEAD = 0.2f;
+CONSTANT float MOST_WAY_AHEAD = 0.25f;
+
+// By how much time a pair is taken ahead, s; 0: its contact is found where the bodies are.
+LAW float time_ahead(Traits a, Velocity va, Traits b, Velocity vb, Parameters parameters) {
+    if (!is_smooth(a.shape) && !is_smooth(b.shape)) return 0.0f;
+    float ahead = 0.5f * parameters.dt;
+    float turn = length3(va.angular) + length3(vb.angular);
+    float way = length3(vb.linear - va.linear);
+    float most_way = MOST_WAY_AHEAD * smaller(thickness(a), thickness(b));
+    if (turn * ahead > MOST_TURN_AHEAD) ahead = MOST_TURN_AHEAD * reciprocal(turn);
+    if (way * ahead > most_way) ahead = most_way * reciprocal(way);
+    return ahead;
+}
+LAW Pose pose_ahead(Pose pose, Velocity velocity, float ahead) {
+    Pose after = pose;
+    after.position = pose.position + velocity.linear * ahead;
+    after.orientation = turned(pose.orientation, velocity.angular, ahead);
+    return after;
+}
+
+// Which body a contact's points stay with: the one that rolls, or the thinner one. A ball rolls on, a small box slides on over a
+// big one, and the contact goes with it.
+LAW bool stays_with_b(Traits a, Traits b) {
+    if (can_roll(a.shape) != can_roll(b.shape)) return can_roll(b.shape);
+    return thickness(b) < thickness(a);
+}
+
+LAW float speed_at(Manifold manifold, vec4 point, Velocity va, Velocity vb, vec3 d) {
+    vec3 of_a = va.linear + cross3(va.angular, xyz(point));
+    vec3 of_b = vb.linear + cross3(vb.angular, xyz(point) - d);
+    return dot3(manifold.normal, of_b - of_a);
+}
+// A touch of bodies that were taken ahead, d apart then, as it is now: points where they will be about the body that they stay
+// with, separations as they are.
+LAW Touch brought_back(Touch touch, Traits a, Velocity va, Traits b, Velocity vb, vec3 d, float ahead) {
+    vec3 back = stays_with_b(a, b) ? (va.linear - vb.linear) * ahead : d - d;
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= touch.count) continue;
+        vec4 point = touch.manifold.points[k];
+        float separation = point.w - ahead * speed_at(touch.manifold, point, va, vb, d);
+        vec3 at = xyz(point) + back;
+        touch.manifold.points[k] = vec4(at.x, at.y, at.z, separation);
+    }
+    return touch;
+}
+
+LAWS_END
+
+#endif
