@@ -103,8 +103,8 @@ template <class Owner, class Value>
 struct ShapeField {
     const char* name;  // in scene files and messages
     Value Owner::*member;
-    FieldRange range;      // of each number of it
-    const char* unit;      // with a space before it, for messages
+    FieldRange range;  // of each number of it
+    const char* unit;  // with a space before it, for messages
     const char* about = "";
     bool required = true;  // in a scene file; else its default is the struct's own
 
@@ -126,8 +126,9 @@ template <>
 struct ShapeInfo<Capsule> {
     static constexpr const char* name = "capsule";
     static constexpr const char* about = "along the body's y axis";
-    static constexpr std::tuple fields{ShapeField{"radius", &Capsule::radius, size_range, " m", "m"},
-                                       ShapeField{"half_height", &Capsule::half_height, size_or_none_range, " m", "m, from the centre to the centre of a cap"}};
+    static constexpr std::tuple fields{
+        ShapeField{"radius", &Capsule::radius, size_range, " m", "m"},
+        ShapeField{"half_height", &Capsule::half_height, size_or_none_range, " m", "m, from the centre to the centre of a cap"}};
 };
 template <>
 struct ShapeInfo<Box> {
@@ -138,21 +139,25 @@ struct ShapeInfo<Box> {
 template <>
 struct ShapeInfo<Plane> {
     static constexpr const char* name = "plane";
-    static constexpr const char* about = "infinite, solid behind the normal; only for \"fixed\" bodies, whose position and orientation it ignores";
-    static constexpr std::tuple fields{ShapeField{"normal", &Plane::normal, direction_range, "", "any length but 0", false},
-                                       ShapeField{"offset", &Plane::offset, position_range, " m", "m, along the normal from the origin", false}};
+    static constexpr const char* about =
+        "infinite, solid behind the normal; only for \"fixed\" bodies, whose position and orientation it ignores";
+    static constexpr std::tuple fields{
+        ShapeField{"normal", &Plane::normal, direction_range, "", "any length but 0", false},
+        ShapeField{"offset", &Plane::offset, position_range, " m", "m, along the normal from the origin", false}};
 };
 template <>
 struct ShapeInfo<Cylinder> {
     static constexpr const char* name = "cylinder";
     static constexpr const char* about = "along the body's y axis";
-    static constexpr std::tuple fields{ShapeField{"radius", &Cylinder::radius, size_range, " m", "m"},
-                                       ShapeField{"half_height", &Cylinder::half_height, size_range, " m", "m, from the centre to an end"}};
+    static constexpr std::tuple fields{
+        ShapeField{"radius", &Cylinder::radius, size_range, " m", "m"},
+        ShapeField{"half_height", &Cylinder::half_height, size_range, " m", "m, from the centre to an end"}};
 };
 template <>
 struct ShapeInfo<Cone> {
     static constexpr const char* name = "cone";
-    static constexpr const char* about = "along the body's y axis, the apex up; its centre of mass lies a quarter of its height above its base";
+    static constexpr const char* about =
+        "along the body's y axis, the apex up; its centre of mass lies a quarter of its height above its base";
     static constexpr std::tuple fields{ShapeField{"radius", &Cone::radius, size_range, " m", "m, of the base"},
                                        ShapeField{"height", &Cone::height, size_range, " m", "m"}};
 };
@@ -181,15 +186,15 @@ struct ShapeInfo<Mesh> {  // a scene file may name a file instead of the fields
 template <>
 struct ShapeInfo<HeightField> {
     static constexpr const char* name = "height_field";
-    static constexpr std::tuple fields{ShapeField{"columns", &HeightField::columns, {2, 30000}, ""},
-                                       ShapeField{"rows", &HeightField::rows, {2, 30000}, ""},
-                                       ShapeField{"spacing", &HeightField::spacing, size_range, " m", "m, between neighbours", false},
-                                       ShapeField{"heights", &HeightField::heights, within_shape_range, " m"}};
+    static constexpr std::tuple fields{
+        ShapeField{"columns", &HeightField::columns, {2, 30000}, ""}, ShapeField{"rows", &HeightField::rows, {2, 30000}, ""},
+        ShapeField{"spacing", &HeightField::spacing, size_range, " m", "m, between neighbours", false},
+        ShapeField{"heights", &HeightField::heights, within_shape_range, " m"}};
 };
 
 // Calls f with each field of a shape, in the order of the list.
 template <class OfShape, class Function>
-void for_each_field(Function&& f) {
+void for_each_shape_field(Function&& f) {
     std::apply([&](const auto&... field) { (f(field), ...); }, ShapeInfo<std::remove_cvref_t<OfShape>>::fields);
 }
 // Calls f with a default shape of each kind, in the order of Shape; it returns true to go on.

@@ -294,7 +294,9 @@ std::vector<double> key_of(const Shape& shape, const Fracture& f) {
                             static_cast<double>(f.depth),       static_cast<double>(f.seed),    static_cast<double>(f.impulse),
                             static_cast<double>(f.momentum)};
     std::visit(
-        [&](const auto& one) { for_each_field<decltype(one)>([&](const auto& field) { add_to_key(key, one.*field.member); }); },
+        [&](const auto& one) {
+            for_each_shape_field<decltype(one)>([&](const auto& field) { add_to_key(key, one.*field.member); });
+        },
         shape);
     return key;
 }

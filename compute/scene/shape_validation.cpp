@@ -41,7 +41,7 @@ void refuse_value(const Examination& body, const std::string& key, const std::ve
 // Numbers, places and directions by the list of shapes; whole numbers and parts are for those who know what they mean.
 template <class OfShape>
 void check_fields(const Examination& body, OfShape& shape) {
-    for_each_field<OfShape>([&](const auto& field) {
+    for_each_shape_field<OfShape>([&](const auto& field) {
         auto& value = shape.*field.member;
         using Value = std::remove_reference_t<decltype(value)>;
         constexpr bool numbers = std::is_same_v<Value, float> || std::is_same_v<Value, vec3> ||

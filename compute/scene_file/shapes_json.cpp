@@ -66,9 +66,9 @@ static void read_mesh(const json& sizes, const Place& inside, Mesh& mesh) {
 template <class OfShape>
 static void read_fields(const json& sizes, const Place& inside, OfShape& shape) {
     Names names;
-    for_each_field<OfShape>([&](const auto& field) { names.emplace_back(field.name); });
+    for_each_shape_field<OfShape>([&](const auto& field) { names.emplace_back(field.name); });
     only(sizes, inside, names);
-    for_each_field<OfShape>([&](const auto& field) {
+    for_each_shape_field<OfShape>([&](const auto& field) {
         if (field.required)
             required(sizes, inside, field.name, shape.*field.member);
         else
@@ -114,14 +114,14 @@ void read(const json& value, const Place& place, Shape& out) {
 namespace {
 
 template <class Value>
-void write_value(Text& text, const Value& value) {
+void write_shape_value(Text& text, const Value& value) {
     text << value;
 }
 template <class Value>
-void write_value(Text& text, const std::vector<Value>& values) {
+void write_shape_value(Text& text, const std::vector<Value>& values) {
     text.list(values);
 }
-void write_value(Text& text, const std::vector<Part>& parts) {
+void write_shape_value(Text& text, const std::vector<Part>& parts) {
     static const Part by_default;
     const auto unless_default = [&](std::string_view key, const auto& value, const auto& usual) {
         if (!is_default(value, usual)) text << ", \"" << key << "\": " << value;
@@ -145,9 +145,9 @@ void write_shape(Text& text, const Shape& shape) {
     std::visit(
         [&](const auto& one) {
             const char* between = "\"";
-            for_each_field<decltype(one)>([&](const auto& field) {
+            for_each_shape_field<decltype(one)>([&](const auto& field) {
                 text << between << field.name << "\": ";
-                write_value(text, one.*field.member);
+                write_shape_value(text, one.*field.member);
                 between = ", \"";
             });
         },

@@ -44,7 +44,7 @@ constexpr bool has_lists = std::is_same_v<OfShape, Hull> || std::is_same_v<OfSha
 template <class OfShape>
 ordered_json plain_schema() {
     ordered_json fields = {{"type", "object"}}, required = ordered_json::array(), properties = ordered_json::object();
-    for_each_field<OfShape>([&](const auto& field) {
+    for_each_shape_field<OfShape>([&](const auto& field) {
         if (field.required) required.push_back(field.name);
         properties[field.name] = field_schema(field);
     });

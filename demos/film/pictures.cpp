@@ -15,7 +15,7 @@
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
 #include "host/canvas/canvas.h"
-#include "host/files/frame_writer.h"
+#include "host/pictures/frame_writer.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree::demos {

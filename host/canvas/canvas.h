@@ -18,7 +18,7 @@
 
 #include "host/canvas/camera.h"
 #include "host/canvas/colors.h"
-#include "host/files/image.h"
+#include "host/pictures/image.h"
 
 namespace scree::host {
 

@@ -1,5 +1,5 @@
 // Pictures, PNG files, frames and videos on disk.
-#include "host/files/image.h"
+#include "host/pictures/image.h"
 
 #include <unistd.h>
 
@@ -13,10 +13,10 @@
 #include <string>
 
 #include "host/files/file.h"
-#include "host/files/frame_writer.h"
 #include "host/files/partial_file.h"
-#include "host/files/raw_frames.h"
-#include "host/files/video.h"
+#include "host/pictures/frame_writer.h"
+#include "host/pictures/raw_frames.h"
+#include "host/pictures/video.h"
 #include "tests/host/vulkan/compiled.h"
 
 using namespace scree::host;

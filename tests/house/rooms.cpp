@@ -44,7 +44,8 @@ const std::vector<Room> rooms = {
 
 std::string wrong_way(const SourceFile& file, const Include& include) {
     if (file.in("tests/consumer/")) return include.quoted ? "the installed headers are included with <>" : "";
-    const bool outside = include.path.find("vulkan") != std::string::npos || include.path.find("GLFW") != std::string::npos;
+    const bool outside =
+        !include.quoted && (include.path.find("vulkan") != std::string::npos || include.path.find("GLFW") != std::string::npos);
     if (outside && !file.in("host/") && !knows_the_device(file) && !file.in("tests/")) return "only host knows Vulkan";
     if (!include.quoted) return "";
     for (const Room& room : rooms) {

@@ -1,7 +1,7 @@
 // What the program does where Vulkan, or OpenGL ES as well, is not installed.
 #include <catch2/catch.hpp>
 
-#include "host/files/image.h"
+#include "host/pictures/image.h"
 #include "tests/program/program.h"
 
 using scree::program::Outcome;

@@ -59,7 +59,7 @@ TEST_CASE("the published schema says of each shape what the list of shapes says"
         std::set<std::string> said, required;
         for (const auto& [key, value] : fields["properties"].items()) said.insert(key);
         for (const auto& key : fields.value("required", json::array())) required.insert(key.template get<std::string>());
-        for_each_field<Kind>([&](const auto& field) {
+        for_each_shape_field<Kind>([&](const auto& field) {
             CAPTURE(field.name);
             REQUIRE(said.erase(field.name) == 1);
             CHECK(required.erase(field.name) == (field.required ? 1 : 0));
@@ -98,7 +98,7 @@ TEST_CASE("every number of a convex shape is held to its range, and refused by i
     for_each_shape([&](const auto& shape) {
         using Kind = std::remove_cvref_t<decltype(shape)>;
         if constexpr (std::is_constructible_v<SimpleShape, Kind>) {
-            for_each_field<Kind>([&](const auto& field) {
+            for_each_shape_field<Kind>([&](const auto& field) {
                 CAPTURE(ShapeInfo<Kind>::name, field.name);
                 Kind wrong = shape;
                 auto& value = wrong.*field.member;

@@ -1,5 +1,5 @@
 // A video file or an animated picture, encoded by ffmpeg from frames sent through a pipe.
-#include "host/files/video.h"
+#include "host/pictures/video.h"
 
 #include <fcntl.h>
 #include <signal.h>

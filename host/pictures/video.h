@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "host/files/image.h"
+#include "host/pictures/image.h"
 
 namespace scree::host {
 

@@ -1,5 +1,5 @@
 // Frames to PNG files, to a video, to an animated preview and as bare pixels, encoded beside the simulation.
-#include "host/files/frame_writer.h"
+#include "host/pictures/frame_writer.h"
 
 #include <algorithm>
 #include <condition_variable>
@@ -14,8 +14,8 @@
 #include <utility>
 #include <vector>
 
-#include "host/files/raw_frames.h"
-#include "host/files/video.h"
+#include "host/pictures/raw_frames.h"
+#include "host/pictures/video.h"
 
 namespace scree::host {
 namespace {

@@ -1,5 +1,5 @@
 // Frames as bare pixels.
-#include "host/files/raw_frames.h"
+#include "host/pictures/raw_frames.h"
 
 #include <fcntl.h>
 #include <unistd.h>

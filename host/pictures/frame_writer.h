@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <memory>
 
-#include "host/files/image.h"
+#include "host/pictures/image.h"
 
 namespace scree::host {
 
@@ -12,7 +12,7 @@ struct FrameWriterOptions {
     std::filesystem::path folder{};   // frame_000000.png, ... are written here; empty: no files
     std::filesystem::path video{};    // an .mp4 file; empty: no video
     std::filesystem::path preview{};  // a small animated picture, .gif or .webp; empty: none
-    std::filesystem::path raw{};      // frames as they are (host/files/raw_frames.h): a file, a pipe or "-"; empty: none
+    std::filesystem::path raw{};      // frames as they are (host/pictures/raw_frames.h): a file, a pipe or "-"; empty: none
     double frames_per_second = 60;
     int width = 1280;  // pixels
     int height = 720;  // pixels

@@ -1,5 +1,5 @@
 // A picture in memory, and PNG files, through libspng.
-#include "host/files/image.h"
+#include "host/pictures/image.h"
 
 #include <spng.h>
 #include <unistd.h>
