@@ -49,7 +49,7 @@ public:
 
     // Whether the steps to come are timed stage by stage. At first none is: on a software device a mark between two stages of a
     // small world takes longer than the stages. On the CPU it costs nothing, and all are.
-    virtual void time_stages(bool /* on */) {}
+    virtual void set_profiling(bool /* on */) {}
     virtual StageTimes stage_times() const = 0;       // means over the timed steps since the stages changed: with the substeps,
                                                       // or when a small world grew
     virtual StageTimes last_stage_times() const = 0;  // of the last timed step alone

@@ -125,12 +125,12 @@ struct ConeTwist {       // the anchors stay together; B's x axis stays within a
     Limits twist;        // about x
     float friction = 0;  // N m, against the twist
 };
-struct SixDegrees {  // every axis as it says; they are free unless they say more
-    Axis x, y, z;    // along A's axes
-    Axis twist;      // about x, of B against where the swing has brought it
+struct SixDof {    // every axis as it says; they are free unless they say more
+    Axis x, y, z;  // along A's axes
+    Axis twist;    // about x, of B against where the swing has brought it
     Axis swing_y, swing_z;
 };
-using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDegrees>;
+using JointKind = std::variant<Ball, Hinge, Slider, Fixed, Distance, ConeTwist, SixDof>;
 
 constexpr std::size_t the_world = static_cast<std::size_t>(-1);  // in place of a body: what never moves
 
@@ -170,11 +170,11 @@ struct Wheel {
     float skid = 0;         // what steering adds to its throttle, -1 to 1: vehicles without steered wheels turn like tanks
 };
 struct Engine {
-    float torque = 1500;    // N m, at full throttle, of all driven wheels together
-    float power = 75000;    // W; above power / torque the torque falls as 1 / speed
-    float top_speed = 50;   // m/s
-    float back_speed = 10;  // m/s, backwards
-    float drag = 40;        // N m, of all driven wheels together without throttle
+    float torque = 1500;       // N m, at full throttle, of all driven wheels together
+    float power = 75000;       // W; above power / torque the torque falls as 1 / speed
+    float top_speed = 50;      // m/s
+    float reverse_speed = 10;  // m/s, backwards
+    float drag = 40;           // N m, of all driven wheels together without throttle
 };
 struct Steering {
     float angle = 0.6f;  // rad, of a wheel in the middle at full lock, 0.01 to 1.2

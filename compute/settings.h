@@ -13,7 +13,7 @@ struct Settings {
     float contact_hertz = 0.14f;         // of the substep rate. Above 0.14 split contacts over-react and stacks buzz
     float contact_damping_ratio = 10;    // 1 to 40: below, what was pushed apart springs
     float push_speed = 3;                // m/s, greatest speed at which overlapping bodies are pushed apart
-    float split_relaxation = 1.5f;       // mass splitting: s = max(1, contacts / this). Converges below 2; 1.95 fell over
+    float relaxation = 1.5f;             // mass splitting: s = max(1, contacts / this). Converges below 2; 1.95 fell over
     float speculative_distance = 0.02f;  // m, contacts are made this far ahead (and as far as the pair moves in a step)
     float restitution_threshold = 1;     // m/s, slower impacts do not bounce: bodies at rest would hop
     float max_speed = 400;               // m/s, velocities are clamped to it

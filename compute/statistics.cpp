@@ -55,7 +55,7 @@ void add_contacts(const State& state, Statistics& s) {
     s.manifolds = state.counted().contacts;
     for (const std::uint32_t i : contacts_by_id(state)) {
         // The points of a body that flew past its partner in the last step hang in the air.
-        if (state.impulses[i].slipped > state.constraints[i].leave) continue;
+        if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;
         const physics::uint count = state.contacts[i].count;
         s.points += count;
         for (physics::uint k = 0; k < count; ++k) {
@@ -74,8 +74,8 @@ void add_joints(const State& state, Statistics& s) {
     for (const std::uint32_t record : state.joint_records) {
         const physics::Joint& joint = state.joints[record];
         s.joints_broken += joint.broken != 0;
-        s.joint_force_max = std::max(s.joint_force_max, static_cast<double>(joint.greatest_force));
-        s.joint_torque_max = std::max(s.joint_torque_max, static_cast<double>(joint.greatest_torque));
+        s.joint_force_max = std::max(s.joint_force_max, static_cast<double>(joint.max_force));
+        s.joint_torque_max = std::max(s.joint_torque_max, static_cast<double>(joint.max_torque));
     }
 }
 
@@ -89,8 +89,8 @@ Statistics statistics_of(const Scene& scene, const State& state) {
         if (const auto* plane = std::get_if<Plane>(&body.shape)) planes.push_back(plane);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const std::uint32_t row = state.row_of(i);
-        s.broken += state.traits[row].motion == physics::MOTION_BROKEN;
-        if (physics::is_absent(state.traits[row].motion)) continue;
+        s.broken += state.properties[row].motion == physics::MOTION_BROKEN;
+        if (physics::is_absent(state.properties[row].motion)) continue;
         ++s.bodies;
         s.pieces += scene.bodies[i].piece_of != no_body;
         if (!finite(state, row)) {
@@ -98,7 +98,7 @@ Statistics statistics_of(const Scene& scene, const State& state) {
             continue;
         }
         if (scene.bodies[i].motion != Motion::dynamic) continue;
-        s.asleep += physics::is_asleep(state.rests[row], state.fixed().sleep_steps);
+        s.asleep += physics::is_asleep(state.sleep_states[row], state.fixed().sleep_steps);
         add_motion(scene, state, i, s, momentum, spin);
         const vec3 centre = state.poses[row].position;
         s.below_ground += std::any_of(planes.begin(), planes.end(), [&](const Plane* plane) {
@@ -129,8 +129,9 @@ std::uint64_t hash_of(const State& state) {
     const std::uint64_t hash = XXH64(values.data(), values.size() * sizeof(float), 0);
     if (!state.has_fractures()) return hash;
     std::vector<physics::uint> there;  // and who is there at all
-    for (std::size_t i = 0; i < bodies; ++i) there.push_back(state.traits[state.row_of(i)].motion);
-    for (std::size_t row = state.fixed().first_part; row < state.fixed().bodies; ++row) there.push_back(state.traits[row].motion);
+    for (std::size_t i = 0; i < bodies; ++i) there.push_back(state.properties[state.row_of(i)].motion);
+    for (std::size_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
+        there.push_back(state.properties[row].motion);
     return XXH64(there.data(), there.size() * sizeof(physics::uint), hash);
 }
 

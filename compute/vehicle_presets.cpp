@@ -53,12 +53,12 @@ void mount(Scene& scene, Vehicle& vehicle, const Stand& stand, Body body, const 
 const char* const corners[] = {" front left", " front right", " rear left", " rear right"};
 
 // Held along and about all axes but its spring's and its own, and the steering's, which has a place.
-SixDegrees suspension_of(float load, float mass, const Car& car, bool steers) {
+SixDof suspension_of(float load, float mass, const Car& car, bool steers) {
     const Axis locked{.locked = true};
     const float omega = 2 * std::numbers::pi_v<float> * car.hertz;
     Spring spring{.stiffness = omega * omega * mass, .damping = 2 * car.damping_ratio * omega * mass};
     spring.rest = -load / spring.stiffness;  // so that it stands as it was built
-    SixDegrees six{.x = locked, .y = {}, .z = locked, .twist = {}, .swing_y = locked, .swing_z = locked};
+    SixDof six{.x = locked, .y = {}, .z = locked, .twist = {}, .swing_y = locked, .swing_z = locked};
     six.y.spring = spring;
     six.y.limits = Limits{-0.16f * car.size, 0.11f * car.size};
     if (steers) six.swing_y = Axis{.limits = Limits{0, 0}};

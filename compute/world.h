@@ -26,12 +26,12 @@ struct BodyState {
     vec3 velocity;          // m/s
     vec3 angular_velocity;  // rad/s
     bool asleep = false;
-    bool there = true;  // false: it has broken, or is a piece of a body that has not; it is nowhere, and nothing acts on it
+    bool exists = true;  // false: it has broken, or is a piece of a body that has not; it is nowhere, and nothing acts on it
 };
 
 // What touches a body, as the last step left it: a record for each contact, of which two bodies have several where one of them is
 // a compound, a mesh or a height field.
-struct Touching {
+struct BodyContact {
     std::size_t body;  // the other one
     int points;        // 1 to 4
     float force;       // N, along the normal; 0 between bodies that are about to touch
@@ -40,14 +40,14 @@ struct Touching {
 // A joint as the last step left it.
 enum class JointAxis { x, y, z, twist, swing_y, swing_z };  // along, then about the axes of its frame in A
 struct JointState {
-    vec3 force{0};              // on B, N, mean over the step; a sleeping joint's is that of its last step awake
-    vec3 torque{0};             // on B, N m
-    float greatest_force = 0;   // N, of any step so far
-    float greatest_torque = 0;  // N m
+    vec3 force{0};         // on B, N, mean over the step; a sleeping joint's is that of its last step awake
+    vec3 torque{0};        // on B, N m
+    float max_force = 0;   // N, of any step so far
+    float max_torque = 0;  // N m
     bool broken = false;
     float gap = 0;  // m, between the anchors
     // By JointAxis: how far B is from A, m and rad; of a Distance the first is the distance.
-    std::array<float, 6> places{};
+    std::array<float, 6> coordinates{};
 };
 
 // A vehicle as the last step left it.
@@ -145,7 +145,7 @@ public:
     void drive(std::size_t vehicle, const Controls& controls);
     void drive_by_route(std::size_t vehicle);  // from where it was left; std::invalid_argument if it has none
     // Puts a vehicle on its wheels, at rest, half a metre above where it is.
-    void put_upright(std::size_t vehicle);
+    void reset_upright(std::size_t vehicle);
 
     // Holds a dynamic body at `anchor` (in its own frame, from its centre; what lies outside of the box around it is brought to
     // that box) and draws that point to `target` (world, within 1e6 m of 0), step by step, until released. A held body is awake.
@@ -188,8 +188,8 @@ public:
     std::size_t row_of(std::size_t body) const;  // in the tables of state(), and of a device; throws std::out_of_range
 
     // Read back from wherever the world is.
-    BodyState body(std::size_t index) const;                 // throws std::out_of_range
-    std::vector<Touching> touching(std::size_t body) const;  // throws the same; reads all contacts
+    BodyState body(std::size_t index) const;                       // throws std::out_of_range
+    std::vector<BodyContact> contacts_of(std::size_t body) const;  // throws the same; reads all contacts
     std::vector<BodyState> bodies() const;
     // The first surface that a ray meets from outside; a shape that it begins in is passed over, and from behind planes and
     // surfaces are not there. Reads all bodies, and asks one after the other. Throws std::invalid_argument for a ray that is not
@@ -211,13 +211,13 @@ public:
     std::size_t buffer_bytes() const;  // at present, all tables together
     // Whether the steps to come are timed stage by stage. At first they are not on a Vulkan device, where that takes time of its
     // own: 10 us a stage on lavapipe.
-    void time_stages(bool on);
+    void set_profiling(bool on);
     StageTimes stage_times() const;       // milliseconds per step, mean of those timed so far
     StageTimes last_stage_times() const;  // the same of the last timed step alone
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 std::string hash_text(std::uint64_t hash);  // of a state: 16 hexadecimal digits

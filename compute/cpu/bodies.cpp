@@ -21,28 +21,28 @@ struct Sum {
     physics::Velocity change{};
     float carrying = 0;
     float told = physics::FOREVER;
-    float pressing = 0;
+    float normal_impulse = 0;
 };
 
 Sum sum_of_slots(const State& state, std::size_t body) {
     Sum sum;
     const auto first = state.slots.begin() + (body == 0 ? 0 : state.slot_ends[body - 1]);
     const auto last = state.slots.begin() + state.slot_ends[body];
-    std::for_each(first, last, [&](const physics::Slot& slot) {
+    std::for_each(first, last, [&](const physics::VelocityDelta& slot) {
         sum.change.linear += slot.linear;
         sum.change.angular += slot.angular;
-        sum.carrying += slot.carries;
-        if (slot.carries > 0) sum.told = std::min(sum.told, slot.told);
-        sum.pressing += slot.told;
+        sum.carrying += slot.is_active;
+        if (slot.is_active > 0) sum.told = std::min(sum.told, slot.told);
+        sum.normal_impulse += slot.told;
     });
     return sum;
 }
 
 bool asleep(const State& state, std::size_t body) {
-    return physics::is_asleep(state.rests[body], state.fixed().sleep_steps);
+    return physics::is_asleep(state.sleep_states[body], state.fixed().sleep_steps);
 }
 bool moved_by_contacts(const State& state, std::size_t body) {
-    return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
+    return physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
 }
 
 // Those that contacts move.
@@ -57,26 +57,27 @@ std::vector<std::uint32_t> movable_bodies(const State& state) {
 
 void begin_substep_of(State& state, std::size_t i, bool first) {
     const Sum sum = sum_of_slots(state, i);
-    state.velocities[i] = physics::accelerated(state.velocities[i], sum.change, state.loads[i], state.traits[i], state.fixed());
-    float& crowd = state.masses[i].split;
-    if (first) crowd = physics::drifted(crowd, sum.carrying, state.counted().steps);
-    crowd = physics::crowd_after(crowd, sum.carrying, sum.pressing);
+    state.velocities[i] =
+        physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
+    float& split_state = state.masses[i].split;
+    if (first) split_state = physics::update_hysteresis(split_state, sum.carrying, state.counted().steps);
+    split_state = physics::split_state_after(split_state, sum.carrying, sum.normal_impulse);
 }
 
 void move(State& state, std::size_t i) {
-    const physics::Traits& traits = state.traits[i];
+    const physics::BodyProperties& properties = state.properties[i];
     physics::Velocity velocity = state.velocities[i];
-    if (traits.motion == physics::MOTION_DYNAMIC) {
+    if (properties.motion == physics::MOTION_DYNAMIC) {
         const Sum sum = sum_of_slots(state, i);
         velocity.linear += sum.change.linear;
         velocity.angular += sum.change.angular;
-        state.loads[i].blows = sum.carrying;
+        state.forces[i].impacts = sum.carrying;
     }
-    const physics::Moved after = physics::moved(state.poses[i], velocity, traits, state.fixed().h);
+    const physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
     state.poses[i] = after.pose;
     state.velocities[i] = after.velocity;
-    if (!physics::turns_evenly(traits))
-        state.masses[i] = physics::mass_in_world(traits, after.pose.orientation, state.masses[i].split);
+    if (!physics::has_isotropic_inertia(properties))
+        state.masses[i] = physics::mass_in_world(properties, after.pose.orientation, state.masses[i].split);
 }
 
 }  // namespace
@@ -86,8 +87,8 @@ void begin_step(State& state, const Threads& threads, std::uint32_t) {
     std::ranges::fill(state.pair_counts(), 0u);
     std::ranges::fill(state.slot_counts(), 0u);
     threads.for_each(state.fixed().bodies,
-                     [&](std::size_t i) { state.loads[i] = physics::gravity_load(state.traits[i], state.fixed()); });
-    if (state.fixed().wake_all) std::fill(state.rests.begin(), state.rests.end(), 0u);
+                     [&](std::size_t i) { state.forces[i] = physics::gravity_forces(state.properties[i], state.fixed()); });
+    if (state.fixed().wake_all) std::fill(state.sleep_states.begin(), state.sleep_states.end(), 0u);
     state.counted() = physics::emptied(state.counted(), state.fixed());
 }
 
@@ -96,27 +97,28 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
     for (std::size_t i = 0; i < state.fixed().actions; ++i) {
         const physics::Action& action = state.actions[i];
         const std::size_t body = action.body;
-        if (physics::is_absent(state.traits[body].motion)) continue;
-        const physics::Mass mass = physics::mass_in_world(state.traits[body], state.poses[body].orientation, 1);
-        if (!state.fixed().redo) state.velocities[body] = physics::kicked(state.velocities[body], action, mass, state.fixed());
-        state.rests[body] = 0;
-        state.loads[body] = physics::loaded(state.loads[body], action, mass);
+        if (physics::is_absent(state.properties[body].motion)) continue;
+        const physics::Mass mass = physics::mass_in_world(state.properties[body], state.poses[body].orientation, 1);
+        if (!state.fixed().redo)
+            state.velocities[body] = physics::apply_impulses(state.velocities[body], action, mass, state.fixed());
+        state.sleep_states[body] = 0;
+        state.forces[body] = physics::apply_forces(state.forces[body], action, mass);
     }
 }
 
-void place_parts(State& state, const Threads& threads, std::uint32_t) {
+void pose_parts(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const std::size_t first = state.fixed().first_part;
     threads.for_each(state.fixed().bodies - first, [&](std::size_t k) {
-        const physics::Traits& traits = state.traits[first + k];
-        if (physics::motion_of(traits) == physics::MOTION_FIXED) return;
-        const physics::Pose& owner = state.poses[traits.owner];
-        state.velocities[first + k] = physics::velocity_of_part(state.parts[k], owner, state.velocities[traits.owner]);
+        const physics::BodyProperties& properties = state.properties[first + k];
+        if (physics::motion_of(properties) == physics::MOTION_FIXED) return;
+        const physics::Pose& owner = state.poses[properties.owner];
+        state.velocities[first + k] = physics::velocity_of_part(state.parts[k], owner, state.velocities[properties.owner]);
         state.poses[first + k] = physics::pose_of_part(state.parts[k], owner);
     });
 }
 
-void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
+void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
     physics::Counts& counts = state.counted();
     const auto note = [](physics::uint& mask, physics::uint bits) {
         const std::atomic_ref all(mask);
@@ -125,27 +127,29 @@ void bound_bodies(State& state, const Threads& threads, std::uint32_t) {
     const physics::uint sleep_steps = state.fixed().sleep_steps;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         // Copies, or the compiler must suspect that what is written below changes them, and computes twice.
-        const physics::Traits traits = state.traits[i];
+        const physics::BodyProperties properties = state.properties[i];
         const physics::Pose pose = state.poses[i];
-        if (physics::is_absent(traits.motion)) {
+        if (physics::is_absent(properties.motion)) {
             state.bounds[i] = physics::no_bounds(pose);
             return;
         }
         const physics::Velocity velocity = state.velocities[i];
         const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
-        const float bend = physics::is_part(traits) ? physics::bend_of_way(state.part_in(i), velocity, state.fixed()) : 0;
-        physics::Bounds bounds = physics::bounds_of(traits, bend, pose, velocity, state.loads[owner], state.fixed());
-        if (physics::will_be_fast(traits, velocity, state.fixed())) note(counts.fast, 1u);
-        state.masses[i] = owner == i ? physics::mass_in_world(traits, pose.orientation, state.masses[i].split) : physics::Mass{};
+        const float bend = physics::is_part(properties) ? physics::bend_of_way(state.part_in(i), velocity, state.fixed()) : 0;
+        physics::Bounds bounds = physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
+        if (physics::will_be_fast(properties, velocity, state.fixed())) note(counts.fast, 1u);
+        state.masses[i] =
+            owner == i ? physics::mass_in_world(properties, pose.orientation, state.masses[i].split) : physics::Mass{};
         std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
-        const bool stirs = physics::stirs(physics::motion_of(traits), state.velocities[owner], state.rests[owner], sleep_steps);
-        const bool large = physics::is_large(traits);
-        const bool listed = !large && bounds.level != physics::NOWHERE;
+        const bool stirs =
+            physics::stirs(physics::motion_of(properties), state.velocities[owner], state.sleep_states[owner], sleep_steps);
+        const bool large = physics::is_large(properties);
+        const bool listed = !large && bounds.level != physics::NOT_IN_GRID;
         if (listed) note(counts.levels, 1u << bounds.level);
         if (listed && stirs) note(counts.levels_stirring, 1u << bounds.level);
         if (large && stirs) note(counts.large_stirring, 1u);
-        if (physics::has_slept(state.rests[i], sleep_steps)) note(counts.sleepers, 1u);
-        if (!stirs) bounds.level |= physics::STILL;
+        if (physics::has_slept(state.sleep_states[i], sleep_steps)) note(counts.sleepers, 1u);
+        if (!stirs) bounds.level |= physics::INACTIVE;
         state.bounds[i] = bounds;
     });
 }
@@ -175,8 +179,8 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const WideStages* wide = wide_stages(threads.lanes());
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const physics::uint motion = state.traits[i].motion;
-        if (motion == physics::MOTION_FIXED || physics::is_part(state.traits[i]) || physics::is_absent(motion) ||
+        const physics::uint motion = state.properties[i].motion;
+        if (motion == physics::MOTION_FIXED || physics::is_part(state.properties[i]) || physics::is_absent(motion) ||
             asleep(state, i))
             return;
         if (!wide || !moved_by_contacts(state, i)) move(state, i);
@@ -195,20 +199,21 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         if (!moved_by_contacts(state, i)) return;
         const Sum sum = sum_of_slots(state, i);
         physics::Velocity& velocity = state.velocities[i];
-        velocity.linear = physics::without_dust(velocity.linear + sum.change.linear);
-        velocity.angular = physics::without_dust(velocity.angular + sum.change.angular);
-        const physics::Traits& traits = state.traits[i];
-        const float pace = physics::pace_of(traits, velocity, state.fixed());
-        state.rests[i] = physics::rest_after(state.rests[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);
+        velocity.linear = physics::flush_tiny(velocity.linear + sum.change.linear);
+        velocity.angular = physics::flush_tiny(velocity.angular + sum.change.angular);
+        const physics::BodyProperties& properties = state.properties[i];
+        const float pace = physics::pace_of(properties, velocity, state.fixed());
+        state.sleep_states[i] =
+            physics::sleep_state_after(state.sleep_states[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);
         if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
-        physics::Flight& flight = state.bounds[i].flight;
-        if (!physics::was_fast(traits, flight, state.poses[i])) return;
-        flight = physics::stopped_at(flight, physics::seen_part(traits, flight, state.poses[i], state.bounds[i]));
+        physics::Sweep& sweep = state.bounds[i].sweep;
+        if (!physics::was_fast(properties, sweep, state.poses[i])) return;
+        sweep = physics::stopped_at(sweep, physics::seen_part(properties, sweep, state.poses[i], state.bounds[i]));
         any_fast.store(true, std::memory_order_relaxed);
     });
     if (!any_fast) return;
     state.counted().fast = 1;
-    state.counted().arguments[physics::WORK_FLIGHTS] = state.counted().arguments[physics::WORK_PAIRS];
+    state.counted().arguments[physics::WORK_CCD_PAIRS] = state.counted().arguments[physics::WORK_PAIRS];
 }
 
 }  // namespace scree::reference

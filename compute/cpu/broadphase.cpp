@@ -50,15 +50,15 @@ void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cell
 bool near_large(const State& state, std::size_t body, const physics::CellEntry& other) {
     const physics::Bounds& own = state.bounds[body];
     const auto plane_reached = [&](std::size_t plane, physics::vec3 lower, physics::vec3 upper) {
-        return physics::reaches_plane(lower, upper, state.traits[plane].size, state.poses[plane].position);
+        return physics::reaches_plane(lower, upper, state.properties[plane].size, state.poses[plane].position);
     };
-    if (state.traits[other.body].shape == physics::SHAPE_PLANE) return plane_reached(other.body, own.lower, own.upper);
-    if (state.traits[body].shape == physics::SHAPE_PLANE) return plane_reached(body, other.lower, other.upper);
+    if (state.properties[other.body].shape == physics::SHAPE_PLANE) return plane_reached(other.body, own.lower, own.upper);
+    if (state.properties[body].shape == physics::SHAPE_PLANE) return plane_reached(body, other.lower, other.upper);
     return physics::boxes_overlap(own.lower, own.upper, other.lower, other.upper);
 }
 
 bool still(const State& state, std::uint32_t body) {
-    return (state.bounds[body].level & physics::STILL) != 0;
+    return (state.bounds[body].level & physics::INACTIVE) != 0;
 }
 
 // Pairs of bodies that do not stir are those that touched in the last step.
@@ -73,8 +73,8 @@ void for_each_carried_over(const State& state, std::uint32_t body, const Found& 
 
 // Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
 bool kept_apart(const State& state, std::uint32_t body, std::uint32_t other) {
-    if (state.traits[body].joints == physics::NONE) std::swap(body, other);
-    for (std::uint32_t j = state.traits[body].joints; j != physics::NONE;) {
+    if (state.properties[body].joints == physics::NONE) std::swap(body, other);
+    for (std::uint32_t j = state.properties[body].joints; j != physics::NONE;) {
         const physics::Joint& joint = state.joints[j];
         const bool joins = (joint.a == body && joint.b == other) || (joint.a == other && joint.b == body);
         if (joins && !joint.broken && !(joint.flags & physics::JOINT_COLLIDES)) return true;
@@ -87,19 +87,19 @@ bool kept_apart(const State& state, std::uint32_t body, std::uint32_t other) {
 template <typename Found>
 void for_each_partner(const State& state, std::uint32_t body, const Found& list) {
     const physics::Parameters& p = state.fixed();
-    const physics::Traits& own = state.traits[body];
+    const physics::BodyProperties& own = state.properties[body];
     const std::uint32_t id = state.id_of(body);
     const bool joined = state.has_joints();
     const auto found = [&](std::uint32_t other) {
         if (!joined || !kept_apart(state, state.body_of(body), state.body_of(other))) list(other);
     };
     const physics::Bounds& around = state.bounds[body];
-    if ((around.level & physics::NOWHERE) != 0) return;
+    if ((around.level & physics::NOT_IN_GRID) != 0) return;
     for_each_carried_over(state, body, found);
     if (still(state, body) && !physics::any_stirs(state.counted())) return;
     for (const physics::CellEntry& other : bucket(state, p.buckets)) {
         if (!physics::finds_large(id, around.level, physics::is_large(own), state.id_of(other.body), other.level)) continue;
-        if (physics::can_touch(own, state.traits[other.body]) && near_large(state, body, other)) found(other.body);
+        if (physics::can_touch(own, state.properties[other.body]) && near_large(state, body, other)) found(other.body);
     }
     if (physics::is_large(own)) return;
     for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
@@ -109,11 +109,11 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
         physics::ivec3 from = range.first;
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
-                if (!(overlap(around, other) & ((other.level & ~(physics::STILL | physics::MOVES)) == level))) continue;
+                if (!(overlap(around, other) & ((other.level & ~(physics::INACTIVE | physics::MOVES)) == level))) continue;
                 if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
                 const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
                 if (cell.y != from.y || cell.z != from.z) continue;  // of another row whose buckets happen to be the same
-                if (physics::can_touch(own, state.traits[other.body])) found(other.body);
+                if (physics::can_touch(own, state.properties[other.body])) found(other.body);
             }
         };
         for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
@@ -138,15 +138,16 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
     pair.previous = contact_before(state, pair.a, pair.b);
     if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
     if (still(state, pair.a) && still(state, pair.b)) {
-        pair.kind = physics::KIND_STILL;
+        pair.pair_type = physics::PAIR_INACTIVE;
         return pair;
     }
-    const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
     const std::uint32_t of_a = state.body_of(pair.a), of_b = state.body_of(pair.b);
-    const bool kept = pair.previous != physics::NONE && physics::has_weight(state.fixed()) &&
-                      physics::is_kept(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta,
-                                       state.poses[of_a], state.velocities[of_a], tb, state.poses[of_b], state.velocities[of_b]);
-    pair.kind = kept ? physics::KIND_KEPT : physics::kind_of(ta.shape, tb.shape);
+    const bool kept =
+        pair.previous != physics::NONE && physics::has_weight(state.fixed()) &&
+        physics::is_persistent(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[of_a],
+                               state.velocities[of_a], tb, state.poses[of_b], state.velocities[of_b]);
+    pair.pair_type = kept ? physics::PAIR_PERSISTENT : physics::pair_type_of(ta.shape, tb.shape);
     return pair;
 }
 
@@ -161,14 +162,14 @@ void fill_cells(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
-void order_cells(State& state, const Threads& threads, std::uint32_t) {
+void sort_cells(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().buckets + 1, [&](std::size_t b) {
         const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
         const auto last = state.cell_entries.begin() + state.cell_ends[b];
         std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
         std::for_each(first, last, [&](physics::CellEntry& entry) {
             const physics::Bounds& around = state.bounds[entry.body];
-            entry = {around.lower, entry.body, around.upper, physics::level_of_entry(around.level, state.traits[entry.body])};
+            entry = {around.lower, entry.body, around.upper, physics::level_of_entry(around.level, state.properties[entry.body])};
         });
     });
 }

@@ -14,39 +14,39 @@ namespace scree::reference {
 namespace {
 
 bool movable(const State& state, std::uint32_t body) {
-    return physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
+    return physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
 }
 
 std::uint32_t taken(std::uint32_t& end, std::uint32_t places = 1) {
     return std::atomic_ref(end).fetch_add(places, std::memory_order_relaxed);
 }
 
-physics::Couple velocities_of(const State& state, const physics::Constraint& c) {
+physics::VelocityPair velocities_of(const State& state, const physics::Constraint& c) {
     return {state.velocities[c.a], state.velocities[c.b]};
 }
 
 // Asked for only where a blow may be thrown back.
 vec3 pull(const State& state, const physics::Constraint& c) {
-    return c.restitution > 0 ? physics::pull_of(state.loads[c.a], state.loads[c.b]) : vec3(0);
+    return c.restitution > 0 ? physics::relative_acceleration(state.forces[c.a], state.forces[c.b]) : vec3(0);
 }
 
 // `told`: what A and B tell each other.
-void hand_out(State& state, const physics::Constraint& c, const physics::Couple& share, float carrying,
+void hand_out(State& state, const physics::Constraint& c, const physics::VelocityPair& share, float carrying,
               std::array<float, 2> told = {0, 0}) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::slot_of(share.a, carrying, told[1]);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::slot_of(share.b, carrying, told[0]);
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(share.a, carrying, told[1]);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(share.b, carrying, told[0]);
 }
 
 }  // namespace
 
-void list_contacts(State& state, const Threads& threads, std::uint32_t) {
+void compact_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
-        if (state.touching[i] == 0) return;
+        if (state.point_counts[i] == 0) return;
         physics::Constraint& c = state.constraints[state.contact_starts[i]];
         c.pair = static_cast<std::uint32_t>(i);
         c.slot_a = c.slot_b = physics::NONE;
         if (!state.reordered()) return;
-        // Until it is prepared, who owns it: order_slots asks.
+        // Until it is prepared, who owns it: sort_slots asks.
         const physics::Pair& pair = state.pairs[i];
         const bool is_a = state.pair_starts[pair.a] <= i && i < state.pair_starts[pair.a + 1];
         c.a = state.id_of(is_a ? pair.a : pair.b);
@@ -77,12 +77,12 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
             if (moves_a || moves_b) solved.push_back(contact);
         }
         std::copy(solved.begin(), solved.end(),
-                  state.solved_contacts.begin() + taken(counts.solved, static_cast<std::uint32_t>(solved.size())));
+                  state.contacts_to_solve.begin() + taken(counts.solver_contacts, static_cast<std::uint32_t>(solved.size())));
     });
-    counts.arguments[physics::WORK_SOLVED].x = physics::work_for(counts.solved, state.fixed()).x;
+    counts.arguments[physics::WORK_SOLVER_CONTACTS].x = physics::work_for(counts.solver_contacts, state.fixed()).x;
 }
 
-void order_slots(State& state, const Threads& threads, std::uint32_t) {
+void sort_slots(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const std::size_t n = state.fixed().bodies;
     threads.for_each(n, [&](std::size_t i) {
@@ -120,24 +120,24 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t index = c.pair;
         const physics::Pair& pair = state.pairs[index];
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
-        const physics::Traits &ta = state.traits[pair.a], &tb = state.traits[pair.b];
+        const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
         const physics::Manifold& manifold = state.manifolds[index];
         physics::PreparedContact prepared;
-        if (physics::is_carried_forward(pair.kind)) {
+        if (physics::is_carried_forward(pair.pair_type)) {
             prepared =
                 physics::carried_forward(state.contacts_before[pair.previous], state.impulses_before[pair.previous], manifold);
         } else {
-            prepared = physics::newly_found(pair, manifold, state.touching[index], state.poses[a], state.poses[b]);
+            prepared = physics::newly_found(pair, manifold, state.point_counts[index], state.poses[a], state.poses[b]);
             if (pair.previous != physics::NONE)
                 prepared = physics::warm_started(prepared, state.contacts_before[pair.previous],
                                                  state.impulses_before[pair.previous], ta, tb);
         }
         const bool idle = physics::is_idle(c.slot_a, c.slot_b);
         // Between two that sleep nothing is new.
-        if (pair.previous != physics::NONE && !(idle && pair.kind == physics::KIND_STILL))
+        if (pair.previous != physics::NONE && !(idle && pair.pair_type == physics::PAIR_INACTIVE))
             prepared.contact.load = physics::load_since(state.contacts_before[pair.previous],
                                                         state.impulses_before[pair.previous], ta, c.slot_a, tb, c.slot_b);
-        if (!idle) prepared.impulse.pressed = physics::pressing(prepared.impulse);
+        if (!idle) prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
         state.contacts[i] = prepared.contact;
         state.impulses[i] = prepared.impulse;
         if (idle) {
@@ -147,71 +147,77 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, p);
         const bool tyre_is_a = physics::tyre_of(ta) != 0;
         if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
-            c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.d, velocities_of(state, c));
+            c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, velocities_of(state, c));
         if (wide) return;
         const physics::ContactShare share =
             physics::first_share(c, prepared.impulse, velocities_of(state, c), state.masses[a], state.masses[b], p);
-        const float pressed = prepared.impulse.pressed;
-        hand_out(state, c, share.change, share.carrying, {pressed, pressed});
+        const float normal_sum = prepared.impulse.normal_sum;
+        hand_out(state, c, share.change, share.carrying, {normal_sum, normal_sum});
     });
     if (!wide) return;
-    const WideTables tables = wide_tables(state, state.solved_contacts);
-    threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->hand_out(tables, first, end); });
+    const WideTables tables = wide_tables(state, state.contacts_to_solve);
+    threads.for_ranges(state.counted().solver_contacts,
+                       [&](std::size_t first, std::size_t end) { wide->hand_out(tables, first, end); });
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     if (const WideStages* wide = wide_stages(threads.lanes())) {
-        const WideTables tables = wide_tables(state, state.solved_contacts);
-        threads.for_ranges(state.counted().solved, [&](std::size_t first, std::size_t end) { wide->solve(tables, first, end); });
+        const WideTables tables = wide_tables(state, state.contacts_to_solve);
+        threads.for_ranges(state.counted().solver_contacts,
+                           [&](std::size_t first, std::size_t end) { wide->solve(tables, first, end); });
         return;
     }
-    threads.for_each(state.counted().solved, [&](std::size_t k) {
-        const std::size_t i = state.solved_contacts[k];
+    threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
+        const std::size_t i = state.contacts_to_solve[k];
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass ma = physics::lent(state.masses[c.a], state.impulses[i], state.fixed());
-        const physics::Mass mb = physics::lent(state.masses[c.b], state.impulses[i], state.fixed());
-        const physics::Couple before = velocities_of(state, c);
-        const physics::Solved after = physics::solved(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
+        const physics::Mass ma = physics::split_mass(state.masses[c.a], state.impulses[i], state.fixed());
+        const physics::Mass mb = physics::split_mass(state.masses[c.b], state.impulses[i], state.fixed());
+        const physics::VelocityPair before = velocities_of(state, c);
+        const physics::SolveResult after =
+            physics::solve_contact(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         state.impulses[i] = after.impulse;
-        hand_out(state, c, physics::shares_of(before, after.couple, ma, mb), physics::blow_of(after.impulse));
+        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), physics::is_impact(after.impulse));
     });
 }
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
     const auto told = [&](std::uint32_t body) {
-        return physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]);
+        return physics::told_quiet(state.properties[body].motion, state.velocities[body], state.sleep_states[body]);
     };
     if (const WideStages* wide = wide_stages(threads.lanes())) {
-        WideTables tables = wide_tables(state, state.solved_contacts);
+        WideTables tables = wide_tables(state, state.contacts_to_solve);
         std::vector<float> all_told(last ? state.fixed().bodies : 0);
         threads.for_each(all_told.size(), [&](std::size_t i) { all_told[i] = told(static_cast<std::uint32_t>(i)); });
         if (felt) tables.carried = state.carried.data();
         tables.first = first;
         if (last) tables.told = reinterpret_cast<const std::uint32_t*>(all_told.data());
-        threads.for_ranges(state.counted().solved, [&](std::size_t from, std::size_t to) { wide->relax(tables, from, to); });
+        threads.for_ranges(state.counted().solver_contacts,
+                           [&](std::size_t from, std::size_t to) { wide->relax(tables, from, to); });
         return;
     }
-    threads.for_each(state.counted().solved, [&](std::size_t k) {
-        const std::size_t i = state.solved_contacts[k];
+    threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
+        const std::size_t i = state.contacts_to_solve[k];
         const physics::Constraint& c = state.constraints[i];
-        const physics::Mass ma = physics::shared_for(state.impulses[i], state.masses[c.a], state.loads[c.a], state.fixed());
-        const physics::Mass mb = physics::shared_for(state.impulses[i], state.masses[c.b], state.loads[c.b], state.fixed());
-        const physics::Couple before = velocities_of(state, c);
-        const physics::Solved after = physics::relaxed(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
+        const physics::Mass ma = physics::impact_mass(state.impulses[i], state.masses[c.a], state.forces[c.a], state.fixed());
+        const physics::Mass mb = physics::impact_mass(state.impulses[i], state.masses[c.b], state.forces[c.b], state.fixed());
+        const physics::VelocityPair before = velocities_of(state, c);
+        const physics::SolveResult after =
+            physics::relax_contact(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         physics::Impulse& impulse = state.impulses[i];
         if (felt) {
-            const float carried = physics::pressing(after.impulse);
+            const float carried = physics::normal_impulse(after.impulse);
             state.carried[i] = first ? carried : state.carried[i] + carried;
         }
-        impulse = physics::without_blows(after.impulse, c.count);
-        impulse.pressed = physics::pressing(impulse);
-        physics::Couple share = physics::shares_of(before, after.couple, ma, mb);
-        const float carrying = physics::carries(c, impulse, after.couple, state.fixed());
+        impulse = physics::clear_impacts(after.impulse, c.count);
+        impulse.normal_sum = physics::normal_impulse(impulse);
+        physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
+        const float carrying = physics::is_active(c, impulse, after.pair_velocity, state.fixed());
         if (last) {
             hand_out(state, c, share, carrying, {told(c.a), told(c.b)});
         } else {
-            hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying, {impulse.pressed, impulse.pressed});
+            hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying,
+                     {impulse.normal_sum, impulse.normal_sum});
         }
     });
 }

@@ -18,48 +18,48 @@ void lower(physics::uint& bits, physics::uint to) {
     while (to < was && !value.compare_exchange_weak(was, to, std::memory_order_relaxed)) continue;
 }
 
-physics::Course course(const State& state, std::uint32_t row, float until) {
+physics::MotionPath course(const State& state, std::uint32_t row, float until) {
     const std::uint32_t body = state.body_of(row);
-    const physics::Flight& flight = state.bounds[body].flight;
-    const physics::Course whole =
-        physics::course_of(state.traits[body], flight.position, flight.orientation, state.poses[body], until);
-    return row == body ? whole : physics::course_of_part(state.traits[row], state.part_in(row), whole);
+    const physics::Sweep& sweep = state.bounds[body].sweep;
+    const physics::MotionPath whole =
+        physics::path_of(state.properties[body], sweep.position, sweep.orientation, state.poses[body], until);
+    return row == body ? whole : physics::path_of_part(state.properties[row], state.part_in(row), whole);
 }
 
 }  // namespace
 
-void foresee_impacts(State& state, const Threads& threads, std::uint32_t) {
+void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state)) return;
     const physics::Parameters& p = state.fixed();
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
-        const auto [a, b, kind, previous] = state.pairs[i];
+        const auto [a, b, pair_type, previous] = state.pairs[i];
         const std::uint32_t bodies[2] = {state.body_of(a), state.body_of(b)};
         const auto fast = [&](std::uint32_t body) {
-            return physics::will_be_fast(state.traits[body], state.velocities[body], p);
+            return physics::will_be_fast(state.properties[body], state.velocities[body], p);
         };
-        if (state.touching[i] == 0 || !(fast(bodies[0]) || fast(bodies[1]))) return;
+        if (state.point_counts[i] == 0 || !(fast(bodies[0]) || fast(bodies[1]))) return;
         const physics::Manifold& manifold = state.manifolds[i];
-        const bool holds = physics::is_near(manifold, state.touching[i], p) ||
-                           physics::will_meet(manifold.normal, state.traits[a], state.poses[a], state.velocities[a],
-                                              state.loads[bodies[0]], state.traits[b], state.poses[b], state.velocities[b],
-                                              state.loads[bodies[1]], p, state.hull_table());
+        const bool holds = physics::is_near(manifold, state.point_counts[i], p) ||
+                           physics::will_meet(manifold.normal, state.properties[a], state.poses[a], state.velocities[a],
+                                              state.forces[bodies[0]], state.properties[b], state.poses[b], state.velocities[b],
+                                              state.forces[bodies[1]], p, state.hull_table());
         if (!holds) {
-            state.touching[i] |= physics::DOUBTFUL;
-        } else if (physics::is_blow(manifold.normal, state.velocities[a], state.velocities[b], p)) {
+            state.point_counts[i] |= physics::SPECULATIVE;
+        } else if (physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b], p)) {
             for (const std::uint32_t body : bodies)
-                std::atomic_ref(state.bounds[body].flight.struck).store(1, std::memory_order_relaxed);
+                std::atomic_ref(state.bounds[body].sweep.struck).store(1, std::memory_order_relaxed);
         }
     });
 }
 
-void drop_passers(State& state, const Threads& threads, std::uint32_t) {
+void cull_speculative(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state)) return;
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
-        physics::uint& points = state.touching[i];
-        if (points < physics::DOUBTFUL) return;
-        const auto struck = [&](std::uint32_t row) { return state.bounds[state.body_of(row)].flight.struck != 0; };
-        const bool foreseen = !struck(state.pairs[i].a) && !struck(state.pairs[i].b);
-        points = foreseen ? 0 : points - physics::DOUBTFUL;
+        physics::uint& points = state.point_counts[i];
+        if (points < physics::SPECULATIVE) return;
+        const auto struck = [&](std::uint32_t row) { return state.bounds[state.body_of(row)].sweep.struck != 0; };
+        const bool predict_pose = !struck(state.pairs[i].a) && !struck(state.pairs[i].b);
+        points = predict_pose ? 0 : points - physics::SPECULATIVE;
     });
 }
 
@@ -71,28 +71,28 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         const std::uint32_t bodies[2] = {state.body_of(rows[0]), state.body_of(rows[1])};
         float stops[2];
         for (int side = 0; side < 2; ++side) {
-            physics::Flight& flight = state.bounds[bodies[side]].flight;
-            stops[side] = physics::uintBitsToFloat(flight.stops[now]);
-            if (round > 0) lower(flight.stops[next], flight.stops[now]);
+            physics::Sweep& sweep = state.bounds[bodies[side]].sweep;
+            stops[side] = physics::uintBitsToFloat(sweep.stops[now]);
+            if (round > 0) lower(sweep.stops[next], sweep.stops[now]);
         }
         if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
-        const physics::Traits &ta = state.traits[rows[0]], &tb = state.traits[rows[1]];
-        const physics::Impact impact =
-            physics::impact_of(ta, course(state, rows[0], stops[0]), tb, course(state, rows[1], stops[1]),
-                               physics::limits_of(ta, tb, physics::hold_of(state.touching[i], stops[0], stops[1]), state.fixed()),
-                               false, state.hull_table());
+        const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];
+        const physics::Impact impact = physics::impact_of(
+            ta, course(state, rows[0], stops[0]), tb, course(state, rows[1], stops[1]),
+            physics::limits_of(ta, tb, physics::contact_state_of(state.point_counts[i], stops[0], stops[1]), state.fixed()),
+            false, state.hull_table());
         for (int side = 0; side < 2; ++side)
-            if (stops[side] <= 1) lower(state.bounds[bodies[side]].flight.stops[next], physics::floatBitsToUint(impact.fraction));
+            if (stops[side] <= 1) lower(state.bounds[bodies[side]].sweep.stops[next], physics::floatBitsToUint(impact.fraction));
     });
 }
 
-void stop_bodies(State& state, const Threads& threads, std::uint32_t) {
+void clamp_to_impact(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const float stop = physics::stop_of(state.bounds[i].flight);
-        if (stop >= 1 || state.traits[i].joints != physics::NONE) return;
-        const physics::Halted after =
-            physics::halted(state.bounds[i].flight, state.poses[i], state.velocities[i], state.loads[i], stop);
+        const float stop = physics::stop_of(state.bounds[i].sweep);
+        if (stop >= 1 || state.properties[i].joints != physics::NONE) return;
+        const physics::ClampedMotion after =
+            physics::clamp_motion(state.bounds[i].sweep, state.poses[i], state.velocities[i], state.forces[i], stop);
         state.poses[i] = after.pose;
         state.velocities[i] = after.velocity;
     });

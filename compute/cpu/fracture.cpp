@@ -22,7 +22,7 @@ void for_each_slot(const State& state, std::size_t body, const Visit& visit) {
     });
 }
 
-float carried(const State& state, std::size_t contact) {
+float integrate_position(const State& state, std::size_t contact) {
     return state.carried[contact];
 }
 
@@ -35,55 +35,56 @@ bool some_broken(const State& state) {
 void find_broken(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const physics::Traits& body = state.traits[i];
+        const physics::BodyProperties& body = state.properties[i];
         if (!physics::may_break(body)) return;
         float blow = 0;
-        for_each_slot(state, i, [&](std::size_t contact, physics::uint) { blow = std::max(blow, carried(state, contact)); });
+        for_each_slot(state, i,
+                      [&](std::size_t contact, physics::uint) { blow = std::max(blow, integrate_position(state, contact)); });
         const physics::Fracturing fracturing = state.fractures[body.fracture];
         const float kept = physics::kept_part(fracturing, blow, state.strains[i]);
         state.strains[i] = physics::strain_after(fracturing, blow, body, state.velocities[i]);
         if (kept >= 1) return;
-        state.loads[i].kept = kept;
+        state.forces[i].kept = kept;
         std::atomic_ref(state.counted().broken).fetch_add(1, std::memory_order_relaxed);
     });
 }
 
-void give_back(State& state, const Threads& threads, std::uint32_t) {
+void return_excess_impulse(State& state, const Threads& threads, std::uint32_t) {
     if (!some_broken(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (!physics::is_movable(state.traits[i].motion, state.rests[i], state.fixed().sleep_steps)) return;
+        if (!physics::is_movable(state.properties[i].motion, state.sleep_states[i], state.fixed().sleep_steps)) return;
         physics::Velocity velocity = state.velocities[i];
         for_each_slot(state, i, [&](std::size_t contact, physics::uint side) {
             const physics::Constraint& c = state.constraints[contact];
-            const float kept = std::min(state.loads[c.a].kept, state.loads[c.b].kept);
-            if (kept >= 1 || carried(state, contact) <= 0) return;
+            const float kept = std::min(state.forces[c.a].kept, state.forces[c.b].kept);
+            if (kept >= 1 || integrate_position(state, contact) <= 0) return;
             velocity = physics::given_back(velocity, state.masses[i], c, state.impulses[contact], side,
-                                           carried(state, contact) * (1 - kept));
+                                           integrate_position(state, contact) * (1 - kept));
         });
-        state.velocities[i] = physics::limited(velocity, state.fixed());
+        state.velocities[i] = physics::clamp_velocity(velocity, state.fixed());
     });
 }
 
 void break_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (!some_broken(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (state.loads[i].kept >= 1) return;
-        const physics::Fracturing fracturing = state.fractures[state.traits[i].fracture];
+        if (state.forces[i].kept >= 1) return;
+        const physics::Fracturing fracturing = state.fractures[state.properties[i].fracture];
         for (physics::uint k = 0; k < fracturing.count; ++k) {
             const std::size_t row = fracturing.first_row + k;
-            const physics::Moved part =
+            const physics::RigidState part =
                 physics::piece_of(state.pieces[fracturing.first_pose + k], state.poses[i], state.velocities[i]);
             state.poses[row] = part.pose;
             state.velocities[row] = part.velocity;
-            state.rests[row] = 0;
-            physics::Traits& piece = state.traits[row];
+            state.sleep_states[row] = 0;
+            physics::BodyProperties& piece = state.properties[row];
             piece.motion = physics::MOTION_DYNAMIC;
             if (piece.fracture != physics::NONE)
                 state.strains[row] = physics::strain_after(state.fractures[piece.fracture], 0, piece, part.velocity);
         }
-        state.traits[i].motion = physics::MOTION_BROKEN;
+        state.properties[i].motion = physics::MOTION_BROKEN;
         state.strains[i] = 0;
-        state.rests[i] = 0;
+        state.sleep_states[i] = 0;
         state.velocities[i] = {};
     });
 }

@@ -20,7 +20,7 @@ using physics::NONE;
 
 // An end of a joint: the body's record in the block, and which way it is pushed.
 struct End {
-    physics::uint member;
+    physics::uint block_body;
     bool is_b;
 };
 
@@ -29,11 +29,11 @@ public:
     Block(State& state, std::size_t index)
         : state_(state), p_(state.fixed()), all_(state.joints), first_(all_[index].first_of_block) {
         joints_ = std::span(all_).subspan(first_, all_[first_].block_joints);
-        members_ = std::span(all_).subspan(first_, all_[first_].block_members);
+        members_ = std::span(all_).subspan(first_, all_[first_].block_bodies);
     }
 
     std::span<Joint> joints() const { return joints_; }
-    std::span<Joint> members() const { return members_; }
+    std::span<Joint> block_bodies() const { return members_; }
     bool moves() const {
         return std::any_of(members_.begin(), members_.end(), [](const Joint& record) { return record.slot != NONE; });
     }
@@ -52,29 +52,29 @@ public:
 
     void lend(bool biased) {
         for (Joint& record : members_) {
-            record.mass = physics::mass_of_member(state_.masses[record.member], record.slot != NONE, record.blocks,
-                                                  state_.loads[record.member].blows, record.pressed, biased, p_);
+            record.mass = physics::mass_of_member(state_.masses[record.block_body], record.slot != NONE, record.blocks,
+                                                  state_.forces[record.block_body].impacts, record.normal_sum, biased, p_);
         }
     }
 
-    void place(bool biased) {
+    void coordinate(bool biased) {
         take_velocities(biased);
         for_each_whole([&](Joint& joint) {
-            const physics::JointPlace at =
-                physics::joint_place(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
-            const physics::Couple v = speeds(joint);
+            const physics::JointConfiguration at = physics::joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a),
+                                                                                joint.anchor_b, joint.frame_b, pose(joint.b));
+            const physics::VelocityPair v = speeds(joint);
             const physics::uint ends = shared(joint, joint);
             for (physics::uint k = 0; k < 6; ++k)
                 if (joint.axes[k].mode != 0)
-                    joint.rows[k] = physics::placed_row(joint.rows[k], at, k, joint.flags, v, mass(joint.member_a),
-                                                        mass(joint.member_b), ends, p_.h);
+                    joint.rows[k] = physics::placed_row(joint.rows[k], at, k, joint.flags, v, mass(joint.block_body_a),
+                                                        mass(joint.block_body_b), ends, p_.h);
         });
     }
 
     void solve(bool biased) {
         lend(biased);
-        for (Joint& joint : joints_) joint.solved = 0;
-        place(biased);
+        for (Joint& joint : joints_) joint.solved_axes = 0;
+        coordinate(biased);
         bool others = true;
         for (physics::uint round = 0; round < physics::JOINT_ROUNDS && others; ++round) {
             for (Joint& record : members_) record.velocity = record.velocity_before;
@@ -114,7 +114,7 @@ public:
     template <class Told>
     void hand_out(const Told& told) {
         for (const Joint& record : members_)
-            if (record.slot != NONE) state_.slots[record.slot] = physics::slot_of(record.velocity, 1, told(record));
+            if (record.slot != NONE) state_.slots[record.slot] = physics::velocity_delta(record.velocity, 1, told(record));
     }
 
     static vec3 impulse_of(const Joint& joint, physics::uint from) {
@@ -124,11 +124,11 @@ public:
         return sum;
     }
     void note_pressing() {
-        for (Joint& record : members_) record.pressed = 0;
+        for (Joint& record : members_) record.normal_sum = 0;
         for_each_whole([&](Joint& joint) {
-            const float pressing = physics::length3(impulse_of(joint, 0));
-            for (const physics::uint member : {joint.member_a, joint.member_b})
-                if (member != NONE) all_[member].pressed += pressing;
+            const float normal_impulse = physics::length3(impulse_of(joint, 0));
+            for (const physics::uint block_body : {joint.block_body_a, joint.block_body_b})
+                if (block_body != NONE) all_[block_body].normal_sum += normal_impulse;
         });
     }
     static void commit(Joint& joint) {
@@ -136,25 +136,27 @@ public:
     }
 
 private:
-    static bool unknown(const Joint& joint, physics::uint k) { return (joint.solved >> k & 1) != 0; }
-    static const vec3& arm(const JointRow& row, bool is_b) { return is_b ? row.arm_b : row.arm_a; }
+    static bool unknown(const Joint& joint, physics::uint k) { return (joint.solved_axes >> k & 1) != 0; }
+    static const vec3& arm(const JointRow& row, bool is_b) { return is_b ? row.angular_b : row.angular_a; }
 
     physics::Pose pose(physics::uint body) const {
         return body == NONE ? physics::Pose{vec3(0), 0, physics::vec4(0, 0, 0, 1)} : state_.poses[body];
     }
-    physics::Velocity speed(physics::uint body, physics::uint member) const {
-        if (member != NONE) return all_[member].velocity;
+    physics::Velocity speed(physics::uint body, physics::uint block_body) const {
+        if (block_body != NONE) return all_[block_body].velocity;
         return body == NONE ? physics::Velocity{} : state_.velocities[body];
     }
-    physics::Mass mass(physics::uint member) const { return member == NONE ? physics::Mass{} : all_[member].mass; }
+    physics::Mass mass(physics::uint block_body) const { return block_body == NONE ? physics::Mass{} : all_[block_body].mass; }
     static physics::uint shared(const Joint& left, const Joint& right) {
-        return physics::shared_ends(left.member_a, left.member_b, right.member_a, right.member_b);
+        return physics::shared_ends(left.block_body_a, left.block_body_b, right.block_body_a, right.block_body_b);
     }
-    physics::Couple speeds(const Joint& joint) const { return {speed(joint.a, joint.member_a), speed(joint.b, joint.member_b)}; }
+    physics::VelocityPair speeds(const Joint& joint) const {
+        return {speed(joint.a, joint.block_body_a), speed(joint.b, joint.block_body_b)};
+    }
     // In the biased pass with what the contacts have done, whose slots come before those of the blocks.
     void take_velocities(bool biased) {
         for (Joint& record : members_) {
-            const physics::uint body = record.member;
+            const physics::uint body = record.block_body;
             physics::Velocity velocity = state_.velocities[body];
             if (biased && record.slot != NONE) {
                 const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1];
@@ -167,9 +169,9 @@ private:
 
     void push(const Joint& joint, physics::uint k, float impulse) {
         const JointRow& row = joint.rows[k];
-        for (const End end : {End{joint.member_a, false}, End{joint.member_b, true}}) {
-            if (end.member == NONE) continue;
-            Joint& record = all_[end.member];
+        for (const End end : {End{joint.block_body_a, false}, End{joint.block_body_b, true}}) {
+            if (end.block_body == NONE) continue;
+            Joint& record = all_[end.block_body];
             record.velocity = physics::row_pushed(record.velocity, row.direction, arm(row, end.is_b),
                                                   end.is_b ? impulse : -impulse, physics::is_linear(k), record.mass);
         }
@@ -178,42 +180,43 @@ private:
     // The entry of row n of a joint and a row of another, of that response.
     static float entry(const Joint& left, physics::uint n, const Joint& right, const physics::RowResponse& to) {
         const JointRow& row = left.rows[n];
-        return physics::row_entry(row.direction, row.arm_a, row.arm_b, n, to, shared(left, right));
+        return physics::row_entry(row.direction, row.angular_a, row.angular_b, n, to, shared(left, right));
     }
 
     void apply_given(Joint& joint, bool biased) {
-        joint.solved = 0;
-        const physics::Couple before{speed(joint.a, NONE), speed(joint.b, NONE)};
+        joint.solved_axes = 0;
+        const physics::VelocityPair before{speed(joint.a, NONE), speed(joint.b, NONE)};
         for_each_axis(joint, [&](physics::uint k, const physics::JointAxis& axis, JointRow& row) {
-            const physics::uint pin = physics::pins_of(joint.pins, k);
-            if (physics::row_is_unknown(axis, row, pin, biased, p_)) joint.solved |= 1u << k;
-            row = physics::row_given(axis, row, pin, physics::row_speed(row, k < 3, before), biased, p_);
+            const physics::uint active_flags = physics::active_set_of(joint.active_set, k);
+            if (physics::row_is_unknown(axis, row, active_flags, biased, p_)) joint.solved_axes |= 1u << k;
+            row = physics::row_given(axis, row, active_flags, physics::row_speed(row, k < 3, before), biased, p_);
             const float given = physics::given_change(row);
             if (given != 0) push(joint, k, given);
         });
     }
 
     void set_up(Joint& joint, bool biased) {
-        const physics::Couple v = speeds(joint);
+        const physics::VelocityPair v = speeds(joint);
         for (physics::uint k = 0; k < 6; ++k) {
             if (!unknown(joint, k)) continue;
             const JointRow& row = joint.rows[k];
-            const physics::Demand wants = physics::row_demand(joint.axes[k], row, k, physics::pins_of(joint.pins, k), biased, p_);
-            const physics::RowResponse to = physics::row_response(row, k, mass(joint.member_a), mass(joint.member_b));
+            const physics::RowTarget wants =
+                physics::row_demand(joint.axes[k], row, k, physics::active_set_of(joint.active_set, k), biased, p_);
+            const physics::RowResponse to = physics::row_response(row, k, mass(joint.block_body_a), mass(joint.block_body_b));
             joint.solution[k] = physics::right_hand_side(physics::row_speed(row, k < 3, v), wants);
             for (physics::uint n = k; n < 6; ++n)
                 if (unknown(joint, n)) joint.diagonal[6 * n + k] = entry(joint, n, joint, to);
             joint.diagonal[7 * k] = physics::softened(joint.diagonal[7 * k], wants);
-            for (physics::uint l = 0; l < joint.links; ++l)
+            for (physics::uint l = 0; l < joint.fill_in; ++l)
                 for (physics::uint n = 0; n < 6; ++n)
-                    if (const Joint& later = all_[joint.links_to[l]]; unknown(later, n))
+                    if (const Joint& later = all_[joint.fill_in_of[l]]; unknown(later, n))
                         joint.coupling[36 * l + 6 * n + k] = entry(later, n, joint, to);
         }
     }
 
     static float* coupling(Joint& joint, physics::uint with) {
-        const std::span links(joint.links_to, joint.links);
-        return joint.coupling + 36 * (std::find(links.begin(), links.end(), with) - links.begin());
+        const std::span fill_in(joint.fill_in_of, joint.fill_in);
+        return joint.coupling + 36 * (std::find(fill_in.begin(), fill_in.end(), with) - fill_in.begin());
     }
 
     void eliminate(Joint& joint, physics::uint k) {
@@ -228,8 +231,8 @@ private:
                     joint.diagonal[6 * n + c] =
                         physics::less_multiple(joint.diagonal[6 * n + c], multiplier, joint.diagonal[6 * c + k]);
         }
-        for (physics::uint l = 0; l < joint.links; ++l) {
-            Joint& later = all_[joint.links_to[l]];
+        for (physics::uint l = 0; l < joint.fill_in; ++l) {
+            Joint& later = all_[joint.fill_in_of[l]];
             float* own = joint.coupling + 36 * l;
             for (physics::uint n = 0; n < 6; ++n) {
                 if (!unknown(later, n)) continue;
@@ -242,8 +245,8 @@ private:
                     if (unknown(later, c))
                         later.diagonal[6 * n + c] = physics::less_multiple(later.diagonal[6 * n + c], multiplier, own[6 * c + k]);
                 for (physics::uint e = 0; e < l; ++e) {
-                    Joint& middle = all_[joint.links_to[e]];
-                    float* theirs = coupling(middle, joint.links_to[l]);
+                    Joint& middle = all_[joint.fill_in_of[e]];
+                    float* theirs = coupling(middle, joint.fill_in_of[l]);
                     for (physics::uint c = 0; c < 6; ++c)
                         if (unknown(middle, c))
                             theirs[6 * n + c] =
@@ -257,26 +260,26 @@ private:
         float sum = joint.solution[k];
         for (physics::uint n = k + 1; n < 6; ++n)
             if (unknown(joint, n)) sum = physics::less_multiple(sum, joint.diagonal[6 * n + k], joint.solution[n]);
-        for (physics::uint l = 0; l < joint.links; ++l)
+        for (physics::uint l = 0; l < joint.fill_in; ++l)
             for (physics::uint n = 0; n < 6; ++n)
-                if (const Joint& later = all_[joint.links_to[l]]; unknown(later, n))
+                if (const Joint& later = all_[joint.fill_in_of[l]]; unknown(later, n))
                     sum = physics::less_multiple(sum, joint.coupling[36 * l + 6 * n + k], later.solution[n]);
         joint.solution[k] = physics::substituted(sum, joint.diagonal[7 * k]);
     }
 
     bool other_bounds(Joint& joint, bool biased, bool settling) {
-        const physics::Couple v = speeds(joint);
-        const physics::uint before = joint.pins;
+        const physics::VelocityPair v = speeds(joint);
+        const physics::uint before = joint.active_set;
         for_each_axis(joint, [&](physics::uint k, const physics::JointAxis& axis, JointRow& row) {
-            const physics::uint pin = physics::pins_of(joint.pins, k);
+            const physics::uint active_flags = physics::active_set_of(joint.active_set, k);
             const bool solved = unknown(joint, k);
             const float solution = solved ? joint.solution[k] : 0;
             const physics::RowAfter after =
-                physics::row_after_round(axis, row, k, pin, solved, solution, v, biased, settling, p_);
+                physics::row_after_round(axis, row, k, active_flags, solved, solution, v, biased, settling, p_);
             row = after.row;
-            joint.pins = physics::with_pins(joint.pins, k, after.pin);
+            joint.active_set = physics::with_active_set(joint.active_set, k, after.active_flags);
         });
-        return joint.pins != before;
+        return joint.active_set != before;
     }
 
     State& state_;
@@ -288,7 +291,7 @@ private:
 
 bool movable(const State& state, std::uint32_t body) {
     return physics::any_stirs(state.counted()) &&
-           physics::is_movable(state.traits[body].motion, state.rests[body], state.fixed().sleep_steps);
+           physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
 }
 
 template <class Work>
@@ -304,14 +307,14 @@ void for_each_block(State& state, const Threads& threads, const Work& work) {
 
 void take_stock(Joint& joint, const State& state) {
     const physics::JointLoad load =
-        physics::mean_load({joint.force, joint.greatest_force, joint.torque, joint.greatest_torque}, state.fixed());
+        physics::mean_load({joint.force, joint.max_force, joint.torque, joint.max_torque}, state.fixed());
     joint.force = load.force;
-    joint.greatest_force = load.greatest_force;
+    joint.max_force = load.max_force;
     joint.torque = load.torque;
-    joint.greatest_torque = load.greatest_torque;
+    joint.max_torque = load.max_torque;
     if (!physics::joint_tears(joint.force, joint.break_force, joint.torque, joint.break_torque)) return;
     joint.broken = 1;
-    joint.pins = 0;
+    joint.active_set = 0;
     for (JointRow& row : joint.rows) row = physics::torn(row);
 }
 
@@ -320,7 +323,8 @@ void take_stock(Joint& joint, const State& state) {
 void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
     if (!state.counted().sleepers || !physics::any_stirs(state.counted())) return;
     const auto restless = [&](physics::uint body) {
-        return body != NONE && physics::stirs_joined(state.traits[body].motion, state.velocities[body], state.rests[body]);
+        return body != NONE &&
+               physics::stirs_joined(state.properties[body].motion, state.velocities[body], state.sleep_states[body]);
     };
     for_each_block(state, threads, [&](Block block) {
         if (!wakes) {
@@ -329,8 +333,8 @@ void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
                 if (restless(joint.a) || restless(joint.b)) block.joints()[0].restless = 1;
             });
         } else if (block.joints()[0].restless) {
-            for (const Joint& record : block.members()) {
-                const std::atomic_ref rest(state.rests[record.member]);
+            for (const Joint& record : block.block_bodies()) {
+                const std::atomic_ref rest(state.sleep_states[record.block_body]);
                 if (physics::has_slept(rest.load(std::memory_order_relaxed), state.fixed().sleep_steps))
                     rest.fetch_or(physics::WOKEN, std::memory_order_relaxed);
             }
@@ -339,22 +343,22 @@ void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
 }
 
 void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
-    const auto gone = [&](physics::uint body) { return body != NONE && physics::is_absent(state.traits[body].motion); };
+    const auto gone = [&](physics::uint body) { return body != NONE && physics::is_absent(state.properties[body].motion); };
     for_each_block(state, threads, [&](const Block& block) {
         for (Joint& joint : block.joints())
             if (gone(joint.a) || gone(joint.b)) joint.broken = 1;
-        for (Joint& record : block.members()) {
+        for (Joint& record : block.block_bodies()) {
             record.slot = NONE;
-            if (movable(state, record.member)) std::atomic_ref(state.slot_ends[record.member]).fetch_add(1);
+            if (movable(state, record.block_body)) std::atomic_ref(state.slot_ends[record.block_body]).fetch_add(1);
         }
     });
 }
 
 void fill_joint_slots(State& state, const Threads& threads, std::uint32_t) {
     for_each_block(state, threads, [&](const Block& block) {
-        for (const Joint& record : block.members()) {
-            if (!movable(state, record.member)) continue;
-            const std::uint32_t slot = std::atomic_ref(state.slot_ends[record.member]).fetch_add(1);
+        for (const Joint& record : block.block_bodies()) {
+            if (!movable(state, record.block_body)) continue;
+            const std::uint32_t slot = std::atomic_ref(state.slot_ends[record.block_body]).fetch_add(1);
             state.slot_sides[slot] = physics::OF_JOINT | static_cast<std::uint32_t>(&record - state.joints.data());
         }
     });
@@ -365,10 +369,10 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
         if (!block.moves()) return;
         block.note_pressing();
         block.lend(true);
-        block.place(false);
+        block.coordinate(false);
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
         block.gather(physics::row_impulse);
-        block.hand_out([](const Joint& record) { return record.pressed; });
+        block.hand_out([](const Joint& record) { return record.normal_sum; });
     });
 }
 
@@ -397,11 +401,11 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
         block.for_each_whole([&](const Joint& joint) {
             for (const physics::uint body : {joint.a, joint.b})
                 if (last && body != NONE)
-                    told =
-                        std::min(told, physics::told_quiet(state.traits[body].motion, state.velocities[body], state.rests[body]));
+                    told = std::min(told, physics::told_quiet(state.properties[body].motion, state.velocities[body],
+                                                              state.sleep_states[body]));
         });
         block.note_pressing();
-        block.hand_out([&](const Joint& record) { return last ? told : record.pressed; });
+        block.hand_out([&](const Joint& record) { return last ? told : record.normal_sum; });
     });
 }
 

@@ -24,59 +24,62 @@ namespace scree::reference {
 
 namespace {
 
-using Law = physics::Touch (*)(physics::Traits, physics::Pose, physics::Traits, physics::Pose, float);
+using Law = physics::ManifoldBuffer (*)(physics::BodyProperties, physics::Pose, physics::BodyProperties, physics::Pose, float);
 constexpr std::array<Law, 9> laws{physics::collide_sphere_sphere, physics::collide_sphere_capsule,  physics::collide_sphere_box,
                                   physics::collide_sphere_plane,  physics::collide_capsule_capsule, physics::collide_capsule_box,
                                   physics::collide_capsule_plane, physics::collide_box_box,         physics::collide_box_plane};
 
-using ConvexLaw = physics::Touch (*)(physics::Traits, physics::Pose, physics::Traits, physics::Pose, float, physics::Hulls);
+using ConvexLaw = physics::ManifoldBuffer (*)(physics::BodyProperties, physics::Pose, physics::BodyProperties, physics::Pose,
+                                              float, physics::Hulls);
 constexpr std::array<ConvexLaw, 5> laws_of_convex{physics::collide_plane_convex, physics::collide_convex, physics::collide_convex,
                                                   physics::collide_sphere_triangle, physics::collide_convex_triangle};
 
 // The simpler shape first.
-physics::Touch touch_of(std::uint32_t kind, const physics::Traits& ta, const physics::Pose& pa, const physics::Traits& tb,
-                        const physics::Pose& pb, float margin, const State& state) {
-    if (kind < laws.size()) return laws[kind](ta, pa, tb, pb, margin);
-    return laws_of_convex[kind - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
+physics::ManifoldBuffer touch_of(std::uint32_t pair_type, const physics::BodyProperties& ta, const physics::Pose& pa,
+                                 const physics::BodyProperties& tb, const physics::Pose& pb, float margin, const State& state) {
+    if (pair_type < laws.size()) return laws[pair_type](ta, pa, tb, pb, margin);
+    return laws_of_convex[pair_type - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
 }
 
 std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
-    const std::size_t first = span * physics::SPAN;
-    return std::span(state.pairs).subspan(first, std::min<std::size_t>(physics::SPAN, state.counted().pairs - first));
+    const std::size_t first = span * physics::PAIR_BLOCK;
+    return std::span(state.pairs).subspan(first, std::min<std::size_t>(physics::PAIR_BLOCK, state.counted().pairs - first));
 }
 
 }  // namespace
 
-void count_kinds(State& state, const Threads& threads, std::uint32_t) {
-    const std::size_t spans = physics::spans_of(state.counted().pairs);
+void count_pair_types(State& state, const Threads& threads, std::uint32_t) {
+    const std::size_t spans = physics::pair_blocks_of(state.counted().pairs);
     threads.for_each(spans, [&](std::size_t i) {
         const auto pairs = span_of(state, i);
-        for (std::size_t kind = 0; kind < physics::KINDS; ++kind)
-            state.kind_counts()[kind * spans + i] = static_cast<physics::uint>(
-                std::count_if(pairs.begin(), pairs.end(), [&](const physics::Pair& pair) { return pair.kind == kind; }));
+        for (std::size_t pair_type = 0; pair_type < physics::PAIR_TYPES; ++pair_type)
+            state.pair_type_counts()[pair_type * spans + i] = static_cast<physics::uint>(std::count_if(
+                pairs.begin(), pairs.end(), [&](const physics::Pair& pair) { return pair.pair_type == pair_type; }));
     });
 }
 
-void fill_kinds(State& state, const Threads& threads, std::uint32_t) {
-    const std::size_t spans = physics::spans_of(state.counted().pairs);
+void fill_pair_types(State& state, const Threads& threads, std::uint32_t) {
+    const std::size_t spans = physics::pair_blocks_of(state.counted().pairs);
     if (spans == 0) return;
     threads.for_each(spans, [&](std::size_t i) {
-        std::array<physics::uint, physics::KINDS> next;
-        for (std::size_t kind = 0; kind < next.size(); ++kind) next[kind] = state.kind_starts[kind * spans + i];
-        std::size_t pair = i * physics::SPAN;
-        for (const physics::Pair& p : span_of(state, i)) state.pairs_by_kind[next[p.kind]++] = static_cast<physics::uint>(pair++);
+        std::array<physics::uint, physics::PAIR_TYPES> next;
+        for (std::size_t pair_type = 0; pair_type < next.size(); ++pair_type)
+            next[pair_type] = state.pair_type_starts[pair_type * spans + i];
+        std::size_t pair = i * physics::PAIR_BLOCK;
+        for (const physics::Pair& p : span_of(state, i))
+            state.pairs_by_type[next[p.pair_type]++] = static_cast<physics::uint>(pair++);
     });
-    for (physics::uint kind = 0; kind < physics::KINDS; ++kind)
-        state.counted() = physics::with_kinds(state.counted(), kind, state.kind_starts[kind * spans],
-                                              state.kind_starts[(kind + 1) * spans], state.fixed());
+    for (physics::uint pair_type = 0; pair_type < physics::PAIR_TYPES; ++pair_type)
+        state.counted() = physics::with_kinds(state.counted(), pair_type, state.pair_type_starts[pair_type * spans],
+                                              state.pair_type_starts[(pair_type + 1) * spans], state.fixed());
 }
 
-void collide(State& state, const Threads& threads, std::uint32_t kind) {
-    const std::size_t first = state.counted().kind_first[kind];
-    threads.for_each(state.counted().kind_first[kind + 1] - first, [&](std::size_t i) {
-        const std::size_t index = state.pairs_by_kind[first + i];
+void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
+    const std::size_t first = state.counted().pair_type_first[pair_type];
+    threads.for_each(state.counted().pair_type_first[pair_type + 1] - first, [&](std::size_t i) {
+        const std::size_t index = state.pairs_by_type[first + i];
         const std::size_t a = state.pairs[index].a, b = state.pairs[index].b;
-        const physics::Traits &ta = state.traits[a], &tb = state.traits[b];
+        const physics::BodyProperties &ta = state.properties[a], &tb = state.properties[b];
         const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
         physics::Pose pa = state.poses[a], pb = state.poses[b];
         const float margin = physics::margin_of(ta, va, tb, vb, state.fixed());
@@ -85,36 +88,36 @@ void collide(State& state, const Threads& threads, std::uint32_t kind) {
             pa = physics::pose_ahead(pa, va, ahead);
             pb = physics::pose_ahead(pb, vb, ahead);
         }
-        physics::Touch touch = ta.shape > tb.shape
-                                   ? physics::flipped(touch_of(kind, tb, pb, ta, pa, margin, state), pa.position - pb.position)
-                                   : touch_of(kind, ta, pa, tb, pb, margin, state);
+        physics::ManifoldBuffer touch =
+            ta.shape > tb.shape ? physics::flipped(touch_of(pair_type, tb, pb, ta, pa, margin, state), pa.position - pb.position)
+                                : touch_of(pair_type, ta, pa, tb, pb, margin, state);
         if (ahead > 0) touch = physics::brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
         const std::size_t body = state.body_of(state.pairs[index].a);
         if (a != body) touch = physics::from_body(touch, state.poses[a].position - state.poses[body].position);
         state.manifolds[index] = touch.manifold;
-        state.touching[index] = touch.count;
+        state.point_counts[index] = touch.count;
     });
 }
 
-void collide_kept(State& state, const Threads& threads, std::uint32_t) {
-    const std::size_t first = state.counted().kind_first[physics::KIND_KEPT];
-    threads.for_each(state.counted().kind_first[physics::KIND_KEPT + 1] - first, [&](std::size_t i) {
-        const std::size_t index = state.pairs_by_kind[first + i];
+void collide_persistent(State& state, const Threads& threads, std::uint32_t) {
+    const std::size_t first = state.counted().pair_type_first[physics::PAIR_PERSISTENT];
+    threads.for_each(state.counted().pair_type_first[physics::PAIR_PERSISTENT + 1] - first, [&](std::size_t i) {
+        const std::size_t index = state.pairs_by_type[first + i];
         const physics::Pair& pair = state.pairs[index];
         const physics::Contact& contact = state.contacts_before[pair.previous];
         state.manifolds[index] =
-            physics::kept_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
-        state.touching[index] = contact.count;
+            physics::persistent_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
+        state.point_counts[index] = contact.count;
     });
 }
 
-void collide_still(State& state, const Threads& threads, std::uint32_t) {
-    const std::size_t first = state.counted().kind_first[physics::KIND_STILL];
-    threads.for_each(state.counted().kind_first[physics::KIND_STILL + 1] - first, [&](std::size_t i) {
-        const std::size_t index = state.pairs_by_kind[first + i];
+void collide_inactive(State& state, const Threads& threads, std::uint32_t) {
+    const std::size_t first = state.counted().pair_type_first[physics::PAIR_INACTIVE];
+    threads.for_each(state.counted().pair_type_first[physics::PAIR_INACTIVE + 1] - first, [&](std::size_t i) {
+        const std::size_t index = state.pairs_by_type[first + i];
         const std::size_t previous = state.pairs[index].previous;
         state.manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulses_before[previous]);
-        state.touching[index] = state.contacts_before[previous].count;
+        state.point_counts[index] = state.contacts_before[previous].count;
     });
 }
 

@@ -15,10 +15,10 @@ void ReferenceRunner::attach(State& state) {
 }
 
 void ReferenceRunner::adapt() {
-    if (planned_substeps_ == state_->substeps && planned_content_ == state_->content()) return;
+    if (planned_substeps_ == state_->substeps && planned_features_ == state_->features()) return;
     planned_substeps_ = state_->substeps;
-    planned_content_ = state_->content();
-    plan_ = plan(planned_substeps_, planned_content_);
+    planned_features_ = state_->features();
+    plan_ = plan(planned_substeps_, planned_features_);
     clock_ = StageClock(plan_);
 }
 

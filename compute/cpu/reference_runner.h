@@ -35,7 +35,7 @@ private:
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     int planned_substeps_ = 0;
-    Content planned_content_;
+    SceneFeatures planned_features_;
     StageClock clock_;
 };
 

@@ -31,18 +31,19 @@ void scan_pairs_offsets(State& state, const Threads&, std::uint32_t) {
     scan_in_place(state.pair_starts, state.fixed().bodies);
 }
 
-void scan_kinds_offsets(State& state, const Threads&, std::uint32_t) {
-    scan_in_place(state.kind_starts, physics::KINDS * physics::spans_of(state.counted().pairs));
+void scan_pair_types_offsets(State& state, const Threads&, std::uint32_t) {
+    scan_in_place(state.pair_type_starts, physics::PAIR_TYPES * physics::pair_blocks_of(state.counted().pairs));
 }
 
 void scan_contacts_spine(State& state, const Threads&, std::uint32_t) {
-    const auto end = state.touching.begin() + state.counted().pairs;
-    const auto total = std::count_if(state.touching.begin(), end, [](physics::uint points) { return points > 0; });
+    const auto end = state.point_counts.begin() + state.counted().pairs;
+    const auto total = std::count_if(state.point_counts.begin(), end, [](physics::uint points) { return points > 0; });
     state.counted() = physics::with_contacts(state.counted(), static_cast<physics::uint>(total), state.fixed());
 }
 void scan_contacts_offsets(State& state, const Threads&, std::uint32_t) {
-    const auto end = state.touching.begin() + state.counted().pairs;
-    std::transform(state.touching.begin(), end, state.contact_starts.begin(), [](physics::uint points) { return points > 0; });
+    const auto end = state.point_counts.begin() + state.counted().pairs;
+    std::transform(state.point_counts.begin(), end, state.contact_starts.begin(),
+                   [](physics::uint points) { return points > 0; });
     scan_in_place(state.contact_starts, state.counted().pairs);
 }
 

@@ -17,36 +17,36 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
 // bodies.cpp
 SCREE_STAGE(begin_step);
 SCREE_STAGE(apply_actions);
-SCREE_STAGE(place_parts);
-SCREE_STAGE(bound_bodies);
+SCREE_STAGE(pose_parts);
+SCREE_STAGE(compute_bounds);
 SCREE_STAGE(begin_substep);
 SCREE_STAGE(move_bodies);
 SCREE_STAGE(end_step);
 
 // broadphase.cpp
 SCREE_STAGE(fill_cells);
-SCREE_STAGE(order_cells);
+SCREE_STAGE(sort_cells);
 SCREE_STAGE(count_pairs);
 SCREE_STAGE(fill_pairs);
 SCREE_STAGE(match_pairs);
 
 // narrowphase.cpp
-SCREE_STAGE(count_kinds);
-SCREE_STAGE(fill_kinds);
+SCREE_STAGE(count_pair_types);
+SCREE_STAGE(fill_pair_types);
 SCREE_STAGE(collide);  // pass: the kind of pairs
-SCREE_STAGE(collide_kept);
-SCREE_STAGE(collide_still);
+SCREE_STAGE(collide_persistent);
+SCREE_STAGE(collide_inactive);
 
 // waking.cpp
 SCREE_STAGE(wake_touched);
-SCREE_STAGE(wake_deserted);
-SCREE_STAGE(shake_sleepers);  // pass: how deep those wake who shake in this round
+SCREE_STAGE(wake_unsupported);
+SCREE_STAGE(propagate_wake);  // pass: how deep those wake who shake in this round
 
 // contacts.cpp
-SCREE_STAGE(list_contacts);
+SCREE_STAGE(compact_contacts);
 SCREE_STAGE(count_slots);
 SCREE_STAGE(fill_slots);
-SCREE_STAGE(order_slots);
+SCREE_STAGE(sort_slots);
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);  // pass: 1 in the step's last substep, 2 in its first, 4 if what contacts carry is added up
@@ -63,14 +63,14 @@ SCREE_STAGE(relax_joints);  // pass: whether it is the step's last
 SCREE_STAGE(drive_vehicles);
 
 // continuous_collision.cpp
-SCREE_STAGE(foresee_impacts);
-SCREE_STAGE(drop_passers);
+SCREE_STAGE(predict_impacts);
+SCREE_STAGE(cull_speculative);
 SCREE_STAGE(find_impacts);  // pass: the round
-SCREE_STAGE(stop_bodies);
+SCREE_STAGE(clamp_to_impact);
 
 // fracture.cpp
 SCREE_STAGE(find_broken);
-SCREE_STAGE(give_back);
+SCREE_STAGE(return_excess_impulse);
 SCREE_STAGE(break_bodies);
 
 // scans.cpp: block sums are the devices' own affair; here the total is known in the spine, the offsets in the last stage.
@@ -79,7 +79,7 @@ SCREE_STAGE(scan_pairs_spine);
 SCREE_STAGE(scan_contacts_spine);
 SCREE_STAGE(scan_cells_offsets);
 SCREE_STAGE(scan_pairs_offsets);
-SCREE_STAGE(scan_kinds_offsets);
+SCREE_STAGE(scan_pair_types_offsets);
 SCREE_STAGE(scan_contacts_offsets);
 SCREE_STAGE(scan_slots_offsets);
 

@@ -10,29 +10,29 @@ namespace scree::reference {
 void drive_vehicles(State& state, const Threads& threads, std::uint32_t) {
     const physics::Parameters& p = state.fixed();
     if (state.counted().overflow) return;
-    const auto there = [&](physics::uint body) { return !physics::is_absent(state.traits[body].motion); };
+    const auto there = [&](physics::uint body) { return !physics::is_absent(state.properties[body].motion); };
     threads.for_each(p.vehicles, [&](std::size_t i) {
         physics::Vehicle& vehicle = state.vehicles[i];
-        physics::Handling& handling = vehicle.handling;
-        const physics::uint chassis = handling.chassis;
+        physics::VehicleDynamics& dynamics = vehicle.dynamics;
+        const physics::uint chassis = dynamics.chassis;
         if (!there(chassis)) return;
         if (!p.redo)
-            handling = physics::driven(handling, {state.way_points.data()}, state.poses[chassis], state.velocities[chassis], p);
-        const bool awake = physics::is_under_way(handling);
-        if (awake) state.rests[chassis] = 0;
-        const vec3 axle = physics::vehicle_axes(handling, state.poses[chassis].orientation).x;
-        for (const physics::VehicleWheel& wheel : std::span(vehicle.wheel).first(handling.wheels)) {
+            dynamics = physics::driven(dynamics, {state.way_points.data()}, state.poses[chassis], state.velocities[chassis], p);
+        const bool awake = physics::is_under_way(dynamics);
+        if (awake) state.sleep_states[chassis] = 0;
+        const vec3 axle = physics::vehicle_axes(dynamics, state.poses[chassis].orientation).x;
+        for (const physics::VehicleWheel& wheel : std::span(vehicle.wheel).first(dynamics.wheels)) {
             if (!there(wheel.body)) continue;
-            if (awake) state.rests[wheel.body] = 0;
+            if (awake) state.sleep_states[wheel.body] = 0;
             if (p.redo) continue;
             physics::Joint& joint = state.joints[wheel.joint];
             const float spin = physics::dot3(axle, state.velocities[wheel.body].angular - state.velocities[chassis].angular);
-            joint.axes[3] = physics::wheel_motor(joint.axes[3], handling, wheel, spin);
+            joint.axes[3] = physics::wheel_motor(joint.axes[3], dynamics, wheel, spin);
             if (joint.axes[3].mode == 0) {
-                joint.rows[3].drive = 0;
-                joint.pins = physics::with_pins(joint.pins, 3, 0);
+                joint.rows[3].motor_impulse = 0;
+                joint.active_set = physics::with_active_set(joint.active_set, 3, 0);
             }
-            if (wheel.steers) joint.axes[4].rest = physics::wheel_angle(handling, wheel);
+            if (wheel.steers) joint.axes[4].rest = physics::wheel_angle(dynamics, wheel);
         }
     });
 }

@@ -12,31 +12,31 @@ namespace scree::reference {
 namespace {
 
 std::uint32_t rest_of(State& state, std::uint32_t body) {
-    return std::atomic_ref(state.rests[body]).load(std::memory_order_relaxed);
+    return std::atomic_ref(state.sleep_states[body]).load(std::memory_order_relaxed);
 }
 void raise(State& state, std::uint32_t body, std::uint32_t bits) {
-    if (state.traits[body].motion != physics::MOTION_DYNAMIC) return;
-    std::atomic_ref(state.rests[body]).fetch_or(bits, std::memory_order_relaxed);
+    if (state.properties[body].motion != physics::MOTION_DYNAMIC) return;
+    std::atomic_ref(state.sleep_states[body]).fetch_or(bits, std::memory_order_relaxed);
 }
 bool slept(State& state, std::uint32_t body) {
     return physics::has_slept(rest_of(state, body), state.fixed().sleep_steps);
 }
 bool stirred(const State& state, std::uint32_t body) {
-    return (state.bounds[body].level & physics::STILL) == 0;
+    return (state.bounds[body].level & physics::INACTIVE) == 0;
 }
 
 bool wakes(State& state, const physics::Pair& pair, std::uint32_t sleeper, std::uint32_t other, float approach) {
-    const bool restless = physics::is_restless(state.traits[other].motion, rest_of(state, other));
+    const bool restless = physics::is_restless(state.properties[other].motion, rest_of(state, other));
     const bool touched = pair.previous != physics::NONE;
-    return physics::wakes(restless, approach, touched ? physics::pressing(state.impulses_before[pair.previous]) : 0,
-                          touched ? state.contacts_before[pair.previous].load : 0, state.traits[sleeper], state.fixed());
+    return physics::wakes(restless, approach, touched ? physics::normal_impulse(state.impulses_before[pair.previous]) : 0,
+                          touched ? state.contacts_before[pair.previous].load : 0, state.properties[sleeper], state.fixed());
 }
 
 // Whether the pairs that `owner` found tell of a contact with `other`.
 bool owner_touches(const State& state, std::uint32_t owner, std::uint32_t other) {
     for (std::size_t i = state.pair_starts[owner]; i < state.pair_starts[owner + 1]; ++i) {
         const physics::Pair& pair = state.pairs[i];
-        if ((pair.a == other || pair.b == other) && state.touching[i] > 0) return true;
+        if ((pair.a == other || pair.b == other) && state.point_counts[i] > 0) return true;
     }
     return false;
 }
@@ -51,19 +51,18 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
         const physics::Pair& pair = state.pairs[index];
         if (!stirred(state, pair.a) && !stirred(state, pair.b)) return;
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
-        const float approach =
-            physics::approach_of(state.manifolds[index], state.touching[index], state.poses[b].position - state.poses[a].position,
-                                 state.velocities[a], state.velocities[b], state.fixed());
+        const float approach = physics::approach_of(state.manifolds[index], state.point_counts[index],
+                                                    state.poses[b].position - state.poses[a].position, state.velocities[a],
+                                                    state.velocities[b], state.fixed());
         if (slept(state, a) && !slept(state, b) && wakes(state, pair, a, b, approach)) raise(state, a, physics::WOKEN);
         if (slept(state, b) && !slept(state, a) && wakes(state, pair, b, a, approach)) raise(state, b, physics::WOKEN);
         const std::uint32_t depth = physics::depth_of(approach, state.fixed());
         for (const std::uint32_t body : {a, b}) raise(state, body, physics::shaking_bit(depth));
-        if (depth > 1)
-            std::atomic_ref(counts.arguments[physics::WORK_SHAKEN].x).store(counts.arguments[physics::WORK_CONTACTS].x);
+        if (depth > 1) std::atomic_ref(counts.arguments[physics::WORK_WAKE].x).store(counts.arguments[physics::WORK_CONTACTS].x);
     });
 }
 
-void wake_deserted(State& state, const Threads& threads, std::uint32_t) {
+void wake_unsupported(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow || !state.counted().sleepers || !physics::any_stirs(state.counted())) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         for (std::size_t k = state.first_contacts[i]; k < state.first_contacts[i + 1]; ++k) {
@@ -72,14 +71,14 @@ void wake_deserted(State& state, const Threads& threads, std::uint32_t) {
             const std::uint32_t sleeper = state.body_of(stirred(state, contact.a) ? contact.b : contact.a);
             if (!slept(state, sleeper)) continue;
             if (owner_touches(state, contact.a, contact.b) || owner_touches(state, contact.b, contact.a)) continue;
-            if (physics::load_changed(0, contact.load, state.traits[sleeper], state.fixed()))
+            if (physics::load_changed(0, contact.load, state.properties[sleeper], state.fixed()))
                 raise(state, sleeper, physics::WOKEN);
         }
     });
 }
 
-void shake_sleepers(State& state, const Threads& threads, std::uint32_t depth) {
-    if (state.counted().arguments[physics::WORK_SHAKEN].x == 0) return;
+void propagate_wake(State& state, const Threads& threads, std::uint32_t depth) {
+    if (state.counted().arguments[physics::WORK_WAKE].x == 0) return;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         const physics::Pair& pair = state.pairs[state.constraints[i].pair];
         const auto shake = [&](std::uint32_t by, std::uint32_t other) {

@@ -25,8 +25,8 @@ std::size_t buffer_of(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].buffer;
 }
 
-constexpr std::array read_while_changing{Table::poses, Table::velocities, Table::masses,
-                                         Table::loads, Table::impulses,   Table::slots};  // shaders/stages/lib/read_coherent.glsl
+constexpr std::array read_while_changing{Table::poses,    Table::velocities, Table::masses, Table::forces,
+                                         Table::impulses, Table::slots};  // shaders/stages/lib/read_coherent.glsl
 
 static_assert(host::tables_of_a_step.storage == buffer_count - 1);  // all but the parameters
 static_assert(host::tables_of_a_step.texels == buffer_count);
@@ -78,7 +78,7 @@ void DeviceRunner::adapt() {
     make_buffers();
     const host::Reach reach = reach_needed();
     if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() ||
-        planned_substeps_ != state_->substeps || planned_content_ != state_->content())
+        planned_substeps_ != state_->substeps || planned_features_ != state_->features())
         make_plan(reach);
     fuse();
     bind_tables();
@@ -103,12 +103,12 @@ bool DeviceRunner::reads_texels() const {
 
 void DeviceRunner::make_plan(host::Reach reach) {
     planned_substeps_ = state_->substeps;
-    planned_content_ = state_->content();
-    plan_ = plan(planned_substeps_, planned_content_);
+    planned_features_ = state_->features();
+    plan_ = plan(planned_substeps_, planned_features_);
     if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels()) {
         pipelines_.clear();
-        layout_ = std::make_shared<host::TableLayout>(device_, static_cast<std::uint32_t>(buffer_count), sizeof(std::uint32_t),
-                                                      reach, accesses(reads_texels()));
+        layout_ = std::make_shared<host::BindingSetLayout>(device_, static_cast<std::uint32_t>(buffer_count),
+                                                           sizeof(std::uint32_t), reach, accesses(reads_texels()));
     }
     for (host::Buffer& back : counts_back_)
         if (!back) back = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
@@ -123,7 +123,7 @@ std::uint32_t DeviceRunner::fused_group_size() const {
 }
 
 std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const {
-    return {stage.reference ? group_size() : fused_group_size(), stage.content, is_one_subgroup() ? 1u : 0u,
+    return {stage.reference ? group_size() : fused_group_size(), stage.features, is_one_subgroup() ? 1u : 0u,
             shaders::variant_of(stage.name)};
 }
 
@@ -133,16 +133,16 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
     // Drivers take up to a tenth of a second for each, on one core.
     std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
     for (const Stage& stage : stages)
-        if (!pipelines_.contains({stage.name, stage.content}) &&
+        if (!pipelines_.contains({stage.name, stage.features}) &&
             std::none_of(missing.begin(), missing.end(), [&](const auto& other) {
-                return other.first->name == stage.name && other.first->content == stage.content;
+                return other.first->name == stage.name && other.first->features == stage.features;
             }))
             missing.emplace_back(&stage, std::nullopt);
     tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
         const Stage& stage = *missing[i].first;
         missing[i].second.emplace(layout_, stage.name.c_str(), shaders::find(stage.name + variant), constants_of(stage));
     });
-    for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->content}, std::move(*pipeline));
+    for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->features}, std::move(*pipeline));
 }
 
 // A world that has grown may be small no more.
@@ -158,64 +158,64 @@ void DeviceRunner::fuse() {
     make_pipelines(recorded_);
 }
 
-void DeviceRunner::record_stage(host::Recording& recording, const Stage& stage) const {
+void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stage) const {
     const physics::Parameters& p = state_->fixed();
-    recording.bind(pipelines_.at({stage.name, stage.content}), *tables_[parity_]);
-    recording.push(&stage.pass, sizeof(stage.pass));
+    commands.bind(pipelines_.at({stage.name, stage.features}), *tables_[parity_]);
+    commands.push(&stage.pass, sizeof(stage.pass));
     const auto indirect = [&](physics::uint row) {
-        recording.dispatch_indirect(buffers_[buffer_of(Table::counts)], argument_offset(row));
+        commands.dispatch_indirect(buffers_[buffer_of(Table::counts)], argument_offset(row));
     };
-    switch (stage.over) {
-        case Over::one_group:
-            recording.dispatch(1);
+    switch (stage.domain) {
+        case DispatchDomain::one_group:
+            commands.dispatch(1);
             break;
-        case Over::actions:
-            recording.dispatch(physics::work_for(state_->action_room, p).x);
+        case DispatchDomain::actions:
+            commands.dispatch(physics::work_for(state_->action_room, p).x);
             break;
-        case Over::bodies:
-            recording.dispatch(std::max(1u, physics::work_for(p.bodies, p).x));
+        case DispatchDomain::bodies:
+            commands.dispatch(std::max(1u, physics::work_for(p.bodies, p).x));
             break;
-        case Over::buckets:
-            recording.dispatch(physics::work_for(p.buckets + 2, p).x);
+        case DispatchDomain::buckets:
+            commands.dispatch(physics::work_for(p.buckets + 2, p).x);
             break;
-        case Over::body_blocks:
-            recording.dispatch(physics::scan_work_for(p.bodies, p).x);
+        case DispatchDomain::body_scan_blocks:
+            commands.dispatch(physics::scan_work_for(p.bodies, p).x);
             break;
-        case Over::bucket_blocks:
-            recording.dispatch(physics::scan_work_for(p.buckets + 1, p).x);
+        case DispatchDomain::bucket_scan_blocks:
+            commands.dispatch(physics::scan_work_for(p.buckets + 1, p).x);
             break;
-        case Over::pairs:
+        case DispatchDomain::pairs:
             indirect(physics::WORK_PAIRS);
             break;
-        case Over::spans:
-            indirect(physics::WORK_SPANS);
-            break;
-        case Over::kind_blocks:
-            indirect(physics::WORK_KIND_BLOCKS);
-            break;
-        case Over::pair_blocks:
+        case DispatchDomain::pair_blocks:
             indirect(physics::WORK_PAIR_BLOCKS);
             break;
-        case Over::contacts:
+        case DispatchDomain::pair_type_scan_blocks:
+            indirect(physics::WORK_PAIR_TYPE_SCAN_BLOCKS);
+            break;
+        case DispatchDomain::pair_scan_blocks:
+            indirect(physics::WORK_PAIR_SCAN_BLOCKS);
+            break;
+        case DispatchDomain::contacts:
             indirect(physics::WORK_CONTACTS);
             break;
-        case Over::shaken:
-            indirect(physics::WORK_SHAKEN);
+        case DispatchDomain::wake_contacts:
+            indirect(physics::WORK_WAKE);
             break;
-        case Over::solved:
-            indirect(physics::WORK_SOLVED);
+        case DispatchDomain::solver_contacts:
+            indirect(physics::WORK_SOLVER_CONTACTS);
             break;
-        case Over::kind:
-            indirect(physics::WORK_KIND + stage.pass);
+        case DispatchDomain::pair_type:
+            indirect(physics::WORK_PAIR_TYPE + stage.pass);
             break;
-        case Over::flights:
-            indirect(physics::WORK_FLIGHTS);
+        case DispatchDomain::ccd_pairs:
+            indirect(physics::WORK_CCD_PAIRS);
             break;
-        case Over::joint_blocks:
-            recording.dispatch(std::max(1u, physics::work_for(p.joint_blocks, p).x));
+        case DispatchDomain::joint_blocks:
+            commands.dispatch(std::max(1u, physics::work_for(p.joint_blocks, p).x));
             break;
-        case Over::vehicles:
-            recording.dispatch(std::max(1u, physics::work_for(p.vehicles, p).x));
+        case DispatchDomain::vehicles:
+            commands.dispatch(std::max(1u, physics::work_for(p.vehicles, p).x));
             break;
     }
 }
@@ -228,24 +228,24 @@ void DeviceRunner::bind_tables() {
             bound[buffer_of(table)] = &buffers_[buffer_of(parity ? other_parity(table) : table)];
         alone_[parity].clear();
         steps_[parity] = {};
-        tables_[parity] = std::make_unique<host::Table>(layout_, bound);
+        tables_[parity] = std::make_unique<host::BindingSet>(layout_, bound);
     }
 }
 
-const host::Recording& DeviceRunner::whole_step() {
-    std::unique_ptr<host::Recording>& step = steps_[parity_][timed_ ? 1 : 0];
+const host::CommandBuffer& DeviceRunner::whole_step() {
+    std::unique_ptr<host::CommandBuffer>& step = steps_[parity_][timed_ ? 1 : 0];
     if (step) return *step;
-    auto recording = std::make_unique<host::Recording>(device_, timed_ ? static_cast<std::uint32_t>(recorded_.size()) + 1 : 0);
-    if (timed_) recording->timestamp();
+    auto commands = std::make_unique<host::CommandBuffer>(device_, timed_ ? static_cast<std::uint32_t>(recorded_.size()) + 1 : 0);
+    if (timed_) commands->timestamp();
     for (const Stage& stage : recorded_) {
-        record_stage(*recording, stage);
-        if (stage.barrier_after) recording->barrier();
-        if (timed_) recording->timestamp();
+        record_stage(*commands, stage);
+        if (stage.barrier_after) commands->barrier();
+        if (timed_) commands->timestamp();
     }
-    recording->copy(buffers_[buffer_of(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
-    recording->barrier();
-    recording->end();
-    step = std::move(recording);
+    commands->copy(buffers_[buffer_of(Table::counts)], counts_back_[parity_], sizeof(physics::Counts));
+    commands->barrier();
+    commands->end();
+    step = std::move(commands);
     return *step;
 }
 
@@ -292,17 +292,17 @@ bool DeviceRunner::steps(int count, std::uint64_t& done) {
 }
 
 void DeviceRunner::run_stage(std::size_t index) {
-    std::vector<std::unique_ptr<host::Recording>>& alone = alone_[parity_];
+    std::vector<std::unique_ptr<host::CommandBuffer>>& alone = alone_[parity_];
     if (alone.empty()) {
         make_pipelines(plan_);
         for (const Stage& stage : plan_) {
-            auto recording = std::make_unique<host::Recording>(device_, 0);
+            auto commands = std::make_unique<host::CommandBuffer>(device_, 0);
             for (const Stage& dispatch : dispatches_of(stage, joint_rounds_)) {
-                record_stage(*recording, dispatch);
-                recording->barrier();
+                record_stage(*commands, dispatch);
+                commands->barrier();
             }
-            recording->end();
-            alone.push_back(std::move(recording));
+            commands->end();
+            alone.push_back(std::move(commands));
         }
     }
     device_->submit_and_wait({alone[index]->handle()});

@@ -35,7 +35,7 @@ public:
     void adapt() override;               // throws the same
     bool step() override;
     bool steps(int count, std::uint64_t& done) override;
-    void time_stages(bool on) override { timed_ = on; }
+    void set_profiling(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
@@ -77,9 +77,9 @@ private:
     void move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index);
     void upload_all();
     void bind_tables();
-    const host::Recording& whole_step();
+    const host::CommandBuffer& whole_step();
     bool finished(std::size_t parity);  // a step: whether every list had room
-    void record_stage(host::Recording& recording, const Stage& stage) const;
+    void record_stage(host::CommandBuffer& commands, const Stage& stage) const;
     void send_inputs();
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
@@ -91,17 +91,17 @@ private:
     std::vector<Stage> recorded_;     // the plan, in a small world with stages fused
     std::uint32_t joint_rounds_ = 1;  // that a dispatch may do
     int planned_substeps_ = 0;
-    Content planned_content_;
+    SceneFeatures planned_features_;
     StageClock clock_;
-    std::shared_ptr<host::TableLayout> layout_;
+    std::shared_ptr<host::BindingSetLayout> layout_;
     std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by the stage's name and its content
     TableOffsets offsets_;                                                       // of the tables in the buffers
     std::vector<host::Buffer> buffers_;        // by binding; contacts and those before change places with the parity
     std::array<host::Buffer, 2> counts_back_;  // per parity
     // Per parity: the table, and (made when asked for) the whole step, without and with times, and each stage alone.
-    std::array<std::unique_ptr<host::Table>, 2> tables_;
-    std::array<std::array<std::unique_ptr<host::Recording>, 2>, 2> steps_;
-    std::array<std::vector<std::unique_ptr<host::Recording>>, 2> alone_;
+    std::array<std::unique_ptr<host::BindingSet>, 2> tables_;
+    std::array<std::array<std::unique_ptr<host::CommandBuffer>, 2>, 2> steps_;
+    std::array<std::vector<std::unique_ptr<host::CommandBuffer>>, 2> alone_;
     std::size_t parity_ = 0;
     bool timed_ = false;
     physics::Parameters sent_{};

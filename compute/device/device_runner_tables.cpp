@@ -14,9 +14,9 @@ namespace {
 
 std::string what_would_fit(const State& state, const host::DeviceReport& device) {
     // A body brings its parts and the pieces that it may break into: all have rows.
-    const auto pieces =
-        static_cast<std::size_t>(std::count_if(state.traits.begin(), state.traits.begin() + state.body_count,
-                                               [](const physics::Traits& t) { return t.motion == physics::MOTION_UNBORN; }));
+    const auto pieces = static_cast<std::size_t>(
+        std::count_if(state.properties.begin(), state.properties.begin() + state.body_count,
+                      [](const physics::BodyProperties& t) { return t.motion == physics::MOTION_PENDING; }));
     const std::size_t parts = state.fixed().bodies - state.fixed().first_part;
     const auto bodies = static_cast<double>(state.body_count - pieces);
     const double needed = static_cast<double>(state.bytes()), memory = static_cast<double>(device.memory_bytes);
@@ -54,20 +54,20 @@ void take_offsets(TableOffsets& offsets, const TableOffsets& wanted, std::size_t
 
 // Records that a table gets beyond those it needs: half as many again of what edits add one by one. Lists have room of their own
 // (State::grow).
-std::size_t room_behind(const State& state, Length length) {
+std::size_t room_behind(const State& state, BufferLength length) {
     switch (length) {
-        case Length::bodies:
-        case Length::entries:
-        case Length::bodies_and_end:
-        case Length::hulls:
-        case Length::parts:
-        case Length::fractures:
-        case Length::pieces:
-        case Length::tyres:
-        case Length::joints:
-        case Length::vehicles:
+        case BufferLength::bodies:
+        case BufferLength::entries:
+        case BufferLength::bodies_and_end:
+        case BufferLength::hulls:
+        case BufferLength::parts:
+        case BufferLength::fractures:
+        case BufferLength::pieces:
+        case BufferLength::tyres:
+        case BufferLength::joints:
+        case BufferLength::vehicles:
             return 16 + state.allocated(length) / 2;
-        case Length::slots:
+        case BufferLength::slots:
             return 16 + state.joints.size() / 2;
         default:
             return 0;
@@ -96,7 +96,7 @@ void DeviceRunner::make_buffer(std::size_t index) {
     host::Buffer before = std::move(buffers_[index]);
     const bool keeps = before && lasts(index);
     const TableOffsets exact = table_offsets(*state_),
-                       roomy = table_offsets(*state_, [&](Length length) { return room_behind(*state_, length); });
+                       roomy = table_offsets(*state_, [&](BufferLength length) { return room_behind(*state_, length); });
     const bool with_room = before && roomy.bytes[index] <= device_->report().largest_binding;
     if (!keeps) before = {};  // its memory first, then the new one's
     const auto make = [&](const TableOffsets& wanted) {
@@ -117,14 +117,14 @@ void DeviceRunner::make_buffer(std::size_t index) {
 }
 
 void DeviceRunner::move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index) {
-    host::Recording recording(device_);
+    host::CommandBuffer commands(device_);
     for (std::size_t i = 0; i < table_count; ++i) {
         const std::size_t bytes = std::min(were.room[i], offsets_.room[i]);
         if (table_infos()[i].buffer == index && lasts(static_cast<Table>(i)) && bytes > 0)
-            recording.copy(before, buffers_[index], bytes, were.begin[i], offsets_.begin[i]);
+            commands.copy(before, buffers_[index], bytes, were.begin[i], offsets_.begin[i]);
     }
-    recording.end();
-    device_->submit_and_wait({recording.handle()});
+    commands.end();
+    device_->submit_and_wait({commands.handle()});
 }
 
 void DeviceRunner::upload_all() {

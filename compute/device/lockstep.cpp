@@ -46,13 +46,13 @@ bool table_equal(const State& state, const DeviceRunner& device, const Compared&
 
 }  // namespace
 
-struct Lockstep::Interior {
+struct Lockstep::Impl {
     DeviceRunner there;
     ReferenceRunner here;
     State image, state;  // of the device; of the CPU. Both have the same parameters, so the same group size
     LockstepResult result;
 
-    Interior(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
+    Impl(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
         : there(std::move(device)),
           here(threads),
           image(scene, settings, there.group_size(), there.in_place()),
@@ -92,7 +92,7 @@ struct Lockstep::Interior {
 };
 
 Lockstep::Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
-    : interior_(std::make_unique<Interior>(checked(scene), checked(settings), std::move(device), threads)) {}
+    : interior_(std::make_unique<Impl>(checked(scene), checked(settings), std::move(device), threads)) {}
 Lockstep::~Lockstep() = default;
 const LockstepResult& Lockstep::result() const {
     return interior_->result;

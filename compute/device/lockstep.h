@@ -42,8 +42,8 @@ public:
     DeviceRunner& device();
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 // Walks `steps` steps, or until something differs or `progress` (told the steps done) says false. Throws as World does.

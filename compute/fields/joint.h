@@ -62,14 +62,13 @@ inline constexpr auto table<ConeTwist> =
              field("twist", &ConeTwist::twist, {}, "rad", "Limits of the turn about x").required(),
              field("friction", &ConeTwist::friction, any_force, "N m", "Torque against the twist"));
 template <>
-inline constexpr auto table<SixDegrees> =
-    table_of("six_degrees_joint", "Along x, y and z, the twist about x, the swing about y and z; free unless they say more",
-             field("x", &SixDegrees::x, {}, "m", "Along a's x axis").written(),
-             field("y", &SixDegrees::y, {}, "m", "Along a's y axis").written(),
-             field("z", &SixDegrees::z, {}, "m", "Along a's z axis").written(),
-             field("twist", &SixDegrees::twist, {}, "rad", "About x, of b against where the swing has brought it").written(),
-             field("swing_y", &SixDegrees::swing_y, {}, "rad", "About y").written(),
-             field("swing_z", &SixDegrees::swing_z, {}, "rad", "About z").written());
+inline constexpr auto table<SixDof> = table_of(
+    "six_degrees_joint", "Along x, y and z, the twist about x, the swing about y and z; free unless they say more",
+    field("x", &SixDof::x, {}, "m", "Along a's x axis").written(), field("y", &SixDof::y, {}, "m", "Along a's y axis").written(),
+    field("z", &SixDof::z, {}, "m", "Along a's z axis").written(),
+    field("twist", &SixDof::twist, {}, "rad", "About x, of b against where the swing has brought it").written(),
+    field("swing_y", &SixDof::swing_y, {}, "rad", "About y").written(),
+    field("swing_z", &SixDof::swing_z, {}, "rad", "About z").written());
 
 template <>
 inline constexpr Alternatives<7> alternatives<JointKind> = {

@@ -15,7 +15,7 @@ inline constexpr auto table<Settings> = table_of(
     field("contact_damping_ratio", &Settings::contact_damping_ratio, between(1, 40), "", "Damping ratio of contacts"),
     field("push_speed", &Settings::push_speed, above(0, 100), "m/s",
           "Greatest speed at which overlapping bodies are pushed apart"),
-    field("split_relaxation", &Settings::split_relaxation, from_to_below(1, 2), "",
+    field("split_relaxation", &Settings::relaxation, from_to_below(1, 2), "",
           "Relaxation of mass splitting: bodies are split into contacts / this"),
     field("speculative_distance", &Settings::speculative_distance, above(0, 1), "m",
           "Distance at which contacts are made ahead of touching"),

@@ -41,7 +41,7 @@ inline constexpr auto table<Engine> = table_of(
     field("torque", &Engine::torque, any_torque, "N m", "Torque at full throttle, of all driven wheels").written(),
     field("power", &Engine::power, between(0, 1e12), "W", "Power; above power / torque the torque falls as 1 / speed").written(),
     field("top_speed", &Engine::top_speed, any_speed, "m/s", "Greatest speed").written(),
-    field("back_speed", &Engine::back_speed, any_speed, "m/s", "Greatest speed backwards").written(),
+    field("back_speed", &Engine::reverse_speed, any_speed, "m/s", "Greatest speed backwards").written(),
     field("drag", &Engine::drag, any_torque, "N m", "Torque of all driven wheels against the motion without throttle").written());
 
 template <>

@@ -136,7 +136,7 @@ Body added_body(const json& value, const Place& place) {
     }
 }
 
-Act act_of(const std::string& name, const json& value, const Place& place) {
+UserCommand act_of(const std::string& name, const json& value, const Place& place) {
     if (name == "add") return Add{added_body(value, place)};
     if (name == "turn") return turn_of(value, place);
     if (name == "join") return Join{joint_of(value, place)};

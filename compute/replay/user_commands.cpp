@@ -26,7 +26,7 @@ struct Performer {
     void operator()(const Push& act) const { world.apply_force(act.body, act.force); }
     void operator()(const Explode& act) const { world.explode(act.centre, act.radius, act.speed); }
     void operator()(const Drive& act) const { world.drive(act.vehicle, act.controls); }
-    void operator()(const Righten& act) const { world.put_upright(act.vehicle); }
+    void operator()(const Righten& act) const { world.reset_upright(act.vehicle); }
     void operator()(const Turn& act) const {
         if (act.gravity) world.set_gravity(*act.gravity);
         if (act.substeps) world.set_substeps(*act.substeps);
@@ -38,7 +38,7 @@ struct Performer {
 
 }  // namespace
 
-void perform(const Act& act, World& world) {
+void perform(const UserCommand& act, World& world) {
     std::visit(Performer{world}, act);
 }
 

@@ -57,14 +57,14 @@ struct Turn {  // the dials; what is empty stays
     std::optional<bool> sleeping;
 };
 
-using Act = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin, Drive, Righten>;
+using UserCommand = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin, Drive, Righten>;
 
 struct TimedAct {
     std::uint64_t step = 0;  // steps done before it
-    Act act;
+    UserCommand act;
 };
 
 // Throws what World throws, and std::invalid_argument for a grip that is not the lowest free one.
-void perform(const Act& act, World& world);
+void perform(const UserCommand& act, World& world);
 
 }  // namespace scree::replay

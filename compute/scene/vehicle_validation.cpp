@@ -39,7 +39,7 @@ void examine_joint(const Examination& vehicle, const std::string& key, const Whe
     if (joint.b == the_world || scene.bodies[joint.b].motion != Motion::dynamic)
         vehicle.refuse(key + "/joint", named + " holds no wheel: its b must be a dynamic body");
     const auto* hinge = std::get_if<Hinge>(&joint.kind);
-    const auto* six = std::get_if<SixDegrees>(&joint.kind);
+    const auto* six = std::get_if<SixDof>(&joint.kind);
     if (!hinge && !six) vehicle.refuse(key + "/joint", named + " must be a hinge or have six degrees, for a wheel to turn on it");
     const Axis& turn = hinge ? hinge->turn : six->twist;
     if (turn.locked || turn.limits) vehicle.refuse(key + "/joint", named + " lets the wheel not turn: its twist must be free");

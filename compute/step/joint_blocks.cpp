@@ -14,10 +14,11 @@ using Indices = std::vector<std::uint32_t>;
 // Which joints hang together through bodies that move.
 class Graph {
 public:
-    Graph(const Scene& scene, const std::vector<physics::Traits>& traits) : scene_(scene), of_body_(scene.bodies.size()) {
+    Graph(const Scene& scene, const std::vector<physics::BodyProperties>& properties)
+        : scene_(scene), of_body_(scene.bodies.size()) {
         for (std::size_t j = 0; j < scene.joints.size(); ++j)
             for (const std::size_t body : {scene.joints[j].a, scene.joints[j].b})
-                if (body != the_world && traits[body].motion == physics::MOTION_DYNAMIC)
+                if (body != the_world && properties[body].motion == physics::MOTION_DYNAMIC)
                     of_body_[body].push_back(static_cast<std::uint32_t>(j));
     }
 
@@ -54,7 +55,7 @@ private:
 
 struct Eliminated {
     std::uint32_t joint;
-    std::set<std::uint32_t> links;
+    std::set<std::uint32_t> fill_in;
 };
 
 // The order in which each joint touches the fewest that are left; empty if one touches too many.
@@ -70,11 +71,11 @@ std::vector<Eliminated> elimination_of(const Graph& graph, const Indices& joints
     while (!left.empty()) {
         const auto least = std::min_element(left.begin(), left.end(),
                                             [](const auto& x, const auto& y) { return x.second.size() < y.second.size(); });
-        if (least->second.size() > physics::MOST_LINKS) return {};
+        if (least->second.size() > physics::MAX_FILL_IN) return {};
         const Eliminated next{least->first, least->second};
         left.erase(least);
-        for (const std::uint32_t other : next.links) {
-            left[other].insert(next.links.begin(), next.links.end());
+        for (const std::uint32_t other : next.fill_in) {
+            left[other].insert(next.fill_in.begin(), next.fill_in.end());
             left[other].erase(other);
             left[other].erase(next.joint);
         }
@@ -132,32 +133,32 @@ physics::Joint record_of(const Joint& joint) {
 // Appends the records of one block.
 void append(const Scene& scene, const Graph& graph, const std::vector<Eliminated>& block, JointTables& tables) {
     const auto first = static_cast<std::uint32_t>(tables.records.size());
-    std::map<std::size_t, std::uint32_t> members;
+    std::map<std::size_t, std::uint32_t> block_bodies;
     std::vector<std::size_t> bodies;
     for (std::uint32_t k = 0; k < block.size(); ++k) {
         const Joint& joint = scene.joints[block[k].joint];
         tables.record_of[block[k].joint] = first + k;
         for (const std::size_t body : {joint.a, joint.b}) {
-            if (!graph.moves(body) || !members.try_emplace(body, first + static_cast<std::uint32_t>(bodies.size())).second)
+            if (!graph.moves(body) || !block_bodies.try_emplace(body, first + static_cast<std::uint32_t>(bodies.size())).second)
                 continue;
             bodies.push_back(body);
         }
     }
     tables.records.resize(first + std::max(block.size(), bodies.size()));
-    const auto member = [&](std::size_t body) { return graph.moves(body) ? members.at(body) : physics::NONE; };
+    const auto block_body = [&](std::size_t body) { return graph.moves(body) ? block_bodies.at(body) : physics::NONE; };
     for (std::uint32_t k = 0; k < block.size(); ++k) {
         const Joint& joint = scene.joints[block[k].joint];
         physics::Joint& record = tables.records[first + k] = record_of(joint);
-        record.member_a = member(joint.a);
-        record.member_b = member(joint.b);
-        for (const std::uint32_t other : block[k].links) record.links_to[record.links++] = tables.record_of[other];
-        std::sort(record.links_to, record.links_to + record.links);
+        record.block_body_a = block_body(joint.a);
+        record.block_body_b = block_body(joint.b);
+        for (const std::uint32_t other : block[k].fill_in) record.fill_in_of[record.fill_in++] = tables.record_of[other];
+        std::sort(record.fill_in_of, record.fill_in_of + record.fill_in);
     }
     tables.records[first].block_joints = static_cast<physics::uint>(block.size());
-    tables.records[first].block_members = static_cast<physics::uint>(bodies.size());
+    tables.records[first].block_bodies = static_cast<physics::uint>(bodies.size());
     tables.records[tables.blocks++].first_of_block = first;
     for (std::uint32_t k = 0; first + k < tables.records.size(); ++k) {
-        tables.records[first + k].member = k < bodies.size() ? static_cast<physics::uint>(bodies[k]) : physics::NONE;
+        tables.records[first + k].block_body = k < bodies.size() ? static_cast<physics::uint>(bodies[k]) : physics::NONE;
         tables.records[first + k].slot = physics::NONE;
     }
 }
@@ -191,7 +192,7 @@ JointAxes axes_of_kind(const JointKind& kind) {
         made.axes[3].limits = cone->twist;
         made.axes[4].limits = Limits{-unlimited, cone->swing};
         made.axes[3].friction = cone->friction;
-    } else if (const auto* six = std::get_if<SixDegrees>(&kind)) {
+    } else if (const auto* six = std::get_if<SixDof>(&kind)) {
         const Axis all[] = {six->x, six->y, six->z, six->twist, six->swing_y, six->swing_z};
         if (!six->twist.locked) made.flags = physics::JOINT_SPINS;
         std::copy(std::begin(all), std::end(all), made.axes);
@@ -230,25 +231,25 @@ physics::JointAxis axis_record(const Axis& axis) {
     return record;
 }
 
-JointTables joint_tables(const Scene& scene, std::vector<physics::Traits>& traits) {
+JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties) {
     JointTables tables;
     if (scene.joints.empty()) return tables;
     tables.record_of.resize(scene.joints.size());
-    const Graph graph(scene, traits);
+    const Graph graph(scene, properties);
     for (const std::vector<Eliminated>& block : blocks_of(scene, graph)) append(scene, graph, block, tables);
     std::vector<physics::uint> blocks(scene.bodies.size());
     for (const physics::Joint& record : tables.records)
-        if (record.member != physics::NONE) ++blocks[record.member];
+        if (record.block_body != physics::NONE) ++blocks[record.block_body];
     for (physics::Joint& record : tables.records)
-        if (record.member != physics::NONE) record.blocks = blocks[record.member];
+        if (record.block_body != physics::NONE) record.blocks = blocks[record.block_body];
     // Each body's list, in the order of the scene.
     for (std::size_t j = scene.joints.size(); j-- > 0;) {
         physics::Joint& record = tables.records[tables.record_of[j]];
         const auto list = [&](physics::uint body, physics::uint& next) {
             next = physics::NONE;
-            if (body == physics::NONE || traits[body].motion != physics::MOTION_DYNAMIC) return;
-            next = traits[body].joints;
-            traits[body].joints = tables.record_of[j];
+            if (body == physics::NONE || properties[body].motion != physics::MOTION_DYNAMIC) return;
+            next = properties[body].joints;
+            properties[body].joints = tables.record_of[j];
         };
         list(record.a, record.next_a);
         list(record.b, record.next_b);

@@ -19,8 +19,8 @@ struct JointTables {
     std::vector<std::uint32_t> record_of;  // of each joint of the scene
     physics::uint blocks = 0;
 };
-// Of a checked scene; says in the traits where each body's list of joints begins.
-JointTables joint_tables(const Scene& scene, std::vector<physics::Traits>& traits);
+// Of a checked scene; says in the properties where each body's list of joints begins.
+JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties);
 
 // The axes of a record, for a kind of joint: along x, y, z, twist, swing about y, about z.
 struct JointAxes {

@@ -112,7 +112,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     // All that wants memory first: whoever runs out of it finds every body where it was.
     std::vector<std::uint32_t> by_id = rows;
     // One for every table: new memory takes longer than what is done to it.
-    std::vector<std::byte> scratch(n * sizeof(physics::Traits));
+    std::vector<std::byte> scratch(n * sizeof(physics::BodyProperties));
     const auto follow = [&](physics::uint& row) {
         if (row < n) row = to[row];
     };
@@ -138,21 +138,21 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     const auto take = [&](auto& table) {
         if (table.size() < all) return;  // it is not here
         constexpr std::size_t bytes = sizeof table[0];
-        static_assert(bytes <= sizeof(physics::Traits));
+        static_assert(bytes <= sizeof(physics::BodyProperties));
         threads.for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });
         threads.for_each(n, [&](std::size_t row) { std::memcpy(&table[row], &scratch[row * bytes], bytes); });
     };
-    take(traits);
+    take(properties);
     take(poses);
     take(velocities);
-    take(rests);
+    take(sleep_states);
     take(strains);
     take(masses);
-    for (physics::Traits& row : traits) follow(row.owner);
+    for (physics::BodyProperties& row : properties) follow(row.owner);
     for (physics::Joint& joint : joints)
-        for (physics::uint* row : {&joint.a, &joint.b, &joint.member}) follow(*row);
+        for (physics::uint* row : {&joint.a, &joint.b, &joint.block_body}) follow(*row);
     for (physics::Vehicle& vehicle : vehicles) {
-        follow(vehicle.handling.chassis);
+        follow(vehicle.dynamics.chassis);
         for (physics::VehicleWheel& wheel : vehicle.wheel) follow(wheel.body);
     }
     if (with_contacts) {

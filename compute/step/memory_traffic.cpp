@@ -18,10 +18,10 @@ constexpr double line = 32;  // bytes that come at once at least: a sector of a 
 
 // How many of each there were in the last step.
 struct Step {
-    std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, kinds = 0, pairs = 0, contacts = 0, solved = 0, slots = 0,
-                joints = 0, vehicles = 0;
-    std::size_t actions = 0, flights = 0, stirred = 0, breakable = 0;
-    std::vector<std::size_t> of_kind, hulls_of_kind;
+    std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, pair_types = 0, pairs = 0, contacts = 0, solver_contacts = 0,
+                slots = 0, joints = 0, vehicles = 0;
+    std::size_t actions = 0, ccd_pairs = 0, stirred = 0, breakable = 0;
+    std::vector<std::size_t> of_pair_type, hulls_of_pair_type;
 
     explicit Step(const State& state) {
         const physics::Counts& c = state.counted();
@@ -29,42 +29,44 @@ struct Step {
         buckets = state.fixed().buckets + 1;
         pairs = c.pairs;
         contacts = c.contacts;
-        solved = c.solved;
-        kinds = physics::KINDS * physics::spans_of(c.pairs);
+        solver_contacts = c.solver_contacts;
+        pair_types = physics::PAIR_TYPES * physics::pair_blocks_of(c.pairs);
         const std::size_t block = std::size_t{state.fixed().group_size} << physics::SCAN_SHIFT;
-        blocks = std::max(kinds, pairs) / block + 1;
+        blocks = std::max(pair_types, pairs) / block + 1;
         actions = state.fixed().actions;
         joints = state.has_joints() ? state.joints.size() : 0;
         vehicles = state.fixed().vehicles;
-        flights = c.arguments[physics::WORK_FLIGHTS].x ? pairs : 0;
+        ccd_pairs = c.arguments[physics::WORK_CCD_PAIRS].x ? pairs : 0;
         stirred = c.sleepers ? contacts : 0;
-        breakable = state.has_fractures() ? solved : 0;
-        for (physics::uint k = 0; k < physics::KINDS; ++k) of_kind.push_back(c.kind_first[k + 1] - c.kind_first[k]);
+        breakable = state.has_fractures() ? solver_contacts : 0;
+        for (physics::uint k = 0; k < physics::PAIR_TYPES; ++k)
+            of_pair_type.push_back(c.pair_type_first[k + 1] - c.pair_type_first[k]);
         count_hulls(state);
         for (std::size_t i = 0; i < bodies; ++i)
-            movers += state.traits[i].motion == physics::MOTION_DYNAMIC &&
-                      !physics::is_asleep(state.rests[i], state.fixed().sleep_steps);
+            movers += state.properties[i].motion == physics::MOTION_DYNAMIC &&
+                      !physics::is_asleep(state.sleep_states[i], state.fixed().sleep_steps);
         for (std::size_t i = 0; i < contacts; ++i)
             slots += (state.constraints[i].slot_a != physics::NONE) + (state.constraints[i].slot_b != physics::NONE);
     }
 
     void count_hulls(const State& state) {
-        std::vector<std::set<physics::uint>> places(physics::KINDS);
+        std::vector<std::set<physics::uint>> places(physics::PAIR_TYPES);
         const bool listed =
             state.counted().overflow == 0;  // else the table of pairs holds notes (shaders/stages/lib/partner_cache.glsl)
-        const std::size_t looked = listed && state.content().convex ? pairs : 0;
+        const std::size_t looked = listed && state.features().convex ? pairs : 0;
         for (std::size_t i = 0; i < looked; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})
-                if (state.traits[body].shape == physics::SHAPE_HULL || state.traits[body].shape == physics::SHAPE_TRIANGLE)
-                    places[state.pairs[i].kind].insert(physics::hull_of(state.traits[body]));
+                if (state.properties[body].shape == physics::SHAPE_HULL ||
+                    state.properties[body].shape == physics::SHAPE_TRIANGLE)
+                    places[state.pairs[i].pair_type].insert(physics::hull_of(state.properties[body]));
         for (const auto& hulls : places)
-            hulls_of_kind.push_back(std::accumulate(hulls.begin(), hulls.end(), std::size_t{0}, [&](std::size_t sum, auto place) {
-                return sum + physics::hull_records(state.hull_table(), place);
-            }));
+            hulls_of_pair_type.push_back(std::accumulate(
+                hulls.begin(), hulls.end(), std::size_t{0},
+                [&](std::size_t sum, auto place) { return sum + physics::hull_records(state.hull_table(), place); }));
     }
 
     std::size_t count(Amount amount, const Stage& stage) const {
-        const std::size_t binned = stage.over == Over::kind ? of_kind[stage.pass] : 0;
+        const std::size_t binned = stage.domain == DispatchDomain::pair_type ? of_pair_type[stage.pass] : 0;
         switch (amount) {
             case Amount::few:
                 return 0;
@@ -78,14 +80,14 @@ struct Step {
                 return buckets;
             case Amount::blocks:
                 return blocks;
-            case Amount::kinds:
-                return kinds;
+            case Amount::pair_types:
+                return pair_types;
             case Amount::pairs:
                 return pairs;
             case Amount::contacts:
                 return contacts;
-            case Amount::solved:
-                return solved;
+            case Amount::solver_contacts:
+                return solver_contacts;
             case Amount::breakable:
                 return breakable;
             case Amount::slots:
@@ -95,15 +97,15 @@ struct Step {
             case Amount::binned_bodies:
                 return std::min(2 * binned, bodies);
             case Amount::binned_hulls:
-                return stage.over == Over::kind ? hulls_of_kind[stage.pass] : 0;
+                return stage.domain == DispatchDomain::pair_type ? hulls_of_pair_type[stage.pass] : 0;
             case Amount::joints:
                 return joints;
             case Amount::vehicles:
                 return vehicles;
-            case Amount::flights:
-                return flights;
-            case Amount::flight_bodies:
-                return std::min(2 * flights, bodies);
+            case Amount::ccd_pairs:
+                return ccd_pairs;
+            case Amount::ccd_bodies:
+                return std::min(2 * ccd_pairs, bodies);
             case Amount::stirred:
                 return stirred;
             case Amount::stirred_bodies:
@@ -128,7 +130,7 @@ struct Step {
 std::vector<Traffic> traffic_of(const State& state) {
     const Step step(state);
     std::vector<Traffic> all;
-    for (const Stage& stage : plan(state.substeps, state.content())) {
+    for (const Stage& stage : plan(state.substeps, state.features())) {
         auto found = std::find_if(all.begin(), all.end(), [&](const Traffic& traffic) { return traffic.stage == stage.name; });
         if (found == all.end()) found = all.insert(all.end(), {stage.name});
         found->read += step.bytes(stage.reads, stage);

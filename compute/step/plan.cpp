@@ -10,30 +10,30 @@ namespace scree {
 
 namespace {
 
-std::uint32_t content_bits(const Content& content) {
-    return (content.bounces ? physics::CONTENT_BOUNCES : 0) | (content.rolls ? physics::CONTENT_ROLLS : 0) |
-           (content.round ? physics::CONTENT_ROUND : 0) | (content.tyres ? physics::CONTENT_TYRES : 0) |
-           (content.moving_parts ? physics::CONTENT_PARTS : 0) | (content.reordered ? physics::CONTENT_REORDERED : 0) |
-           (content.joints ? physics::CONTENT_JOINTS : 0) | (content.breaking ? physics::CONTENT_BREAKING : 0);
+std::uint32_t feature_bits(const SceneFeatures& features) {
+    return (features.bounces ? physics::FEATURE_BOUNCES : 0) | (features.rolls ? physics::FEATURE_ROLLS : 0) |
+           (features.round ? physics::FEATURE_ROUND : 0) | (features.tyres ? physics::FEATURE_TYRES : 0) |
+           (features.moving_parts ? physics::FEATURE_PARTS : 0) | (features.reordered ? physics::FEATURE_REORDERED : 0) |
+           (features.joints ? physics::FEATURE_JOINTS : 0) | (features.breaking ? physics::FEATURE_BREAKING : 0);
 }
 
 struct Order {
     std::vector<Stage> stages;
-    std::uint32_t content;
+    std::uint32_t features;
     void add(const std::string& name, std::uint32_t pass = 0) {
         const StageDeclaration& declared = stage_declaration(name);
-        stages.push_back({declared, pass, content & declared.features});
+        stages.push_back({declared, pass, features & declared.tested_features});
     }
     void add_scan(const std::string& what) {
         for (const char* part : {"_sums", "_spine", "_offsets"}) add("scan_" + what + part);
     }
 };
 
-bool has_kind(const Content& content, std::uint32_t kind) {
-    if (kind >= physics::KIND_KEPT) return true;
-    if (kind == physics::KIND_HULL_HULL) return content.hulls;
-    if (kind >= physics::KIND_SPHERE_TRIANGLE) return content.triangles;
-    return kind < physics::KIND_PLANE_CONVEX || content.convex || content.triangles;
+bool has_pair_type(const SceneFeatures& features, std::uint32_t pair_type) {
+    if (pair_type >= physics::PAIR_PERSISTENT) return true;
+    if (pair_type == physics::PAIR_HULL_HULL) return features.hulls;
+    if (pair_type >= physics::PAIR_SPHERE_TRIANGLE) return features.triangles;
+    return pair_type < physics::PAIR_PLANE_CONVEX || features.convex || features.triangles;
 }
 
 const Access* written_by(const StageDeclaration& stage, Table table) {
@@ -48,7 +48,7 @@ void set_compared(std::vector<Stage>& stages) {
             if (access.manner == Manner::unordered || access.manner == Manner::unfinished) continue;
             const Access* next = i + 1 < stages.size() ? written_by(stages[i + 1], access.table) : nullptr;
             if (access.manner == Manner::in_parts && next && next->manner == Manner::in_parts) continue;
-            const Length whole = table_infos()[static_cast<std::size_t>(access.table)].length;
+            const BufferLength whole = table_infos()[static_cast<std::size_t>(access.table)].length;
             stages[i].compared.push_back({access.table, access.as_long_as.value_or(whole)});
         }
     }
@@ -74,67 +74,67 @@ std::vector<Table> tables_read_before_written(const std::vector<Stage>& stages) 
 
 }  // namespace
 
-std::vector<Stage> plan(int substeps, const Content& content) {
-    const bool convex = content.convex || content.triangles;
-    Order s{{}, content_bits(content)};
+std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
+    const bool convex = features.convex || features.triangles;
+    Order s{{}, feature_bits(features)};
     // what pushes the bodies, where they will be
     s.add("begin_step");
     s.add("apply_actions");
-    if (content.vehicles) s.add("drive_vehicles");
-    if (content.moving_parts) s.add("place_parts");
-    s.add("bound_bodies");
+    if (features.vehicles) s.add("drive_vehicles");
+    if (features.moving_parts) s.add("pose_parts");
+    s.add("compute_bounds");
     // broadphase: who is near whom
     s.add_scan("cells");
     s.add("fill_cells");
-    s.add("order_cells");
+    s.add("sort_cells");
     s.add("count_pairs");
     s.add_scan("pairs");
     s.add("fill_pairs");
     s.add("match_pairs");
     // narrowphase: who touches whom, and where
-    s.add("count_kinds");
-    s.add_scan("kinds");
-    s.add("fill_kinds");
-    for (std::uint32_t kind = 0; kind < physics::KINDS; ++kind)
-        if (has_kind(content, kind)) s.add(name_of_kind(kind), kind);
-    s.add(convex ? "foresee_impacts_convex" : "foresee_impacts");
-    s.add("drop_passers");
+    s.add("count_pair_types");
+    s.add_scan("pair_types");
+    s.add("fill_pair_types");
+    for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_TYPES; ++pair_type)
+        if (has_pair_type(features, pair_type)) s.add(name_of_pair_type(pair_type), pair_type);
+    s.add(convex ? "predict_impacts_convex" : "predict_impacts");
+    s.add("cull_speculative");
     // contacts: who touches
     s.add_scan("contacts");
-    s.add("list_contacts");
+    s.add("compact_contacts");
     // whom this wakes
     s.add("wake_touched");
-    s.add("wake_deserted");
-    for (std::uint32_t wakes = 0; content.joints && wakes < 2; ++wakes) s.add("wake_joined", wakes);
-    for (std::uint32_t depth = physics::DEEPEST; depth > 1; --depth) s.add("shake_sleepers", depth);
+    s.add("wake_unsupported");
+    for (std::uint32_t wakes = 0; features.joints && wakes < 2; ++wakes) s.add("wake_joined", wakes);
+    for (std::uint32_t depth = physics::DEEPEST; depth > 1; --depth) s.add("propagate_wake", depth);
     // what the contacts inherit
     s.add("count_slots");
-    if (content.joints) s.add("count_joint_slots");
+    if (features.joints) s.add("count_joint_slots");
     s.add_scan("slots");
     s.add("fill_slots");
-    if (content.joints) s.add("fill_joint_slots");
-    s.add("order_slots");
+    if (features.joints) s.add("fill_joint_slots");
+    s.add("sort_slots");
     s.add("prepare_contacts");
-    if (content.joints) s.add("prepare_joints");
+    if (features.joints) s.add("prepare_joints");
     // the solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t first = substep == 1, last = substep == substeps;
         s.add("begin_substep", first);
         s.add("solve_contacts");
-        if (content.joints) s.add("solve_joints");
+        if (features.joints) s.add("solve_joints");
         s.add("move_bodies");
-        s.add("relax_contacts", last | first << 1 | (content.breaking ? 4u : 0u));
-        if (content.joints) s.add("relax_joints", last);
+        s.add("relax_contacts", last | first << 1 | (features.breaking ? 4u : 0u));
+        if (features.joints) s.add("relax_joints", last);
     }
     s.add("end_step");
     // what is fast stops before it passes through something
-    for (std::uint32_t round = 0; round < physics::FLIGHT_ROUNDS; ++round)
+    for (std::uint32_t round = 0; round < physics::CCD_ROUNDS; ++round)
         s.add(convex ? "find_impacts_convex" : "find_impacts", round);
-    s.add("stop_bodies");
-    if (content.moving_parts) s.add("place_parts");
+    s.add("clamp_to_impact");
+    if (features.moving_parts) s.add("pose_parts");
     // what was struck too hard comes apart
-    for (const char* stage : {"find_broken", "give_back", "break_bodies"})
-        if (content.breaking) s.add(stage);
+    for (const char* stage : {"find_broken", "return_excess_impulse", "break_bodies"})
+        if (features.breaking) s.add(stage);
     set_barriers(s.stages);
     set_compared(s.stages);
     return std::move(s.stages);
@@ -153,7 +153,7 @@ void set_barriers(std::vector<Stage>& stages) {
 }
 
 const std::vector<Table>& lasting_tables() {
-    static const std::vector<Table> all = tables_read_before_written(plan(1, Content::everything()));
+    static const std::vector<Table> all = tables_read_before_written(plan(1, SceneFeatures::everything()));
     return all;
 }
 

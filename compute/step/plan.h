@@ -12,19 +12,19 @@ namespace scree {
 // What two runners that have done a stage hold alike.
 struct Compared {
     Table table;
-    Length length;
+    BufferLength length;
 };
 
 struct Stage : StageDeclaration {
-    std::uint32_t pass = 0;     // told to the stage; for Over::kind which kind
-    std::uint32_t content = 0;  // of its features, those that the scene has
-    bool barrier_after = true;  // and other stages may follow
+    std::uint32_t pass = 0;      // told to the stage; for DispatchDomain::pair_type which pair type
+    std::uint32_t features = 0;  // of its features, those that the scene has
+    bool barrier_after = true;   // and other stages may follow
     std::vector<Compared> compared = {};
 };
 
 // The stages of one step. What a scene has nothing of is left out, because it takes seconds to compile on a processor or time in
 // every step.
-std::vector<Stage> plan(int substeps, const Content& content);
+std::vector<Stage> plan(int substeps, const SceneFeatures& features);
 
 // Puts a barrier behind every stage that one of the next cannot do without, and behind the last. What is compared stays.
 void set_barriers(std::vector<Stage>& stages);

@@ -1,4 +1,4 @@
-// How the tables begin: parameters from settings, traits from shapes and materials, room for a first guess of contacts.
+// How the tables begin: parameters from settings, properties from shapes and materials, room for a first guess of contacts.
 #include "compute/step/scene_compiler.h"
 
 #include <algorithm>
@@ -21,16 +21,16 @@ namespace {
 constexpr std::size_t few_bodies = 24;
 constexpr std::size_t most_large = 64;
 
-float width_of(const physics::Traits& traits) {
-    return physics::widest(traits.shape, traits.size);
+float width_of(const physics::BodyProperties& properties) {
+    return physics::widest(properties.shape, properties.size);
 }
 
 // The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.
-float cell_width(const std::vector<physics::Traits>& traits, float speculative) {
+float cell_width(const std::vector<physics::BodyProperties>& properties, float speculative) {
     std::vector<float> widths;
-    for (const physics::Traits& body : traits)
+    for (const physics::BodyProperties& body : properties)
         if (!physics::is_large(body) &&
-            (body.motion == physics::MOTION_UNBORN || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
+            (body.motion == physics::MOTION_PENDING || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
             body.shape != physics::SHAPE_NONE)
             widths.push_back(width_of(body));
     if (widths.empty()) return 1;
@@ -40,17 +40,19 @@ float cell_width(const std::vector<physics::Traits>& traits, float speculative) 
 }
 
 // Bodies of sizes so rare that a level of the grid is not worth it join the planes in the list of large ones.
-void mark_large(std::vector<physics::Traits>& traits, float cell) {
+void mark_large(std::vector<physics::BodyProperties>& properties, float cell) {
     std::array<std::size_t, physics::LEVELS> population{};
-    const auto level = [&](const physics::Traits& body) { return physics::level_of(width_of(body), 1 / cell); };
-    const auto listed = [](const physics::Traits& body) { return !physics::is_large(body) && body.shape != physics::SHAPE_NONE; };
-    for (const physics::Traits& body : traits)
+    const auto level = [&](const physics::BodyProperties& body) { return physics::level_of(width_of(body), 1 / cell); };
+    const auto listed = [](const physics::BodyProperties& body) {
+        return !physics::is_large(body) && body.shape != physics::SHAPE_NONE;
+    };
+    for (const physics::BodyProperties& body : properties)
         if (listed(body)) ++population[level(body)];
     std::size_t room = most_large;
     for (std::size_t l = population.size(); l-- > 0;) {
         if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
         room -= population[l];
-        for (physics::Traits& body : traits)
+        for (physics::BodyProperties& body : properties)
             if (listed(body) && level(body) == l) body.large = 1;
     }
 }
@@ -70,7 +72,7 @@ physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& s
     p.mass_scale = a2 / (1 + a2);
     p.impulse_scale = 1 / (1 + a2);
     p.push_speed = settings.push_speed;
-    p.inverse_relaxation = 1 / settings.split_relaxation;
+    p.inverse_relaxation = 1 / settings.relaxation;
     p.speculative = settings.speculative_distance;
     p.restitution_threshold = settings.restitution_threshold;
     p.max_speed = settings.max_speed;
@@ -88,23 +90,22 @@ physics::uint sleep_steps_of(const Settings& settings) {
 }
 
 void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size) {
-    std::vector<physics::Traits>& traits = state_.traits;
+    std::vector<physics::BodyProperties>& properties = state_.properties;
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
-    traits.reserve(n + 1);
-    for (std::uint32_t i = 0; i < n; ++i) traits.push_back(traits_of(scene.bodies[i], i));
+    properties.reserve(n + 1);
+    for (std::uint32_t i = 0; i < n; ++i) properties.push_back(properties_of(scene.bodies[i], i));
     for (std::uint32_t i = 0; i < n; ++i) append_parts(scene.bodies[i], i);
-    const auto rows = static_cast<std::uint32_t>(traits.size());
-    const auto moving =
-        static_cast<std::uint32_t>(std::count_if(traits.begin() + n, traits.end(), [](const physics::Traits& part) {
-            return physics::motion_of(part) != physics::MOTION_FIXED;
-        }));
+    const auto rows = static_cast<std::uint32_t>(properties.size());
+    const auto moving = static_cast<std::uint32_t>(
+        std::count_if(properties.begin() + n, properties.end(),
+                      [](const physics::BodyProperties& part) { return physics::motion_of(part) != physics::MOTION_FIXED; }));
 
     state_.parameters.assign(1, tuned({}, scene.gravity, settings));
     physics::Parameters& p = state_.fixed();
-    p.cell = cell_width(traits, p.speculative);
+    p.cell = cell_width(properties, p.speculative);
     p.inverse_cell = 1 / p.cell;
-    mark_large(traits, p.cell);
-    JointTables joined = joint_tables(scene, traits);
+    mark_large(properties, p.cell);
+    JointTables joined = joint_tables(scene, properties);
     state_.joints = std::move(joined.records);
     state_.joint_records = std::move(joined.record_of);
     p.joint_blocks = joined.blocks;
@@ -121,7 +122,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     for (std::uint32_t i = 0; i < n; ++i) {
         state_.poses[i] = start_of(scene.bodies[i]);
         state_.velocities[i] = start_velocity_of(scene.bodies[i]);
-        state_.strains[i] = start_strain_of(scene.bodies[i], traits[i]);
+        state_.strains[i] = start_strain_of(scene.bodies[i], properties[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
     state_.note_content(0, rows);

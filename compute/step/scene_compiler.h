@@ -23,16 +23,17 @@ public:
     void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size);
 
     // shape_records.cpp
-    physics::Traits traits_of(const Body& body, std::uint32_t index);  // its shapes go into the tables of their kinds
+    physics::BodyProperties properties_of(const Body& body,
+                                          std::uint32_t index);  // its shapes go into the tables of their pair_types
     static physics::Pose start_of(const Body& body);
     static physics::Velocity start_velocity_of(const Body& body);
-    static float start_strain_of(const Body& body, const physics::Traits& traits);
-    void append_parts(const Body& body, std::uint32_t owner);  // their traits, behind all others, and where they lie in it
+    static float start_strain_of(const Body& body, const physics::BodyProperties& properties);
+    void append_parts(const Body& body, std::uint32_t owner);  // their properties, behind all others, and where they lie in it
     void place(std::uint32_t part);                            // where its body is
 
 private:
-    physics::Traits form_of(const SimpleShape& shape);
-    physics::Traits form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
+    physics::BodyProperties form_of(const SimpleShape& shape);
+    physics::BodyProperties form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
     physics::uint place_of(const Hull& hull);
     physics::uint place_of(const Fracture& fracture);
     physics::uint place_of(const std::optional<Tyre>& tyre);

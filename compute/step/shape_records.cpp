@@ -21,8 +21,8 @@ namespace scree {
 namespace {
 
 // Shape and size.
-physics::Traits simple_form(const SimpleShape& shape) {
-    physics::Traits made{};
+physics::BodyProperties simple_form(const SimpleShape& shape) {
+    physics::BodyProperties made{};
     made.shape = static_cast<physics::uint>(shape.index());
     made.size = record_size(shape);
     return made;
@@ -75,9 +75,9 @@ vec3 size_of_whole(const Shape& shape) {
     if (const MeshForm* form = mesh_form_of(shape)) return {1e30f, form->reach, 0};
     vec3 size(1e30f, 0, 0);
     for (const Part& part : std::get<Compound>(shape).parts) {
-        const physics::Traits form = simple_form(part.shape);
-        size.x = std::min(size.x, physics::thickness(form));
-        size.y = std::max(size.y, glm::length(part.position) + physics::farthest_of(form));
+        const physics::BodyProperties form = simple_form(part.shape);
+        size.x = std::min(size.x, physics::min_half_width(form));
+        size.y = std::max(size.y, glm::length(part.position) + physics::bounding_radius(form));
     }
     return size;
 }
@@ -93,9 +93,9 @@ physics::Velocity SceneCompiler::start_velocity_of(const Body& body) {
     return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
 }
 // Of a body that breaks by its momentum.
-float SceneCompiler::start_strain_of(const Body& body, const physics::Traits& traits) {
+float SceneCompiler::start_strain_of(const Body& body, const physics::BodyProperties& properties) {
     const bool by_momentum = body.fracture && body.fracture->momentum > 0 && body.piece_of == no_body;
-    return by_momentum ? glm::length(body.velocity) / traits.inverse_mass : 0;
+    return by_momentum ? glm::length(body.velocity) / properties.inverse_mass : 0;
 }
 
 // Where the hull's records begin. Equal hulls made one by one are looked for only while the table is small: a long search for
@@ -113,8 +113,8 @@ physics::uint SceneCompiler::place_of(const Hull& hull) {
     return known->second;
 }
 
-physics::Traits SceneCompiler::form_of(const SimpleShape& shape) {
-    physics::Traits made = simple_form(shape);
+physics::BodyProperties SceneCompiler::form_of(const SimpleShape& shape) {
+    physics::BodyProperties made = simple_form(shape);
     if (const auto* hull = std::get_if<Hull>(&shape)) made.shape_data = place_of(*hull);
     return made;
 }
@@ -143,21 +143,21 @@ physics::uint SceneCompiler::place_of(const std::optional<Tyre>& tyre) {
     return known->second;
 }
 
-physics::Traits SceneCompiler::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
-    physics::Traits made = form_of(shape);
+physics::BodyProperties SceneCompiler::form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre) {
+    physics::BodyProperties made = form_of(shape);
     if (physics::takes_tyre(made.shape)) made.shape_data = place_of(tyre);
     return made;
 }
 
-physics::Traits SceneCompiler::traits_of(const Body& body, std::uint32_t index) {
-    physics::Traits made{};
+physics::BodyProperties SceneCompiler::properties_of(const Body& body, std::uint32_t index) {
+    physics::BodyProperties made{};
     if (const std::optional<SimpleShape> simple = simple_shape(body.shape)) {
         made = form_of(*simple, body.tyre);
     } else {
         made.shape = physics::SHAPE_NONE;
         made.size = size_of_whole(body.shape);
     }
-    made.motion = body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_UNBORN;
+    made.motion = body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_PENDING;
     made.owner = index;
     made.fracture = body.fracture ? place_of(*body.fracture) : physics::NONE;
     made.joints = physics::NONE;
@@ -177,15 +177,15 @@ physics::Traits SceneCompiler::traits_of(const Body& body, std::uint32_t index) 
 }
 
 void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
-    const physics::Traits whole = state_.traits[owner];
-    const auto append = [&](physics::Traits part, vec3 place, vec4 turn) {
+    const physics::BodyProperties whole = state_.properties[owner];
+    const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn) {
         part.motion = whole.motion | physics::MOTION_OF_PART;
         part.owner = owner;
         part.fracture = part.joints = physics::NONE;
         part.friction = whole.friction;
         part.restitution = whole.restitution;
         part.rolling_resistance = whole.rolling_resistance;
-        state_.traits.push_back(part);
+        state_.properties.push_back(part);
         state_.parts.push_back({place, 0, turn});
     };
     if (const auto* compound = std::get_if<Compound>(&body.shape))
@@ -193,7 +193,7 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
     if (const MeshForm* form = mesh_form_of(body.shape)) {
         state_.hulls.reserve(state_.hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
         for (const MeshForm::Triangle& triangle : form->triangles) {
-            physics::Traits part{};
+            physics::BodyProperties part{};
             part.shape = physics::SHAPE_TRIANGLE;
             part.shape_data = static_cast<physics::uint>(state_.hulls.size());
             part.size = triangle.half_extents;
@@ -205,11 +205,11 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
 }
 
 void SceneCompiler::place(std::uint32_t part) {
-    const std::uint32_t owner = state_.traits[part].owner;
+    const std::uint32_t owner = state_.properties[part].owner;
     const physics::PoseInBody& in_body = state_.part_in(part);
     state_.poses[part] = physics::pose_of_part(in_body, state_.poses[owner]);
     state_.velocities[part] = physics::velocity_of_part(in_body, state_.poses[owner], state_.velocities[owner]);
-    state_.rests[part] = 0;
+    state_.sleep_states[part] = 0;
 }
 
 }  // namespace scree

@@ -26,32 +26,32 @@ Access by_atomics(Access access) { return with(access, Manner::by_atomics); }
 Access unordered(Access access) { return with(access, Manner::unordered); }
 Access unfinished(Access access) { return with(access, Manner::unfinished); }
 Access some_only(Access access) { return with(access, Manner::some_only); }
-Access as_long_as(Length length, Access access) { access.as_long_as = length; return access; }
+Access as_long_as(BufferLength length, Access access) { access.as_long_as = length; return access; }
 // clang-format on
 
-// By kind, KIND_*.
-constexpr std::array<const char*, physics::KINDS> kind_names{
+// By pair_type, PAIR_*.
+constexpr std::array<const char*, physics::PAIR_TYPES> pair_type_names{
     "collide_sphere_sphere",   "collide_sphere_capsule",  "collide_sphere_box",    "collide_sphere_plane",
     "collide_capsule_capsule", "collide_capsule_box",     "collide_capsule_plane", "collide_box_box",
     "collide_box_plane",       "collide_plane_convex",    "collide_convex",        "collide_hull_hull",
-    "collide_sphere_triangle", "collide_convex_triangle", "collide_kept",          "collide_still"};
-static_assert(physics::KIND_PLANE_CONVEX == 9 && physics::KIND_HULL_HULL == 11 && physics::KIND_CONVEX_TRIANGLE == 13 &&
-              physics::KIND_KEPT == 14 && physics::KIND_STILL == 15);
+    "collide_sphere_triangle", "collide_convex_triangle", "collide_persistent",    "collide_inactive"};
+static_assert(physics::PAIR_PLANE_CONVEX == 9 && physics::PAIR_HULL_HULL == 11 && physics::PAIR_CONVEX_TRIANGLE == 13 &&
+              physics::PAIR_PERSISTENT == 14 && physics::PAIR_INACTIVE == 15);
 
 // clang-format off
 struct Scan {
     std::string name;
-    Over blocks;
+    DispatchDomain blocks;
     Table from, to;
     Amount items;
     Function spine, offsets;
     bool counts_items = false;  // how many there are is in the table of counts
     bool tells_total = false;   // and so is the total
-    std::optional<Length> length = {};
+    std::optional<BufferLength> length = {};
 };
 void declare_scan(std::vector<StageDeclaration>& all, const Scan& scan) {
     StageDeclaration sums{"scan_" + scan.name + "_sums", scan.blocks, scan_nothing, {{scan.from, scan.items}}, {unfinished({scan_sums, A::blocks})}};
-    StageDeclaration spine{"scan_" + scan.name + "_spine", Over::one_group, scan.spine, {{scan_sums, A::blocks}}, {unfinished({scan_sums, A::blocks})}};
+    StageDeclaration spine{"scan_" + scan.name + "_spine", DispatchDomain::one_group, scan.spine, {{scan_sums, A::blocks}}, {unfinished({scan_sums, A::blocks})}};
     StageDeclaration offsets{"scan_" + scan.name + "_offsets", scan.blocks, scan.offsets, {{scan.from, scan.items}, {scan_sums, A::blocks}}, {{scan.to, scan.items}}};
     offsets.writes[0].as_long_as = scan.length;
     if (scan.counts_items)
@@ -71,170 +71,170 @@ void declare_convex(std::vector<StageDeclaration>& all) {
 }
 
 void declare_broadphase(std::vector<StageDeclaration>& all) {
-    constexpr std::uint32_t features = physics::CONTENT_PARTS | physics::CONTENT_REORDERED | physics::CONTENT_JOINTS;
-    declare_scan(all, {"cells", Over::bucket_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
-    all.push_back({"fill_cells", Over::bodies, fill_cells,
+    constexpr std::uint32_t features = physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS;
+    declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
+    all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
         {{bounds, A::bodies, 1}, {cell_ends, A::bodies}},
         {{cell_ends, A::bodies}, unordered({cell_entries, A::bodies, 1})}});
-    all.push_back({"order_cells", Over::buckets, order_cells,
-        {{cell_ends, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}, {traits}},
-        {as_long_as(Length::entries, {cell_entries, A::bodies})}});
+    all.push_back({"sort_cells", DispatchDomain::buckets, sort_cells,
+        {{cell_ends, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}, {properties}},
+        {as_long_as(BufferLength::entries, {cell_entries, A::bodies})}});
     // The first partners of each body are cached in the memory of the table of pairs (shaders/stages/lib/partner_cache.glsl): few seek again.
-    all.push_back({"count_pairs", Over::bodies, count_pairs,
-        {{counts}, {bounds, A::bodies, 1}, {traits, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
+    all.push_back({"count_pairs", DispatchDomain::bodies, count_pairs,
+        {{counts}, {bounds, A::bodies, 1}, {properties, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
          {first_contacts}, {contacts_before}},
         {{pair_starts, A::bodies}, unfinished({pairs, A::bodies, 2}), {counts}}, features});
-    declare_scan(all, {"pairs", Over::body_blocks, pair_starts, pair_starts, A::bodies, scan_pairs_spine, scan_pairs_offsets, false, true});
-    all.push_back({"fill_pairs", Over::bodies, fill_pairs,
-        {{counts}, {pair_starts, A::bodies}, {pairs, A::bodies, 2}, {bounds}, {traits}, {cell_ends}, {cell_entries}, {poses}, {ids}, {joints},
+    declare_scan(all, {"pairs", DispatchDomain::body_scan_blocks, pair_starts, pair_starts, A::bodies, scan_pairs_spine, scan_pairs_offsets, false, true});
+    all.push_back({"fill_pairs", DispatchDomain::bodies, fill_pairs,
+        {{counts}, {pair_starts, A::bodies}, {pairs, A::bodies, 2}, {bounds}, {properties}, {cell_ends}, {cell_entries}, {poses}, {ids}, {joints},
          {first_contacts}, {contacts_before}},
         {unfinished({candidates, A::pairs})}, features});
-    all.push_back({"match_pairs", Over::pairs, match_pairs,
-        {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {traits, A::bodies},
+    all.push_back({"match_pairs", DispatchDomain::pairs, match_pairs,
+        {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {properties, A::bodies},
          {poses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {ids}},
-        {{pairs, A::pairs}}, physics::CONTENT_REORDERED});
+        {{pairs, A::pairs}}, physics::FEATURE_REORDERED});
 }
 
 void declare_narrowphase(std::vector<StageDeclaration>& all) {
-    all.push_back({"count_kinds", Over::spans, count_kinds,
+    all.push_back({"count_pair_types", DispatchDomain::pair_blocks, count_pair_types,
         {{counts}, {pairs, A::pairs}},
-        {as_long_as(Length::kinds, {kind_starts, A::kinds})}});
-    declare_scan(all, {"kinds", Over::kind_blocks, kind_starts, kind_starts, A::kinds, scan_nothing, scan_kinds_offsets, true, false, Length::kinds});
-    all.push_back({"fill_kinds", Over::spans, fill_kinds,
-        {{counts}, {pairs, A::pairs}, {kind_starts, A::kinds}},
-        {{pairs_by_kind, A::pairs}, {counts}}});
-    for (std::uint32_t kind = 0; kind < physics::KIND_KEPT; ++kind) {
-        all.push_back({kind_names[kind], Over::kind, collide,
-            {{counts}, {pairs_by_kind, A::binned}, {pairs, A::binned}, {traits, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
-            {in_parts({manifolds, A::binned}), in_parts({touching, A::binned})}});
-        if (kind >= physics::KIND_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
+        {as_long_as(BufferLength::pair_types, {pair_type_starts, A::pair_types})}});
+    declare_scan(all, {"pair_types", DispatchDomain::pair_type_scan_blocks, pair_type_starts, pair_type_starts, A::pair_types, scan_nothing, scan_pair_types_offsets, true, false, BufferLength::pair_types});
+    all.push_back({"fill_pair_types", DispatchDomain::pair_blocks, fill_pair_types,
+        {{counts}, {pairs, A::pairs}, {pair_type_starts, A::pair_types}},
+        {{pairs_by_type, A::pairs}, {counts}}});
+    for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_PERSISTENT; ++pair_type) {
+        all.push_back({pair_type_names[pair_type], DispatchDomain::pair_type, collide,
+            {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {properties, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
+            {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
+        if (pair_type >= physics::PAIR_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
     }
-    all.push_back({kind_names[physics::KIND_KEPT], Over::kind, collide_kept,
-        {{counts}, {pairs_by_kind, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}, {traits}},
-        {in_parts({manifolds, A::binned}), in_parts({touching, A::binned})}});
-    all.push_back({kind_names[physics::KIND_STILL], Over::kind, collide_still,
-        {{counts}, {pairs_by_kind, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
-        {in_parts({manifolds, A::binned}), in_parts({touching, A::binned})}});
+    all.push_back({pair_type_names[physics::PAIR_PERSISTENT], DispatchDomain::pair_type, collide_persistent,
+        {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}, {properties}},
+        {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
+    all.push_back({pair_type_names[physics::PAIR_INACTIVE], DispatchDomain::pair_type, collide_inactive,
+        {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
+        {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
     // Few pairs are fast: most are looked at no further.
-    all.push_back({"foresee_impacts", Over::flights, foresee_impacts,
-        {{counts}, {touching, A::flights}, {pairs, A::flights}, {traits, A::flight_bodies}, {velocities, A::flight_bodies}, {poses}, {loads}, {manifolds}},
-        {{touching}, {bounds}}});
+    all.push_back({"predict_impacts", DispatchDomain::ccd_pairs, predict_impacts,
+        {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifolds}},
+        {{point_counts}, {bounds}}});
     declare_convex(all);
-    all.push_back({"drop_passers", Over::flights, drop_passers,
-        {{counts}, {touching, A::flights}, {pairs}, {traits}, {bounds}},
-        {{touching}}});
+    all.push_back({"cull_speculative", DispatchDomain::ccd_pairs, cull_speculative,
+        {{counts}, {point_counts, A::ccd_pairs}, {pairs}, {properties}, {bounds}},
+        {{point_counts}}});
 }
 
 void declare_contacts(std::vector<StageDeclaration>& all) {
-    declare_scan(all, {"contacts", Over::pair_blocks, touching, contact_starts, A::pairs, scan_contacts_spine, scan_contacts_offsets, true, true});
-    all.push_back({"list_contacts", Over::pairs, list_contacts,
-        {{counts}, {touching, A::pairs}, {contact_starts, A::pairs}, {pairs}, {pair_starts}, {ids}},
-        {unfinished({constraints, A::contacts, 1})}, physics::CONTENT_REORDERED});
+    declare_scan(all, {"contacts", DispatchDomain::pair_scan_blocks, point_counts, contact_starts, A::pairs, scan_contacts_spine, scan_contacts_offsets, true, true});
+    all.push_back({"compact_contacts", DispatchDomain::pairs, compact_contacts,
+        {{counts}, {point_counts, A::pairs}, {contact_starts, A::pairs}, {pairs}, {pair_starts}, {ids}},
+        {unfinished({constraints, A::contacts, 1})}, physics::FEATURE_REORDERED});
     // Those who wake others read of a rest what waking does not change, and of the counts what they do not write.
-    all.push_back({"wake_touched", Over::contacts, wake_touched,
-        {in_parts({counts}), {constraints, A::stirred, 1}, {pairs, A::stirred}, {manifolds, A::stirred}, {touching}, {traits}, {poses, A::stirred_bodies},
-         {velocities, A::stirred_bodies}, by_atomics({rests, A::stirred_bodies}), {contacts_before}, {impulses_before}},
-        {by_atomics({rests}), in_parts({counts})}});
-    all.push_back({"wake_deserted", Over::bodies, wake_deserted,
+    all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
+        {in_parts({counts}), {constraints, A::stirred, 1}, {pairs, A::stirred}, {manifolds, A::stirred}, {point_counts}, {properties}, {poses, A::stirred_bodies},
+         {velocities, A::stirred_bodies}, by_atomics({sleep_states, A::stirred_bodies}), {contacts_before}, {impulses_before}},
+        {by_atomics({sleep_states}), in_parts({counts})}});
+    all.push_back({"wake_unsupported", DispatchDomain::bodies, wake_unsupported,
         {in_parts({counts}), {bounds, A::stirred_bodies, 1}, {first_contacts, A::stirred_bodies}, {contacts_before, A::stirred, 1}, {pairs},
-         {pair_starts}, {touching}, {traits}, {ids}, by_atomics({rests})},
-        {by_atomics({rests})}, physics::CONTENT_REORDERED});
-    all.push_back({"wake_joined", Over::joint_blocks, wake_joined,
-        {{counts}, {joints, A::joints, 2}, {rests, A::joints}, {traits}, {velocities}},
-        {{joints}, {rests}}});
-    all.push_back({"shake_sleepers", Over::shaken, shake_sleepers,
-        {{counts}, {constraints, A::stirred, 1}, {pairs, A::stirred}, {traits}, {rests, A::stirred_bodies}},
-        {{rests}}});
-    all.push_back({"count_slots", Over::contacts, count_slots,
-        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {traits, A::bodies, 1}, {rests, A::bodies}, by_atomics({slot_ends, A::bodies})},
+         {pair_starts}, {point_counts}, {properties}, {ids}, by_atomics({sleep_states})},
+        {by_atomics({sleep_states})}, physics::FEATURE_REORDERED});
+    all.push_back({"wake_joined", DispatchDomain::joint_blocks, wake_joined,
+        {{counts}, {joints, A::joints, 2}, {sleep_states, A::joints}, {properties}, {velocities}},
+        {{joints}, {sleep_states}}});
+    all.push_back({"propagate_wake", DispatchDomain::wake_contacts, propagate_wake,
+        {{counts}, {constraints, A::stirred, 1}, {pairs, A::stirred}, {properties}, {sleep_states, A::stirred_bodies}},
+        {{sleep_states}}});
+    all.push_back({"count_slots", DispatchDomain::contacts, count_slots,
+        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
         {by_atomics({slot_ends, A::bodies})}});
-    all.push_back({"count_joint_slots", Over::joint_blocks, count_joint_slots,
-        {{counts}, {joints, A::joints, 2}, {traits}, {rests, A::joints}},
+    all.push_back({"count_joint_slots", DispatchDomain::joint_blocks, count_joint_slots,
+        {{counts}, {joints, A::joints, 2}, {properties}, {sleep_states, A::joints}},
         {{joints, A::joints, 1}, by_atomics({slot_ends, A::joints})}});
-    declare_scan(all, {"slots", Over::body_blocks, slot_ends, slot_ends, A::bodies, scan_nothing, scan_slots_offsets});
-    all.push_back({"fill_slots", Over::contacts, fill_slots,
-        {in_parts({counts}), {constraints, A::contacts, 1}, {pairs, A::contacts}, {traits, A::bodies, 1}, {rests, A::bodies}, by_atomics({slot_ends, A::bodies})},
-        {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({solved_contacts, A::solved}), in_parts({counts})}});
-    all.push_back({"fill_joint_slots", Over::joint_blocks, fill_joint_slots,
-        {in_parts({counts}), {joints, A::joints, 2}, {traits}, {rests, A::joints}, by_atomics({slot_ends, A::joints})},
+    declare_scan(all, {"slots", DispatchDomain::body_scan_blocks, slot_ends, slot_ends, A::bodies, scan_nothing, scan_slots_offsets});
+    all.push_back({"fill_slots", DispatchDomain::contacts, fill_slots,
+        {in_parts({counts}), {constraints, A::contacts, 1}, {pairs, A::contacts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
+        {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({contacts_to_solve, A::solver_contacts}), in_parts({counts})}});
+    all.push_back({"fill_joint_slots", DispatchDomain::joint_blocks, fill_joint_slots,
+        {in_parts({counts}), {joints, A::joints, 2}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
-    all.push_back({"order_slots", Over::bodies, order_slots,
+    all.push_back({"sort_slots", DispatchDomain::bodies, sort_slots,
         {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints}},
-        {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {joints}}, physics::CONTENT_REORDERED});
-    all.push_back({"prepare_contacts", Over::contacts, prepare_contacts,
-        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {touching, A::contacts}, {traits, A::bodies}, {tyres},
+        {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {joints}}, physics::FEATURE_REORDERED});
+    all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
+        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres},
          {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}},
         {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}});
 }
 
 // Contacts and joints have slots of their own. Before the bias is out, joints read those that contacts have just written.
 void declare_solver(std::vector<StageDeclaration>& all) {
-    constexpr std::uint32_t features = physics::CONTENT_BOUNCES | physics::CONTENT_ROLLS | physics::CONTENT_ROUND | physics::CONTENT_TYRES;
-    all.push_back({"prepare_joints", Over::joint_blocks, prepare_joints,
+    constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES;
+    all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, in_parts({slots})},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
-    all.push_back({"begin_substep", Over::bodies, begin_substep,
-        {{counts}, {rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {loads, A::movers}, {masses, A::movers, 1}},
+    all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}},
         {{velocities, A::movers}, {masses, A::movers, 1}}});
-    all.push_back({"solve_contacts", Over::solved, solve_contacts,
-        {{counts}, {solved_contacts, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {masses, A::movers}, {velocities, A::movers}, {loads}},
-        {{impulses, A::solved}, in_parts({slots, A::slots})}, features});
-    all.push_back({"solve_joints", Over::joint_blocks, solve_joints,
+    all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}},
+        {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
+    all.push_back({"solve_joints", DispatchDomain::joint_blocks, solve_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
-    all.push_back({"move_bodies", Over::bodies, move_bodies,
-        {{counts}, {rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
-        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {loads, A::movers, 1}}});
-    all.push_back({"relax_contacts", Over::solved, relax_contacts,
-        {{counts}, {solved_contacts, A::solved}, {constraints, A::solved}, {impulses, A::solved}, {carried, A::breakable}, {masses, A::movers}, {loads, A::movers},
-         {velocities, A::movers}, {traits}, {rests}},
-        {{impulses, A::solved}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::CONTENT_BREAKING});
-    all.push_back({"relax_joints", Over::joint_blocks, relax_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {loads, A::joints}, {slot_ends}, in_parts({slots}), {traits}, {rests}},
+    all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
+        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}}});
+    all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
+         {velocities, A::movers}, {properties}, {sleep_states}},
+        {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_BREAKING});
+    all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
+        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, in_parts({slots}), {properties}, {sleep_states}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
-    all.push_back({"end_step", Over::bodies, end_step,
-        {{counts}, {rests, A::bodies}, {traits, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
-        {{velocities, A::movers}, {rests, A::movers}, {bounds}, {counts}}});
+    all.push_back({"end_step", DispatchDomain::bodies, end_step,
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
+        {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}}});
 }
 
 std::vector<StageDeclaration> declare() {
     std::vector<StageDeclaration> all;
-    all.push_back({"begin_step", Over::buckets, begin_step,
-        {{counts}, {traits, A::bodies, 1}},
-        {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {loads, A::bodies}, some_only({rests}), {counts}}});
-    all.push_back({"apply_actions", Over::actions, apply_actions,
-        {{counts}, {actions, A::actions}, {traits, A::actions}, {poses, A::actions}, {velocities, A::actions}, {loads, A::actions}},
-        {{velocities, A::actions}, some_only({rests, A::actions}), {loads, A::actions}}});
-    all.push_back({"drive_vehicles", Over::vehicles, drive_vehicles,
-        {{counts}, {vehicles, A::vehicles}, {traits}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {way_points}},
-        {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({rests, A::joints})}});
-    all.push_back({"place_parts", Over::bodies, place_parts,
-        {{counts}, {traits, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}},
+    all.push_back({"begin_step", DispatchDomain::buckets, begin_step,
+        {{counts}, {properties, A::bodies, 1}},
+        {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {counts}}});
+    all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
+        {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {forces, A::actions}},
+        {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
+    all.push_back({"drive_vehicles", DispatchDomain::vehicles, drive_vehicles,
+        {{counts}, {vehicles, A::vehicles}, {properties}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {way_points}},
+        {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({sleep_states, A::joints})}});
+    all.push_back({"pose_parts", DispatchDomain::bodies, pose_parts,
+        {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}},
         {{poses, A::bodies}, {velocities, A::bodies}}});
-    all.push_back({"bound_bodies", Over::bodies, bound_bodies,
-        {{counts}, {traits, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {loads, A::bodies}, {masses, A::bodies, 1}, {rests, A::bodies}, {cell_ends, A::bodies}},
+    all.push_back({"compute_bounds", DispatchDomain::bodies, compute_bounds,
+        {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {forces, A::bodies}, {masses, A::bodies, 1}, {sleep_states, A::bodies}, {cell_ends, A::bodies}},
         {{bounds, A::bodies}, {masses, A::bodies}, {cell_ends, A::bodies}, {counts}}});
     declare_broadphase(all);
     declare_narrowphase(all);
     declare_contacts(all);
     declare_solver(all);
-    all.push_back({"find_impacts", Over::flights, find_impacts,
-        {{counts}, {pairs, A::flights}, {bounds, A::flight_bodies, 1}, {traits}, {parts}, {poses}, {touching}},
+    all.push_back({"find_impacts", DispatchDomain::ccd_pairs, find_impacts,
+        {{counts}, {pairs, A::ccd_pairs}, {bounds, A::ccd_bodies, 1}, {properties}, {parts}, {poses}, {point_counts}},
         {{bounds}}});
     declare_convex(all);
-    all.push_back({"stop_bodies", Over::bodies, stop_bodies,
-        {{counts}, {bounds, A::flight_bodies, 1}, {traits}, {poses}, {velocities}, {loads}},
+    all.push_back({"clamp_to_impact", DispatchDomain::bodies, clamp_to_impact,
+        {{counts}, {bounds, A::ccd_bodies, 1}, {properties}, {poses}, {velocities}, {forces}},
         {{poses}, {velocities}}});
-    all.push_back({"find_broken", Over::bodies, find_broken,
-        {{counts}, {traits, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solved}, {velocities}, {fractures}, {strains}},
-        {some_only({strains, A::movers}), {loads}, {counts}}});
-    all.push_back({"give_back", Over::bodies, give_back,
-        {{counts}, {traits, A::bodies, 1}, {rests, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solved}, {impulses}, {masses},
-         {loads, A::bodies, 1}, {carried, A::solved}, {velocities, A::movers}},
+    all.push_back({"find_broken", DispatchDomain::bodies, find_broken,
+        {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solver_contacts}, {velocities}, {fractures}, {strains}},
+        {some_only({strains, A::movers}), {forces}, {counts}}});
+    all.push_back({"return_excess_impulse", DispatchDomain::bodies, return_excess_impulse,
+        {{counts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solver_contacts}, {impulses}, {masses},
+         {forces, A::bodies, 1}, {carried, A::solver_contacts}, {velocities, A::movers}},
         {{velocities, A::movers}}});
-    all.push_back({"break_bodies", Over::bodies, break_bodies,
-        {{counts}, {loads, A::bodies, 1}, {traits}, {poses}, {velocities}, {fractures}, {pieces}},
-        {{traits}, some_only({strains}), {poses}, {velocities}, {rests}}});
+    all.push_back({"break_bodies", DispatchDomain::bodies, break_bodies,
+        {{counts}, {forces, A::bodies, 1}, {properties}, {poses}, {velocities}, {fractures}, {pieces}},
+        {{properties}, some_only({strains}), {poses}, {velocities}, {sleep_states}}});
     return all;
 }
 // clang-format on
@@ -254,14 +254,14 @@ bool clash(const std::vector<Access>& some, const std::vector<Access>& others) {
 
 std::vector<Access> all_reads(const StageDeclaration& stage) {
     std::vector<Access> reads = stage.reads;
-    if (is_indirect(stage.over)) reads.push_back({counts});
+    if (is_indirect(stage.domain)) reads.push_back({counts});
     return reads;
 }
 
 }  // namespace
 
-bool is_indirect(Over over) {
-    return over >= Over::pairs;
+bool is_indirect(DispatchDomain domain) {
+    return domain >= DispatchDomain::pairs;
 }
 
 const std::vector<StageDeclaration>& stage_declarations() {
@@ -280,8 +280,8 @@ const StageDeclaration& stage_declaration(const std::string& name) {
     return *found->second;
 }
 
-const char* name_of_kind(std::uint32_t kind) {
-    return kind_names.at(kind);
+const char* name_of_pair_type(std::uint32_t pair_type) {
+    return pair_type_names.at(pair_type);
 }
 
 bool conflict(const StageDeclaration& before, const StageDeclaration& after) {

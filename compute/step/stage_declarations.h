@@ -17,26 +17,26 @@ namespace scree {
 
 // What a stage runs over, one thread an item. From pairs to flights the device alone knows how many there are: these are indirect
 // dispatches, which read the table of counts.
-enum class Over {
+enum class DispatchDomain {
     one_group,
     actions,
     bodies,
     buckets,
-    body_blocks,
-    bucket_blocks,
+    body_scan_blocks,
+    bucket_scan_blocks,
     joint_blocks,
     vehicles,
     pairs,
-    spans,
-    kind_blocks,
     pair_blocks,
+    pair_type_scan_blocks,
+    pair_scan_blocks,
     contacts,
-    shaken,
-    solved,
-    kind,
-    flights
+    wake_contacts,
+    solver_contacts,
+    pair_type,
+    ccd_pairs
 };
-bool is_indirect(Over over);
+bool is_indirect(DispatchDomain domain);
 
 // How many records of a table a stage touches: what memory traffic adds up (compute/step/memory_traffic.h).
 enum class Amount {
@@ -46,19 +46,19 @@ enum class Amount {
     movers,  // bodies that are dynamic and awake
     buckets,
     blocks,
-    kinds,
+    pair_types,
     pairs,
     contacts,
-    solved,
-    breakable,  // solved, if some body may break, else none
+    solver_contacts,
+    breakable,  // solver_contacts, if some body may break, else none
     slots,
-    binned,         // pairs of the stage's kind
+    binned,         // pairs of the stage's pair_type
     binned_bodies,  // their bodies, at most all
     binned_hulls,   // records of their hulls, each once
     joints,
     vehicles,
-    flights,         // pairs if some body is fast, else none
-    flight_bodies,   // their bodies
+    ccd_pairs,       // pairs if some body is fast, else none
+    ccd_bodies,      // their bodies
     stirred,         // contacts if some body sleeps, else none
     stirred_bodies,  // bodies if some sleeps, else none
 };
@@ -78,22 +78,22 @@ struct Access {
     Amount amount = Amount::few;
     int lines = 0;  // of the record that hold the fields in question; 0: the whole record
     Manner manner = Manner::alone;
-    std::optional<Length> as_long_as = {};  // what is written, if it is not what the table ends up with
+    std::optional<BufferLength> as_long_as = {};  // what is written, if it is not what the table ends up with
 };
 
 struct StageDeclaration {
     std::string name;  // of the shader, and of the time measured
-    Over over = Over::one_group;
+    DispatchDomain domain = DispatchDomain::one_group;
     void (*reference)(State&, const Threads&, std::uint32_t pass) = nullptr;  // none for one that is several in turn
     std::vector<Access> reads, writes;                                        // all but the parameters, which nobody writes
-    std::uint32_t features = 0;  // the CONTENT_* that its shader tells apart (shaders/stages/lib/features.glsl)
+    std::uint32_t tested_features = 0;  // the FEATURE_* that its shader tells apart (shaders/stages/lib/features.glsl)
 };
 
 const std::vector<StageDeclaration>& stage_declarations();
 // Throws std::logic_error for a name that is not declared.
 const StageDeclaration& stage_declaration(const std::string& name);
-// Of the stage for pairs of a kind (KIND_*).
-const char* name_of_kind(std::uint32_t kind);
+// Of the stage for pairs of a pair_type (PAIR_*).
+const char* name_of_pair_type(std::uint32_t pair_type);
 
 // Whether what one stage does is not sure to be right if the other runs at the same time.
 bool conflict(const StageDeclaration& before, const StageDeclaration& after);

@@ -57,9 +57,9 @@ const std::vector<Run>& runs() {
     static const std::vector<Run> all = {
         {"scan_cells", scan("cells")},
         {"scan_pairs", scan("pairs")},
-        {"bin_pairs", joined(joined({"count_kinds"}, scan("kinds")), {"fill_kinds"})},
+        {"bin_pairs", joined(joined({"count_pair_types"}, scan("pair_types")), {"fill_pair_types"})},
         {"scan_contacts", scan("contacts")},
-        {"list_slots", joined(joined({"count_slots"}, scan("slots")), {"fill_slots", "order_slots"})},
+        {"list_slots", joined(joined({"count_slots"}, scan("slots")), {"fill_slots", "sort_slots"})},
         {"scan_slots", scan("slots")},
         {"substeps", {"begin_substep", "solve_contacts", "move_bodies", "relax_contacts"}},
     };
@@ -91,8 +91,8 @@ Stage in_one(const Run& run, const std::vector<Stage>& plan, std::size_t first) 
         const Stage& part = plan[first + k];
         for (const Access& access : part.reads) all.reads.push_back({access.table});
         for (const Access& access : part.writes) all.writes.push_back({access.table});
+        all.tested_features |= part.tested_features;
         all.features |= part.features;
-        all.content |= part.content;
     }
     return all;
 }
@@ -127,12 +127,12 @@ std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std:
     for (std::uint32_t b = 0; b < blocks; ++b) {
         const physics::Joint& first = records[records[b].first_of_block];
         const auto block = records.subspan(records[b].first_of_block, first.block_joints);
-        members = std::max(members, first.block_members);
+        members = std::max(members, first.block_bodies);
         from_first.resize(std::max(from_first.size(), block.size()));
         from_last.resize(from_first.size());
         for (std::size_t j = 0; j < block.size(); ++j) {
-            from_first[j] = std::max(from_first[j], block[j].links);
-            from_last[j] = std::max(from_last[j], block[block.size() - 1 - j].links);
+            from_first[j] = std::max(from_first[j], block[j].fill_in);
+            from_last[j] = std::max(from_last[j], block[block.size() - 1 - j].fill_in);
         }
     }
     const auto joints = static_cast<std::uint32_t>(from_first.size());
@@ -144,7 +144,8 @@ std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std:
 }
 
 std::vector<Stage> dispatches_of(const Stage& stage, std::uint32_t joint_rounds) {
-    if (stage.over != Over::joint_blocks || (stage.name != "solve_joints" && stage.name != "relax_joints")) return {stage};
+    if (stage.domain != DispatchDomain::joint_blocks || (stage.name != "solve_joints" && stage.name != "relax_joints"))
+        return {stage};
     std::vector<Stage> dispatches;
     for (std::uint32_t done = 0; done < physics::JOINT_ROUNDS; done += joint_rounds) {
         dispatches.push_back(stage);

@@ -26,91 +26,91 @@ std::uint32_t State::buckets_for(std::uint32_t bodies) {
 
 const std::array<TableInfo, table_count>& table_infos() {
     static const std::array<TableInfo, table_count> infos{{
-#define SCREE_INFO(buffer, name, block, record, length) {#name, sizeof(physics::records::name), Length::length, buffer},
+#define SCREE_INFO(buffer, name, block, record, length) {#name, sizeof(physics::records::name), BufferLength::length, buffer},
         SCREE_TABLES(SCREE_INFO)
 #undef SCREE_INFO
     }};
     return infos;
 }
 
-std::size_t State::allocated(Length length) const {
+std::size_t State::allocated(BufferLength length) const {
     const physics::Parameters& p = parameters[0];
-    const std::size_t spans = physics::spans_of(p.pair_capacity);
-    const std::size_t kinds = physics::KINDS * spans + 1;
+    const std::size_t pair_blocks = physics::pair_blocks_of(p.pair_capacity);
+    const std::size_t pair_types = physics::PAIR_TYPES * pair_blocks + 1;
     const std::size_t block = std::size_t{p.group_size} << physics::SCAN_SHIFT;
     switch (length) {
-        case Length::one:
+        case BufferLength::one:
             return 1;
-        case Length::bodies:
-        case Length::entries:  // of bodies that are there
+        case BufferLength::bodies:
+        case BufferLength::entries:  // of bodies that are there
             return std::max(1u, p.bodies);
-        case Length::bodies_and_end:
+        case BufferLength::bodies_and_end:
             return p.bodies + 1;
-        case Length::buckets:
+        case BufferLength::buckets:
             return p.buckets + 2;
-        case Length::pairs:
+        case BufferLength::pairs:
             return p.pair_capacity;
-        case Length::pairs_and_end:
+        case BufferLength::pairs_and_end:
             return std::size_t{p.pair_capacity} + 1;
-        case Length::kinds:
-            return kinds;
-        case Length::candidates:
+        case BufferLength::pair_types:
+            return pair_types;
+        case BufferLength::candidates:
             return p.pair_capacity;
-        case Length::scan_blocks:  // of the longest list that is scanned
-            return std::max({kinds, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2;
-        case Length::contacts:
+        case BufferLength::scan_blocks:  // of the longest list that is scanned
+            return std::max({pair_types, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2;
+        case BufferLength::contacts:
             return p.contact_capacity;
-        case Length::slots:
+        case BufferLength::slots:
             return 2 * std::size_t{p.contact_capacity} + joints.size();
-        case Length::joints:
+        case BufferLength::joints:
             return std::max<std::size_t>(1, joints.size());
-        case Length::vehicles:
+        case BufferLength::vehicles:
             return std::max<std::size_t>(1, vehicles.size());
-        case Length::hulls:
+        case BufferLength::hulls:
             return std::max<std::size_t>(1, hulls.size());
-        case Length::parts:
+        case BufferLength::parts:
             return parts.size();
-        case Length::fractures:
+        case BufferLength::fractures:
             return fractures.size();
-        case Length::pieces:
+        case BufferLength::pieces:
             return pieces.size();
-        case Length::tyres:
+        case BufferLength::tyres:
             return tyres.size();
-        case Length::way_points:
+        case BufferLength::way_points:
             return way_points.size();
-        case Length::actions:
+        case BufferLength::actions:
             return action_room;
     }
     return 0;
 }
 
-std::size_t State::live(Length length) const {
+std::size_t State::live(BufferLength length) const {
     const physics::Counts& c = counts[0];
     switch (length) {
-        case Length::bodies:
+        case BufferLength::bodies:
             return fixed().bodies;
-        case Length::entries:
+        case BufferLength::entries:
             return cell_ends[fixed().buckets];
-        case Length::pairs:
+        case BufferLength::pairs:
             return c.pairs;
-        case Length::pairs_and_end:
+        case BufferLength::pairs_and_end:
             return c.pairs + 1;
-        case Length::kinds:
-            return physics::KINDS * physics::spans_of(c.pairs);
-        case Length::contacts:
+        case BufferLength::pair_types:
+            return physics::PAIR_TYPES * physics::pair_blocks_of(c.pairs);
+        case BufferLength::contacts:
             return c.contacts;
-        case Length::slots:
+        case BufferLength::slots:
             return fixed().bodies ? slot_ends[fixed().bodies - 1] : 0;
-        case Length::candidates:  // dead when the pairs are in order
-        case Length::scan_blocks:
+        case BufferLength::candidates:  // dead when the pairs are in order
+        case BufferLength::scan_blocks:
             return 0;
         default:
             return allocated(length);
     }
 }
 
-Content State::content() const {
-    Content found = row_content_;
+SceneFeatures State::features() const {
+    SceneFeatures found = row_content_;
     found.joints = has_joints();
     found.vehicles = fixed().vehicles != 0;
     found.reordered = reordered();
@@ -119,8 +119,8 @@ Content State::content() const {
 }
 
 void State::note_content(std::uint32_t first_row, std::uint32_t count) {
-    Content& found = row_content_;
-    for (const physics::Traits& row : std::span(traits).subspan(first_row, count)) {
+    SceneFeatures& found = row_content_;
+    for (const physics::BodyProperties& row : std::span(properties).subspan(first_row, count)) {
         found.breaking |= row.fracture != physics::NONE;
         found.bounces |= row.restitution > 0;
         found.rolls |= row.rolling_resistance > 0;
@@ -137,7 +137,7 @@ void State::make(Table table) {
     switch (table) {
 #define SCREE_RESIZE(buffer, name, block, record, length) \
     case Table::name:                                     \
-        name.resize(allocated(Length::length));           \
+        name.resize(allocated(BufferLength::length));     \
         break;
         SCREE_TABLES(SCREE_RESIZE)
 #undef SCREE_RESIZE
@@ -148,7 +148,7 @@ void State::allocate() {
     const std::size_t numbered = ids.size();  // rows
     using enum Table;
     for (const Table table :
-         {parameters, counts, traits, poses, velocities, rests, strains, actions, hulls, joints, vehicles, ids})
+         {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints, vehicles, ids})
         make(table);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)

@@ -21,7 +21,7 @@ namespace scree {
 class Threads;  // compute/step/threads.h
 
 // What tables are as long as.
-enum class Length {
+enum class BufferLength {
     one,
     bodies,
     entries,
@@ -29,7 +29,7 @@ enum class Length {
     buckets,
     pairs,
     pairs_and_end,
-    kinds,
+    pair_types,
     candidates,
     scan_blocks,
     contacts,
@@ -61,7 +61,7 @@ SCREE_TABLES(SCREE_RECORD)
 struct TableInfo {
     const char* name;
     std::size_t record_bytes;
-    Length length;
+    BufferLength length;
     std::size_t buffer;  // of a device, that holds it
 };
 #define SCREE_COUNT(buffer, name, block, record, length) +1
@@ -70,7 +70,7 @@ inline constexpr std::size_t table_count = 0 SCREE_TABLES(SCREE_COUNT);
 const std::array<TableInfo, table_count>& table_infos();  // by Table
 
 // What of the stages a scene needs.
-struct Content {
+struct SceneFeatures {
     bool convex = false;        // some body is a cylinder, cone or hull
     bool hulls = false;         // some body is a hull
     bool triangles = false;     // there are meshes or height fields
@@ -83,7 +83,7 @@ struct Content {
     bool round = false;      // there are spheres or capsules
     bool tyres = false;      // with a vehicle or without
     bool reordered = false;  // rows are in another order than ids
-    static Content everything() {
+    static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
                 .triangles = true,
@@ -97,9 +97,9 @@ struct Content {
                 .tyres = true,
                 .reordered = true};
     }
-    bool operator==(const Content&) const = default;
+    bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(Content) == 12 * sizeof(bool));  // as many as everything() names
+static_assert(sizeof(SceneFeatures) == 12 * sizeof(bool));  // as many as everything() names
 
 // Where the tables hold what several bodies share.
 struct ShapePlaces {
@@ -148,9 +148,9 @@ struct State {
     }
 
     // Items of a table as allocated, and those that mean something at present.
-    std::size_t allocated(Length length) const;
-    std::size_t live(Length length) const;
-    Content content() const;
+    std::size_t allocated(BufferLength length) const;
+    std::size_t live(BufferLength length) const;
+    SceneFeatures features() const;
     bool has_joints() const;
     // Whether some body may break.
     bool has_fractures() const {
@@ -158,7 +158,7 @@ struct State {
     }
     // The body that a row of the bodies' tables belongs to: rows behind all bodies are parts of them.
     std::uint32_t body_of(std::uint32_t row) const {
-        return row < fixed().first_part ? row : traits[row].owner;
+        return row < fixed().first_part ? row : properties[row].owner;
     }
     // Where such a row lies in its body.
     const physics::PoseInBody& part_in(std::size_t row) const {
@@ -212,7 +212,7 @@ struct State {
 private:
     void number_rows();
     std::vector<std::uint32_t> rows_;  // by id; empty: every body is in the row of its id
-    Content row_content_;
+    SceneFeatures row_content_;
     bool all_ = true;
 };
 

@@ -17,7 +17,7 @@ physics::Impulse scaled(physics::Impulse impulse, float factor) {
     impulse.friction *= factor;
     impulse.twist *= factor;
     impulse.rolling *= factor;
-    impulse.pressed *= factor;
+    impulse.normal_sum *= factor;
     return impulse;
 }
 
@@ -58,9 +58,9 @@ TableRanges shapes_added(const State& state, const ShapeLengths& before) {
 }
 
 // A row before those of parts that no body is in yet.
-physics::Traits spare_row(std::uint32_t row) {
-    physics::Traits spare{};
-    spare.motion = physics::MOTION_UNBORN;
+physics::BodyProperties spare_row(std::uint32_t row) {
+    physics::BodyProperties spare{};
+    spare.motion = physics::MOTION_PENDING;
     spare.shape = physics::SHAPE_NONE;
     spare.owner = row;
     spare.fracture = spare.joints = physics::NONE;
@@ -71,7 +71,7 @@ physics::Traits spare_row(std::uint32_t row) {
 
 TableRanges StateEditor::needed_to_tune(const Settings& settings) const {
     if (settings.substeps == state_.substeps) return {};
-    const std::size_t contacts = state_.live(Length::contacts);
+    const std::size_t contacts = state_.live(BufferLength::contacts);
     TableRanges needed = joint_ranges(state_);
     append(needed, {{Table::contacts, 0, contacts}, {Table::impulses, 0, contacts}});
     return needed;
@@ -92,8 +92,8 @@ TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
     }
     for (physics::Joint& joint : state_.joints)
         for (physics::JointRow& row : joint.rows) {
-            row.drive *= factor;
-            row.stop *= factor;
+            row.motor_impulse *= factor;
+            row.limit_impulse *= factor;
         }
     return changed;
 }
@@ -108,8 +108,9 @@ TableRanges StateEditor::needed_to_add() const {
     if (has_room_for_a_body()) return {};
     const physics::Parameters& p = state_.fixed();
     const std::size_t parts = p.bodies - p.first_part;
-    TableRanges needed{{Table::first_contacts, p.first_part, parts + 1}, {Table::contacts, 0, state_.live(Length::contacts)}};
-    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::masses})
+    TableRanges needed{{Table::first_contacts, p.first_part, parts + 1},
+                       {Table::contacts, 0, state_.live(BufferLength::contacts)}};
+    for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::masses})
         needed.push_back({table, p.first_part, parts});
     return needed;
 }
@@ -119,17 +120,17 @@ TableRanges StateEditor::make_room_for_bodies() {
     physics::Parameters& p = state_.fixed();
     const std::uint32_t first = p.first_part, count = std::max(16u, first / 2);
     const auto insert = [&](auto& table, const auto& record) { table.insert(table.begin() + first, count, record); };
-    insert(state_.traits, physics::Traits{});
-    for (std::uint32_t row = first; row < first + count; ++row) state_.traits[row] = spare_row(row);
+    insert(state_.properties, physics::BodyProperties{});
+    for (std::uint32_t row = first; row < first + count; ++row) state_.properties[row] = spare_row(row);
     insert(state_.poses, physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)});
     insert(state_.velocities, physics::Velocity{});
-    insert(state_.rests, 0u);
+    insert(state_.sleep_states, 0u);
     insert(state_.strains, 0.0f);
     insert(state_.masses, physics::Mass{});
     // They have no contacts: where these begin, they end.
     insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
     TableRanges changed;
-    for (std::size_t i = 0; i < state_.live(Length::contacts); ++i) {
+    for (std::size_t i = 0; i < state_.live(BufferLength::contacts); ++i) {
         physics::Contact& contact = state_.contacts[i];
         if (contact.a < first && contact.b < first) continue;
         for (physics::uint* row : {&contact.a, &contact.b})
@@ -141,7 +142,7 @@ TableRanges StateEditor::make_room_for_bodies() {
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
     state_.allocate();
     changed.push_back({Table::first_contacts, first, p.bodies + 1 - first});
-    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::masses, Table::ids})
+    for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::masses, Table::ids})
         changed.push_back({table, first, p.bodies - first});
     return changed;
 }
@@ -152,7 +153,7 @@ TableRanges StateEditor::rows_added(std::uint32_t first, std::uint32_t count) {
     for (std::uint32_t row = first; row < first + count; ++row) state_.first_contacts[row + 1] = state_.counted().contacts;
     TableRanges added{{Table::first_contacts, first + 1, count}};
     for (const Table table :
-         {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains, Table::masses, Table::ids})
+         {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses, Table::ids})
         added.push_back({table, first, count});
     return added;
 }
@@ -166,23 +167,23 @@ TableRanges StateEditor::add(const Body& body) {
     state_.append_row(row);
     ++state_.body_count;
     if (row == p.first_part) ++p.first_part;
-    state_.traits.resize(std::max(rows_before, row + 1));  // a table of no bodies has a record all the same
-    state_.traits[row] = compiler.traits_of(body, row);
+    state_.properties.resize(std::max(rows_before, row + 1));  // a table of no bodies has a record all the same
+    state_.properties[row] = compiler.properties_of(body, row);
     compiler.append_parts(body, row);
-    p.bodies = static_cast<std::uint32_t>(state_.traits.size());
+    p.bodies = static_cast<std::uint32_t>(state_.properties.size());
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
     for (const Table table : {Table::masses, Table::first_contacts}) state_.make(table);
     state_.allocate();
     state_.poses[row] = SceneCompiler::start_of(body);
     state_.velocities[row] = SceneCompiler::start_velocity_of(body);
-    state_.rests[row] = 0;
-    state_.strains[row] = SceneCompiler::start_strain_of(body, state_.traits[row]);
+    state_.sleep_states[row] = 0;
+    state_.strains[row] = SceneCompiler::start_strain_of(body, state_.properties[row]);
     const std::uint32_t first_part = std::max(rows_before, row + 1);
     for (std::uint32_t part = first_part; part < p.bodies; ++part) compiler.place(part);
     state_.note_content(row, 1);
     state_.note_content(first_part, p.bodies - first_part);
     if (row < rows_before)
-        for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains})
+        for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains})
             changed.push_back({table, row, 1});
     append(changed, rows_added(rows_before, p.bodies - rows_before));
     append(changed, shapes_added(state_, before));
@@ -192,7 +193,7 @@ TableRanges StateEditor::add(const Body& body) {
 TableRanges StateEditor::needed_to_rejoin() const {
     TableRanges needed = joint_ranges(state_);
     append(needed, vehicle_ranges(state_));
-    if (state_.has_fractures()) needed.push_back({Table::traits, 0, state_.fixed().bodies});  // who is there
+    if (state_.has_fractures()) needed.push_back({Table::properties, 0, state_.fixed().bodies});  // who is there
     return needed;
 }
 
@@ -203,20 +204,20 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
     std::vector<physics::Joint> before;
     for (const std::uint32_t record : state_.joint_records) before.push_back(state_.joints[record]);
     if (without) before.erase(before.begin() + static_cast<std::ptrdiff_t>(*without));
-    std::vector<physics::Traits> by_id;
+    std::vector<physics::BodyProperties> by_id;
     for (std::size_t id = 0; id < state_.body_count; ++id) {
-        by_id.push_back(state_.traits[state_.row_of(id)]);
+        by_id.push_back(state_.properties[state_.row_of(id)]);
         by_id.back().joints = physics::NONE;
     }
     JointTables made = joint_tables(scene, by_id);
     for (std::size_t id = 0; id < by_id.size(); ++id) {
-        physics::uint& first = state_.traits[state_.row_of(id)].joints;
+        physics::uint& first = state_.properties[state_.row_of(id)].joints;
         if (first == by_id[id].joints) continue;
         first = by_id[id].joints;
-        changed.push_back({Table::traits, state_.row_of(id), 1});
+        changed.push_back({Table::properties, state_.row_of(id), 1});
     }
     for (physics::Joint& record : made.records)
-        for (physics::uint* body : {&record.a, &record.b, &record.member})
+        for (physics::uint* body : {&record.a, &record.b, &record.block_body})
             if (*body != physics::NONE) *body = state_.row_of(*body);
     state_.joints = std::move(made.records);
     state_.joint_records = std::move(made.record_of);
@@ -225,12 +226,12 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         const physics::Joint& was = before[j];
         std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with the impulses that the next step begins with
-        now.pins = was.pins;
+        now.active_set = was.active_set;
         now.broken = was.broken;
         now.force = was.force;
-        now.greatest_force = was.greatest_force;
+        now.max_force = was.max_force;
         now.torque = was.torque;
-        now.greatest_torque = was.greatest_torque;
+        now.max_torque = was.max_torque;
     }
     for (std::size_t v = 0; v < scene.vehicles.size(); ++v) {
         const std::vector<Wheel>& wheels = scene.vehicles[v].wheels;

@@ -49,7 +49,7 @@ bool share_memory(Table one, Table other) {
     return first_owner(one) == first_owner(other);
 }
 
-TableOffsets table_offsets(const State& state, const std::function<std::size_t(Length)>& spare) {
+TableOffsets table_offsets(const State& state, const std::function<std::size_t(BufferLength)>& spare) {
     TableOffsets offsets;
     for (std::size_t i = 0; i < table_count; ++i) {
         const TableInfo& info = table_infos()[i];

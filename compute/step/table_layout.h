@@ -29,7 +29,7 @@ struct TableOffsets {
 };
 
 // For tables as long as the state has them, and `spare` records longer.
-TableOffsets table_offsets(const State& state, const std::function<std::size_t(Length)>& spare = {});
+TableOffsets table_offsets(const State& state, const std::function<std::size_t(BufferLength)>& spare = {});
 // Whether the tables in a buffer still fit.
 bool have_room(const TableOffsets& offsets, std::size_t buffer, const State& state);
 

@@ -23,14 +23,14 @@ void append(TableRanges& ranges, const TableRanges& more) {
 
 TableRanges body_ranges(const State& state) {
     TableRanges ranges;
-    for (const Table table : {Table::poses, Table::velocities, Table::rests}) ranges.push_back(live_range(state, table));
-    if (state.has_fractures()) ranges.push_back(live_range(state, Table::traits));
+    for (const Table table : {Table::poses, Table::velocities, Table::sleep_states}) ranges.push_back(live_range(state, table));
+    if (state.has_fractures()) ranges.push_back(live_range(state, Table::properties));
     return ranges;
 }
 
 TableRanges row_ranges(const State& state, std::uint32_t row) {
-    TableRanges ranges{{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::rests, row, 1}};
-    if (state.has_fractures()) ranges.push_back({Table::traits, row, 1});
+    TableRanges ranges{{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::sleep_states, row, 1}};
+    if (state.has_fractures()) ranges.push_back({Table::properties, row, 1});
     return ranges;
 }
 
@@ -38,7 +38,7 @@ TableRanges contact_ranges(const State& state) {
     TableRanges ranges;
     for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) ranges.push_back(live_range(state, table));
     if (state.reordered()) ranges.push_back(live_range(state, Table::first_contacts));  // contacts_by_id
-    if (state.content().convex) ranges.push_back(live_range(state, Table::pairs));      // whose hulls traffic_of counts
+    if (state.features().convex) ranges.push_back(live_range(state, Table::pairs));     // whose hulls traffic_of counts
     return ranges;
 }
 
@@ -53,8 +53,8 @@ TableRanges vehicle_ranges(const State& state) {
 
 TableRanges lasting_ranges(const State& state) {
     TableRanges ranges;
-    for (const Table table : {Table::traits, Table::poses, Table::velocities, Table::rests, Table::strains, Table::masses,
-                              Table::contacts, Table::impulses, Table::first_contacts})
+    for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains,
+                              Table::masses, Table::contacts, Table::impulses, Table::first_contacts})
         ranges.push_back(live_range(state, table));
     append(ranges, joint_ranges(state));
     append(ranges, vehicle_ranges(state));

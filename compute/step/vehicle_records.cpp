@@ -10,8 +10,8 @@ namespace scree {
 
 namespace {
 
-physics::Handling handling_of(const Vehicle& vehicle, const Scene& scene, std::vector<physics::WayPoint>& way_points) {
-    physics::Handling made{};
+physics::VehicleDynamics handling_of(const Vehicle& vehicle, const Scene& scene, std::vector<physics::WayPoint>& way_points) {
+    physics::VehicleDynamics made{};
     made.chassis = static_cast<physics::uint>(vehicle.chassis);
     made.wheels = static_cast<physics::uint>(vehicle.wheels.size());
     made.route = static_cast<physics::uint>(way_points.size());
@@ -19,7 +19,7 @@ physics::Handling handling_of(const Vehicle& vehicle, const Scene& scene, std::v
     for (const WayPoint& point : vehicle.route) way_points.push_back({point.position, point.speed});
     made.frame = scene.joints[vehicle.wheels[0].joint].frame_a;
     made.top_speed = vehicle.engine.top_speed;
-    made.back_speed = vehicle.engine.back_speed;
+    made.reverse_speed = vehicle.engine.reverse_speed;
     made.lateral = vehicle.steering.lateral;
     made.loops = vehicle.loops;
     made.throttle = vehicle.controls.throttle;
@@ -36,7 +36,7 @@ void place_wheels(physics::Vehicle& made, const Vehicle& vehicle, const Scene& s
     const std::size_t n = vehicle.wheels.size();
     float aside = 0, axis = 0, all = 0, fixed = 0;
     for (std::size_t k = 0; k < n; ++k) {
-        const vec3 place = physics::rotate_back(made.handling.frame, scene.joints[vehicle.wheels[k].joint].anchor_a);
+        const vec3 place = physics::rotate_back(made.dynamics.frame, scene.joints[vehicle.wheels[k].joint].anchor_a);
         made.wheel[k].ahead = place.z;
         made.wheel[k].aside = place.x;
         aside += place.x / static_cast<float>(n);
@@ -53,8 +53,8 @@ void place_wheels(physics::Vehicle& made, const Vehicle& vehicle, const Scene& s
         if (vehicle.wheels[k].steers) base += std::abs(wheel.ahead), ++steered;
     }
     // What turns like a tank turns about one of its sides at full lock.
-    made.handling.tightest = steered > 0 ? std::tan(vehicle.steering.angle) * steered / std::max(base, 0.01f) : 1 / widest;
-    made.handling.turning = made.handling.tightest / vehicle.steering.time;
+    made.dynamics.tightest = steered > 0 ? std::tan(vehicle.steering.angle) * steered / std::max(base, 0.01f) : 1 / widest;
+    made.dynamics.turning = made.dynamics.tightest / vehicle.steering.time;
 }
 
 }  // namespace
@@ -68,7 +68,7 @@ std::vector<physics::Vehicle> vehicle_records(const Scene& scene, const std::vec
     std::vector<physics::Vehicle> records;
     for (const Vehicle& vehicle : scene.vehicles) {
         physics::Vehicle& made = records.emplace_back();
-        made.handling = handling_of(vehicle, scene, way_points);
+        made.dynamics = handling_of(vehicle, scene, way_points);
         float shares = 0;
         for (const Wheel& wheel : vehicle.wheels) shares += wheel.drive;
         for (std::size_t k = 0; k < vehicle.wheels.size(); ++k) {

@@ -50,13 +50,13 @@ physics::Grip record_of(std::size_t body, vec3 anchor, vec3 target, const GripSp
 
 }  // namespace
 
-World::Interior::Held& World::Interior::held(std::size_t grip) {
+World::Impl::Held& World::Impl::held(std::size_t grip) {
     if (grip < grips.size() && grips[grip]) return *grips[grip];
     throw std::out_of_range("grip " + std::to_string(grip) + " does not hold anything");
 }
 
 // Records that are not in use are zero, so that the same holds leave the same parameters.
-void World::Interior::take_up_grips() {
+void World::Impl::take_up_grips() {
     physics::Parameters& parameters = state.fixed();
     parameters.held = 0;
     for (physics::Grip& record : parameters.grips) record = {};
@@ -69,14 +69,14 @@ void World::Interior::take_up_grips() {
 }
 
 std::size_t World::grip(std::size_t body, vec3 anchor, vec3 target, const GripSpring& spring) {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     const auto free = std::find(in.grips.begin(), in.grips.end(), std::nullopt);
     if (free == in.grips.end()) throw std::length_error("at most " + std::to_string(most_grips) + " grips hold at once");
     check(spring);
     demand(within(target, farthest), "grip: the target must be within 1000000 m of 0");
     in.action_on(body, anchor, target);
     const vec3 box = half_extents(in.scene.bodies[body].shape);
-    *free = Interior::Held{body, glm::clamp(anchor, -box, box), target, spring};
+    *free = Impl::Held{body, glm::clamp(anchor, -box, box), target, spring};
     return static_cast<std::size_t>(free - in.grips.begin());
 }
 
@@ -97,7 +97,7 @@ void World::explode(vec3 centre, float radius, float speed) {
     const std::vector<BodyState> states = bodies();
     for (std::size_t i = 0; i < states.size(); ++i) {
         const Body& body = interior_->scene.bodies[i];
-        if (body.motion != Motion::dynamic || !states[i].there) continue;
+        if (body.motion != Motion::dynamic || !states[i].exists) continue;
         const vec3 apart = states[i].position - centre;
         const float distance = glm::length(apart);
         if (!(distance < radius)) continue;
@@ -107,14 +107,14 @@ void World::explode(vec3 centre, float radius, float speed) {
     }
 }
 
-void World::Interior::retune(const Settings& changed) {
+void World::Impl::retune(const Settings& changed) {
     StateEditor editor(state);
     runner->download(editor.needed_to_tune(changed));
     const bool other_substeps = changed.substeps != settings.substeps;
-    const Content content = state.content();
+    const SceneFeatures features = state.features();
     settings = changed;
     const TableRanges ranges = editor.tune(scene.gravity, settings);
-    if (other_substeps || state.content() != content) runner->adapt();
+    if (other_substeps || state.features() != features) runner->adapt();
     runner->upload(ranges);
 }
 
@@ -150,7 +150,7 @@ void World::set_sleeping(bool allowed) {
 }
 
 std::size_t World::add_body(const Body& body) {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     Scene added = checked(Scene{in.scene.gravity, {on_its_own(body)}, {}});
     const std::size_t first = in.scene.bodies.size();
     StateEditor editor(in.state);

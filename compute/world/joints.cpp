@@ -18,7 +18,7 @@ namespace {
 Axis* axis_of(JointKind& kind, JointAxis axis) {
     if (auto* hinge = std::get_if<Hinge>(&kind)) return axis == JointAxis::twist ? &hinge->turn : nullptr;
     if (auto* slider = std::get_if<Slider>(&kind)) return axis == JointAxis::x ? &slider->slide : nullptr;
-    auto* six = std::get_if<SixDegrees>(&kind);
+    auto* six = std::get_if<SixDof>(&kind);
     if (!six) return nullptr;
     Axis* const axes[] = {&six->x, &six->y, &six->z, &six->twist, &six->swing_y, &six->swing_z};
     return axes[static_cast<std::size_t>(axis)];
@@ -30,32 +30,33 @@ std::string name_of(const Joint& joint, std::size_t index) {
 
 }  // namespace
 
-void World::Interior::require_joint(std::size_t joint) const {
+void World::Impl::require_joint(std::size_t joint) const {
     if (joint < scene.joints.size()) return;
     throw std::out_of_range("joint " + std::to_string(joint) + " of " + std::to_string(scene.joints.size()));
 }
 
-JointState World::Interior::joint_state(std::size_t i) const {
+JointState World::Impl::joint_state(std::size_t i) const {
     const physics::Joint& record = state.joints[state.joint_records[i]];
     JointState found;
     found.force = record.force;
     found.torque = record.torque;
-    found.greatest_force = record.greatest_force;
-    found.greatest_torque = record.greatest_torque;
+    found.max_force = record.max_force;
+    found.max_torque = record.max_torque;
     found.broken = record.broken != 0;
     const auto pose = [&](physics::uint body) {
         return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
     };
-    const physics::JointPlace at =
-        physics::joint_place(record.anchor_a, record.frame_a, pose(record.a), record.anchor_b, record.frame_b, pose(record.b));
+    const physics::JointConfiguration at = physics::joint_configuration(record.anchor_a, record.frame_a, pose(record.a),
+                                                                        record.anchor_b, record.frame_b, pose(record.b));
     found.gap = glm::length(at.gap);
-    found.places = {glm::dot(at.x, at.gap), glm::dot(at.y, at.gap), glm::dot(at.z, at.gap), at.twist, at.swing_y, at.swing_z};
-    if (record.flags & physics::JOINT_RADIAL) found.places[0] = found.gap;
+    found.coordinates = {
+        glm::dot(at.x, at.gap), glm::dot(at.y, at.gap), glm::dot(at.z, at.gap), at.twist, at.swing_y, at.swing_z};
+    if (record.flags & physics::JOINT_RADIAL) found.coordinates[0] = found.gap;
     return found;
 }
 
 // Into the scene, so that a snapshot has it, and to where the world is.
-void World::Interior::set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change) {
+void World::Impl::set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change) {
     require_joint(index);
     Joint& joint = scene.joints[index];
     Joint changed = joint;
@@ -78,7 +79,7 @@ void World::Interior::set_axis(std::size_t index, JointAxis axis, const std::fun
     wake(joint);
 }
 
-void World::Interior::wake(const Joint& joint) {
+void World::Impl::wake(const Joint& joint) {
     for (const std::size_t body : {joint.a, joint.b})
         if (body != the_world && scene.bodies[body].motion == Motion::dynamic) action_on(body, vec3(0), vec3(0));
 }
@@ -114,7 +115,7 @@ void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) 
     });
 }
 
-void World::Interior::rejoin(std::optional<std::size_t> without) {
+void World::Impl::rejoin(std::optional<std::size_t> without) {
     StateEditor editor(state);
     runner->download(editor.needed_to_rejoin());
     const TableRanges changed = editor.rejoin(scene, without);
@@ -123,13 +124,13 @@ void World::Interior::rejoin(std::optional<std::size_t> without) {
 }
 
 std::size_t World::add_joint(const Joint& joint) {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     const std::size_t index = in.scene.joints.size();
     in.scene.joints.push_back(joint);
     try {
         check_joint(in.scene, in.scene.joints[index], index);
         for (const auto& [key, body] : {std::pair{"/a", joint.a}, std::pair{"/b", joint.b}})
-            if (body != the_world && !this->body(body).there)
+            if (body != the_world && !this->body(body).exists)
                 throw SceneError(
                     "/joints/" + std::to_string(index) + key,
                     "body " + std::to_string(body) + " is not there: it has broken, or is a piece of one that has not");
@@ -143,7 +144,7 @@ std::size_t World::add_joint(const Joint& joint) {
 }
 
 void World::remove_joint(std::size_t index) {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     in.require_joint(index);
     in.require_no_wheel(index);
     in.wake(in.scene.joints[index]);

@@ -22,11 +22,11 @@ double seconds_since(Clock::time_point then) {
 
 }  // namespace
 
-bool World::Interior::keeps_order() const {
+bool World::Impl::keeps_order() const {
     return settings.reordering && scene.bodies.size() >= fewest_bodies;
 }
 
-void World::Interior::begin_in_order() {
+void World::Impl::begin_in_order() {
     if (!keeps_order()) return;
     const auto begin = Clock::now();
     state.reorder(rows_by_place(scene, state, runner->threads()), runner->threads());
@@ -34,7 +34,7 @@ void World::Interior::begin_in_order() {
     seconds_to_look = seconds_since(begin);
 }
 
-void World::Interior::keep_order() {
+void World::Impl::keep_order() {
     const bool asked = std::exchange(reorder_now, false);
     if (!asked && (!keeps_order() || (looked && seconds_since(*looked) * share_of_time < seconds_to_look))) return;
     const auto begin = Clock::now();

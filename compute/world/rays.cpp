@@ -16,7 +16,7 @@ std::optional<RayHit> World::cast_ray(const Ray& ray) const {
     std::optional<RayHit> best;
     for (std::size_t i = 0; i < interior_->scene.bodies.size(); ++i) {
         const BodyState now = interior_->body_state(i);
-        if (!now.there) continue;
+        if (!now.exists) continue;
         const std::optional<float> at =
             ray_distance(interior_->scene.bodies[i].shape, now.position, now.orientation, ray.from, ray.along);
         if (at && (!best || *at < best->distance)) best = RayHit{i, *at, ray.from + ray.along * *at, vec3(0)};

@@ -14,15 +14,15 @@ namespace {
 constexpr float lift_of_a_righted_vehicle = 0.5f;  // m: with less, what it lies on is in its wheels' way
 }
 
-void World::Interior::require_vehicle(std::size_t vehicle) const {
+void World::Impl::require_vehicle(std::size_t vehicle) const {
     if (vehicle < scene.vehicles.size()) return;
     throw std::out_of_range("vehicle " + std::to_string(vehicle) + " of " + std::to_string(scene.vehicles.size()));
 }
 
-void World::Interior::tell(std::size_t vehicle, const Controls& controls, bool by_route) {
+void World::Impl::tell(std::size_t vehicle, const Controls& controls, bool by_route) {
     const TableRange range{Table::vehicles, vehicle, 1};
     runner->download({range});
-    physics::Handling& told = state.vehicles[vehicle].handling;
+    physics::VehicleDynamics& told = state.vehicles[vehicle].dynamics;
     told.throttle = controls.throttle;
     told.brake = controls.brake;
     told.steer = controls.steer;
@@ -32,7 +32,7 @@ void World::Interior::tell(std::size_t vehicle, const Controls& controls, bool b
     action_on(scene.vehicles[vehicle].chassis, vec3(0), vec3(0));  // wakes it, and all that is joined to it
 }
 
-void World::Interior::require_no_wheel(std::size_t joint) const {
+void World::Impl::require_no_wheel(std::size_t joint) const {
     for (std::size_t v = 0; v < scene.vehicles.size(); ++v) {
         const Vehicle& vehicle = scene.vehicles[v];
         if (std::none_of(vehicle.wheels.begin(), vehicle.wheels.end(), [&](const Wheel& wheel) { return wheel.joint == joint; }))
@@ -42,8 +42,8 @@ void World::Interior::require_no_wheel(std::size_t joint) const {
     }
 }
 
-VehicleState World::Interior::vehicle_state(std::size_t index) const {
-    const physics::Handling& now = state.vehicles[index].handling;
+VehicleState World::Impl::vehicle_state(std::size_t index) const {
+    const physics::VehicleDynamics& now = state.vehicles[index].dynamics;
     VehicleState found;
     found.controls = {now.throttle, now.brake, now.steer, now.hand_brake};
     found.speed = now.speed;
@@ -55,8 +55,8 @@ VehicleState World::Interior::vehicle_state(std::size_t index) const {
     return found;
 }
 
-void World::Interior::keep_vehicles(Scene& snapshot, const std::vector<std::size_t>& bodies,
-                                    const std::vector<std::size_t>& joints) const {
+void World::Impl::keep_vehicles(Scene& snapshot, const std::vector<std::size_t>& bodies,
+                                const std::vector<std::size_t>& joints) const {
     bring(vehicle_ranges);
     std::vector<Vehicle> kept;
     for (std::size_t i = 0; i < scene.vehicles.size(); ++i) {
@@ -104,12 +104,12 @@ std::vector<VehicleState> World::vehicles() const {
 }
 
 // The wheels lie about the chassis as they did when the scene began.
-void World::put_upright(std::size_t vehicle) {
-    Interior& in = *interior_;
+void World::reset_upright(std::size_t vehicle) {
+    Impl& in = *interior_;
     in.require_vehicle(vehicle);
     const Vehicle& v = in.scene.vehicles[vehicle];
     in.runner->download(row_ranges(in.state, in.state.row_of(v.chassis)));
-    const vec4 frame = in.state.vehicles[vehicle].handling.frame;
+    const vec4 frame = in.state.vehicles[vehicle].dynamics.frame;
     const physics::Pose before = in.state.poses[in.state.row_of(v.chassis)];
     const float pull = glm::length(in.scene.gravity);
     const vec3 up = pull > 1e-6f ? -in.scene.gravity / pull : vec3(0, 1, 0);
@@ -130,8 +130,8 @@ void World::put_upright(std::size_t vehicle) {
         const std::uint32_t row = in.state.row_of(body);
         in.state.poses[row] = {position, 0, orientation};
         in.state.velocities[row] = {};
-        in.state.rests[row] = 0;
-        append(changed, {{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::rests, row, 1}});
+        in.state.sleep_states[row] = 0;
+        append(changed, {{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::sleep_states, row, 1}});
     };
     put(v.chassis, place, upright);
     for (const Wheel& wheel : v.wheels) {

@@ -38,18 +38,18 @@ bool finite(vec3 v) {
 
 }  // namespace
 
-World::Interior::Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r)
+World::Impl::Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r)
     : scene(std::move(s)), settings(t), runner(std::move(r)), state(scene, settings, runner->group_size(), runner->in_place()) {
     begin_in_order();
     runner->attach(state);
 }
 
-void World::Interior::require_body(std::size_t body) const {
+void World::Impl::require_body(std::size_t body) const {
     if (body < scene.bodies.size()) return;
     throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()));
 }
 
-physics::Action& World::Interior::action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too) {
+physics::Action& World::Impl::action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too) {
     require_body(body);
     if (!finite(value) || !finite(second)) throw std::invalid_argument("body " + std::to_string(body) + ": not finite");
     const Motion motion = scene.bodies[body].motion;
@@ -58,13 +58,13 @@ physics::Action& World::Interior::action_on(std::size_t body, vec3 value, vec3 s
     return actions[body];
 }
 
-void World::Interior::make_room_for_actions() {
+void World::Impl::make_room_for_actions() {
     state.action_room = std::bit_ceil(static_cast<std::uint32_t>(actions.size()));
     state.make(Table::actions);
     runner->adapt();
 }
 
-void World::Interior::make_room_for_lists() {
+void World::Impl::make_room_for_lists() {
     state.grow();
     ++growths;
     state.fixed().redo = 1;
@@ -72,7 +72,7 @@ void World::Interior::make_room_for_lists() {
     runner->upload({{Table::counts, 0, 1}});  // which say no more that a list was too long
 }
 
-void World::Interior::step() {
+void World::Impl::step() {
     if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
     broken = true;
     keep_order();
@@ -92,7 +92,7 @@ void World::Interior::step() {
     broken = false;
 }
 
-int World::Interior::steps_alone(int count) {
+int World::Impl::steps_alone(int count) {
     if (std::any_of(grips.begin(), grips.end(), [](const auto& grip) { return grip.has_value(); })) return 0;
     broken = true;
     state.fixed().actions = 0;
@@ -109,7 +109,7 @@ int World::Interior::steps_alone(int count) {
 }
 
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
-    : interior_(std::make_unique<Interior>(scree::checked(scene), scree::checked(settings), std::move(runner))) {}
+    : interior_(std::make_unique<Impl>(scree::checked(scene), scree::checked(settings), std::move(runner))) {}
 World::World(const Scene& scene, const Settings& settings, int threads)
     : World(scene, settings, make_reference_runner(threads)) {}
 World::~World() = default;
@@ -131,7 +131,7 @@ std::uint64_t World::steps() const {
 std::size_t World::bodies_there() const {
     if (!interior_->state.has_fractures()) return interior_->scene.bodies.size();
     const std::vector<BodyState> all = bodies();
-    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const BodyState& body) { return body.there; }));
+    return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const BodyState& body) { return body.exists; }));
 }
 double World::time() const {
     return static_cast<double>(interior_->steps) / interior_->settings.rate;
@@ -175,14 +175,14 @@ void World::wake(std::size_t body) {
 void World::wake_all() {
     interior_->state.fixed().wake_all = 1;
 }
-BodyState World::Interior::body_state(std::size_t i) const {
+BodyState World::Impl::body_state(std::size_t i) const {
     const std::uint32_t row = state.row_of(i);
     return {state.poses[row].position,
             state.poses[row].orientation,
             state.velocities[row].linear,
             state.velocities[row].angular,
-            physics::is_asleep(state.rests[row], state.fixed().sleep_steps),
-            !physics::is_absent(state.traits[row].motion)};
+            physics::is_asleep(state.sleep_states[row], state.fixed().sleep_steps),
+            !physics::is_absent(state.properties[row].motion)};
 }
 
 std::vector<BodyState> World::bodies() const {
@@ -199,7 +199,7 @@ Scene World::snapshot() const {
     std::vector<std::size_t> place_there(scene.bodies.size(), no_body);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const BodyState now = interior_->body_state(i);
-        if (!now.there) continue;
+        if (!now.exists) continue;
         place_there[i] = there.size();
         Body& body = there.emplace_back(on_its_own(std::move(scene.bodies[i])));
         if (body.motion == Motion::fixed) continue;
@@ -239,12 +239,12 @@ BodyState World::body(std::size_t index) const {
     return interior_->body_state(index);
 }
 
-std::vector<Touching> World::touching(std::size_t body) const {
+std::vector<BodyContact> World::contacts_of(std::size_t body) const {
     interior_->require_body(body);
     interior_->bring(body_ranges);
     interior_->bring(contact_ranges);
     const State& state = interior_->state;
-    std::vector<Touching> found;
+    std::vector<BodyContact> found;
     for (const std::uint32_t i : contacts_by_id(state)) {
         const physics::Contact& contact = state.contacts[i];
         const std::size_t a = state.id_of(state.body_of(contact.a)), b = state.id_of(state.body_of(contact.b));
@@ -282,8 +282,8 @@ std::uint64_t World::buffer_growths() const {
 std::size_t World::buffer_bytes() const {
     return interior_->state.bytes();
 }
-void World::time_stages(bool on) {
-    interior_->runner->time_stages(on);
+void World::set_profiling(bool on) {
+    interior_->runner->set_profiling(on);
 }
 StageTimes World::stage_times() const {
     return interior_->runner->stage_times();

@@ -17,7 +17,7 @@
 
 namespace scree {
 
-struct World::Interior {
+struct World::Impl {
     struct Held {
         std::size_t body = 0;
         vec3 anchor{0}, target{0};
@@ -38,7 +38,7 @@ struct World::Interior {
     std::optional<std::chrono::steady_clock::time_point> looked;
     bool broken = false;  // left true by a step that ended in an exception: the tables may be half grown
 
-    Interior(Scene s, const Settings& t, std::unique_ptr<Runner> r);
+    Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r);
     void step();
     int steps_alone(int count);  // up to so many in which the user asks for nothing; 0 while a grip is held
     bool keeps_order() const;    // of the bodies in memory

@@ -33,7 +33,7 @@ Cost cost_of(std::vector<double> ms) {
 }
 
 // Where a settled scene is kept, if it shall be.
-std::string kept_file(const Subject& subject, const SceneOptions& scene, const BenchOptions& options) {
+std::string kept_file(const LoadedScene& subject, const SceneOptions& scene, const BenchOptions& options) {
     if (options.settled.empty()) return "";
     const std::size_t count = scene.bodies ? scene.bodies : subject.scene.bodies.size();
     const std::string name = std::filesystem::path(subject.name).stem().string();
@@ -41,7 +41,7 @@ std::string kept_file(const Subject& subject, const SceneOptions& scene, const B
 }
 
 // The scene that is measured: as it begins, or as it lies after a while.
-Scene settled(const Subject& subject, const SceneOptions& scene, const BenchOptions& options, const Machine& machine) {
+Scene settled(const LoadedScene& subject, const SceneOptions& scene, const BenchOptions& options, const Backend& machine) {
     if (options.settle <= 0) return subject.scene;
     const std::string file = kept_file(subject, scene, options);
     if (!file.empty() && std::filesystem::exists(file)) {
@@ -80,7 +80,7 @@ Samples sample(World& world, const std::string& what, const BenchOptions& option
     const bool in_turn = world.runner().backend() != "cpu";
     for (int i = 0; i < steps && !is_interrupted(); ++i) {
         const bool counts = i >= options.warmup, timed = counts && (!in_turn || (steps - i) % 2 == 1);
-        world.time_stages(timed);
+        world.set_profiling(timed);
         const auto start = std::chrono::steady_clock::now();
         world.step();
         const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
@@ -99,8 +99,8 @@ double Measurement::microseconds_per_body() const {
     return step.ms.median * 1e3 / static_cast<double>(std::max<std::size_t>(1, statistics.bodies));
 }
 
-Measurement measure(const SceneOptions& scene, const BenchOptions& options, const Machine& machine, double copy_speed) {
-    const Subject subject = load_subject(scene);
+Measurement measure(const SceneOptions& scene, const BenchOptions& options, const Backend& machine, double copy_speed) {
+    const LoadedScene subject = load_subject(scene);
     return at_work([&] {
         World world(settled(subject, scene, options, machine), scene.settings(), machine.make_runner());
         const Samples samples =

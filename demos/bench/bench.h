@@ -45,7 +45,7 @@ struct Measurement {
 };
 
 // Settles the scene if that is asked for, steps it, and measures. Returns fewer steps than asked when interrupted.
-Measurement measure(const SceneOptions& scene, const BenchOptions& options, const Machine& machine, double copy_speed);
+Measurement measure(const SceneOptions& scene, const BenchOptions& options, const Backend& machine, double copy_speed);
 
 std::vector<Cells> overview(const std::vector<Measurement>& all);   // a row for each measurement
 std::vector<Cells> stage_rows(const Measurement& measurement);      // a row for each stage that takes a share

@@ -86,7 +86,7 @@ Settings at_rest() {
     return settings;
 }
 
-std::vector<bool> touching(const World& world, std::size_t pairs) {
+std::vector<bool> contacts_of(const World& world, std::size_t pairs) {
     std::vector<bool> found(pairs);
     const State& state = world.state();
     for (std::size_t i = 0; i < state.counted().contacts; ++i) {
@@ -102,7 +102,7 @@ std::vector<float> touching_distances(const Kind& a, const Kind& b, std::size_t 
         for (std::size_t k = 0; k < pairs; ++k) middle[k] = (inside[k] + apart[k]) / 2;
         World world(pairs_of(a, b, middle), at_rest());
         world.step();
-        const std::vector<bool> touch = touching(world, pairs);
+        const std::vector<bool> touch = contacts_of(world, pairs);
         for (std::size_t k = 0; k < pairs; ++k) (touch[k] ? inside : apart)[k] = middle[k];
     }
     for (float& distance : inside) distance -= overlap;
@@ -123,17 +123,17 @@ struct Candidate {
     std::string device{};
 };
 
-void sample(Candidate& candidate, const Machine& machine) {
+void sample(Candidate& candidate, const Backend& machine) {
     World world(candidate.scene, at_rest(), machine.make_runner());
     const std::size_t pairs = candidate.scene.bodies.size() / 2;
     world.step(2);  // buffers have grown, caches are warm
-    world.time_stages(true);
+    world.set_profiling(true);
     for (int i = 0; i < at_a_time; ++i) {
         world.step();
         candidate.ms.push_back(narrowphase_ms(world.last_stage_times()));
     }
     candidate.device = world.runner().device();
-    const std::vector<bool> touch = touching(world, pairs);
+    const std::vector<bool> touch = contacts_of(world, pairs);
     candidate.touching = static_cast<double>(std::count(touch.begin(), touch.end(), true)) / static_cast<double>(pairs);
 }
 
@@ -158,7 +158,7 @@ void require_kinds(const std::vector<std::string>& names) {
     }
 }
 
-KindCosts measure_kinds(const std::vector<std::string>& names, std::size_t pairs, int steps, const Machine& machine, bool quiet) {
+KindCosts measure_kinds(const std::vector<std::string>& names, std::size_t pairs, int steps, const Backend& machine, bool quiet) {
     const std::vector<Kind> all = kinds();
     std::vector<Candidate> candidates;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -26,7 +26,7 @@ struct KindCosts {
 // Shapes are about 1 m across; hulls have 32 vertices on a sphere. No contact is kept from step to step (what turns against what
 // it touches has its contacts made anew), so every step pays the whole price.
 // `names`: of which kinds, as hull-box; box-box is always measured, and none means all.
-KindCosts measure_kinds(const std::vector<std::string>& names, std::size_t pairs, int steps, const Machine& machine, bool quiet);
+KindCosts measure_kinds(const std::vector<std::string>& names, std::size_t pairs, int steps, const Backend& machine, bool quiet);
 
 void require_kinds(const std::vector<std::string>& names);  // throws UsageError that names the ones there are
 

@@ -75,7 +75,7 @@ std::vector<vec3> swept(const std::vector<vec3>& corners, vec3 middle) {
 
 }  // namespace
 
-CameraMan::CameraMan(const CameraOptions& options, const Subject& subject, float aspect)
+CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect)
     : view_(subject.viewpoint), orbit_(options.orbit) {
     const bool placed = options.eye || options.target;
     if (!view_.path.empty()) view_.eye = view_.path[0].eye, view_.target = view_.path[0].target;

@@ -16,7 +16,7 @@ class CameraMan {
 public:
     // `aspect`: width of a picture over its height. Throws UsageError for a body to be followed that is not there, and for an eye
     // in the target.
-    CameraMan(const CameraOptions& options, const Subject& subject, float aspect);
+    CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect);
 
     std::optional<std::size_t> followed() const { return followed_; }  // the body whose position at() wants to know
     host::Camera at(double seconds, vec3 followed_position = vec3(0)) const;

@@ -18,7 +18,7 @@ float rounded(double value) {
 
 }  // namespace
 
-std::pair<float, float> color_range(const Subject& subject, const Settings& settings, const std::string& quantity) {
+std::pair<float, float> color_range(const LoadedScene& subject, const Settings& settings, const std::string& quantity) {
     if (quantity == "contacts") return {0.0f, 12.0f};  // as many as spheres can have around one
     if (quantity == "sleep") return {0.0f, settings.sleep_time};
     if (quantity == "height") return {std::min(subject.low.y, subject.high.y - 1e-3f), subject.high.y};

@@ -82,7 +82,7 @@ host::ShapeInstances instances_of(const World& world) {
 
 host::BodyTables tables_of(const State& state) {
     const std::uint32_t contacts = state.counted().contacts;
-    host::BodyTables tables{state.traits,
+    host::BodyTables tables{state.properties,
                             state.poses,
                             state.velocities,
                             std::span(state.contacts).first(contacts),
@@ -90,7 +90,7 @@ host::BodyTables tables_of(const State& state) {
                             contacts};
     tables.slot_ends = state.slot_ends;
     tables.slot_sides = state.slot_sides;
-    tables.rests = state.rests;
+    tables.sleep_states = state.sleep_states;
     tables.bounds = state.bounds;
     tables.ids = state.ids;
     tables.joints = state.joints;
@@ -102,7 +102,7 @@ namespace {
 
 // On whatever is there. OpenGL ES first: a processor draws a frame in 5% less time than with Vulkan (llvmpipe and lavapipe, 3,000
 // bodies at 1280x720).
-std::unique_ptr<host::Canvas> any_canvas(const Machine& machine, const host::ShapeInstances& instances,
+std::unique_ptr<host::Canvas> any_canvas(const Backend& machine, const host::ShapeInstances& instances,
                                          const host::CanvasOptions& options) {
     std::string missing;
     try {
@@ -120,7 +120,7 @@ std::unique_ptr<host::Canvas> any_canvas(const Machine& machine, const host::Sha
 
 }  // namespace
 
-Drawing::Drawing(const std::string& canvas, const Machine& machine, World& world, const host::CanvasOptions& options)
+Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options)
     : world_(world), word_(canvas), machine_(machine), options_(options) {
     from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device;
     update();

@@ -20,7 +20,7 @@ host::BodyTables tables_of(const State& state);
 class Drawing {
 public:
     // `canvas` is a word of --canvas. Throws UsageError where there is no such canvas, saying what to install.
-    Drawing(const std::string& canvas, const Machine& machine, World& world, const host::CanvasOptions& options);
+    Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options);
 
     host::Canvas& canvas() { return *canvas_; }
     void update();                   // the next picture shows the world as it is now, with the bodies that were added
@@ -35,7 +35,7 @@ private:
 
     World& world_;
     std::string word_;
-    Machine machine_;
+    Backend machine_;
     host::CanvasOptions options_;
     std::size_t bodies_ = 0;  // that the canvas knows, and where
     std::uint64_t reorderings_ = 0;

@@ -13,10 +13,10 @@ struct Extent {  // of what is seen, pixels
     int width = 1280, height = 720;
 };
 
-class Eye {
+class OrbitCamera {
 public:
-    Eye() = default;
-    explicit Eye(const Viewpoint& view);  // looking straight up or down becomes nearly so
+    OrbitCamera() = default;
+    explicit OrbitCamera(const Viewpoint& view);  // looking straight up or down becomes nearly so
 
     Viewpoint viewpoint() const;
     vec3 position() const;

@@ -77,7 +77,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
 
 }  // namespace
 
-host::ColorScale scale_of(const PictureOptions& options, const Subject& subject, const Settings& settings) {
+host::ColorScale scale_of(const PictureOptions& options, const LoadedScene& subject, const Settings& settings) {
     host::ColorScale scale;
     scale.by = host::color_by_named(options.color).value();
     scale.map = host::color_map_named(options.color_map).value();
@@ -95,7 +95,7 @@ host::ColorScale scale_of(const PictureOptions& options, const Subject& subject,
     return scale;
 }
 
-struct Pictures::Interior {
+struct Pictures::Impl {
     World& world;
     std::optional<Drawing> drawing;
     std::unique_ptr<host::FrameWriter> writer;
@@ -124,20 +124,20 @@ struct Pictures::Interior {
     }
 };
 
-Pictures::Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world)
+Pictures::Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world)
     : interior_(
-          new Interior{world,
-                       {},
-                       nullptr,
-                       CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
-                       scale_of(options, subject, world.settings()),
-                       subject.name,
-                       subject.low,
-                       subject.high,
-                       options.fps,
-                       options.caption,
-                       {}}) {
-    Interior& in = *interior_;
+          new Impl{world,
+                   {},
+                   nullptr,
+                   CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
+                   scale_of(options, subject, world.settings()),
+                   subject.name,
+                   subject.low,
+                   subject.high,
+                   options.fps,
+                   options.caption,
+                   {}}) {
+    Impl& in = *interior_;
     host::FrameWriterOptions writer;
     writer.folder = options.frames;
     writer.video = options.video;
@@ -154,7 +154,7 @@ Pictures::Pictures(const PictureOptions& options, const Machine& machine, const 
 Pictures::~Pictures() = default;
 
 void Pictures::after_step() {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     // The picture of moment n / fps is taken at the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.begun / in.fps) return;

@@ -22,7 +22,7 @@ struct PictureTimes {
 class Pictures {
 public:
     // Throws before anything is simulated if the folder, the video or the device will not do.
-    Pictures(const PictureOptions& options, const Machine& machine, const Subject& subject, World& world);
+    Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world);
     ~Pictures();
     Pictures(const Pictures&) = delete;
     Pictures& operator=(const Pictures&) = delete;
@@ -34,12 +34,12 @@ public:
     std::string canvas() const;  // for people: what draws them, and on which device
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 // The colours that the options ask for. Throws UsageError for a logarithmic scale that begins at 0.
-host::ColorScale scale_of(const PictureOptions& options, const Subject& subject, const Settings& settings);
+host::ColorScale scale_of(const PictureOptions& options, const LoadedScene& subject, const Settings& settings);
 
 // The words of --color and --color-map.
 const std::vector<std::string>& color_words();

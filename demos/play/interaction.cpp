@@ -42,7 +42,7 @@ Interaction::Interaction(Session& session, Extent extent)
     begin_again();
 }
 
-void Interaction::perform(const Act& act) {
+void Interaction::perform(const UserCommand& act) {
     try {
         session_.perform(act);
         message_.clear();
@@ -133,7 +133,7 @@ void Interaction::press_key(const host::Event& event) {
         if (!told_) told_ = Controls{};
         return;
     }
-    if (pressed == backspace) put_upright();
+    if (pressed == backspace) reset_upright();
     if (pressed == key('C') && vehicle()) chases = !chases;
     if (pressed == space) throw_body(Kind::sphere);
     if (pressed == key('B')) throw_body(Kind::box);
@@ -145,7 +145,7 @@ void Interaction::press_key(const host::Event& event) {
     if (pressed == key('.')) step_once();
     if (pressed == key('L')) pace = static_cast<double>(pace) > slowest ? pace / 2 : 1;
     if (pressed == key('F')) follows = !follows && selected_;
-    if (pressed == home) eye_ = Eye(session_.subject().viewpoint);
+    if (pressed == home) eye_ = OrbitCamera(session_.subject().viewpoint);
     if (pressed == key('R')) reset();
     if (pressed == tab) open_next(event.shift ? -1 : 1);
     if (pressed == key('Q') || pressed == escape) wants_to_close_ = true;
@@ -179,7 +179,7 @@ void Interaction::open(const std::string& name) {
     }
     message_.clear();
     begin_again();
-    eye_ = Eye(session_.subject().viewpoint);
+    eye_ = OrbitCamera(session_.subject().viewpoint);
 }
 
 void Interaction::open_next(int direction) {

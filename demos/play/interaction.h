@@ -47,17 +47,17 @@ public:
     float pace = 1;        // simulated seconds in a second
     void step_once() { ++single_steps_; }
     void reset();
-    void open(const std::string& name);  // says what is wrong in message()
-    void open_next(int direction);       // of the demos made to be looked at
-    void add(Kind kind);                 // falls onto the middle of the view
-    void throw_body(Kind kind);          // from the eye through the pointer
-    void explode();                      // where the pointer points
-    void put_upright();                  // the vehicle, where it is
-    void perform(const Act& act);        // says what is wrong in message()
+    void open(const std::string& name);    // says what is wrong in message()
+    void open_next(int direction);         // of the demos made to be looked at
+    void add(Kind kind);                   // falls onto the middle of the view
+    void throw_body(Kind kind);            // from the eye through the pointer
+    void explode();                        // where the pointer points
+    void reset_upright();                  // the vehicle, where it is
+    void perform(const UserCommand& act);  // says what is wrong in message()
 
     bool wants_to_close() const { return wants_to_close_; }
     Extent extent() const { return extent_; }
-    const Eye& eye() const { return eye_; }
+    const OrbitCamera& eye() const { return eye_; }
     std::optional<std::size_t> selected() const { return selected_; }
     std::optional<std::size_t> vehicle() const;  // that the keys drive: the selected body's, or the first
     std::optional<Pull> pull();
@@ -92,7 +92,7 @@ private:
 
     Session& session_;
     Extent extent_;
-    Eye eye_;
+    OrbitCamera eye_;
     double x_ = 0, y_ = 0;  // pixels
     Motion motion_ = Motion::none;
     std::optional<Hold> hold_;

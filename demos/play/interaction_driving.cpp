@@ -59,7 +59,7 @@ void Interaction::drive() {
     told_vehicle_ = driven;
 }
 
-void Interaction::put_upright() {
+void Interaction::reset_upright() {
     const std::optional<std::size_t> which = vehicle();
     if (which) perform(Righten{*which});
 }

@@ -31,13 +31,13 @@ void Session::open(const std::string& name) {
     SceneOptions options = options_;
     options.name = name;
     if (const Demo* demo = find_demo(name); !demo || !demo->takes_bodies) options.bodies = 0;
-    Subject subject = load_subject(options);
+    LoadedScene subject = load_subject(options);
     options_ = std::move(options);
     subject_ = std::move(subject);
     begin();
 }
 
-void Session::perform(const Act& act) {
+void Session::perform(const UserCommand& act) {
     replay::perform(act, *world_);
     const std::uint64_t step = world_->steps();
     // Of several places that a body was drawn to before one step only the last counts.

@@ -20,12 +20,12 @@ public:
     void open(const std::string& name);  // another demo or scene file; throws UsageError and keeps what there is
 
     // At once, and into the recording; throws as scree::demos::perform does, and records nothing then.
-    void perform(const Act& act);
+    void perform(const UserCommand& act);
     void step();
 
     World& world() { return *world_; }
     const World& world() const { return *world_; }
-    const Subject& subject() const { return subject_; }
+    const LoadedScene& subject() const { return subject_; }
     const SceneOptions& options() const { return options_; }
     std::uint64_t beginnings() const { return beginnings_; }  // worlds so far, this one included
     Input input() const;                                      // from this world's beginning until now
@@ -36,7 +36,7 @@ private:
 
     SceneOptions options_;
     MakeRunner make_runner_;
-    Subject subject_;
+    LoadedScene subject_;
     std::optional<World> world_;
     Input input_;
     std::uint64_t beginnings_ = 0;

@@ -16,7 +16,7 @@ class Device;
 
 namespace scree::demos {
 
-struct Machine {
+struct Backend {
     MachineOptions options;
     std::shared_ptr<host::Device> device;            // null on the processor
     std::string remark;                              // why it is not what one might expect; may be empty
@@ -35,10 +35,10 @@ enum class Choice {
                // (demos/program/backend_timing.h)
     a_device,  // by itself: a device, if there is any
 };
-Machine choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions = {});
+Backend choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions = {});
 
 // A canvas on the machine's own device, else on any. Throws host::DeviceError that says what to install.
-std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Backend& machine, const host::ShapeInstances& instances,
                                                  const host::CanvasOptions& options);
 
 // What a machine with a device keeps there.

@@ -78,7 +78,7 @@ void write_csv(const std::string& file, const std::vector<Cells>& rows) {
     if (!file.empty() && file != "-") at_work([&] { host::write_atomically(file, csv(rows)); });
 }
 
-int bench_kinds(const Options& options, const Machine& machine) {
+int bench_kinds(const Options& options, const Backend& machine) {
     const KindCosts measured =
         at_work([&] { return measure_kinds(options.names, options.pairs, options.bench.steps, machine, options.bench.quiet); });
     if (is_interrupted()) return interrupted;
@@ -95,7 +95,7 @@ int bench(const Options& options) {
         throw UsageError("--settled: say with --settle for how many seconds");
     const std::vector<SceneOptions> scenes = scenes_of(options);
     require_writable_file("--csv", options.csv);
-    const Machine machine = choose_machine(options.machine, Choice::a_device);
+    const Backend machine = choose_machine(options.machine, Choice::a_device);
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     if (options.pairs > 0) return bench_kinds(options, machine);
     const double copy_speed = at_work([&] { return machine.copy_speed(); });

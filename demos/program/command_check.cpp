@@ -26,7 +26,7 @@ struct Options {
     bool list = false, markdown = false, quiet = false;
 };
 
-std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Machine& machine, float offset, bool quiet) {
+std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Backend& machine, float offset, bool quiet) {
     std::vector<Outcome> outcomes;
     for (const Demo* demo : chosen) {
         std::optional<Progress> progress;
@@ -68,7 +68,7 @@ int check(const Options& options) {
     }
     if (options.markdown) throw UsageError("--markdown: prints the list of promises; add --list");
     require_writable_file("--report", options.report);
-    const Machine machine = choose_machine(options.machine, Choice::fastest);
+    const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!options.quiet) {
         for (const std::string& word : options.names) note_beginning(word);
     }

@@ -26,7 +26,7 @@ void write_out(const Options& options) {
     if (options.schema) {
         text = scene_schema();
     } else {
-        const Subject subject = load_subject(options.scene);
+        const LoadedScene subject = load_subject(options.scene);
         text = scene_to_json(subject.scene, subject.viewpoint);
     }
     if (options.output.empty() || options.output == "-") {

@@ -65,7 +65,7 @@ double steps_alone(World& world, const Script& before_step, int count) {
     return seconds_since(start);
 }
 
-void steps_timed(const Subject& subject, World& world, Recorder* recorder, int count, RunReport& report) {
+void steps_timed(const LoadedScene& subject, World& world, Recorder* recorder, int count, RunReport& report) {
     const double seconds = recorder ? recorder->step() : steps_alone(world, subject.before_step, count);
     if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
     if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
@@ -74,7 +74,7 @@ void steps_timed(const Subject& subject, World& world, Recorder* recorder, int c
 }
 
 // At the end of the time that the promise speaks of: what a longer run shows is no part of it.
-void hold_to_promise(const Subject& subject, const World& world, std::optional<Recorder>& recorder, RunReport& report) {
+void hold_to_promise(const LoadedScene& subject, const World& world, std::optional<Recorder>& recorder, RunReport& report) {
     if (!recorder || world.time() < subject.seconds - 0.5 / static_cast<double>(world.settings().rate)) return;
     report.rows = subject.promise->judge(recorder->finish());
     report.judged = true;
@@ -85,7 +85,7 @@ void hold_to_promise(const Subject& subject, const World& world, std::optional<R
 constexpr int steps_a_timed_one = 16;
 
 // False if the user wished to end.
-bool simulate(const Options& options, const Subject& subject, World& world, Pictures* pictures, RunReport& report) {
+bool simulate(const Options& options, const LoadedScene& subject, World& world, Pictures* pictures, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds);
     std::optional<Recorder> recorder;
     if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
@@ -95,7 +95,7 @@ bool simulate(const Options& options, const Subject& subject, World& world, Pict
     for (int done = 0; done < steps;) {
         if (is_interrupted()) return false;
         const bool timed = reports && (done % steps_a_timed_one == steps_a_timed_one / 2 || done + 1 == steps);
-        world.time_stages(timed);
+        world.set_profiling(timed);
         const bool watched = timed || recorder || pictures || subject.before_step || done < 2;
         const bool waits =
             world.runner().backend() != "cpu" && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
@@ -130,7 +130,7 @@ void hold_to_recording(const Options& options, RunReport& report) {
         {"state hash at the end", hash_text(hash) + ", as recorded", hash_text(report.state_hash), hash == report.state_hash});
 }
 
-void conclude(const Options& options, const Subject& subject, const RunReport& report) {
+void conclude(const Options& options, const LoadedScene& subject, const RunReport& report) {
     if (!options.report.empty() && options.report != "-") host::write_atomically(options.report, json_of(report));
     if (options.report == "-") {
         fmt::print("{}", json_of(report));
@@ -176,7 +176,7 @@ void measure(World& world, RunReport& report) {
     report.state_hash = world.state_hash();
 }
 
-int work(const Options& options, const Subject& subject, const Machine& machine, World& world, Pictures* pictures,
+int work(const Options& options, const LoadedScene& subject, const Backend& machine, World& world, Pictures* pictures,
          RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
     if (!simulate(options, subject, world, pictures, report)) return end_early(world, pictures);
@@ -213,12 +213,12 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
 int run(const Options& options) {
     RunReport report;
     require_writable(options);
-    Subject subject = load_subject(options.scene);
+    LoadedScene subject = load_subject(options.scene);
     if (options.played) {  // happens again, and the demo's promise no longer binds
         subject.before_step = script_of(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
-    const Machine machine = choose_machine(options.machine, Choice::fastest);
+    const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
     World world(subject.scene, subject.settings(options.scene), machine.make_runner());

@@ -56,7 +56,7 @@ bool is_file_name(const std::string& name) {
 }
 
 // Corners of where a scene's bodies start: of those that move if there are any, else of all but planes.
-void set_bounds(Subject& subject) {
+void set_bounds(LoadedScene& subject) {
     vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const bool moving : {true, false}) {
         for (const Body& body : subject.scene.bodies) {
@@ -95,8 +95,8 @@ void require_memory_for_pieces(const Scene& scene, const std::string& what) {
                     what, scene.bodies.size(), pieces, rows * bytes_per_body / 1e9, free_memory()));
 }
 
-Subject from_file(const std::string& path) {
-    Subject subject;
+LoadedScene from_file(const std::string& path) {
+    LoadedScene subject;
     subject.name = path;
     try {
         SceneDocument document = load_scene(path, most_bodies());
@@ -120,13 +120,13 @@ void require_memory_for(std::size_t bodies) {
                                  static_cast<double>(bodies) * bytes_per_body / 1e9, free_memory()));
 }
 
-Settings Subject::settings(const SceneOptions& options) const {
+Settings LoadedScene::settings(const SceneOptions& options) const {
     Settings settings = options.settings();
     settings.sleeping = settings.sleeping && sleeping;
     return settings;
 }
 
-Subject load_subject(const SceneOptions& options) {
+LoadedScene load_subject(const SceneOptions& options) {
     const Demo* demo = find_demo(options.name);
     if (!demo && is_file_name(options.name)) {
         if (options.bodies) throw UsageError("--bodies: a scene file has its own bodies; leave the option out");

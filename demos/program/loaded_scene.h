@@ -12,7 +12,7 @@
 
 namespace scree::demos {
 
-struct Subject {
+struct LoadedScene {
     std::string name;
     Scene scene;
     Viewpoint viewpoint;
@@ -27,7 +27,7 @@ struct Subject {
 
 // Throws UsageError naming the nearest demo, the place of a mistake in a file, or how many bodies would fit into the memory,
 // pieces of those that may break included.
-Subject load_subject(const SceneOptions& options);
+LoadedScene load_subject(const SceneOptions& options);
 
 // Throws UsageError if a run of that many bodies would not fit into the memory that is free.
 void require_memory_for(std::size_t bodies);

@@ -25,7 +25,7 @@ Fracture breaking(float impulse, Cutting cutting, std::size_t pieces, std::uint3
 double mass_of(const Scene& scene, const std::vector<BodyState>& states) {
     double sum = 0;
     for (std::size_t i = 0; i < states.size(); ++i)
-        if (states[i].there && scene.bodies[i].motion == Motion::dynamic)
+        if (states[i].exists && scene.bodies[i].motion == Motion::dynamic)
             sum += static_cast<double>(mass_properties(scene.bodies[i].shape, scene.bodies[i].density).mass);
     return sum;
 }
@@ -36,7 +36,7 @@ Claim mass_stays() {
 // Of bodies of the scene as it was described: pieces do not count.
 Claim broken_at_least(double part, Indices bodies) {
     return at_least("bodies that broke, of those that may", part, "", "at the end", [bodies](const Trace& trace) {
-        const auto count = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t i) { return !trace.end.at(i).there; });
+        const auto count = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t i) { return !trace.end.at(i).exists; });
         return static_cast<double>(count) / static_cast<double>(bodies.size());
     });
 }
@@ -44,7 +44,7 @@ Claim whole_and_in_place(double part, Indices bodies) {
     return at_least("bricks that stayed whole and in their place", part, "", "within 0.3 m of their start at the end",
                     [bodies](const Trace& trace) {
                         const auto count = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t i) {
-                            return trace.end.at(i).there &&
+                            return trace.end.at(i).exists &&
                                    glm::length(trace.end[i].position - trace.start.at(i).position) < 0.3f;
                         });
                         return static_cast<double>(count) / static_cast<double>(bodies.size());
@@ -184,7 +184,7 @@ DemoScene glass(const DemoOptions& options) {
     Promise promise(
         broken_at_least(1, thin),
         at_most("armoured panes that broke", 0, "", "at the end",
-                [thick](const Trace& trace) { return trace.end.at(thick).there ? 0.0 : 1.0; }),
+                [thick](const Trace& trace) { return trace.end.at(thick).exists ? 0.0 : 1.0; }),
         between("how far the ball got", gap * (panes - 2), gap * (panes - 1), "m", "at the end: behind the sixth pane",
                 [shot](const Trace& trace) { return static_cast<double>(trace.end.at(shot).position.z); }),
         mass_stays());

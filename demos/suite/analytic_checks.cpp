@@ -94,8 +94,8 @@ Claim all_roll_to_rest(const std::string& what, std::vector<Rolling> bodies, dou
                    fmt::format("distance from the start at the end, at rest, the worst of {}", bodies.size()),
                    [bodies](const Trace& trace) {
                        return worst(bodies, [&](const Rolling& one) {
-                           const bool rests = glm::length(trace.end.at(one.body).velocity) < 0.001f;
-                           return rests ? percent_off(way(trace, one.body), one.distance) : no_number;
+                           const bool sleep_states = glm::length(trace.end.at(one.body).velocity) < 0.001f;
+                           return sleep_states ? percent_off(way(trace, one.body), one.distance) : no_number;
                        });
                    });
 }

@@ -26,7 +26,7 @@ namespace {
 
 bool keeps_together(const Joint& joint) {
     return !std::holds_alternative<Slider>(joint.kind) && !std::holds_alternative<Distance>(joint.kind) &&
-           !std::holds_alternative<SixDegrees>(joint.kind);
+           !std::holds_alternative<SixDof>(joint.kind);
 }
 
 double widest_gap(const Scene& scene, const std::vector<BodyState>& bodies) {

@@ -63,7 +63,7 @@ DemoScene thresholds(const DemoOptions&) {
     const auto broken = [](const Indices& balls) {
         return [balls](const Trace& trace) {
             return static_cast<double>(
-                std::count_if(balls.begin(), balls.end(), [&](std::size_t i) { return !trace.end.at(i).there; }));
+                std::count_if(balls.begin(), balls.end(), [&](std::size_t i) { return !trace.end.at(i).exists; }));
         };
     };
     const vec3 low(-1, -1, -1), high(22, 12, 18);

@@ -45,7 +45,7 @@ struct TableView {
 
 // The state of the simulation, one record a body, as in shaders/physics/base/records.h. Read while a picture is drawn.
 struct BodyTables {
-    TableView traits;      // Traits
+    TableView properties;  // BodyProperties
     TableView poses;       // Pose
     TableView velocities;  // Velocity
     // Where bodies touch, and how hard they push: for CanvasOptions::marks and ColorBy::contact_impulse.
@@ -55,7 +55,7 @@ struct BodyTables {
     // Which contacts a body has: for ColorBy::contact_impulse and contacts.
     TableView slot_ends;            // uint, where the slots of each body end; those of the next begin there
     TableView slot_sides;           // uint, 2 * contact + side
-    TableView rests;                // uint (shaders/physics/extra/sleep.h), for ColorBy::rest and CanvasOptions::sleep
+    TableView sleep_states;         // uint (shaders/physics/extra/sleep.h), for ColorBy::rest and CanvasOptions::sleep
     TableView bounds;               // Bounds, for CanvasOptions::boxes and cells
     TableView ids;                  // uint, which body is in each row, for ColorBy::body
     TableView joints;               // Joint, for CanvasOptions::joints

@@ -9,14 +9,14 @@ namespace scree::host {
 const std::array<BindingInfo, BINDINGS>& binding_infos() {
     static const std::array<BindingInfo, BINDINGS> infos = [] {
         std::array<BindingInfo, BINDINGS> all;
-        all[TRAITS] = {Source::bodies, &BodyTables::traits, "traits"};
+        all[TRAITS] = {Source::bodies, &BodyTables::properties, "properties"};
         all[POSES] = {Source::bodies, &BodyTables::poses, "poses"};
         all[VELOCITIES] = {Source::bodies, &BodyTables::velocities, "velocities"};
         all[TOUCHES] = {Source::bodies, &BodyTables::touches, "touches"};
         all[PUSHES] = {Source::bodies, &BodyTables::pushes, "pushes"};
         all[SLOT_ENDS] = {Source::bodies, &BodyTables::slot_ends, "slot ends"};
         all[SLOT_SIDES] = {Source::bodies, &BodyTables::slot_sides, "slot sides"};
-        all[RESTS] = {Source::bodies, &BodyTables::rests, "rests"};
+        all[RESTS] = {Source::bodies, &BodyTables::sleep_states, "rests"};
         all[BOUNDS] = {Source::bodies, &BodyTables::bounds, "bounds"};
         all[JOINTS] = {Source::bodies, &BodyTables::joints, "joints"};
         all[IDS] = {Source::bodies, &BodyTables::ids, "ids"};

@@ -124,7 +124,7 @@ int encoders(int asked) {
 
 }  // namespace
 
-struct FrameWriter::Interior {
+struct FrameWriter::Impl {
     FrameWriterOptions options;
     int frames = 0;
     std::unique_ptr<Video> video, preview;
@@ -148,8 +148,8 @@ struct FrameWriter::Interior {
     }
 };
 
-FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::make_unique<Interior>()) {
-    Interior& in = *interior_;
+FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::make_unique<Impl>()) {
+    Impl& in = *interior_;
     in.options = options;
     if (!options.video.empty()) require_film(options.video);
     const Clip preview = options.preview.empty() ? Clip::gif : clip_of(options.preview);
@@ -186,13 +186,13 @@ FrameWriter::~FrameWriter() {
 
 void FrameWriter::add(Image image) {
     const Job job{interior_->frames++, std::make_shared<const Image>(std::move(image))};
-    for (const Interior::Output& output : interior_->outputs) output.line->add(job);
+    for (const Impl::Output& output : interior_->outputs) output.line->add(job);
 }
 
 void FrameWriter::finish() {
     // All to their ends before the first error is told: what can be whole, shall be.
     std::exception_ptr first;
-    for (const Interior::Output& output : interior_->outputs) {
+    for (const Impl::Output& output : interior_->outputs) {
         output.line->close();
         try {
             output.line->rethrow();

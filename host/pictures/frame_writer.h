@@ -35,8 +35,8 @@ public:
     int frames() const;     // added so far
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 }  // namespace scree::host

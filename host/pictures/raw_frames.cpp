@@ -14,7 +14,7 @@
 
 namespace scree::host {
 
-struct RawFrames::Interior {
+struct RawFrames::Impl {
     std::string name;  // for messages
     std::filesystem::path target, partial;
     std::optional<Unfinished> unfinished;
@@ -37,8 +37,8 @@ struct RawFrames::Interior {
     }
 };
 
-RawFrames::RawFrames(const std::filesystem::path& path) : interior_(std::make_unique<Interior>()) {
-    Interior& in = *interior_;
+RawFrames::RawFrames(const std::filesystem::path& path) : interior_(std::make_unique<Impl>()) {
+    Impl& in = *interior_;
     in.name = path == "-" ? "the standard output" : path.string();
     if (path == "-") {
         in.descriptor = STDOUT_FILENO;

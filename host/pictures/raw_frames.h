@@ -23,8 +23,8 @@ public:
     void finish();
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 }  // namespace scree::host

@@ -114,7 +114,7 @@ const char* example_of(Clip clip) {
 
 }  // namespace
 
-struct Video::Interior {
+struct Video::Impl {
     std::filesystem::path path, target, partial;
     VideoShape shape;
     std::optional<Unfinished> unfinished;
@@ -128,7 +128,7 @@ struct Video::Interior {
     void discard();
 };
 
-void Video::Interior::start(const std::string& program) {
+void Video::Impl::start(const std::string& program) {
     int ends[2];
     if (::pipe2(ends, O_CLOEXEC) != 0) throw ImageError(std::string("ffmpeg: no pipe: ") + std::strerror(errno));
     pipe = ends[1];
@@ -163,7 +163,7 @@ void Video::Interior::start(const std::string& program) {
     unfinished.emplace(partial, process);
 }
 
-int Video::Interior::wait() {
+int Video::Impl::wait() {
     if (pipe >= 0) ::close(pipe);
     pipe = -1;
     int status = 0;
@@ -176,7 +176,7 @@ int Video::Interior::wait() {
     return status;
 }
 
-void Video::Interior::fail() {
+void Video::Impl::fail() {
     wait();
     std::string said(4096, '\0');
     const ssize_t n = errors >= 0 ? ::pread(errors, said.data(), said.size(), 0) : 0;
@@ -186,7 +186,7 @@ void Video::Interior::fail() {
     throw ImageError(path.string() + ": ffmpeg failed: " + (said.empty() ? "it ended early and said nothing" : said));
 }
 
-void Video::Interior::discard() {
+void Video::Impl::discard() {
     if (process > 0) ::kill(process, SIGKILL);
     wait();
     if (errors >= 0) ::close(errors);
@@ -196,7 +196,7 @@ void Video::Interior::discard() {
     unfinished.reset();
 }
 
-Video::Video(const std::filesystem::path& path, const VideoShape& shape) : interior_(std::make_unique<Interior>()) {
+Video::Video(const std::filesystem::path& path, const VideoShape& shape) : interior_(std::make_unique<Impl>()) {
     if (shape.width < 2 || shape.height < 2 || !(shape.frames_per_second > 0)) {
         throw ImageError(path.string() + ": a video needs at least 2 x 2 pixels and a positive frame rate");
     }

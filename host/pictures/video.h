@@ -35,8 +35,8 @@ public:
     void finish();                 // the file appears under its name only now
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 }  // namespace scree::host

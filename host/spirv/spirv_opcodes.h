@@ -1,4 +1,4 @@
-// Numbers of the SPIR-V specification 1.6. Interior of spirv.
+// Numbers of the SPIR-V specification 1.6. Impl of spirv.
 #pragma once
 
 #include <cstddef>

@@ -105,10 +105,10 @@ Buffer::Buffer(std::shared_ptr<Device> device, const char* name, std::size_t byt
               ("mapping " + of_size(name, bytes)).c_str());
         std::memset(mapped_, 0, info.size);
     } else {
-        Recording recording(device_);
-        recording.zero(*this);
-        recording.end();
-        device_->submit_and_wait({recording.handle()});
+        CommandBuffer commands(device_);
+        commands.zero(*this);
+        commands.end();
+        device_->submit_and_wait({commands.handle()});
     }
 }
 

@@ -33,7 +33,7 @@ void all_memory(const VulkanFunctions& vk, VkCommandBuffer commands, VkPipelineS
 
 }  // namespace
 
-Recording::Recording(std::shared_ptr<Device> device, std::uint32_t timestamps)
+CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t timestamps)
     : device_(std::move(device)), timestamps_(timestamps) {
     const VulkanFunctions& vk = device_->vk();
     VkCommandPoolCreateInfo pool{};
@@ -66,17 +66,17 @@ Recording::Recording(std::shared_ptr<Device> device, std::uint32_t timestamps)
     vk.vkCmdResetQueryPool(commands_, queries_, 0, timestamps);
 }
 
-Recording::~Recording() {
+CommandBuffer::~CommandBuffer() {
     if (!pool_) return;
     device_->vk().vkDestroyCommandPool(device_->handle(), pool_, nullptr);
     if (queries_) device_->vk().vkDestroyQueryPool(device_->handle(), queries_, nullptr);
 }
 
-Recording::Recording(Recording&& other) noexcept {
+CommandBuffer::CommandBuffer(CommandBuffer&& other) noexcept {
     *this = std::move(other);
 }
 
-Recording& Recording::operator=(Recording&& other) noexcept {
+CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
     std::swap(device_, other.device_);
     std::swap(pool_, other.pool_);
     std::swap(commands_, other.commands_);
@@ -90,7 +90,7 @@ Recording& Recording::operator=(Recording&& other) noexcept {
     return *this;
 }
 
-void Recording::bind(const Pipeline& pipeline, const Table& table) {
+void CommandBuffer::bind(const Pipeline& pipeline, const BindingSet& table) {
     const VulkanFunctions& vk = device_->vk();
     if (pipeline.handle() != bound_pipeline_) {
         vk.vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_COMPUTE, pipeline.handle());
@@ -105,7 +105,7 @@ void Recording::bind(const Pipeline& pipeline, const Table& table) {
     push_bytes_ = pipeline.push_bytes();
 }
 
-void Recording::push(const void* data, std::uint32_t bytes) {
+void CommandBuffer::push(const void* data, std::uint32_t bytes) {
     if (!bound_layout_) throw std::logic_error("push constants before a pipeline is bound");
     if (bytes > push_bytes_ || bytes % 4 != 0) {
         throw std::invalid_argument(std::to_string(bytes) + " bytes of push constants, where the layout has " +
@@ -114,7 +114,7 @@ void Recording::push(const void* data, std::uint32_t bytes) {
     if (bytes > 0) device_->vk().vkCmdPushConstants(commands_, bound_layout_, VK_SHADER_STAGE_COMPUTE_BIT, 0, bytes, data);
 }
 
-void Recording::dispatch(std::uint32_t groups) {
+void CommandBuffer::dispatch(std::uint32_t groups) {
     const std::uint32_t limit = device_->limits().maxComputeWorkGroupCount[0];
     if (groups > limit) {
         throw DeviceError("a dispatch of " + std::to_string(groups) + " workgroups, where " + device_->report().name + " takes " +
@@ -123,27 +123,28 @@ void Recording::dispatch(std::uint32_t groups) {
     device_->vk().vkCmdDispatch(commands_, groups, 1, 1);
 }
 
-void Recording::dispatch_indirect(const Buffer& arguments, std::size_t offset) {
+void CommandBuffer::dispatch_indirect(const Buffer& arguments, std::size_t offset) {
     check_range(arguments, sizeof(VkDispatchIndirectCommand), offset);
     device_->vk().vkCmdDispatchIndirect(commands_, arguments.handle(), offset);
 }
 
-void Recording::barrier() {
+void CommandBuffer::barrier() {
     all_memory(device_->vk(), commands_, 0, 0);
 }
 
-void Recording::zero(const Buffer& buffer) {
+void CommandBuffer::zero(const Buffer& buffer) {
     device_->vk().vkCmdFillBuffer(commands_, buffer.handle(), 0, VK_WHOLE_SIZE, 0);
 }
 
-void Recording::copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset, std::size_t to_offset) {
+void CommandBuffer::copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset,
+                         std::size_t to_offset) {
     check_range(from, bytes, from_offset);
     check_range(to, bytes, to_offset);
     const VkBufferCopy region{from_offset, to_offset, bytes};
     if (bytes > 0) device_->vk().vkCmdCopyBuffer(commands_, from.handle(), to.handle(), 1, &region);
 }
 
-void Recording::timestamp() {
+void CommandBuffer::timestamp() {
     if (timestamps_written_ >= timestamps_) {
         throw std::out_of_range("more than the " + std::to_string(timestamps_) + " timestamps of a recording");
     }
@@ -151,13 +152,13 @@ void Recording::timestamp() {
     if (queries_) device_->vk().vkCmdWriteTimestamp(commands_, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, queries_, query);
 }
 
-void Recording::end() {
+void CommandBuffer::end() {
     // The host is left out of the barriers between stages: on a card it costs a flush of its caches each time.
     all_memory(device_->vk(), commands_, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
     check(device_->vk().vkEndCommandBuffer(commands_), "ending a recording");
 }
 
-std::vector<double> Recording::timestamp_seconds() const {
+std::vector<double> CommandBuffer::timestamp_seconds() const {
     if (!queries_ || timestamps_written_ < 2) return {};
     std::vector<std::uint64_t> ticks(timestamps_written_);
     check(device_->vk().vkGetQueryPoolResults(device_->handle(), queries_, 0, timestamps_written_, ticks.size() * sizeof ticks[0],

@@ -10,15 +10,15 @@
 
 namespace scree::host {
 
-class Recording {
+class CommandBuffer {
 public:
     // `timestamps`: how many timestamp() calls it may hold. Recording begins at once.
-    explicit Recording(std::shared_ptr<Device> device, std::uint32_t timestamps = 0);
-    ~Recording();
-    Recording(Recording&& other) noexcept;
-    Recording& operator=(Recording&& other) noexcept;
+    explicit CommandBuffer(std::shared_ptr<Device> device, std::uint32_t timestamps = 0);
+    ~CommandBuffer();
+    CommandBuffer(CommandBuffer&& other) noexcept;
+    CommandBuffer& operator=(CommandBuffer&& other) noexcept;
 
-    void bind(const Pipeline& pipeline, const Table& table);  // skips what is bound already
+    void bind(const Pipeline& pipeline, const BindingSet& table);  // skips what is bound already
     void push(const void* data, std::uint32_t bytes);
     void dispatch(std::uint32_t groups);
     void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`

@@ -97,7 +97,7 @@ const DeviceReport& choose(const std::vector<DeviceReport>& reports, const std::
 
 }  // namespace
 
-struct Device::Interior {
+struct Device::Impl {
     std::unique_ptr<Instance> instance;
     VulkanFunctions vk;
     DeviceReport report;
@@ -119,11 +119,11 @@ void check(VkResult result, const char* what) {
     throw DeviceError(std::string(what) + ": " + (name ? std::string(name) : "VkResult " + std::to_string(result)));
 }
 
-Device::Device() : interior_(std::make_unique<Interior>()) {}
+Device::Device() : interior_(std::make_unique<Impl>()) {}
 
 std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     std::shared_ptr<Device> device(new Device);
-    Interior& in = *device->interior_;
+    Impl& in = *device->interior_;
     in.instance = std::make_unique<Instance>(options.validation, options.on_message, options.window_extensions);
     in.vk = in.instance->vk();
     in.staged = options.staged;
@@ -167,7 +167,7 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
 }
 
 Device::~Device() {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     if (!in.device) return;
     if (in.vk.vkDeviceWaitIdle) in.vk.vkDeviceWaitIdle(in.device);
     in.cache.reset();

@@ -100,8 +100,8 @@ public:
 private:
     Device();
     void name_object(VkObjectType type, std::uint64_t handle, const std::string& name) const;
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 // Command buffers on their way through the queue.

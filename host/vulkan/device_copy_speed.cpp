@@ -12,18 +12,18 @@ double device_copy_speed(const std::shared_ptr<Device>& device) {
     const Buffer from(device, "copied_from", bytes), to(device, "copied_to", bytes);
     constexpr int copies = 6;
     double best = 0;
-    Recording recording(device, copies + 1);
-    recording.timestamp();
+    CommandBuffer commands(device, copies + 1);
+    commands.timestamp();
     for (int i = 0; i < copies; ++i) {
-        recording.copy(from, to, bytes);
-        recording.barrier();
-        recording.timestamp();
+        commands.copy(from, to, bytes);
+        commands.barrier();
+        commands.timestamp();
     }
-    recording.end();
+    commands.end();
     const auto start = std::chrono::steady_clock::now();
-    device->submit_and_wait({recording.handle()});
+    device->submit_and_wait({commands.handle()});
     const double whole = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    for (const double seconds : recording.timestamp_seconds())
+    for (const double seconds : commands.timestamp_seconds())
         if (seconds > 0) best = std::max(best, 2 * static_cast<double>(bytes) / seconds);
     return best > 0 ? best : 2 * static_cast<double>(bytes) * copies / whole;
 }

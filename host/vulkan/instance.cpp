@@ -1,4 +1,4 @@
-// The Vulkan instance: the loader found, validation switched on. Interior of Device.
+// The Vulkan instance: the loader found, validation switched on. Impl of Device.
 #include "host/vulkan/instance.h"
 
 #include <cstring>

@@ -1,4 +1,4 @@
-// The Vulkan instance: the loader found, validation switched on, the physical devices described. Interior of Device.
+// The Vulkan instance: the loader found, validation switched on, the physical devices described. Impl of Device.
 #pragma once
 
 #include <functional>

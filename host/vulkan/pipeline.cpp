@@ -11,7 +11,7 @@ namespace scree::host {
 
 namespace {
 
-VkDescriptorType type_of(const TableLayout& layout, std::uint32_t buffer) {
+VkDescriptorType type_of(const BindingSetLayout& layout, std::uint32_t buffer) {
     return layout.access(buffer).uniform ? VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
 }
 
@@ -22,8 +22,8 @@ VkFormat format_of(std::uint32_t texel_bytes) {
 
 }  // namespace
 
-TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach,
-                         std::vector<Access> special)
+BindingSetLayout::BindingSetLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach,
+                                   std::vector<Access> special)
     : device_(std::move(device)), buffers_(buffers), reach_(reach), push_bytes_(push_bytes), special_(std::move(special)) {
     const VulkanFunctions& vk = device_->vk();
     const VkPhysicalDeviceLimits& limits = device_->limits();
@@ -67,16 +67,17 @@ TableLayout::TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, 
     device_->set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, pipeline_layout_, "table");
 }
 
-TableLayout::~TableLayout() {
+BindingSetLayout::~BindingSetLayout() {
     device_->vk().vkDestroyPipelineLayout(device_->handle(), pipeline_layout_, nullptr);
     device_->vk().vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
 }
 
-bool TableLayout::has_texels() const {
+bool BindingSetLayout::has_texels() const {
     return std::any_of(special_.begin(), special_.end(), [](const Access& access) { return access.texel_bytes != 0; });
 }
 
-Table::Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer*>& buffers) : layout_(std::move(layout)) {
+BindingSet::BindingSet(std::shared_ptr<BindingSetLayout> layout, const std::vector<const Buffer*>& buffers)
+    : layout_(std::move(layout)) {
     if (buffers.size() != layout_->buffers()) {
         throw std::invalid_argument("a table of " + std::to_string(layout_->buffers()) + " buffers was given " +
                                     std::to_string(buffers.size()));
@@ -93,7 +94,7 @@ Table::Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer
     }
 }
 
-void Table::make_set() {
+void BindingSet::make_set() {
     const Device& device = *layout_->device();
     const VulkanFunctions& vk = device.vk();
     const std::uint32_t most = std::max(1u, layout_->buffers());
@@ -118,7 +119,7 @@ void Table::make_set() {
     device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "table");
 }
 
-void Table::view(std::uint32_t i, const Buffer& of) {
+void BindingSet::view(std::uint32_t i, const Buffer& of) {
     const Device& device = *layout_->device();
     const std::uint32_t bytes = layout_->access(i).texel_bytes;
     if (of.bytes() / bytes > device.limits().maxTexelBufferElements)
@@ -133,7 +134,7 @@ void Table::view(std::uint32_t i, const Buffer& of) {
     device.set_name(VK_OBJECT_TYPE_BUFFER_VIEW, views_[i], of.name());
 }
 
-void Table::fill(const std::vector<const Buffer*>& buffers) {
+void BindingSet::fill(const std::vector<const Buffer*>& buffers) {
     const Device& device = *layout_->device();
     const auto is_there = [](const Buffer* buffer) { return buffer && *buffer; };  // else no shader reads its binding
     std::vector<VkDescriptorBufferInfo> bound(layout_->buffers() + 1);
@@ -172,7 +173,7 @@ void Table::fill(const std::vector<const Buffer*>& buffers) {
     device.vk().vkUpdateDescriptorSets(device.handle(), static_cast<std::uint32_t>(writes.size()), writes.data(), 0, nullptr);
 }
 
-void Table::release() {
+void BindingSet::release() {
     if (!layout_) return;
     const Device& device = *layout_->device();
     for (const VkBufferView view : views_)
@@ -180,15 +181,15 @@ void Table::release() {
     device.vk().vkDestroyDescriptorPool(device.handle(), pool_, nullptr);
 }
 
-Table::~Table() {
+BindingSet::~BindingSet() {
     release();
 }
 
-Table::Table(Table&& other) noexcept {
+BindingSet::BindingSet(BindingSet&& other) noexcept {
     *this = std::move(other);
 }
 
-Table& Table::operator=(Table&& other) noexcept {
+BindingSet& BindingSet::operator=(BindingSet&& other) noexcept {
     std::swap(layout_, other.layout_);
     std::swap(pool_, other.pool_);
     std::swap(set_, other.set_);
@@ -197,7 +198,7 @@ Table& Table::operator=(Table&& other) noexcept {
     return *this;
 }
 
-Pipeline::Pipeline(std::shared_ptr<TableLayout> layout, const char* name, std::span<const std::uint32_t> words,
+Pipeline::Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, std::span<const std::uint32_t> words,
                    const std::vector<std::uint32_t>& specialisation)
     : layout_(std::move(layout)) {
     const Device& device = *layout_->device();

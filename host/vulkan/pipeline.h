@@ -27,13 +27,13 @@ struct Access {
 
 // The layout that all pipelines of a run share: `buffers` storage buffers, the first ones as `special` says, and `push_bytes` of
 // push constants. Throws DeviceError when the device takes fewer, or has no addresses and `reach` asks for them.
-class TableLayout {
+class BindingSetLayout {
 public:
-    TableLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach = Reach::bound,
-                std::vector<Access> special = {});
-    ~TableLayout();
-    TableLayout(const TableLayout&) = delete;
-    TableLayout& operator=(const TableLayout&) = delete;
+    BindingSetLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach = Reach::bound,
+                     std::vector<Access> special = {});
+    ~BindingSetLayout();
+    BindingSetLayout(const BindingSetLayout&) = delete;
+    BindingSetLayout& operator=(const BindingSetLayout&) = delete;
 
     const std::shared_ptr<Device>& device() const { return device_; }
     VkDescriptorSetLayout set_layout() const { return set_layout_; }
@@ -56,12 +56,12 @@ private:
 
 // One filling of the table. Buffers are borrowed; each must stay alive while recordings that use the table run. Throws
 // DeviceError when one is longer than the device binds, if it is to be bound, or has more texels than it reads.
-class Table {
+class BindingSet {
 public:
-    Table(std::shared_ptr<TableLayout> layout, const std::vector<const Buffer*>& buffers);
-    ~Table();
-    Table(Table&& other) noexcept;
-    Table& operator=(Table&& other) noexcept;
+    BindingSet(std::shared_ptr<BindingSetLayout> layout, const std::vector<const Buffer*>& buffers);
+    ~BindingSet();
+    BindingSet(BindingSet&& other) noexcept;
+    BindingSet& operator=(BindingSet&& other) noexcept;
     VkDescriptorSet set() const { return set_; }
 
 private:
@@ -70,7 +70,7 @@ private:
     void view(std::uint32_t buffer, const Buffer& of);
     void release();
 
-    std::shared_ptr<TableLayout> layout_;
+    std::shared_ptr<BindingSetLayout> layout_;
     VkDescriptorPool pool_ = VK_NULL_HANDLE;
     VkDescriptorSet set_ = VK_NULL_HANDLE;
     Buffer addresses_;
@@ -81,7 +81,7 @@ class Pipeline {
 public:
     // `words` is SPIR-V with entry point main; specialisation constant i gets specialisation[i]. Rounding to nearest, denormals,
     // true -0, infinities and NaN are asked for where the device offers them.
-    Pipeline(std::shared_ptr<TableLayout> layout, const char* name, std::span<const std::uint32_t> words,
+    Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, std::span<const std::uint32_t> words,
              const std::vector<std::uint32_t>& specialisation = {});
     ~Pipeline();
     Pipeline(Pipeline&& other) noexcept;
@@ -91,7 +91,7 @@ public:
     std::uint32_t push_bytes() const { return layout_->push_bytes(); }
 
 private:
-    std::shared_ptr<TableLayout> layout_;
+    std::shared_ptr<BindingSetLayout> layout_;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
 };
 

@@ -1,4 +1,4 @@
-// Compiled pipelines, kept on disk from one run to the next. Interior of Device.
+// Compiled pipelines, kept on disk from one run to the next. Impl of Device.
 #include "host/vulkan/pipeline_cache.h"
 
 #include <cstdint>

@@ -1,4 +1,4 @@
-// Compiled pipelines, kept on disk from one run to the next. Interior of Device.
+// Compiled pipelines, kept on disk from one run to the next. Impl of Device.
 #pragma once
 
 #include <string>

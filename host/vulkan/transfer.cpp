@@ -52,7 +52,7 @@ public:
 private:
     std::shared_ptr<Device> device_;
     Buffer buffer_;
-    std::optional<Recording> recording_;
+    std::optional<CommandBuffer> recording_;
     std::size_t used_ = 0;
 };
 
@@ -75,9 +75,9 @@ void upload(const std::shared_ptr<Device>& device, std::span<const Upload> piece
         if (piece.to->mapped()) continue;
         staging.add(
             piece.data.size(),
-            [&](Recording& recording, const Buffer& from, std::size_t place, std::size_t done, std::size_t count) {
+            [&](CommandBuffer& commands, const Buffer& from, std::size_t place, std::size_t done, std::size_t count) {
                 std::memcpy(static_cast<std::byte*>(from.mapped()) + place, piece.data.data() + done, count);
-                recording.copy(from, *piece.to, count, place, piece.offset + done);
+                commands.copy(from, *piece.to, count, place, piece.offset + done);
             },
             sent);
     }
@@ -109,8 +109,8 @@ void download(const std::shared_ptr<Device>& device, std::span<const Download> p
         if (piece.from->mapped()) continue;
         staging.add(
             piece.data.size(),
-            [&](Recording& recording, const Buffer& to, std::size_t place, std::size_t done, std::size_t count) {
-                recording.copy(*piece.from, to, count, piece.offset + done, place);
+            [&](CommandBuffer& commands, const Buffer& to, std::size_t place, std::size_t done, std::size_t count) {
+                commands.copy(*piece.from, to, count, piece.offset + done, place);
                 under_way.push_back({piece.data.data() + done, place, count});
             },
             sent);

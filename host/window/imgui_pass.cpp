@@ -251,7 +251,7 @@ void PanelPass::upload(const ImDrawData& panel) {
 void PanelPass::record(VkCommandBuffer commands, const ImDrawData& panel, VkImageView picture, VkExtent2D extent) {
     const VulkanFunctions& vk = device_->vk();
     upload(panel);
-    framebuffer_ = std::make_unique<Objects>(device_);
+    framebuffer_ = std::make_unique<VulkanObjectPool>(device_);
     VkRenderPassBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = pass_;

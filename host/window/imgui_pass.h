@@ -27,7 +27,7 @@ private:
     void upload(const ImDrawData& panel);
 
     std::shared_ptr<Device> device_;
-    Objects objects_;
+    VulkanObjectPool objects_;
     VkRenderPass pass_ = VK_NULL_HANDLE;
     VkSampler sampler_ = VK_NULL_HANDLE;
     Surface font_;
@@ -36,7 +36,7 @@ private:
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     Buffer corners_, indices_;
-    std::unique_ptr<Objects> framebuffer_;  // of the last picture
+    std::unique_ptr<VulkanObjectPool> framebuffer_;  // of the last picture
 };
 
 }  // namespace scree::host

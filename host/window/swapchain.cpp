@@ -106,7 +106,7 @@ bool Swapchain::build(int width, int height) {
     check(vk.vkGetSwapchainImagesKHR(device_->handle(), swapchain_, &count, nullptr), "the pictures of the window");
     std::vector<VkImage> images(count);
     check(vk.vkGetSwapchainImagesKHR(device_->handle(), swapchain_, &count, images.data()), "the pictures of the window");
-    objects_ = std::make_unique<Objects>(device_);
+    objects_ = std::make_unique<VulkanObjectPool>(device_);
     VkSemaphoreCreateInfo semaphore{};
     semaphore.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
     const auto new_semaphore = [&] {

@@ -47,7 +47,7 @@ private:
     VkSurfaceFormatKHR format_{};
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_{};
-    std::unique_ptr<Objects> objects_;  // views and semaphores of the present pictures
+    std::unique_ptr<VulkanObjectPool> objects_;  // views and semaphores of the present pictures
     std::vector<Target> targets_;
     std::vector<VkSemaphore> spare_;
     std::uint32_t index_ = 0;

@@ -74,9 +74,9 @@ std::vector<const char*> Display::extensions() const {
     return {names, names + count};
 }
 
-struct Window::Interior {
-    Interior(std::shared_ptr<Device> opened, GLFWwindow* window);
-    ~Interior();
+struct Window::Impl {
+    Impl(std::shared_ptr<Device> opened, GLFWwindow* window);
+    ~Impl();
 
     std::shared_ptr<Device> device;
     GLFWwindow* handle;
@@ -84,7 +84,7 @@ struct Window::Interior {
     double x = 0, y = 0;  // of the pointer, pixels
     std::unique_ptr<Swapchain> swapchain;
     std::unique_ptr<PanelPass> panel;
-    Objects objects;
+    VulkanObjectPool objects;
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
     VkFence fence = VK_NULL_HANDLE;
@@ -94,13 +94,13 @@ struct Window::Interior {
     void record(VkImage picture, const Swapchain::Target& target, int width, int height);
     void submit(const Swapchain::Target& target);
 
-    static Interior& of(GLFWwindow* window) { return *static_cast<Interior*>(glfwGetWindowUserPointer(window)); }
+    static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
     void moved(double to_x, double to_y);
     void clicked(int button, int action, int modifiers);
     void typed(int code, int action, int modifiers);
 };
 
-Window::Interior::Interior(std::shared_ptr<Device> opened, GLFWwindow* window)
+Window::Impl::Impl(std::shared_ptr<Device> opened, GLFWwindow* window)
     : device(std::move(opened)), handle(window), objects(device) {
     ImGui::CreateContext();
     ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
@@ -118,7 +118,7 @@ Window::Interior::Interior(std::shared_ptr<Device> opened, GLFWwindow* window)
     ImGui_ImplGlfw_InitForVulkan(handle, true);  // calls those that listen already
 }
 
-Window::Interior::~Interior() {
+Window::Impl::~Impl() {
     device->wait_idle();
     panel.reset();
     swapchain.reset();
@@ -127,7 +127,7 @@ Window::Interior::~Interior() {
     glfwDestroyWindow(handle);
 }
 
-void Window::Interior::make_commands() {
+void Window::Impl::make_commands() {
     const VulkanFunctions& vk = device->vk();
     VkCommandPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -146,7 +146,7 @@ void Window::Interior::make_commands() {
 }
 
 // Positions come in the window's own units, which are not pixels on every display.
-void Window::Interior::moved(double to_x, double to_y) {
+void Window::Impl::moved(double to_x, double to_y) {
     int width = 0, height = 0, across = 0, down = 0;
     glfwGetWindowSize(handle, &width, &height);
     glfwGetFramebufferSize(handle, &across, &down);
@@ -155,7 +155,7 @@ void Window::Interior::moved(double to_x, double to_y) {
     events.push_back({.kind = EventKind::moved, .x = x, .y = y});
 }
 
-void Window::Interior::clicked(int button, int action, int modifiers) {
+void Window::Impl::clicked(int button, int action, int modifiers) {
     Event event{.kind = action == GLFW_PRESS ? EventKind::pressed : EventKind::released, .x = x, .y = y};
     if (event.kind == EventKind::pressed && ImGui::GetIO().WantCaptureMouse) return;
     event.button = button == GLFW_MOUSE_BUTTON_RIGHT    ? Button::right
@@ -165,7 +165,7 @@ void Window::Interior::clicked(int button, int action, int modifiers) {
     events.push_back(event);
 }
 
-void Window::Interior::typed(int code, int action, int modifiers) {
+void Window::Impl::typed(int code, int action, int modifiers) {
     if (action == GLFW_REPEAT || (action == GLFW_PRESS && ImGui::GetIO().WantTextInput)) return;
     Event event{.kind = action == GLFW_PRESS ? EventKind::key_pressed : EventKind::key_released, .x = x, .y = y};
     event.key = key_of_glfw(code);
@@ -173,7 +173,7 @@ void Window::Interior::typed(int code, int action, int modifiers) {
     events.push_back(event);
 }
 
-void Window::Interior::listen() {
+void Window::Impl::listen() {
     glfwSetWindowUserPointer(handle, this);
     glfwSetCursorPosCallback(handle, [](GLFWwindow* window, double to_x, double to_y) { of(window).moved(to_x, to_y); });
     glfwSetMouseButtonCallback(
@@ -181,7 +181,7 @@ void Window::Interior::listen() {
     glfwSetKeyCallback(
         handle, [](GLFWwindow* window, int code, int, int action, int modifiers) { of(window).typed(code, action, modifiers); });
     glfwSetScrollCallback(handle, [](GLFWwindow* window, double, double amount) {
-        Interior& in = of(window);
+        Impl& in = of(window);
         if (!ImGui::GetIO().WantCaptureMouse)
             in.events.push_back({.kind = EventKind::scrolled, .x = in.x, .y = in.y, .amount = amount});
     });
@@ -196,7 +196,7 @@ Window::Window(const Display&, std::shared_ptr<Device> device, const std::string
     GLFWwindow* const window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
     if (window == nullptr) throw DeviceError("the window cannot be opened: " + reason());
     glfwSetWindowSizeLimits(window, 64, 64, GLFW_DONT_CARE, GLFW_DONT_CARE);
-    interior_ = std::make_unique<Interior>(std::move(device), window);
+    interior_ = std::make_unique<Impl>(std::move(device), window);
 }
 Window::~Window() = default;
 
@@ -234,7 +234,7 @@ void Window::end_panel() {
 }
 
 // The picture over the whole of the target, and the panel over that.
-void Window::Interior::record(VkImage picture, const Swapchain::Target& target, int width, int height) {
+void Window::Impl::record(VkImage picture, const Swapchain::Target& target, int width, int height) {
     const VulkanFunctions& vk = device->vk();
     VkCommandBufferBeginInfo begin{};
     begin.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
@@ -260,7 +260,7 @@ void Window::Interior::record(VkImage picture, const Swapchain::Target& target, 
     check(vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer");
 }
 
-void Window::Interior::submit(const Swapchain::Target& target) {
+void Window::Impl::submit(const Swapchain::Target& target) {
     const VulkanFunctions& vk = device->vk();
     const VkPipelineStageFlags stage = VK_PIPELINE_STAGE_TRANSFER_BIT;
     VkSubmitInfo info{};
@@ -276,7 +276,7 @@ void Window::Interior::submit(const Swapchain::Target& target) {
 }
 
 bool Window::show(Canvas& canvas, const View& view) {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     auto& drawing = dynamic_cast<VulkanCanvas&>(canvas);
     const int across = width(), down = height();
     if (across == 0 || down == 0 || across != drawing.options().width || down != drawing.options().height) return false;

@@ -54,8 +54,8 @@ public:
     bool show(Canvas& canvas, const View& view);
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 }  // namespace scree::host

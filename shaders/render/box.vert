@@ -21,7 +21,7 @@ void main() {
     Pose pose = poses[at.body];
     vec3 center = pose.position - frame.eye.xyz;
     // What is thinner than a pixel would flicker.
-    vec3 size = max(traits[at.body].size, vec3(0.5 * pixel_at(center)));
+    vec3 size = max(properties[at.body].size, vec3(0.5 * pixel_at(center)));
     vec3 toward = turned_back(pose.orientation, orthographic() ? -frame.forward.xyz : -center);
     vec3 own = near_corner(at.corner, toward) * size;
     vec3 point = center + turned(pose.orientation, own);

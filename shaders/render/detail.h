@@ -7,8 +7,8 @@
 
 layout(local_size_x = 128) in;  // DETAIL_GROUP
 
-layout(std430, set = 0, binding = 0) readonly buffer TraitsTable {
-    Traits traits[];
+layout(std430, set = 0, binding = 0) readonly buffer PropertiesTable {
+    BodyProperties properties[];
 };
 layout(std430, set = 0, binding = 1) readonly buffer PoseTable {
     Pose poses[];
@@ -43,7 +43,7 @@ uint bodies_to_see() {
 uint run_of_place(uint place) {
     if (place >= bodies_to_see()) return NOT_SEEN;
     uint body = instances[place];
-    Traits t = traits[body];
+    BodyProperties t = properties[body];
     if (is_absent(t.motion)) return NOT_SEEN;
     uint shape = place >= runs[RUN_ALL_SOLIDS].first     ? RUN_ALL_SOLIDS
                  : place >= runs[RUN_ALL_BOXES].first    ? RUN_ALL_BOXES

@@ -35,13 +35,13 @@ End end_of(uint body, vec3 anchor) {
     if (body == NONE) return end;
     end.middle = poses[body].position - frame.eye.xyz;
     end.anchor = end.middle + turned(poses[body].orientation, anchor);
-    end.is_body = traits[body].shape != SHAPE_PLANE;
-    end.reach = end.is_body ? bounding_radius(traits[body].shape, traits[body].size) : 0.0;
-    end.inverse_mass = traits[body].inverse_mass;
+    end.is_body = properties[body].shape != SHAPE_PLANE;
+    end.reach = end.is_body ? bounding_radius(properties[body].shape, properties[body].size) : 0.0;
+    end.inverse_mass = properties[body].inverse_mass;
     return end;
 }
 bool is_gone(uint body) {
-    return body != NONE && is_absent(traits[body].motion);
+    return body != NONE && is_absent(properties[body].motion);
 }
 
 // Whether the x axis matters: it does not where nothing moves, or where B turns every way alike about a point.

@@ -65,8 +65,8 @@ void main() {
     float unit = frame.ray_down.w / 720.0;
     out_half_width = max(0.5, 0.6 * unit);
     Corner at = corner_of_body();
-    if (!at.there || is_absent(traits[at.body].motion)) return;
-    Traits t = traits[at.body];
+    if (!at.there || is_absent(properties[at.body].motion)) return;
+    BodyProperties t = properties[at.body];
     uint kind = pushed & 255u;
     if (kind == LINES_VELOCITIES) {
         out_half_width = max(0.6, 0.9 * unit);
@@ -77,7 +77,7 @@ void main() {
         return;
     }
     Bounds around = bounds[at.body];
-    uint level = around.level & ~STILL;
+    uint level = around.level & ~INACTIVE;
     // Before the first step nobody has bounds.
     if (!(around.upper.x > around.lower.x) || (t.motion & 3u) == MOTION_FIXED) return;
     if (kind == LINES_BOXES) {

@@ -21,12 +21,12 @@ const vec3 PUSHING = vec3(0.16, 1.0, 0.42);
 const vec3 IDLE = vec3(0.42, 0.55, 0.62);
 const float LONGEST = 0.95;  // half a line, of the thinner body's half width: lines of a stack do not meet
 
-bool is_round(Traits t) {
+bool is_round(BodyProperties t) {
     return has_round_core(t.shape);
 }
 // The body that a row is a part of.
 uint body_of(uint row) {
-    return (traits[row].motion & MOTION_OF_PART) != 0u ? traits[row].owner : row;
+    return (properties[row].motion & MOTION_OF_PART) != 0u ? properties[row].owner : row;
 }
 // By how much a body has turned since.
 vec3 turned_on(vec4 before, vec4 now, vec3 arm) {
@@ -34,15 +34,15 @@ vec3 turned_on(vec4 before, vec4 now, vec3 arm) {
 }
 
 // Where the point is now, relative to the eye. It rides on both bodies, but does not roll with a round one.
-vec3 point_now(Contact touch, uint k, Traits a, Traits b) {
+vec3 point_now(Contact touch, uint k, BodyProperties a, BodyProperties b) {
     vec3 arm = touch.points[k].xyz;
     uint of_a = body_of(touch.a), of_b = body_of(touch.b);
     vec3 on_a = poses[of_a].position - frame.eye.xyz;
     vec3 on_b = poses[of_b].position - frame.eye.xyz;
-    if (is_round(a) != is_round(b)) return is_round(a) ? on_a + arm : on_b + arm - touch.d;
-    if (is_round(a)) return 0.5 * (on_a + arm + on_b + arm - touch.d);
-    return 0.5 * (on_a + turned_on(touch.turn_a, poses[of_a].orientation, arm) + on_b +
-                  turned_on(touch.turn_b, poses[of_b].orientation, arm - touch.d));
+    if (is_round(a) != is_round(b)) return is_round(a) ? on_a + arm : on_b + arm - touch.center_offset;
+    if (is_round(a)) return 0.5 * (on_a + arm + on_b + arm - touch.center_offset);
+    return 0.5 * (on_a + turned_on(touch.orientation_a, poses[of_a].orientation, arm) + on_b +
+                  turned_on(touch.orientation_b, poses[of_b].orientation, arm - touch.center_offset));
 }
 
 vec2 pixels_of(vec4 clip) {
@@ -56,7 +56,7 @@ void main() {
     Contact touch = touches[gl_InstanceIndex / 4];
     uint k = uint(gl_InstanceIndex % 4);
     if (k >= touch.count) return;
-    Traits a = traits[touch.a], b = traits[touch.b];
+    BodyProperties a = properties[touch.a], b = properties[touch.b];
     vec3 point = point_now(touch, k, a, b);
     vec4 clip = frame.view_projection * vec4(point, 1.0);
     float near = frame.ray_corner.w;
@@ -65,7 +65,7 @@ void main() {
 
     float size = min(min_half_width(a.shape, a.size), min_half_width(b.shape, b.size));
     float push = pushes[gl_InstanceIndex / 4].normal[k] *
-                 max(traits[body_of(touch.a)].inverse_mass, traits[body_of(touch.b)].inverse_mass);
+                 max(properties[body_of(touch.a)].inverse_mass, properties[body_of(touch.b)].inverse_mass);
     // Lengths grow as the square root: a heap's lowest points bear hundreds of times what its highest do.
     float half_length = size * min(0.25 * sqrt(push / frame.marks.y), LONGEST);
     vec4 end_clip = frame.view_projection * vec4(point + touch.normal * half_length, 1.0);

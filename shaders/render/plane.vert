@@ -10,7 +10,7 @@ layout(location = 2) flat out vec4 out_v;
 
 void main() {
     uint body = instances[gl_InstanceIndex];
-    vec3 n = traits[body].size;
+    vec3 n = properties[body].size;
     float height = dot(n, frame.eye.xyz - poses[body].position);
     // Axes that follow the world's where they can: on the ground u is x and v is z.
     vec3 v = normalize(abs(n.z) < 0.9 ? vec3(0, 0, 1) - n * n.z : vec3(0, 1, 0) - n * n.y);

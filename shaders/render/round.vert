@@ -36,7 +36,7 @@ void main() {
     gl_Position = vec4(0, 0, -1, 1);
     if (!at.there) return;
     uint body = at.body;
-    Traits t = traits[body];
+    BodyProperties t = properties[body];
     Pose pose = poses[body];
     bool capsule = t.shape == SHAPE_CAPSULE;
     vec3 center = pose.position - frame.eye.xyz;

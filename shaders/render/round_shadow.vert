@@ -16,9 +16,9 @@ void main() {
     Corner chosen = corner_of_body();
     gl_Position = vec4(0, 0, -1, 1);
     out_place = vec2(0.0);
-    if (!chosen.there || is_absent(traits[chosen.body].motion)) return;
+    if (!chosen.there || is_absent(properties[chosen.body].motion)) return;
     uint body = chosen.body;
-    Traits t = traits[body];
+    BodyProperties t = properties[body];
     Pose pose = poses[body];
     float radius = t.size.x;
     float half_height = t.shape == SHAPE_CAPSULE ? t.size.y : 0.0;

@@ -10,8 +10,8 @@ layout(std430, set = 0, binding = 4) readonly buffer FrameBlock {
 };
 
 #ifdef READS_BODIES
-layout(std430, set = 0, binding = 0) readonly buffer TraitsTable {
-    Traits traits[];
+layout(std430, set = 0, binding = 0) readonly buffer PropertiesTable {
+    BodyProperties properties[];
 };
 layout(std430, set = 0, binding = 1) readonly buffer PoseTable {
     Pose poses[];

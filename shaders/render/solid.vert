@@ -17,7 +17,7 @@ void main() {
     Corner at = corner_of_body();
     gl_Position = vec4(0, 0, -1, 1);
     if (!at.there) return;
-    Traits t = traits[at.body];
+    BodyProperties t = properties[at.body];
     MeshCorner corner = mesh_corner(at, t.size);
     if (!corner.there) return;
     Pose pose = poses[at.body];

@@ -27,7 +27,7 @@ layout(std430, set = 0, binding = 17) readonly buffer SlotSideTable {
     uint slot_sides[];  // 2 * contact + side, or with OF_JOINT a joint's record
 };
 layout(std430, set = 0, binding = 18) readonly buffer RestTable {
-    uint rests[];
+    uint sleep_states[];
 };
 layout(std430, set = 0, binding = 22) readonly buffer IdTable {
     uint ids[];
@@ -35,7 +35,7 @@ layout(std430, set = 0, binding = 22) readonly buffer IdTable {
 
 bool sleeps(uint body) {
     uint steps = uint(frame.rest.x);
-    return steps > 0u && has_slept(rests[body], steps);
+    return steps > 0u && has_slept(sleep_states[body], steps);
 }
 
 // The sum of what its contacts push in a substep, N s.
@@ -59,8 +59,8 @@ float contacts_on(uint body) {
 float quantity(uint by, uint body) {
     if (by == COLOR_BY_CONTACT_IMPULSE) return contact_impulse(body);
     if (by == COLOR_BY_CONTACTS) return contacts_on(body);
-    if (by == COLOR_BY_REST) return sleeps(body) ? 1e30 : float(quiet_steps(rests[body])) * frame.rest.y;
-    Traits t = traits[body];
+    if (by == COLOR_BY_REST) return sleeps(body) ? 1e30 : float(quiet_steps(sleep_states[body])) * frame.rest.y;
+    BodyProperties t = properties[body];
     Velocity v = velocities[body];
     if (by == COLOR_BY_MOMENTUM) return length(v.linear) / t.inverse_mass;
     if (by == COLOR_BY_SPEED) return length(v.linear);
@@ -82,7 +82,7 @@ vec3 name_color(uint id) {
 
 // The material of the frame's list that is most alike.
 uint material_of(uint body) {
-    Traits t = traits[body];
+    BodyProperties t = properties[body];
     vec3 own = vec3(t.friction, t.restitution, log(1.0 / (t.inverse_mass * volume_of(t.shape, t.size))));
     uint best = 0u;
     float least = 1e30;
@@ -98,7 +98,7 @@ uint material_of(uint body) {
 }
 
 vec4 full_color(uint body) {
-    uint motion = traits[body].motion & 3u;
+    uint motion = properties[body].motion & 3u;
     if (motion == MOTION_FIXED) return vec4(STONE, 0.0);
     if (motion == MOTION_KINEMATIC) return vec4(KINEMATIC, 0.0);
     uint by = uint(frame.scale.w);
@@ -115,7 +115,7 @@ vec4 full_color(uint body) {
 // shall be known, are dull and blue.
 vec4 body_color(uint body) {
     vec4 color = full_color(body);
-    if (frame.marks.w > 0.5 && traits[body].motion == MOTION_DYNAMIC && sleeps(body)) {
+    if (frame.marks.w > 0.5 && properties[body].motion == MOTION_DYNAMIC && sleeps(body)) {
         float light = dot(color.rgb, vec3(0.2126, 0.7152, 0.0722));
         color = vec4(mix(color.rgb, vec3(0.10, 0.16, 0.30) * (0.6 + light), 0.75), 0.0);
     }
@@ -128,6 +128,6 @@ void main() {
     if (place >= runs[RUN_PLANES].first) return;
     uint body = instances[place];
     // A part looks as the body does that it belongs to.
-    bool part = (traits[body].motion & MOTION_OF_PART) != 0u;
-    tints[body] = body_color(part ? traits[body].owner : body);
+    bool part = (properties[body].motion & MOTION_OF_PART) != 0u;
+    tints[body] = body_color(part ? properties[body].owner : body);
 }

@@ -13,12 +13,12 @@ void main() {
         WORD(slot_counts, i) = 0u;
     }
     if (i < PARAMETERS.bodies) {
-        loads.at[i] = gravity_load(READ(traits, i), PARAMETERS);
-        if (PARAMETERS.wake_all != 0u) WORD(rests, i) = 0u;
+        forces.at[i] = gravity_forces(READ(properties, i), PARAMETERS);
+        if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = 0u;
     }
     // Rows one by one, by different threads: a software device goes through what a single thread does for every vector of them.
     Counts empty = emptied(COUNTS, PARAMETERS);
-    if (i < KINDS + 1u) COUNTS.kind_first[i] = 0u;
+    if (i < PAIR_TYPES + 1u) COUNTS.pair_type_first[i] = 0u;
     if (i < WORKS) COUNTS.arguments[i] = empty_work(i, PARAMETERS);
     if (i > 0u) return;
     COUNTS.pairs = empty.pairs;
@@ -27,7 +27,7 @@ void main() {
     COUNTS.levels_stirring = empty.levels_stirring;
     COUNTS.large_stirring = empty.large_stirring;
     COUNTS.sleepers = empty.sleepers;
-    COUNTS.solved = empty.solved;
+    COUNTS.solver_contacts = empty.solver_contacts;
     COUNTS.pairs_coarse = empty.pairs_coarse;
     COUNTS.fast = empty.fast;
     COUNTS.broken = empty.broken;

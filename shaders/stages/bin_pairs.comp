@@ -1,4 +1,4 @@
-// count_kinds, scan_kinds and fill_kinds in one.
+// count_pair_types, scan_pair_types and fill_pair_types in one.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -10,11 +10,11 @@
 #include "shaders/stages/lib/scan.glsl"
 
 void main() {
-    uint spans = spans_of(COUNTED.pairs);
-    FOR_EACH(i, spans) count_kinds_of(i);
+    uint pair_blocks = pair_blocks_of(COUNTED.pairs);
+    FOR_EACH(i, pair_blocks) count_kinds_of(i);
     end_part();
     scan_whole();
     end_part();
-    FOR_EACH(i, spans) list_kinds_of(i);
-    FOR_EACH(i, KINDS) tell_kind(i);
+    FOR_EACH(i, pair_blocks) list_kinds_of(i);
+    FOR_EACH(i, PAIR_TYPES) tell_kind(i);
 }

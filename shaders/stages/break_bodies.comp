@@ -7,23 +7,23 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.broken == 0u || !(READ(loads, i).kept < 1.0f)) return;
-    Fracturing fracturing = READ_QUADS(fractures, traits.at[i].fracture);
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.broken == 0u || !(READ(forces, i).kept < 1.0f)) return;
+    Fracturing fracturing = READ_QUADS(fractures, properties.at[i].fracture);
     Pose pose = poses.at[i];
     Velocity velocity = velocities.at[i];
     for (uint k = 0u; k < fracturing.count; ++k) {
         uint row = fracturing.first_row + k;
-        Moved part = piece_of(READ_QUADS(pieces, fracturing.first_pose + k), pose, velocity);
+        RigidState part = piece_of(READ_QUADS(pieces, fracturing.first_pose + k), pose, velocity);
         poses.at[row] = part.pose;
         velocities.at[row] = part.velocity;
-        WORD(rests, row) = 0u;
-        traits.at[row].motion = MOTION_DYNAMIC;
-        if (traits.at[row].fracture == NONE) continue;
+        WORD(sleep_states, row) = 0u;
+        properties.at[row].motion = MOTION_DYNAMIC;
+        if (properties.at[row].fracture == NONE) continue;
         SET_FLOAT(strains, row,
-                  strain_after(READ_QUADS(fractures, traits.at[row].fracture), 0.0f, traits.at[row], part.velocity));
+                  strain_after(READ_QUADS(fractures, properties.at[row].fracture), 0.0f, properties.at[row], part.velocity));
     }
-    traits.at[i].motion = MOTION_BROKEN;
+    properties.at[i].motion = MOTION_BROKEN;
     SET_FLOAT(strains, i, 0.0f);
-    WORD(rests, i) = 0u;
+    WORD(sleep_states, i) = 0u;
     velocities.at[i] = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
 }

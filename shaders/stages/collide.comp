@@ -55,11 +55,11 @@
 #endif
 
 void main() {
-    uint i = thread() + COUNTED.kind_first[KIND];
-    if (i >= COUNTED.kind_first[KIND + 1]) return;
-    uint pair = READ_WORD(pairs_by_kind, i);
+    uint i = thread() + COUNTED.pair_type_first[KIND];
+    if (i >= COUNTED.pair_type_first[KIND + 1]) return;
+    uint pair = READ_WORD(pairs_by_type, i);
     uint a = READ(pairs, pair).a, b = READ(pairs, pair).b;
-    Traits ta = READ(traits, a), tb = READ(traits, b);
+    BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     Pose pa = READ(poses, a), pb = READ(poses, b);
     Velocity va = READ(velocities, a), vb = READ(velocities, b);
     float margin = margin_of(ta, va, tb, vb, PARAMETERS);
@@ -72,17 +72,17 @@ void main() {
 #endif
     // The law wants the simpler shape first.
     bool swap = ta.shape > tb.shape;
-    Traits first_traits = swap ? tb : ta;
-    Traits second_traits = swap ? ta : tb;
+    BodyProperties first_traits = swap ? tb : ta;
+    BodyProperties second_traits = swap ? ta : tb;
     Pose first = swap ? pb : pa;
     Pose second = swap ? pa : pb;
-    Touch touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
+    ManifoldBuffer touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
 #ifdef MAY_BE_SMOOTH
     if (ahead > 0.0f) touch = brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
 #endif
     if (a >= PARAMETERS.first_part)
-        touch = from_body(touch, READ(poses, a).position - READ(poses, READ(traits, a).owner).position);
+        touch = from_body(touch, READ(poses, a).position - READ(poses, READ(properties, a).owner).position);
     manifolds.at[pair] = touch.manifold;
-    WORD(touching, pair) = touch.count;
+    WORD(point_counts, pair) = touch.count;
 }

@@ -7,7 +7,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 bool is_gone(uint body) {
-    return body != NONE && is_absent(READ(traits, body).motion);
+    return body != NONE && is_absent(READ(properties, body).motion);
 }
 
 void main() {
@@ -16,11 +16,12 @@ void main() {
     uint first = joints.at[i].first_of_block;
     for (uint j = first; j < first + joints.at[first].block_joints; ++j)
         if (is_gone(joints.at[j].a) || is_gone(joints.at[j].b)) joints.at[j].broken = 1u;
-    uint last = first + joints.at[first].block_members;
+    uint last = first + joints.at[first].block_bodies;
     for (uint m = first; m < last; ++m) {
-        uint body = joints.at[m].member;
+        uint body = joints.at[m].block_body;
         joints.at[m].slot = NONE;
-        if (any_stirs(COUNTED) && is_movable(READ(traits, body).motion, READ_WORD(rests, body), PARAMETERS.sleep_steps))
+        if (any_stirs(COUNTED) &&
+            is_movable(READ(properties, body).motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps))
             atomicAdd(WORD(slot_counts, body), 1u);
     }
 }

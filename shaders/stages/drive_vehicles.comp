@@ -12,27 +12,27 @@ WayPoint way_point_at(Routes routes, uint place) {
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.vehicles || COUNTED.overflow != 0u) return;
-    Handling v = vehicles.at[i].handling;
-    if (is_absent(READ(traits, v.chassis).motion)) return;
+    VehicleDynamics v = vehicles.at[i].dynamics;
+    if (is_absent(READ(properties, v.chassis).motion)) return;
     if (PARAMETERS.redo == 0u) {
         v = driven(v, Routes(0u), READ(poses, v.chassis), READ(velocities, v.chassis), PARAMETERS);
-        vehicles.at[i].handling = v;
+        vehicles.at[i].dynamics = v;
     }
     bool awake = is_under_way(v);
-    if (awake) WORD(rests, v.chassis) = 0u;
+    if (awake) WORD(sleep_states, v.chassis) = 0u;
     vec3 axle = vehicle_axes(v, READ(poses, v.chassis).orientation).x;
     vec3 turning = READ(velocities, v.chassis).angular;
     for (uint k = 0u; k < v.wheels; ++k) {
         VehicleWheel wheel = vehicles.at[i].wheel[k];
-        if (is_absent(READ(traits, wheel.body).motion)) continue;
-        if (awake) WORD(rests, wheel.body) = 0u;
+        if (is_absent(READ(properties, wheel.body).motion)) continue;
+        if (awake) WORD(sleep_states, wheel.body) = 0u;
         if (PARAMETERS.redo != 0u) continue;
         float spin = dot3(axle, READ(velocities, wheel.body).angular - turning);
         JointAxis motor = wheel_motor(joints.at[wheel.joint].axes[3], v, wheel, spin);
         joints.at[wheel.joint].axes[3] = motor;
         if (motor.mode == 0u) {
-            joints.at[wheel.joint].rows[3].drive = 0.0f;
-            joints.at[wheel.joint].pins = with_pins(joints.at[wheel.joint].pins, 3u, 0u);
+            joints.at[wheel.joint].rows[3].motor_impulse = 0.0f;
+            joints.at[wheel.joint].active_set = with_active_set(joints.at[wheel.joint].active_set, 3u, 0u);
         }
         if (wheel.steers != 0u) joints.at[wheel.joint].axes[4].rest = wheel_angle(v, wheel);
     }

@@ -15,24 +15,24 @@ void main() {
     uint i = thread();
     if (COUNTED.overflow != 0u) return;
     if (i == 0u) ++COUNTS.steps;
-    if (i >= PARAMETERS.bodies || is_asleep(WORD(rests, i), PARAMETERS.sleep_steps)) return;
-    Traits body = READ(traits, i);
+    if (i >= PARAMETERS.bodies || is_asleep(WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
+    BodyProperties body = READ(properties, i);
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
     Velocity velocity = READ(velocities, i);
-    velocity.linear = without_dust(velocity.linear + sum.change.linear);
-    velocity.angular = without_dust(velocity.angular + sum.change.angular);
+    velocity.linear = flush_tiny(velocity.linear + sum.change.linear);
+    velocity.angular = flush_tiny(velocity.angular + sum.change.angular);
     float pace = pace_of(body, velocity, PARAMETERS);
-    WORD(rests, i) = rest_after(WORD(rests, i), pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
-    if (is_asleep(WORD(rests, i), PARAMETERS.sleep_steps)) {
+    WORD(sleep_states, i) = sleep_state_after(WORD(sleep_states, i), pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
+    if (is_asleep(WORD(sleep_states, i), PARAMETERS.sleep_steps)) {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);
     }
     velocities.at[i] = velocity;
-    Flight flight = bounds.at[i].flight;
-    if (!was_fast(body, flight, READ(poses, i))) return;
-    bounds.at[i].flight = stopped_at(flight, seen_part(body, flight, READ(poses, i), bounds.at[i]));
+    Sweep sweep = bounds.at[i].sweep;
+    if (!was_fast(body, sweep, READ(poses, i))) return;
+    bounds.at[i].sweep = stopped_at(sweep, seen_part(body, sweep, READ(poses, i), bounds.at[i]));
     atomicOr(COUNTS.fast, 1u);
-    atomicMax(COUNTS.arguments[WORK_FLIGHTS].x, COUNTS.arguments[WORK_PAIRS].x);
-    atomicMax(COUNTS.arguments[WORK_FLIGHTS].w, COUNTS.arguments[WORK_PAIRS].w);
+    atomicMax(COUNTS.arguments[WORK_CCD_PAIRS].x, COUNTS.arguments[WORK_PAIRS].x);
+    atomicMax(COUNTS.arguments[WORK_CCD_PAIRS].w, COUNTS.arguments[WORK_PAIRS].w);
 }

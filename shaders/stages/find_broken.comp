@@ -8,7 +8,7 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
-    Traits body = READ(traits, i);
+    BodyProperties body = READ(properties, i);
     if (!may_break(body)) return;
     float blow = 0.0f;
     uint last = READ_WORD(slot_ends, i);
@@ -18,6 +18,6 @@ void main() {
     float kept = kept_part(fracturing, blow, READ_FLOAT(strains, i));
     SET_FLOAT(strains, i, strain_after(fracturing, blow, body, READ(velocities, i)));
     if (!(kept < 1.0f)) return;
-    loads.at[i].kept = kept;
+    forces.at[i].kept = kept;
     atomicAdd(COUNTS.broken, 1u);
 }

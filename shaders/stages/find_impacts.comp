@@ -14,28 +14,29 @@ void main() {
     uint now = push.pass & 1u, next = now ^ 1u;
     uint row_a = READ(pairs, i).a, row_b = READ(pairs, i).b;
     uint a = body_of(row_a), b = body_of(row_b);
-    uint bits_a = bounds.at[a].flight.stops[now], bits_b = bounds.at[b].flight.stops[now];
+    uint bits_a = bounds.at[a].sweep.stops[now], bits_b = bounds.at[b].sweep.stops[now];
     float stop_a = uintBitsToFloat(bits_a), stop_b = uintBitsToFloat(bits_b);
     if (stop_a > 1.0f && stop_b > 1.0f) return;
     if (push.pass > 0u) {
-        atomicMin(bounds.at[a].flight.stops[next], bits_a);
-        atomicMin(bounds.at[b].flight.stops[next], bits_b);
+        atomicMin(bounds.at[a].sweep.stops[next], bits_a);
+        atomicMin(bounds.at[b].sweep.stops[next], bits_b);
         if (!(stop_a < 1.0f || stop_b < 1.0f)) return;
     }
-    Traits ta = READ(traits, a), tb = READ(traits, b);
-    Course ca = course_of(ta, bounds.at[a].flight.position, bounds.at[a].flight.orientation, READ(poses, a), stop_a);
-    Course cb = course_of(tb, bounds.at[b].flight.position, bounds.at[b].flight.orientation, READ(poses, b), stop_b);
+    BodyProperties ta = READ(properties, a), tb = READ(properties, b);
+    MotionPath ca = path_of(ta, bounds.at[a].sweep.position, bounds.at[a].sweep.orientation, READ(poses, a), stop_a);
+    MotionPath cb = path_of(tb, bounds.at[b].sweep.position, bounds.at[b].sweep.orientation, READ(poses, b), stop_b);
     if (row_a != a) {
-        ta = READ(traits, row_a);
-        ca = course_of_part(ta, part_in(row_a), ca);
+        ta = READ(properties, row_a);
+        ca = path_of_part(ta, part_in(row_a), ca);
     }
     if (row_b != b) {
-        tb = READ(traits, row_b);
-        cb = course_of_part(tb, part_in(row_b), cb);
+        tb = READ(properties, row_b);
+        cb = path_of_part(tb, part_in(row_b), cb);
     }
-    float fraction = impact_of(ta, ca, tb, cb, limits_of(ta, tb, hold_of(READ_WORD(touching, i), stop_a, stop_b), PARAMETERS),
-                               false, Hulls(0u))
-                         .fraction;
-    if (stop_a <= 1.0f) atomicMin(bounds.at[a].flight.stops[next], floatBitsToUint(fraction));
-    if (stop_b <= 1.0f) atomicMin(bounds.at[b].flight.stops[next], floatBitsToUint(fraction));
+    float fraction =
+        impact_of(ta, ca, tb, cb, limits_of(ta, tb, contact_state_of(READ_WORD(point_counts, i), stop_a, stop_b), PARAMETERS),
+                  false, Hulls(0u))
+            .fraction;
+    if (stop_a <= 1.0f) atomicMin(bounds.at[a].sweep.stops[next], floatBitsToUint(fraction));
+    if (stop_b <= 1.0f) atomicMin(bounds.at[b].sweep.stops[next], floatBitsToUint(fraction));
 }

@@ -38,16 +38,16 @@ void main() {
     // Bodies change level with their speed, and then the other one owns the pair.
     pair.previous = contact_before(pair.a, pair.b);
     if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);
-    if ((READ(bounds, pair.a).level & READ(bounds, pair.b).level & STILL) != 0u) {
-        pair.kind = KIND_STILL;
+    if ((READ(bounds, pair.a).level & READ(bounds, pair.b).level & INACTIVE) != 0u) {
+        pair.pair_type = PAIR_INACTIVE;
     } else {
-        Traits ta = READ(traits, pair.a), tb = READ(traits, pair.b);
+        BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
         uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
         if (pair.previous != NONE && has_weight(PARAMETERS))
-            kept = is_kept(READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta, READ(poses, of_a),
-                           READ(velocities, of_a), tb, READ(poses, of_b), READ(velocities, of_b));
-        pair.kind = kept ? KIND_KEPT : kind_of(ta.shape, tb.shape);
+            kept = is_persistent(READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta,
+                                 READ(poses, of_a), READ(velocities, of_a), tb, READ(poses, of_b), READ(velocities, of_b));
+        pair.pair_type = kept ? PAIR_PERSISTENT : pair_type_of(ta.shape, tb.shape);
     }
     pairs.at[place] = pair;
 }

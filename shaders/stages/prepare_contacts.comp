@@ -5,7 +5,7 @@
 #include "shaders/physics/solve/contact_preparation.h"
 #include "shaders/stages/lib/stage.glsl"
 
-Constraint on_tyre_of(Traits ta, Traits tb, Constraint constraint, vec3 d, Couple now) {
+Constraint on_tyre_of(BodyProperties ta, BodyProperties tb, Constraint constraint, vec3 d, VelocityPair now) {
     bool is_a = tyre_of(ta) != 0u;
     return on_tyre(constraint, is_a, READ_QUADS(tyres, tyre_of(is_a ? ta : tb) - 1u), d, now);
 }
@@ -19,26 +19,26 @@ void main() {
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     bool idle = is_idle(slot_a, slot_b);
     PreparedContact prepared;
-    if (is_carried_forward(pair.kind))
+    if (is_carried_forward(pair.pair_type))
         prepared = carried_forward(READ(contacts_before, pair.previous), READ(impulses_before, pair.previous),
                                    READ(manifolds, pair_index));
-    if (idle && pair.kind == KIND_STILL) {
+    if (idle && pair.pair_type == PAIR_INACTIVE) {
         contacts.at[i] = prepared.contact;
         impulses.at[i] = prepared.impulse;
         constraints.at[i] = idle_between(prepared.contact, of_a, of_b);
         return;
     }
-    Traits ta = READ(traits, pair.a), tb = READ(traits, pair.b);
-    if (!is_carried_forward(pair.kind)) {
-        prepared =
-            newly_found(pair, READ(manifolds, pair_index), READ_WORD(touching, pair_index), READ(poses, of_a), READ(poses, of_b));
+    BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
+    if (!is_carried_forward(pair.pair_type)) {
+        prepared = newly_found(pair, READ(manifolds, pair_index), READ_WORD(point_counts, pair_index), READ(poses, of_a),
+                               READ(poses, of_b));
         if (pair.previous != NONE)
             prepared = warm_started(prepared, READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta, tb);
     }
     if (pair.previous != NONE)
         prepared.contact.load =
             load_since(READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta, slot_a, tb, slot_b);
-    if (!idle) prepared.impulse.pressed = pressing(prepared.impulse);
+    if (!idle) prepared.impulse.normal_sum = normal_impulse(prepared.impulse);
     contacts.at[i] = prepared.contact;
     impulses.at[i] = prepared.impulse;
     if (idle) {
@@ -46,14 +46,14 @@ void main() {
         return;
     }
     Constraint constraint = constraint_between(prepared.contact, pair_index, ta, of_a, slot_a, tb, of_b, slot_b, PARAMETERS);
-    Couple now;
+    VelocityPair now;
     now.a = READ(velocities, of_a);
     now.b = READ(velocities, of_b);
-    if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, prepared.contact.d, now);
+    if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, prepared.contact.center_offset, now);
     constraints.at[i] = constraint;
 
     ContactShare share = first_share(constraint, prepared.impulse, now, READ(masses, of_a), READ(masses, of_b), PARAMETERS);
-    float pressed = prepared.impulse.pressed;
-    if (slot_a != NONE) slots.at[slot_a] = slot_of(share.change.a, share.carrying, pressed);
-    if (slot_b != NONE) slots.at[slot_b] = slot_of(share.change.b, share.carrying, pressed);
+    float normal_sum = prepared.impulse.normal_sum;
+    if (slot_a != NONE) slots.at[slot_a] = velocity_delta(share.change.a, share.carrying, normal_sum);
+    if (slot_b != NONE) slots.at[slot_b] = velocity_delta(share.change.b, share.carrying, normal_sum);
 }

@@ -22,6 +22,7 @@ void main() {
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j)
         if (holds(j)) share_out_warm_start(j);
-    for (uint m = block_first; m < block_members; ++m)
-        if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, joints.at[m].pressed);
+    for (uint m = block_first; m < block_bodies; ++m)
+        if (joints.at[m].slot != NONE)
+            slots.at[joints.at[m].slot] = velocity_delta(joints.at[m].velocity, 1.0f, joints.at[m].normal_sum);
 }

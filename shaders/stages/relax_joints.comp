@@ -11,15 +11,15 @@
 #include "shaders/stages/lib/joints.glsl"
 
 void take_stock(uint j) {
-    JointLoad load = JointLoad(joints.at[j].force + force_impulse(j), joints.at[j].greatest_force,
-                               joints.at[j].torque + torque_impulse(j), joints.at[j].greatest_torque);
+    JointLoad load = JointLoad(joints.at[j].force + force_impulse(j), joints.at[j].max_force,
+                               joints.at[j].torque + torque_impulse(j), joints.at[j].max_torque);
     if (is_last_substep()) {
         load = mean_load(load, PARAMETERS);
-        joints.at[j].greatest_force = load.greatest_force;
-        joints.at[j].greatest_torque = load.greatest_torque;
+        joints.at[j].max_force = load.max_force;
+        joints.at[j].max_torque = load.max_torque;
         if (joint_tears(load.force, joints.at[j].break_force, load.torque, joints.at[j].break_torque)) {
             joints.at[j].broken = 1u;
-            joints.at[j].pins = 0u;
+            joints.at[j].active_set = 0u;
             for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
         }
     }
@@ -35,7 +35,8 @@ float told_by_block() {
         for (uint side = 0u; side < 2u; ++side) {
             uint body = side == 0u ? joints.at[j].a : joints.at[j].b;
             if (body != NONE)
-                told = smaller(told, told_quiet(READ(traits, body).motion, READ(velocities, body), READ_WORD(rests, body)));
+                told = smaller(told,
+                               told_quiet(READ(properties, body).motion, READ(velocities, body), READ_WORD(sleep_states, body)));
         }
     }
     return told;
@@ -52,9 +53,10 @@ void end_pass() {
     float told = FOREVER;
     if (is_last_substep()) told = told_by_block();
     note_pressing();
-    for (uint m = block_first; m < block_members; ++m)
+    for (uint m = block_first; m < block_bodies; ++m)
         if (joints.at[m].slot != NONE)
-            slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, is_last_substep() ? told : joints.at[m].pressed);
+            slots.at[joints.at[m].slot] =
+                velocity_delta(joints.at[m].velocity, 1.0f, is_last_substep() ? told : joints.at[m].normal_sum);
 }
 
 void main() {

@@ -1,6 +1,6 @@
 // variants: scan_cells_offsets VARIANT=0
 // variants: scan_pairs_offsets VARIANT=1
-// variants: scan_kinds_offsets VARIANT=2
+// variants: scan_pair_types_offsets VARIANT=2
 // variants: scan_contacts_offsets VARIANT=3
 // variants: scan_slots_offsets VARIANT=4
 // Writes the sum of all items before each, and behind the last item the total.

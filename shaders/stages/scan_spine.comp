@@ -1,6 +1,6 @@
 // variants: scan_cells_spine VARIANT=0
 // variants: scan_pairs_spine VARIANT=1
-// variants: scan_kinds_spine VARIANT=2
+// variants: scan_pair_types_spine VARIANT=2
 // variants: scan_contacts_spine VARIANT=3
 // variants: scan_slots_spine VARIANT=4
 // Scans the sums of the blocks, by one workgroup, and says what the total means for the rest of the step.

@@ -1,6 +1,6 @@
 // variants: scan_cells_sums VARIANT=0
 // variants: scan_pairs_sums VARIANT=1
-// variants: scan_kinds_sums VARIANT=2
+// variants: scan_pair_types_sums VARIANT=2
 // variants: scan_contacts_sums VARIANT=3
 // variants: scan_slots_sums VARIANT=4
 // Adds up each block of a list that is scanned.

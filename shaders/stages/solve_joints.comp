@@ -17,8 +17,8 @@ void end_pass() {
             commit(j);
         }
     }
-    for (uint m = block_first; m < block_members; ++m)
-        if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = slot_of(joints.at[m].velocity, 1.0f, 0.0f);
+    for (uint m = block_first; m < block_bodies; ++m)
+        if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = velocity_delta(joints.at[m].velocity, 1.0f, 0.0f);
 }
 
 void main() {

@@ -9,7 +9,7 @@
 #include "shaders/stages/lib/pass_contacts.glsl"
 
 void main() {
-    uint bodies = PARAMETERS.bodies, contacts = COUNTED.solved;
+    uint bodies = PARAMETERS.bodies, contacts = COUNTED.solver_contacts;
     uint before = push.pass & 0xFFu, count = push.pass >> 8 & 0xFFu, whole = push.pass >> 16;
     for (uint substep = before + 1u; substep <= before + count; ++substep) {
         uint pass = (substep == whole ? LAST_SUBSTEP : 0u) | (substep == 1u ? FIRST_SUBSTEP : 0u);

@@ -8,7 +8,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 bool is_restless_body(uint body) {
-    return body != NONE && stirs_joined(READ(traits, body).motion, READ(velocities, body), WORD(rests, body));
+    return body != NONE && stirs_joined(READ(properties, body).motion, READ(velocities, body), WORD(sleep_states, body));
 }
 
 void main() {
@@ -25,8 +25,8 @@ void main() {
         return;
     }
     if (joints.at[first].restless == 0u) return;
-    uint last = first + joints.at[first].block_members;
+    uint last = first + joints.at[first].block_bodies;
     for (uint m = first; m < last; ++m)
-        if (has_slept(WORD(rests, joints.at[m].member), PARAMETERS.sleep_steps))
-            atomicOr(WORD(rests, joints.at[m].member), WOKEN);
+        if (has_slept(WORD(sleep_states, joints.at[m].block_body), PARAMETERS.sleep_steps))
+            atomicOr(WORD(sleep_states, joints.at[m].block_body), WOKEN);
 }

@@ -8,7 +8,7 @@
 #include "shaders/stages/lib/stage.glsl"
 
 void raise(uint body, uint bits) {
-    if (bits != 0u && READ(traits, body).motion == MOTION_DYNAMIC) atomicOr(WORD(rests, body), bits);
+    if (bits != 0u && READ(properties, body).motion == MOTION_DYNAMIC) atomicOr(WORD(sleep_states, body), bits);
 }
 
 void main() {
@@ -16,27 +16,27 @@ void main() {
     if (i >= COUNTED.contacts || COUNTED.sleepers == 0u || !any_stirs(COUNTED)) return;
     uint index = READ(constraints, i).pair;
     Pair pair = READ(pairs, index);
-    if (pair.kind == KIND_STILL) return;
+    if (pair.pair_type == PAIR_INACTIVE) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    float approach =
-        approach_of(READ(manifolds, index), READ_WORD(touching, index), READ(poses, of_b).position - READ(poses, of_a).position,
-                    READ(velocities, of_a), READ(velocities, of_b), PARAMETERS);
+    float approach = approach_of(READ(manifolds, index), READ_WORD(point_counts, index),
+                                 READ(poses, of_b).position - READ(poses, of_a).position, READ(velocities, of_a),
+                                 READ(velocities, of_b), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
-    bool a_sleeps = has_slept(WORD(rests, of_a), PARAMETERS.sleep_steps),
-         b_sleeps = has_slept(WORD(rests, of_b), PARAMETERS.sleep_steps);
+    bool a_sleeps = has_slept(WORD(sleep_states, of_a), PARAMETERS.sleep_steps),
+         b_sleeps = has_slept(WORD(sleep_states, of_b), PARAMETERS.sleep_steps);
     bool woken = false;
     if (a_sleeps != b_sleeps) {
         uint sleeper = a_sleeps ? of_a : of_b;
         uint other = a_sleeps ? of_b : of_a;
         float now = 0.0f, then = 0.0f;
         if (pair.previous != NONE) {
-            now = pressing(READ(impulses_before, pair.previous));
+            now = normal_impulse(READ(impulses_before, pair.previous));
             then = READ(contacts_before, pair.previous).load;
         }
-        woken = wakes(is_restless(READ(traits, other).motion, WORD(rests, other)), approach, now, then, READ(traits, sleeper),
-                      PARAMETERS);
+        woken = wakes(is_restless(READ(properties, other).motion, WORD(sleep_states, other)), approach, now, then,
+                      READ(properties, sleeper), PARAMETERS);
     }
     raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
     raise(of_b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));
-    if (depth > 1u) atomicMax(COUNTS.arguments[WORK_SHAKEN].x, COUNTS.arguments[WORK_CONTACTS].x);
+    if (depth > 1u) atomicMax(COUNTS.arguments[WORK_WAKE].x, COUNTS.arguments[WORK_CONTACTS].x);
 }

@@ -57,7 +57,7 @@ void play(Session& session) {
 }
 
 std::uint64_t replayed(const Input& input, const SceneOptions& options) {
-    const Subject subject = load_subject(options);
+    const LoadedScene subject = load_subject(options);
     World world(subject.scene, subject.settings(options), on_cpu());
     const Script script = script_of(input, "played.json", subject.before_step);
     while (world.steps() < input.steps) {

@@ -51,7 +51,7 @@ constexpr std::size_t top = 10;
 }  // namespace
 
 TEST_CASE("a ray through a pixel meets what is seen there") {
-    Eye eye(Viewpoint{vec3(3, 5, 8), vec3(0.5f, 1, -1), 50});
+    OrbitCamera eye(Viewpoint{vec3(3, 5, 8), vec3(0.5f, 1, -1), 50});
     for (const vec3 point : {vec3(0.5f, 1, -1), vec3(2, 0, 1), vec3(-3, 4, -9)}) {
         const glm::vec2 pixel = eye.pixel_of(point, extent).value();
         const Ray ray = eye.ray(pixel.x, pixel.y, extent);
@@ -131,7 +131,7 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
     const Pull pull = played.hands.pull().value();
     REQUIRE(glm::length(pull.to - pull.from) < 0.03f);  // it hangs from the spring by so much
     // 60 pixels to the right and up, in the plane of the point that was taken hold of.
-    const Eye& eye = played.hands.eye();
+    const OrbitCamera& eye = played.hands.eye();
     const glm::vec2 now = eye.pixel_of(pull.from, extent).value();
     REQUIRE(now.x == Approx(pixel.x + 60).margin(1.5));
     REQUIRE(now.y == Approx(pixel.y - 60).margin(1.5));
@@ -164,7 +164,7 @@ TEST_CASE("the wheel draws a held body nearer, and else brings the eye nearer") 
 
 TEST_CASE("beside bodies a drag looks round, and with the middle button it moves the view") {
     Played played;
-    const Eye before = played.hands.eye();
+    const OrbitCamera before = played.hands.eye();
     played.at(EventKind::moved, {5, 5});
     played.at(EventKind::pressed, {5, 5});  // the sky
     played.at(EventKind::moved, {55, 5});
@@ -173,7 +173,7 @@ TEST_CASE("beside bodies a drag looks round, and with the middle button it moves
     REQUIRE(glm::length(played.hands.eye().position() - before.position()) > 0.1f);
     REQUIRE(played.hands.eye().distance() == before.distance());
     REQUIRE_FALSE(played.hands.selected());
-    const Eye turned = played.hands.eye();
+    const OrbitCamera turned = played.hands.eye();
     const glm::vec2 pixel = turned.pixel_of(turned.target(), extent).value();
     played.at(EventKind::pressed, {55, 5}, Button::middle);
     played.at(EventKind::moved, {75, 15});

@@ -53,7 +53,7 @@ TEST_CASE("each part is drawn from its row of the tables, and those who have non
     REQUIRE(drawn.boxes == std::vector<std::uint32_t>{10});
     REQUIRE(drawn.solids == std::vector<std::uint32_t>{4, 11});
     const State& state = world.state();
-    REQUIRE(state.traits.size() == 12);
+    REQUIRE(state.properties.size() == 12);
     for (const std::uint32_t row : {4u, 7u}) REQUIRE(state.body_of(row) == 0);
     for (const std::uint32_t row : {8u, 9u}) REQUIRE(state.body_of(row) == 1);
     for (const std::uint32_t row : {10u, 11u}) REQUIRE(state.body_of(row) == 3);

@@ -9,32 +9,32 @@
 
 using namespace scree::host;
 using glm::vec3;
+using scree::physics::BodyProperties;
 using scree::physics::Pose;
-using scree::physics::Traits;
 using scree::physics::Velocity;
 
 namespace {
 
 // A ground and a box above it.
 struct Bodies {
-    std::vector<Traits> traits;
+    std::vector<BodyProperties> properties;
     std::vector<Pose> poses;
     std::vector<Velocity> velocities;
     ShapeInstances shapes;
 
-    Bodies() : traits(2), poses(2), velocities(2) {
-        traits[0].shape = scree::physics::SHAPE_PLANE;
-        traits[0].motion = scree::physics::MOTION_FIXED;
-        traits[0].size = {0, 1, 0};
-        traits[1].shape = scree::physics::SHAPE_BOX;
-        traits[1].size = vec3(1);
-        traits[1].inverse_mass = 1;
+    Bodies() : properties(2), poses(2), velocities(2) {
+        properties[0].shape = scree::physics::SHAPE_PLANE;
+        properties[0].motion = scree::physics::MOTION_FIXED;
+        properties[0].size = {0, 1, 0};
+        properties[1].shape = scree::physics::SHAPE_BOX;
+        properties[1].size = vec3(1);
+        properties[1].inverse_mass = 1;
         poses[0].orientation = poses[1].orientation = {0, 0, 0, 1};
         poses[1].position = {0, 2, 0};
         shapes.planes = {0};
         shapes.boxes = {1};
     }
-    BodyTables tables() const { return {traits, poses, velocities}; }
+    BodyTables tables() const { return {properties, poses, velocities}; }
 };
 
 CanvasOptions small(int samples = 0) {
@@ -90,11 +90,11 @@ TEST_CASE("gl: the same state gives the same pixels, on this canvas and on anoth
 }
 
 TEST_CASE("gl: an empty scene is a picture, too", "[canvas][gl]") {
-    const std::vector<Traits> traits;
+    const std::vector<BodyProperties> properties;
     const std::vector<Pose> poses;
     const std::vector<Velocity> velocities;
     const auto canvas = make_gl_canvas({}, small());
-    canvas->set_tables({traits, poses, velocities});
+    canvas->set_tables({properties, poses, velocities});
     CHECK(brightness(picture(*canvas), 80, 5) > 300);
 }
 

@@ -46,7 +46,7 @@ void judge_steps(const Scene& scene, JointVerdicts& verdicts) {
     const Threads threads(1);
     for (int step = 0; step < judged_steps; ++step) {
         state.turn_over();
-        for (const Stage& stage : plan(settings.substeps, state.content())) {
+        for (const Stage& stage : plan(settings.substeps, state.features())) {
             const auto pass = joint_pass_of(stage.name, stage.pass);
             const JointTablesNow before = pass ? tables_of(state) : JointTablesNow{};
             stage.reference(state, threads, stage.pass);

@@ -100,7 +100,7 @@ struct AxesOf {
         to.axes[3] = limited_axis(static_cast<double>(cone.twist.lower), static_cast<double>(cone.twist.upper), cone.friction);
         to.axes[4] = limited_axis(-1e30, static_cast<double>(cone.swing), 0);
     }
-    void operator()(const SixDegrees& six) const {
+    void operator()(const SixDof& six) const {
         const Axis axes[] = {six.x, six.y, six.z, six.twist, six.swing_y, six.swing_z};
         for (std::size_t k = 0; k < 6; ++k) to.axes[k] = dense(axes[k]);
         to.spins = !six.twist.locked;
@@ -122,8 +122,8 @@ DenseJoint dense(const Joint& joint, const physics::Joint& record) {
     made.frame_b = quaternion(joint.frame_b);
     std::visit(AxesOf{made}, joint.kind);
     for (std::size_t k = 0; k < 6; ++k) {
-        made.axes[k].drive_impulse = static_cast<double>(record.rows[k].drive);
-        made.axes[k].stop_impulse = static_cast<double>(record.rows[k].stop);
+        made.axes[k].drive_impulse = static_cast<double>(record.rows[k].motor_impulse);
+        made.axes[k].stop_impulse = static_cast<double>(record.rows[k].limit_impulse);
     }
     return made;
 }
@@ -138,21 +138,21 @@ std::vector<DenseImpulses> impulses_of(const std::vector<DenseJoint>& joints) {
     return impulses;
 }
 
-DenseBranches branches_of(const std::vector<std::uint32_t>& records, const JointTablesNow& tables) {
+DenseBranches branches_of(std::span<const std::uint32_t> records, const JointTablesNow& tables) {
     DenseBranches branches(records.size());
     for (std::size_t j = 0; j < records.size(); ++j) {
         for (std::size_t k = 0; k < 6; ++k) {
-            switch (tables.joints[records[j]].pins >> (4 * k) & 15) {
-                case physics::PIN_LOW:
+            switch (tables.joints[records[j]].active_set >> (4 * k) & 15) {
+                case physics::MOTOR_AT_MIN:
                     branches[j][k] = DenseBranch::drive_low;
                     break;
-                case physics::PIN_HIGH:
+                case physics::MOTOR_AT_MAX:
                     branches[j][k] = DenseBranch::drive_high;
                     break;
-                case physics::STOP_LOW:
+                case physics::LIMIT_LOWER:
                     branches[j][k] = DenseBranch::stop_low;
                     break;
-                case physics::STOP_HIGH:
+                case physics::LIMIT_UPPER:
                     branches[j][k] = DenseBranch::stop_high;
                     break;
                 default:
@@ -177,12 +177,13 @@ Change change_of(std::size_t body, const JointTablesNow& tables) {
     return change;
 }
 
-double difference(const std::vector<DenseBody>& bodies, const DenseSolution& told, const JointTablesNow& after) {
+double difference(const std::vector<DenseBody>& bodies, const DenseSolution& told, const JointTablesNow& after,
+                  std::size_t first_body) {
     const double half_width = 0.15;  // m
     double greatest = 0, scale = 0;
     for (std::size_t i = 0; i < bodies.size(); ++i) {
         if (bodies[i].inverse_mass == 0) continue;
-        const Change change = change_of(i, after);
+        const Change change = change_of(first_body + i, after);
         scale = std::max({scale, glm::length(change.velocity), half_width * glm::length(change.spin)});
         greatest = std::max(
             {greatest, glm::length(change.velocity - told.velocity[i]), half_width * glm::length(change.spin - told.spin[i])});
@@ -206,15 +207,15 @@ Settings joint_settings() {
     return settings;
 }
 
-JointVerdict judge_joints(const Scene& scene, const std::vector<std::uint32_t>& records, const physics::Parameters& parameters,
-                          const JointTablesNow& before, const JointTablesNow& after, JointPass pass) {
+JointVerdict judge_joints(const Scene& scene, std::span<const std::uint32_t> records, const physics::Parameters& parameters,
+                          const JointTablesNow& before, const JointTablesNow& after, JointPass pass, std::size_t first_body) {
     std::vector<DenseBody> bodies;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        bodies.push_back(dense(scene.bodies[i], before.poses[i], before.velocities[i]));
+        bodies.push_back(dense(scene.bodies[i], before.poses[first_body + i], before.velocities[first_body + i]));
     std::vector<DenseJoint> joints;
     for (std::size_t j = 0; j < scene.joints.size(); ++j) joints.push_back(dense(scene.joints[j], before.joints[records[j]]));
     if (pass == JointPass::warm_start) {
-        const double error = difference(bodies, push_densely(bodies, joints, impulses_of(joints)), after);
+        const double error = difference(bodies, push_densely(bodies, joints, impulses_of(joints)), after, first_body);
         return {error, error};
     }
     const DensePass dense_pass{pass == JointPass::biased, static_cast<double>(parameters.h),
@@ -228,7 +229,7 @@ JointVerdict judge_joints(const Scene& scene, const std::vector<std::uint32_t>& 
                 solution.spin[i] += warm.spin[i];
             }
         }
-        return difference(bodies, solution, after);
+        return difference(bodies, solution, after, first_body);
     };
     const DenseSolution solution = solve_densely(bodies, joints, dense_pass);
     return {error(solve_densely_on(branches_of(records, after), bodies, joints, dense_pass)),

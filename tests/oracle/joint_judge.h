@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,7 @@ struct JointTablesNow {
     std::vector<physics::Pose> poses;
     std::vector<physics::Velocity> velocities;
     std::vector<physics::Joint> joints;
-    std::vector<physics::Slot> slots;
+    std::vector<physics::VelocityDelta> slots;
     std::vector<physics::uint> slot_ends;
 };
 
@@ -54,8 +55,9 @@ private:
     std::vector<JointVerdict> all_;
 };
 
-// `before`, `after`: the tables as the stage begins and as it has ended; `records`: of each joint of the scene (State).
-JointVerdict judge_joints(const Scene& scene, const std::vector<std::uint32_t>& records, const physics::Parameters& parameters,
-                          const JointTablesNow& before, const JointTablesNow& after, JointPass pass);
+// `before`, `after`: the tables as the stage begins and as it has ended; `records`: of each joint of the scene (State), whose
+// bodies lie in the tables from `first_body` on.
+JointVerdict judge_joints(const Scene& scene, std::span<const std::uint32_t> records, const physics::Parameters& parameters,
+                          const JointTablesNow& before, const JointTablesNow& after, JointPass pass, std::size_t first_body = 0);
 
 }  // namespace scree::oracle

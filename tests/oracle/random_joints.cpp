@@ -68,8 +68,8 @@ JointKind sprung(Random& random) {
     }
 }
 
-SixDegrees six_degrees(Random& random) {
-    SixDegrees six;
+SixDof six_degrees(Random& random) {
+    SixDof six;
     Axis* const axes[] = {&six.x, &six.y, &six.z, &six.twist, &six.swing_y, &six.swing_z};
     for (Axis* axis : axes) {
         switch (random.below(5)) {

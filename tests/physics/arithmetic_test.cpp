@@ -169,7 +169,7 @@ TEST_CASE("whatever pushed a body, its velocity is finite and within what a step
             Velocity velocity{};
             velocity.linear = v;
             velocity.angular = -v;
-            velocity = limited(velocity, parameters);
+            velocity = clamp_velocity(velocity, parameters);
             CAPTURE(v.x, v.y, v.z);
             REQUIRE(std::abs(glm::length(glm::dvec3(velocity.linear)) - 400) < 1e-3);
             REQUIRE(std::abs(glm::length(glm::dvec3(velocity.angular)) - 300) < 1e-3);
@@ -180,8 +180,8 @@ TEST_CASE("whatever pushed a body, its velocity is finite and within what a step
     Velocity slow{};
     slow.linear = vec3(1, -2, 3);
     slow.angular = vec3(-0.0f, 5, 0);
-    REQUIRE(limited(slow, parameters).linear == slow.linear);
-    REQUIRE(limited(slow, parameters).angular == slow.angular);
+    REQUIRE(clamp_velocity(slow, parameters).linear == slow.linear);
+    REQUIRE(clamp_velocity(slow, parameters).angular == slow.angular);
 }
 
 TEST_CASE("comparisons choose as they say where min and max of processors differ") {
@@ -190,5 +190,5 @@ TEST_CASE("comparisons choose as they say where min and max of processors differ
     REQUIRE(clamped(-3, -1, 2) == -1);
     REQUIRE(clamped(3, -1, 2) == 2);
     REQUIRE(clamped(0.5f, -1, 2) == 0.5f);
-    REQUIRE(without_dust(vec3(1e-19f, -1e-19f, 1e-17f)) == vec3(0, 0, 1e-17f));
+    REQUIRE(flush_tiny(vec3(1e-19f, -1e-19f, 1e-17f)) == vec3(0, 0, 1e-17f));
 }

@@ -16,7 +16,7 @@ void check_near(vec3 a, vec3 b, float tolerance = 1e-5f) {
     CHECK(glm::length(a - b) <= tolerance);
 }
 // Each of the points is there once, in whatever order, with this separation.
-void check_points(const Touch& touch, const std::vector<vec3>& points, float separation) {
+void check_points(const ManifoldBuffer& touch, const std::vector<vec3>& points, float separation) {
     REQUIRE(touch.count == points.size());
     std::set<uint> features;
     for (uint k = 0; k < touch.count; ++k) {
@@ -28,7 +28,7 @@ void check_points(const Touch& touch, const std::vector<vec3>& points, float sep
     }
     CHECK(features.size() == points.size());
 }
-float greatest_distance(const Touch& a, const Touch& b) {
+float greatest_distance(const ManifoldBuffer& a, const ManifoldBuffer& b) {
     float greatest = 0;
     for (uint k = 0; k < a.count; ++k) {
         float least = INFINITY;
@@ -38,14 +38,14 @@ float greatest_distance(const Touch& a, const Touch& b) {
     return greatest;
 }
 
-const Traits cube = box(0.5f, 0.5f, 0.5f);
-const Traits slab = box(2, 0.5f, 2);
+const BodyProperties cube = box(0.5f, 0.5f, 0.5f);
+const BodyProperties slab = box(2, 0.5f, 2);
 
 }  // namespace
 
 TEST_CASE("a box on a plane has its four lower corners", "[collide]") {
-    const Traits ground = plane(vec3(0, 1, 0));
-    const Touch touch = collide(box(1, 2, 3), at(5, 1.99f, 5), ground, at(0, 0, 0), margin);
+    const BodyProperties ground = plane(vec3(0, 1, 0));
+    const ManifoldBuffer touch = collide(box(1, 2, 3), at(5, 1.99f, 5), ground, at(0, 0, 0), margin);
     check_near(touch.manifold.normal, vec3(0, -1, 0));
     check_points(touch, {{-1, -1.995f, -3}, {1, -1.995f, -3}, {-1, -1.995f, 3}, {1, -1.995f, 3}}, -0.01f);
     CHECK(collide(box(1, 2, 3), at(5, 2.015f, 5), ground, at(0, 0, 0), margin).count == 4u);
@@ -53,26 +53,26 @@ TEST_CASE("a box on a plane has its four lower corners", "[collide]") {
 }
 
 TEST_CASE("a box on its edge touches a plane in two points, on its corner in one", "[collide]") {
-    const Traits ground = plane(vec3(0, 1, 0));
+    const BodyProperties ground = plane(vec3(0, 1, 0));
     const vec4 on_edge = turn(vec3(0, 0, 1), 0.78539816f);
-    const Touch edge = collide(cube, at(0, 0.70710678f, 0, on_edge), ground, at(0, 0, 0), margin);
+    const ManifoldBuffer edge = collide(cube, at(0, 0.70710678f, 0, on_edge), ground, at(0, 0, 0), margin);
     check_points(edge, {{0, -0.70710678f, -0.5f}, {0, -0.70710678f, 0.5f}}, 0.0f);
     const vec4 on_corner = physics::compose(turn(vec3(1, 0, 0), 0.61547971f), on_edge);
-    const Touch corner = collide(cube, at(0, 0.8660254f, 0, on_corner), ground, at(0, 0, 0), margin);
+    const ManifoldBuffer corner = collide(cube, at(0, 0.8660254f, 0, on_corner), ground, at(0, 0, 0), margin);
     check_points(corner, {{0, -0.8660254f, 0}}, 0.0f);
 }
 
 TEST_CASE("the points of a box on a plane are its deepest corners", "[collide]") {
     Chance chance(3);
     for (int k = 0; k < 2000; ++k) {
-        const Traits body = chance.body(physics::SHAPE_BOX), ground = chance.body(physics::SHAPE_PLANE);
+        const BodyProperties body = chance.body(physics::SHAPE_BOX), ground = chance.body(physics::SHAPE_PLANE);
         const Pose pose = Pose{ground.size * chance.between(-0.5f, 1.5f), 0, chance.orientation()};
         float least = INFINITY;
         for (int corner = 0; corner < 8; ++corner) {
             const vec3 signs(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
             least = std::min(least, glm::dot(ground.size, pose.position + physics::rotate(pose.orientation, signs * body.size)));
         }
-        const Touch touch = collide(body, pose, ground, at(0, 0, 0), margin);
+        const ManifoldBuffer touch = collide(body, pose, ground, at(0, 0, 0), margin);
         if (std::abs(least - margin) < 1e-5f) continue;
         REQUIRE((touch.count > 0) == (least < margin));
         if (touch.count > 0) CHECK(deepest_of(touch) == Approx(least).margin(1e-5));
@@ -82,10 +82,10 @@ TEST_CASE("the points of a box on a plane are its deepest corners", "[collide]")
 TEST_CASE("a box flat on a larger one has its four corners, whichever comes first", "[collide]") {
     const std::vector<vec3> from_cube = {
         {-0.5f, -0.495f, -0.5f}, {0.5f, -0.495f, -0.5f}, {-0.5f, -0.495f, 0.5f}, {0.5f, -0.495f, 0.5f}};
-    const Touch touch = collide(cube, at(0.3f, 0.99f, 0.2f), slab, at(0, 0, 0), margin);
+    const ManifoldBuffer touch = collide(cube, at(0.3f, 0.99f, 0.2f), slab, at(0, 0, 0), margin);
     CHECK(touch.manifold.normal == vec3(0, -1, 0));
     check_points(touch, from_cube, -0.01f);
-    const Touch other = collide(slab, at(0, 0, 0), cube, at(0.3f, 0.99f, 0.2f), margin);
+    const ManifoldBuffer other = collide(slab, at(0, 0, 0), cube, at(0.3f, 0.99f, 0.2f), margin);
     CHECK(other.manifold.normal == vec3(0, 1, 0));
     check_points(physics::flipped(other, vec3(0.3f, 0.99f, 0.2f)), from_cube, -0.01f);
     CHECK(collide(cube, at(0.3f, 1.021f, 0.2f), slab, at(0, 0, 0), margin).count == 0u);
@@ -101,7 +101,7 @@ TEST_CASE("equal boxes stacked with a tremble keep their four corners and featur
             const vec4 tremble = turn(chance.direction(), chance.between(0, 1e-4f));
             const Pose above =
                 at(chance.between(-1e-4f, 1e-4f), height + chance.between(-1e-4f, 1e-4f), chance.between(-1e-4f, 1e-4f), tremble);
-            const Touch touch = collide(cube, at(0, 0, 0), cube, above, margin);
+            const ManifoldBuffer touch = collide(cube, at(0, 0, 0), cube, above, margin);
             REQUIRE(touch.count == 4u);
             REQUIRE(touch.manifold.normal == vec3(0, 1, 0));
             REQUIRE(touch.manifold.features == features);
@@ -114,12 +114,12 @@ TEST_CASE("equal boxes stacked with a tremble keep their four corners and featur
 }
 
 TEST_CASE("boxes at one place part along the shortest axis", "[collide]") {
-    const Touch touch = collide(box(1, 0.5f, 2), at(4, 4, 4), box(1, 0.5f, 2), at(4, 4, 4), margin);
+    const ManifoldBuffer touch = collide(box(1, 0.5f, 2), at(4, 4, 4), box(1, 0.5f, 2), at(4, 4, 4), margin);
     REQUIRE(touch.count == 4u);
     CHECK(std::abs(touch.manifold.normal.y) == 1.0f);
     CHECK(deepest_of(touch) == Approx(-1.0f));
     const vec4 any = turn(vec3(1, 2, 3), 1.0f);
-    const Touch turned = collide(cube, at(0, 0, 0, any), cube, at(0, 0, 0, any), margin);
+    const ManifoldBuffer turned = collide(cube, at(0, 0, 0, any), cube, at(0, 0, 0, any), margin);
     CHECK(turned.count == 4u);
     CHECK(deepest_of(turned) == Approx(-1.0f).margin(1e-5));
 }
@@ -127,7 +127,8 @@ TEST_CASE("boxes at one place part along the shortest axis", "[collide]") {
 TEST_CASE("crossed edges touch in one point between them", "[collide]") {
     const vec4 along_x = turn(vec3(1, 0, 0), 0.78539816f), along_z = turn(vec3(0, 0, 1), 0.78539816f);
     for (const float gap : {-0.01f, 0.0f, 0.01f}) {
-        const Touch touch = collide(cube, at(0, 0, 0, along_x), cube, at(0.1f, 1.41421356f + gap, 0.2f, along_z), margin);
+        const ManifoldBuffer touch =
+            collide(cube, at(0, 0, 0, along_x), cube, at(0.1f, 1.41421356f + gap, 0.2f, along_z), margin);
         REQUIRE(touch.count == 1u);
         check_near(touch.manifold.normal, vec3(0, 1, 0));
         check_near(point_of(touch, 0), vec3(0.1f, 0.70710678f + 0.5f * gap, 0), 2e-5f);
@@ -143,7 +144,7 @@ TEST_CASE("a box sliding by millimetres on a larger one keeps its points and fea
     for (int k = 0; k < 1200; ++k) {
         const vec4 tremble = physics::compose(turn(chance.direction(), chance.between(0, 1e-4f)), orientation);
         const Pose pose = at(-0.6f + 0.001f * float(k), 0.999f + chance.between(-1e-4f, 1e-4f), 0.1f, tremble);
-        const Touch touch = collide(slab, at(0, 0, 0), cube, pose, margin);
+        const ManifoldBuffer touch = collide(slab, at(0, 0, 0), cube, pose, margin);
         REQUIRE(touch.count == 4u);
         REQUIRE(touch.manifold.normal == vec3(0, 1, 0));
         REQUIRE(touch.manifold.features == features);
@@ -151,10 +152,10 @@ TEST_CASE("a box sliding by millimetres on a larger one keeps its points and fea
 }
 
 TEST_CASE("a box turning on a larger one moves its points continuously", "[collide]") {
-    Touch before = collide(slab, at(0, 0, 0), cube, at(0.2f, 0.999f, 0.1f), margin);
+    ManifoldBuffer before = collide(slab, at(0, 0, 0), cube, at(0.2f, 0.999f, 0.1f), margin);
     for (int k = 1; k < 3600; ++k) {
         const Pose pose = at(0.2f, 0.999f, 0.1f, turn(vec3(0, 1, 0), 0.00174533f * float(k)));
-        const Touch touch = collide(slab, at(0, 0, 0), cube, pose, margin);
+        const ManifoldBuffer touch = collide(slab, at(0, 0, 0), cube, pose, margin);
         REQUIRE(touch.count == 4u);
         // The corners are 0.71 m from the axis.
         REQUIRE(greatest_distance(before, touch) < 0.0014f);
@@ -165,7 +166,7 @@ TEST_CASE("a box turning on a larger one moves its points continuously", "[colli
 TEST_CASE("a box turned on an equal one holds by four points that surround its centre", "[collide]") {
     for (int k = 1; k < 900; ++k) {
         const Pose pose = at(0, 0.999f, 0, turn(vec3(0, 1, 0), 0.00174533f * float(k)));
-        const Touch touch = collide(cube, at(0, 0, 0), cube, pose, margin);
+        const ManifoldBuffer touch = collide(cube, at(0, 0, 0), cube, pose, margin);
         REQUIRE(touch.count == 4u);
         float area = 0;  // of the four points about their middle, m^2
         for (const vec3 corner : {vec3(1, 0, 1), vec3(1, 0, -1), vec3(-1, 0, 1), vec3(-1, 0, -1)}) {
@@ -185,8 +186,8 @@ TEST_CASE("the deepest of many points is kept", "[collide]") {
         const vec4 orientation =
             physics::compose(turn(chance.direction(), chance.between(0, 0.02f)), turn(vec3(0, 1, 0), chance.between(0, 6)));
         const Pose pose = at(chance.between(-0.4f, 0.4f), 0.995f, chance.between(-0.4f, 0.4f), orientation);
-        const Touch few = collide(cube, at(0, 0, 0), cube, pose, margin);
-        const Touch wide = collide(cube, at(0, 0, 0), box(0.5f, 0.5f, 0.5f), pose, 10.0f);
+        const ManifoldBuffer few = collide(cube, at(0, 0, 0), cube, pose, margin);
+        const ManifoldBuffer wide = collide(cube, at(0, 0, 0), box(0.5f, 0.5f, 0.5f), pose, 10.0f);
         REQUIRE(few.count > 0u);
         // More points in reach, the same deepest one, to within a tenth of the slop.
         CHECK(deepest_of(few) == Approx(deepest_of(wide)).margin(5.1e-4));
@@ -198,7 +199,7 @@ TEST_CASE("equal boxes turned by a fraction of a degree hold by all four corners
         const float angle = 0.01f * static_cast<float>(k) * 0.017453292f;
         for (const float aside : {0.0f, 0.0007f, -0.002f}) {
             CAPTURE(k, aside);
-            const Touch touch =
+            const ManifoldBuffer touch =
                 collide(cube, at(0, 0, 0), cube, at(aside, 0.999f, -0.5f * aside, turn(vec3(0, 1, 0), angle)), margin);
             REQUIRE(touch.count == 4u);
             int quadrants = 0;
@@ -215,7 +216,7 @@ TEST_CASE("equal boxes turned by a fraction of a degree hold by all four corners
 TEST_CASE("corners that touch are kept before corners further out in the air", "[collide]") {
     // Eight corners in common; of a box that leans to +x, the four with x > 0 lie within the other.
     const vec4 leaning = physics::compose(turn(vec3(0, 0, 1), -0.01f), turn(vec3(0, 1, 0), 0.78539816f));
-    const Touch touch = collide(cube, at(0, 0, 0), cube, at(0, 1.001f, 0, leaning), margin);
+    const ManifoldBuffer touch = collide(cube, at(0, 0, 0), cube, at(0, 1.001f, 0, leaning), margin);
     int touching = 0;
     for (uint point = 0; point < touch.count; ++point) touching += touch.manifold.points[point].w < 0;
     CHECK(touching >= 3);
@@ -226,7 +227,7 @@ TEST_CASE("boxes that fly at each other face to face will meet in four points", 
     for (const float gap : {0.001f, 0.01f, 0.1f, 0.5f}) {
         CAPTURE(gap);
         const vec4 turned = turn(vec3(0, 1, 0), 0.3f);
-        const Touch touch = collide(cube, at(0, 0, 0), cube, at(0, 1 + gap, 0, turned), 1);
+        const ManifoldBuffer touch = collide(cube, at(0, 0, 0), cube, at(0, 1 + gap, 0, turned), 1);
         REQUIRE(touch.count == 4u);
         vec3 middle(0);
         for (uint point = 0; point < 4; ++point) middle += 0.25f * point_of(touch, point);

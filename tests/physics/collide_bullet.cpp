@@ -14,11 +14,11 @@ namespace {
 
 using namespace scree::tests;
 
-std::unique_ptr<btConvexShape> bullet_shape(const Traits& traits) {
-    if (traits.shape == scree::physics::SHAPE_SPHERE) return std::make_unique<btSphereShape>(traits.size.x);
-    if (traits.shape == scree::physics::SHAPE_CAPSULE)
-        return std::make_unique<btCapsuleShape>(traits.size.x, 2.0f * traits.size.y);
-    auto shape = std::make_unique<btBoxShape>(btVector3(traits.size.x, traits.size.y, traits.size.z));
+std::unique_ptr<btConvexShape> bullet_shape(const BodyProperties& properties) {
+    if (properties.shape == scree::physics::SHAPE_SPHERE) return std::make_unique<btSphereShape>(properties.size.x);
+    if (properties.shape == scree::physics::SHAPE_CAPSULE)
+        return std::make_unique<btCapsuleShape>(properties.size.x, 2.0f * properties.size.y);
+    auto shape = std::make_unique<btBoxShape>(btVector3(properties.size.x, properties.size.y, properties.size.z));
     shape->setMargin(0.0f);
     return shape;
 }
@@ -34,7 +34,7 @@ struct Verdict {
 };
 
 // GJK between the bare shapes; EPA where they overlap.
-Verdict judge_by_gjk(const Traits& a, const Pose& pose_a, const Traits& b, const Pose& pose_b) {
+Verdict judge_by_gjk(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b) {
     const auto shape_a = bullet_shape(a);
     const auto shape_b = bullet_shape(b);
     btVoronoiSimplexSolver simplex;
@@ -65,7 +65,7 @@ struct Deepest : btCollisionWorld::ContactResultCallback {
 // Bullet's own algorithm for the pair of shapes, as its world would call it.
 class BulletWorld {
 public:
-    Verdict judge(const Traits& a, const Pose& pose_a, const Traits& b, const Pose& pose_b) {
+    Verdict judge(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b) {
         const auto shape_a = bullet_shape(a);
         const auto shape_b = bullet_shape(b);
         btCollisionObject body_a, body_b;
@@ -95,7 +95,7 @@ constexpr float margin = 0.05f;  // m
 
 // Two bodies; the second has come along a random line until `gap` (m) remained, or, where it is negative, that much farther.
 struct Meeting {
-    Traits a, b;
+    BodyProperties a, b;
     Pose pose_a, pose_b;
 };
 bool meet(Chance& chance, const ShapePair& pair, float gap, Meeting& meeting) {
@@ -120,7 +120,7 @@ bool meet(Chance& chance, const ShapePair& pair, float gap, Meeting& meeting) {
 struct Tally {
     int cases = 0, missed = 0, nearer = 0, farther = 0, askew = 0;
     float worst = 0;  // m
-    void count(const Touch& touch, float separation, vec3 normal) {
+    void count(const ManifoldBuffer& touch, float separation, vec3 normal) {
         ++cases;
         if (touch.count == 0) {
             ++missed;
@@ -212,10 +212,10 @@ TEST_CASE("a capsule that overlaps a capsule or a box is as deep as Bullet or th
         Meeting m;
         for (int k = 0; k < 8000; ++k) {
             if (!meet(chance, {SHAPE_CAPSULE, second, ""}, -chance.between(0.001f, 0.6f), m)) continue;
-            const Touch touch = collide(m.a, m.pose_a, m.b, m.pose_b, margin);
+            const ManifoldBuffer touch = collide(m.a, m.pose_a, m.b, m.pose_b, margin);
             const Verdict judge = world.judge(m.a, m.pose_a, m.b, m.pose_b);
             // A capsule is a box without width, grown by its radius.
-            const auto core = [](const Traits& t) { return t.shape == SHAPE_CAPSULE ? box(0, t.size.y, 0) : t; };
+            const auto core = [](const BodyProperties& t) { return t.shape == SHAPE_CAPSULE ? box(0, t.size.y, 0) : t; };
             const float radii = m.a.size.x + (second == SHAPE_CAPSULE ? m.b.size.x : 0.0f);
             if (!judge.found || judge.separation > 0) continue;
             // Bullet's normal is that of the way between the cores, and loses its meaning as they come to touch.
@@ -253,7 +253,7 @@ TEST_CASE("boxes that overlap are as deep as the separating axes say, to within 
         const Separation truth = separation_by_axes(m.a, m.pose_a, m.b, m.pose_b);
         if (truth.greatest > 0) continue;
         ++cases;
-        const Touch touch = collide(m.a, m.pose_a, m.b, m.pose_b, margin);
+        const ManifoldBuffer touch = collide(m.a, m.pose_a, m.b, m.pose_b, margin);
         if (touch.count == 0) {
             ++missed;
             continue;

@@ -129,13 +129,13 @@ Scene any_pair(Kind kind_a, Kind kind_b, float apart, Chance& chance) {
 }
 
 // As the step would find it: the simpler shape is A.
-physics::Touch found(const Scene& scene, float margin) {
+physics::ManifoldBuffer found(const Scene& scene, float margin) {
     const State state(scene, {}, 128, true);
-    const std::uint32_t b = state.traits[1].shape == physics::SHAPE_NONE ? 2 : 1;
-    const auto law = b == 1                                           ? physics::collide_convex
-                     : state.traits[0].shape == physics::SHAPE_SPHERE ? physics::collide_sphere_triangle
-                                                                      : physics::collide_convex_triangle;
-    return law(state.traits[0], state.poses[0], state.traits[b], state.poses[b], margin, state.hull_table());
+    const std::uint32_t b = state.properties[1].shape == physics::SHAPE_NONE ? 2 : 1;
+    const auto law = b == 1                                               ? physics::collide_convex
+                     : state.properties[0].shape == physics::SHAPE_SPHERE ? physics::collide_sphere_triangle
+                                                                          : physics::collide_convex_triangle;
+    return law(state.properties[0], state.poses[0], state.properties[b], state.poses[b], margin, state.hull_table());
 }
 
 struct Tally {
@@ -160,7 +160,7 @@ Tally compare(Kind kind_a, Kind kind_b, float apart, int poses, unsigned seed) {
             if (glm::dot(-judged.normal, face) < 0.05f || glm::dot(scene.bodies[0].position - corner, face) < 0) continue;
         }
         ++tally.cases;
-        const physics::Touch touch = found(scene, 0.5f);
+        const physics::ManifoldBuffer touch = found(scene, 0.5f);
         if (touch.count == 0) {
             ++tally.missed;
             continue;

@@ -19,30 +19,30 @@
 
 namespace scree::tests {
 
+using physics::BodyProperties;
 using physics::deepest_of;
+using physics::ManifoldBuffer;
 using physics::Pose;
-using physics::Touch;
-using physics::Traits;
 using physics::uint;
 using physics::vec3;
 using physics::vec4;
 
-inline Traits shape_of(uint shape, vec3 size) {
-    Traits traits{};
-    traits.shape = shape;
-    traits.size = size;
-    return traits;
+inline BodyProperties shape_of(uint shape, vec3 size) {
+    BodyProperties properties{};
+    properties.shape = shape;
+    properties.size = size;
+    return properties;
 }
-inline Traits sphere(float radius) {
+inline BodyProperties sphere(float radius) {
     return shape_of(physics::SHAPE_SPHERE, vec3(radius, 0, 0));
 }
-inline Traits capsule(float radius, float half_height) {
+inline BodyProperties capsule(float radius, float half_height) {
     return shape_of(physics::SHAPE_CAPSULE, vec3(radius, half_height, 0));
 }
-inline Traits box(float x, float y, float z) {
+inline BodyProperties box(float x, float y, float z) {
     return shape_of(physics::SHAPE_BOX, vec3(x, y, z));
 }
-inline Traits plane(vec3 normal) {
+inline BodyProperties plane(vec3 normal) {
     return shape_of(physics::SHAPE_PLANE, normal);
 }
 
@@ -55,7 +55,8 @@ inline Pose at(float x, float y, float z, vec4 orientation = vec4(0, 0, 0, 1)) {
 }
 
 // The law for this pair of shapes, first <= second.
-inline Touch collide(const Traits& a, const Pose& pose_a, const Traits& b, const Pose& pose_b, float margin) {
+inline ManifoldBuffer collide(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b,
+                              float margin) {
     using namespace physics;
     switch (4u * a.shape + b.shape) {
         case 4u * SHAPE_SPHERE + SHAPE_SPHERE:
@@ -77,23 +78,23 @@ inline Touch collide(const Traits& a, const Pose& pose_a, const Traits& b, const
         case 4u * SHAPE_BOX + SHAPE_PLANE:
             return collide_box_plane(a, pose_a, b, pose_b, margin);
         default:
-            return no_touch();
+            return empty_manifold();
     }
 }
 
-inline vec3 point_of(const Touch& touch, uint k) {
+inline vec3 point_of(const ManifoldBuffer& touch, uint k) {
     return vec3(touch.manifold.points[k]);
 }
 
 // The signed distance (m) from the body's surface to a point given from its centre, negative inside, in double precision.
-inline double signed_distance(const Traits& traits, const Pose& pose, glm::dvec3 from_centre) {
-    if (traits.shape == physics::SHAPE_PLANE) return glm::dot(glm::dvec3(traits.size), from_centre);
+inline double signed_distance(const BodyProperties& properties, const Pose& pose, glm::dvec3 from_centre) {
+    if (properties.shape == physics::SHAPE_PLANE) return glm::dot(glm::dvec3(properties.size), from_centre);
     const glm::dvec3 u(-pose.orientation.x, -pose.orientation.y, -pose.orientation.z);
     const glm::dvec3 t = 2.0 * glm::cross(u, from_centre);
     const glm::dvec3 p = from_centre + double(pose.orientation.w) * t + glm::cross(u, t);
-    const glm::dvec3 size(traits.size);
-    if (traits.shape == physics::SHAPE_SPHERE) return glm::length(p) - size.x;
-    if (traits.shape == physics::SHAPE_CAPSULE) {
+    const glm::dvec3 size(properties.size);
+    if (properties.shape == physics::SHAPE_SPHERE) return glm::length(p) - size.x;
+    if (properties.shape == physics::SHAPE_CAPSULE) {
         return glm::length(p - glm::dvec3(0, glm::clamp(p.y, -size.y, size.y), 0)) - size.x;
     }
     const glm::dvec3 q = glm::abs(p) - size;
@@ -106,7 +107,7 @@ struct Separation {
     double greatest = -INFINITY, second = -INFINITY;
     glm::dvec3 axis{0};
 };
-inline Separation separation_by_axes(const Traits& a, const Pose& pose_a, const Traits& b, const Pose& pose_b) {
+inline Separation separation_by_axes(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b) {
     const auto axes = [](const Pose& pose) {
         const glm::dquat q(pose.orientation.w, pose.orientation.x, pose.orientation.y, pose.orientation.z);
         return glm::mat3_cast(glm::normalize(q));
@@ -155,7 +156,7 @@ public:
         }
     }
     vec4 orientation() { return turn(direction(), between(0, 6.2831853f)); }
-    Traits body(uint shape) {
+    BodyProperties body(uint shape) {
         if (shape == physics::SHAPE_SPHERE) return sphere(between(0.1f, 1.0f));
         if (shape == physics::SHAPE_CAPSULE) return capsule(between(0.1f, 0.5f), between(0.02f, 1.0f));
         if (shape == physics::SHAPE_BOX) return box(between(0.2f, 1.0f), between(0.2f, 1.0f), between(0.2f, 1.0f));

@@ -122,8 +122,10 @@ TEST_CASE("the separation of convex bodies is that of the best of all directions
         int off = 0;
         for (int k = 0; k < 40; ++k) {
             const Pair pair = any_pair(kind_a, kind_b, chance);
-            const physics::Solid a = physics::solid_of(pair.state.traits[0], pair.a.orientation, pair.state.hull_table());
-            const physics::Solid b = physics::solid_of(pair.state.traits[1], pair.b.orientation, pair.state.hull_table());
+            const physics::ConvexShape a =
+                physics::convex_shape_of(pair.state.properties[0], pair.a.orientation, pair.state.hull_table());
+            const physics::ConvexShape b =
+                physics::convex_shape_of(pair.state.properties[1], pair.b.orientation, pair.state.hull_table());
             const physics::Separation s =
                 physics::separation_of(a, b, pair.b.position - pair.a.position, 1e30f, pair.state.hull_table());
             const double truth = std::max(largest_separation(pair.a, pair.b), separation(pair.a, pair.b, dvec3(s.normal)));
@@ -146,8 +148,9 @@ TEST_CASE("points of convex bodies lie between their surfaces, as deep as the no
         int touching = 0, shallow = 0;
         for (int k = 0; k < 60; ++k) {
             const Pair pair = any_pair(kind_a, kind_b, chance);
-            const physics::Touch touch = physics::collide_convex(pair.state.traits[0], pair.state.poses[0], pair.state.traits[1],
-                                                                 pair.state.poses[1], 0.02f, pair.state.hull_table());
+            const physics::ManifoldBuffer touch =
+                physics::collide_convex(pair.state.properties[0], pair.state.poses[0], pair.state.properties[1],
+                                        pair.state.poses[1], 0.02f, pair.state.hull_table());
             const double truth = largest_separation(pair.a, pair.b);
             INFO("pose " << k << ": truth " << truth << ", points " << touch.count);
             if (truth > 0.025) REQUIRE(touch.count == 0);
@@ -177,15 +180,15 @@ TEST_CASE("bodies that stand on a plane have points under their whole base") {
     const float bases[] = {0.4f, 0.2f, 0.5f};
     for (const Shape& shape : shapes) scene.bodies.emplace_back().shape = shape;
     const State state(checked(scene), {}, 128, true);
-    physics::Traits plane{};
+    physics::BodyProperties plane{};
     plane.shape = physics::SHAPE_PLANE;
     plane.size = vec3(0, 1, 0);
     for (std::size_t i = 0; i < 3; ++i) {
         CAPTURE(i);
         physics::Pose pose = state.poses[i];
         pose.position = vec3(3, bases[i] - 0.001f, 1);
-        const physics::Touch touch = physics::collide_plane_convex(plane, physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)},
-                                                                   state.traits[i], pose, 0.01f, state.hull_table());
+        const physics::ManifoldBuffer touch = physics::collide_plane_convex(plane, physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)},
+                                                                            state.properties[i], pose, 0.01f, state.hull_table());
         REQUIRE(touch.count == 4);
         vec3 low(1e9f), high(-1e9f);
         for (const vec4& point : touch.manifold.points) {

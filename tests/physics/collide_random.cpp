@@ -11,7 +11,7 @@ namespace physics = scree::physics;
 constexpr float margin = 0.05f;  // m
 
 struct Case {
-    Traits a, b;
+    BodyProperties a, b;
     Pose pose_a, pose_b;
 };
 Case random_case(Chance& chance, const ShapePair& pair) {
@@ -23,7 +23,7 @@ Case random_case(Chance& chance, const ShapePair& pair) {
     return c;
 }
 
-bool is_sound(const Touch& touch, float within) {
+bool is_sound(const ManifoldBuffer& touch, float within) {
     if (touch.count > 4u) return false;
     for (uint k = 0; k < 4; ++k) {
         const vec4 p = touch.manifold.points[k];
@@ -42,7 +42,7 @@ TEST_CASE("random poses give finite points and unit normals", "[collide]") {
         int touching = 0;
         for (int k = 0; k < 5000; ++k) {
             const Case c = random_case(chance, pair);
-            const Touch touch = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
+            const ManifoldBuffer touch = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
             touching += touch.count > 0u ? 1 : 0;
             if (!is_sound(touch, margin)) FAIL(pair.name << ", case " << k);
         }
@@ -52,9 +52,9 @@ TEST_CASE("random poses give finite points and unit normals", "[collide]") {
 }
 
 TEST_CASE("poses on a lattice, where axes are parallel and features coincide, give finite points and unit normals", "[collide]") {
-    const std::vector<Traits> bodies = {sphere(0.5f), capsule(0.5f, 0.5f), capsule(0.25f, 0.0f), box(0.5f, 0.5f, 0.5f),
+    const std::vector<BodyProperties> bodies = {sphere(0.5f), capsule(0.5f, 0.5f), capsule(0.25f, 0.0f), box(0.5f, 0.5f, 0.5f),
                                         box(1, 0.5f, 0.25f)};
-    const Traits ground = plane(vec3(0, 1, 0));
+    const BodyProperties ground = plane(vec3(0, 1, 0));
     std::vector<vec4> orientations;
     for (int k = 0; k < 4; ++k) {
         for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(1, 1, 0)}) {
@@ -62,12 +62,12 @@ TEST_CASE("poses on a lattice, where axes are parallel and features coincide, gi
         }
     }
     int cases = 0;
-    for (const Traits& a : bodies) {
+    for (const BodyProperties& a : bodies) {
         for (const vec4& turn_a : orientations) {
             for (int x = -4; x <= 4; ++x) {
                 const Pose pose_a = at(0.25f * float(x), 0.5f, 0, turn_a);
                 REQUIRE(is_sound(collide(a, pose_a, ground, at(0, 0, 0), margin), margin));
-                for (const Traits& b : bodies) {
+                for (const BodyProperties& b : bodies) {
                     if (b.shape < a.shape) continue;
                     for (const vec4& turn_b : orientations) {
                         for (const float y : {0.5f, 0.75f, 1.0f, 1.5f}) {
@@ -87,7 +87,7 @@ TEST_CASE("tiny, large and thin bodies give finite points and unit normals", "[c
         Chance chance(37);
         for (int k = 0; k < 3000; ++k) {
             Case c = random_case(chance, pair);
-            for (Traits* body : {&c.a, &c.b}) {
+            for (BodyProperties* body : {&c.a, &c.b}) {
                 if (body->shape == physics::SHAPE_PLANE) continue;
                 const float scale = std::pow(10.0f, chance.between(-3, 3));
                 body->size *= vec3(scale, scale * std::pow(10.0f, chance.between(-2, 2)), scale);
@@ -105,7 +105,7 @@ TEST_CASE("a point lies midway between the two surfaces", "[collide]") {
         int points = 0, outside = 0;
         for (int k = 0; k < 5000; ++k) {
             const Case c = random_case(chance, pair);
-            const Touch touch = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
+            const ManifoldBuffer touch = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
             for (uint j = 0; j < touch.count; ++j) {
                 const glm::dvec3 p(touch.manifold.points[j]);
                 const double half = 0.5 * std::abs(touch.manifold.points[j].w);
@@ -133,8 +133,8 @@ TEST_CASE("a body and its mirror role feel the same touch", "[collide]") {
         int touching = 0, unlike = 0;
         for (int k = 0; k < 5000; ++k) {
             const Case c = random_case(chance, {shape, shape, ""});
-            const Touch one = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
-            const Touch other = flipped(collide(c.b, c.pose_b, c.a, c.pose_a, margin), c.pose_a.position - c.pose_b.position);
+            const ManifoldBuffer one = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
+            const ManifoldBuffer other = flipped(collide(c.b, c.pose_b, c.a, c.pose_a, margin), c.pose_a.position - c.pose_b.position);
             if (one.count == 0 && other.count == 0) continue;
             ++touching;
             const bool alike = one.count == other.count && std::abs(deepest_of(one) - deepest_of(other)) < 2e-5f &&
@@ -161,10 +161,10 @@ TEST_CASE("turning and shifting both bodies turns their touch", "[collide]") {
                 return Pose{shift + physics::rotate(q, pose.position), 0,
                             physics::unit_quaternion(physics::compose(q, pose.orientation))};
             };
-            Traits b = c.b;
+            BodyProperties b = c.b;
             if (b.shape == physics::SHAPE_PLANE) b.size = physics::rotate(q, b.size);
-            const Touch one = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
-            const Touch other = collide(c.a, moved(c.pose_a), b, moved(c.pose_b), margin);
+            const ManifoldBuffer one = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
+            const ManifoldBuffer other = collide(c.a, moved(c.pose_a), b, moved(c.pose_b), margin);
             if (one.count == 0 && other.count == 0) continue;
             ++touching;
             bool alike = one.count == other.count && std::abs(deepest_of(one) - deepest_of(other)) < 2e-5f &&

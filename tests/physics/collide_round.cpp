@@ -15,7 +15,7 @@ void check_near(vec3 a, vec3 b, float tolerance = 1e-5f) {
     CAPTURE(a.x, a.y, a.z, b.x, b.y, b.z);
     CHECK(glm::length(a - b) <= tolerance);
 }
-void check_one(const Touch& touch, vec3 normal, vec3 point, float separation) {
+void check_one(const ManifoldBuffer& touch, vec3 normal, vec3 point, float separation) {
     REQUIRE(touch.count == 1u);
     check_near(touch.manifold.normal, normal);
     check_near(point_of(touch, 0), point);
@@ -23,7 +23,7 @@ void check_one(const Touch& touch, vec3 normal, vec3 point, float separation) {
     for (int k = 1; k < 4; ++k) CHECK(touch.manifold.points[k] == vec4(0));
 }
 // Two points, in either order.
-void check_two(const Touch& touch, vec3 normal, vec3 one, vec3 other, float separation) {
+void check_two(const ManifoldBuffer& touch, vec3 normal, vec3 one, vec3 other, float separation) {
     REQUIRE(touch.count == 2u);
     check_near(touch.manifold.normal, normal);
     const bool swapped = glm::length(point_of(touch, 0) - one) > glm::length(point_of(touch, 0) - other);
@@ -37,7 +37,7 @@ void check_two(const Touch& touch, vec3 normal, vec3 one, vec3 other, float sepa
 }  // namespace
 
 TEST_CASE("two spheres touch halfway between their surfaces", "[collide]") {
-    const Traits a = sphere(0.5f), b = sphere(1.0f);
+    const BodyProperties a = sphere(0.5f), b = sphere(1.0f);
     check_one(collide(a, at(3, 0, 0), b, at(4.5f, 0, 0), margin), vec3(1, 0, 0), vec3(0.5f, 0, 0), 0.0f);
     check_one(collide(a, at(3, 0, 0), b, at(4.51f, 0, 0), margin), vec3(1, 0, 0), vec3(0.505f, 0, 0), 0.01f);
     check_one(collide(a, at(0, 0, 0), b, at(0, -1.2f, 0), margin), vec3(0, -1, 0), vec3(0, -0.35f, 0), -0.3f);
@@ -49,18 +49,18 @@ TEST_CASE("two spheres at one place part upwards", "[collide]") {
 }
 
 TEST_CASE("a sphere touches a capsule's side, its cap, and leaves its axis sideways", "[collide]") {
-    const Traits ball = sphere(0.5f), rod = capsule(0.25f, 1.0f);
+    const BodyProperties ball = sphere(0.5f), rod = capsule(0.25f, 1.0f);
     check_one(collide(ball, at(0.74f, 0.5f, 0), rod, at(0, 0, 0), margin), vec3(-1, 0, 0), vec3(-0.495f, 0, 0), -0.01f);
     check_one(collide(ball, at(0, 1.76f, 0), rod, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(0, -0.505f, 0), 0.01f);
     CHECK(collide(ball, at(0, 1.771f, 0), rod, at(0, 0, 0), margin).count == 0u);
-    const Touch within = collide(ball, at(0, 0.5f, 0), rod, at(0, 0, 0), margin);
+    const ManifoldBuffer within = collide(ball, at(0, 0.5f, 0), rod, at(0, 0, 0), margin);
     REQUIRE(within.count == 1u);
     CHECK(within.manifold.normal.y == Approx(0).margin(1e-6));
     CHECK(within.manifold.points[0].w == Approx(-0.75f));
 }
 
 TEST_CASE("a sphere touches a box's face, edge and corner", "[collide]") {
-    const Traits ball = sphere(0.5f), block = box(1, 2, 3);
+    const BodyProperties ball = sphere(0.5f), block = box(1, 2, 3);
     const float half = 0.70710678f, third = 0.57735027f;
     check_one(collide(ball, at(0.3f, 2.51f, 1), block, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(0, -0.505f, 0), 0.01f);
     check_one(collide(ball, at(1 + 0.5f * half, 2 + 0.5f * half, 1), block, at(0, 0, 0), margin), vec3(-half, -half, 0),
@@ -71,7 +71,7 @@ TEST_CASE("a sphere touches a box's face, edge and corner", "[collide]") {
 }
 
 TEST_CASE("a sphere inside a box leaves through the nearest face", "[collide]") {
-    const Traits ball = sphere(0.5f), block = box(1, 2, 3);
+    const BodyProperties ball = sphere(0.5f), block = box(1, 2, 3);
     check_one(collide(ball, at(-0.9f, 0, 0), block, at(0, 0, 0), margin), vec3(1, 0, 0), vec3(0.2f, 0, 0), -0.6f);
     check_one(collide(ball, at(0, 0, 2.8f), block, at(0, 0, 0), margin), vec3(0, 0, -1), vec3(0, 0, -0.15f), -0.7f);
     check_one(collide(ball, at(0, 2, 0), block, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(0, -0.25f, 0), -0.5f);
@@ -79,23 +79,23 @@ TEST_CASE("a sphere inside a box leaves through the nearest face", "[collide]") 
 }
 
 TEST_CASE("a sphere touches a plane below it", "[collide]") {
-    const Traits ground = plane(vec3(0, 1, 0));
+    const BodyProperties ground = plane(vec3(0, 1, 0));
     check_one(collide(sphere(0.5f), at(7, 1.49f, 2), ground, at(-3, 1, 0), margin), vec3(0, -1, 0), vec3(0, -0.495f, 0), -0.01f);
     check_one(collide(sphere(0.5f), at(7, -4, 2), ground, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(0, 1.75f, 0), -4.5f);
     CHECK(collide(sphere(0.5f), at(0, 0.521f, 0), ground, at(0, 0, 0), margin).count == 0u);
 }
 
 TEST_CASE("crossed capsules touch in one point, also where their axes meet", "[collide]") {
-    const Traits rod = capsule(0.25f, 1.0f);
+    const BodyProperties rod = capsule(0.25f, 1.0f);
     check_one(collide(rod, at(0, 0, 0), rod, at(0.2f, 0.3f, 0.51f, lying), margin), vec3(0, 0, 1), vec3(0, 0.3f, 0.255f), 0.01f);
-    const Touch crossed = collide(rod, at(0, 0, 0), rod, at(0, 0, 0, lying), margin);
+    const ManifoldBuffer crossed = collide(rod, at(0, 0, 0), rod, at(0, 0, 0, lying), margin);
     REQUIRE(crossed.count == 1u);
     CHECK(std::abs(crossed.manifold.normal.z) == Approx(1));
     CHECK(crossed.manifold.points[0].w == Approx(-0.5f));
 }
 
 TEST_CASE("capsules side by side touch in two points, at the ends of what they share", "[collide]") {
-    const Traits rod = capsule(0.25f, 1.0f), stub = capsule(0.25f, 0.5f);
+    const BodyProperties rod = capsule(0.25f, 1.0f), stub = capsule(0.25f, 0.5f);
     check_two(collide(rod, at(0, 0, 0), stub, at(0.5f, 0.7f, 0), margin), vec3(1, 0, 0), vec3(0.25f, 0.2f, 0), vec3(0.25f, 1, 0),
               0);
     // Upside down, and turned by a hair.
@@ -105,7 +105,7 @@ TEST_CASE("capsules side by side touch in two points, at the ends of what they s
     // End to end there is one.
     check_one(collide(rod, at(0, 0, 0), rod, at(0, 2.51f, 0), margin), vec3(0, 1, 0), vec3(0, 1.255f, 0), 0.01f);
     // In one place they part sideways.
-    const Touch same = collide(rod, at(1, 1, 1), rod, at(1, 1, 1), margin);
+    const ManifoldBuffer same = collide(rod, at(1, 1, 1), rod, at(1, 1, 1), margin);
     CHECK(same.count == 2u);
     CHECK(same.manifold.normal.y == Approx(0).margin(1e-6));
     CHECK(deepest_of(same) == Approx(-0.5f));
@@ -113,13 +113,14 @@ TEST_CASE("capsules side by side touch in two points, at the ends of what they s
 
 TEST_CASE("a capsule of no height touches as a sphere does", "[collide]") {
     Chance chance(5);
-    const Traits point = capsule(0.4f, 0.0f), ball = sphere(0.4f);
+    const BodyProperties point = capsule(0.4f, 0.0f), ball = sphere(0.4f);
     for (int k = 0; k < 200; ++k) {
         const Pose here = Pose{chance.direction(), 0, chance.orientation()};
         const Pose there = Pose{here.position + chance.direction() * chance.between(0, 1.5f), 0, chance.orientation()};
-        for (const Traits& other : {capsule(0.3f, 0.5f), capsule(0.3f, 0.0f), box(0.4f, 0.5f, 0.6f), plane(vec3(0, 0, 1))}) {
-            const Touch a = collide(point, here, other, there, margin);
-            const Touch b = collide(ball, here, other, there, margin);
+        for (const BodyProperties& other :
+             {capsule(0.3f, 0.5f), capsule(0.3f, 0.0f), box(0.4f, 0.5f, 0.6f), plane(vec3(0, 0, 1))}) {
+            const ManifoldBuffer a = collide(point, here, other, there, margin);
+            const ManifoldBuffer b = collide(ball, here, other, there, margin);
             CHECK(a.count == b.count);
             if (a.count == 0 || b.count == 0) continue;
             CHECK(deepest_of(a) == Approx(deepest_of(b)).margin(1e-4));
@@ -128,7 +129,7 @@ TEST_CASE("a capsule of no height touches as a sphere does", "[collide]") {
 }
 
 TEST_CASE("a capsule that lies on a plane has two points, one that stands has one", "[collide]") {
-    const Traits rod = capsule(0.25f, 1.0f), ground = plane(vec3(0, 1, 0));
+    const BodyProperties rod = capsule(0.25f, 1.0f), ground = plane(vec3(0, 1, 0));
     check_two(collide(rod, at(5, 0.24f, 1, lying), ground, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(-1, -0.245f, 0),
               vec3(1, -0.245f, 0), -0.01f);
     check_one(collide(rod, at(0, 1.26f, 0), ground, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(0, -1.255f, 0), 0.01f);
@@ -136,7 +137,7 @@ TEST_CASE("a capsule that lies on a plane has two points, one that stands has on
 }
 
 TEST_CASE("a capsule that lies on a box has two points, where it or the box ends", "[collide]") {
-    const Traits rod = capsule(0.25f, 1.0f), table = box(2, 0.5f, 2);
+    const BodyProperties rod = capsule(0.25f, 1.0f), table = box(2, 0.5f, 2);
     check_two(collide(rod, at(0.5f, 0.74f, 1, lying), table, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(-1, -0.245f, 0),
               vec3(1, -0.245f, 0), -0.01f);
     // Over the rim.
@@ -150,14 +151,15 @@ TEST_CASE("a capsule that lies on a box has two points, where it or the box ends
 }
 
 TEST_CASE("a capsule rolling on a box keeps two points and the face's normal", "[collide]") {
-    const Traits rod = capsule(0.25f, 0.5f), table = box(3, 0.5f, 3);
+    const BodyProperties rod = capsule(0.25f, 0.5f), table = box(3, 0.5f, 3);
     for (int k = 0; k < 300; ++k) {
-        const float rolled = 0.005f * float(k);
-        const vec4 orientation = physics::compose(turn(vec3(0, 0, 1), rolled * 4.0f), turn(vec3(1, 0, 0), 1.5707963f));
+        const float solve_rolling = 0.005f * float(k);
+        const vec4 orientation = physics::compose(turn(vec3(0, 0, 1), solve_rolling * 4.0f), turn(vec3(1, 0, 0), 1.5707963f));
         // It trembles by a tenth of a millimetre and a milliradian, as bodies at rest do.
         const vec4 tremble = turn(vec3(1, 0.3f, 0), 0.001f * float(k % 3 - 1));
-        const Pose pose = at(-0.7f + rolled, 0.7499f + 0.0001f * float(k % 2), 0.2f, physics::compose(tremble, orientation));
-        const Touch touch = collide(rod, pose, table, at(0, 0, 0), margin);
+        const Pose pose =
+            at(-0.7f + solve_rolling, 0.7499f + 0.0001f * float(k % 2), 0.2f, physics::compose(tremble, orientation));
+        const ManifoldBuffer touch = collide(rod, pose, table, at(0, 0, 0), margin);
         REQUIRE(touch.count == 2u);
         REQUIRE(touch.manifold.normal == vec3(0, -1, 0));
         REQUIRE(touch.manifold.features == ((2u << 8) | 1u));
@@ -165,14 +167,14 @@ TEST_CASE("a capsule rolling on a box keeps two points and the face's normal", "
 }
 
 TEST_CASE("a capsule whose axis runs through a box leaves by the shortest way", "[collide]") {
-    const Traits rod = capsule(0.1f, 2.0f), block = box(0.5f, 1, 2);
-    const Touch upright = collide(rod, at(0.4f, 0, 0), block, at(0, 0, 0), margin);
+    const BodyProperties rod = capsule(0.1f, 2.0f), block = box(0.5f, 1, 2);
+    const ManifoldBuffer upright = collide(rod, at(0.4f, 0, 0), block, at(0, 0, 0), margin);
     REQUIRE(upright.count == 2u);
     check_near(upright.manifold.normal, vec3(-1, 0, 0));
     CHECK(deepest_of(upright) == Approx(-0.2f).margin(1e-5));
     // Through an edge, askew: out over the edge.
     const vec4 leaning = physics::compose(turn(vec3(0, 0, 1), 0.78539816f), turn(vec3(1, 0, 0), 0));
-    const Touch corner = collide(rod, at(0.45f, 0.95f, 0, leaning), block, at(0, 0, 0), margin);
+    const ManifoldBuffer corner = collide(rod, at(0.45f, 0.95f, 0, leaning), block, at(0, 0, 0), margin);
     REQUIRE(corner.count == 1u);
     check_near(corner.manifold.normal, vec3(-0.70710678f, -0.70710678f, 0), 1e-4f);
     CHECK(corner.manifold.points[0].w == Approx(-0.1f - 0.1f * 0.70710678f).margin(1e-4));

@@ -27,21 +27,21 @@ vec3 any_direction(Chance& chance) {
     return glm::normalize(v);
 }
 
-struct Subject {
+struct LoadedScene {
     State state;
-    physics::Solid solid;
+    physics::ConvexShape solid;
 };
-Subject subject_of(const Hull& hull) {
+LoadedScene subject_of(const Hull& hull) {
     Scene scene;
     scene.bodies.resize(1);
     scene.bodies[0].shape = hull;
     State state(checked(scene), {}, 128, true);
-    const physics::Solid solid = physics::solid_of(state.traits[0], vec4(0, 0, 0, 1), state.hull_table());
+    const physics::ConvexShape solid = physics::convex_shape_of(state.properties[0], vec4(0, 0, 0, 1), state.hull_table());
     return {std::move(state), solid};
 }
 
 // A hull whose corners lie on an ellipsoid.
-Subject hull_of(int corners, vec3 half, Chance& chance) {
+LoadedScene hull_of(int corners, vec3 half, Chance& chance) {
     Hull hull;
     for (int k = 0; k < corners; ++k) hull.points.push_back(half * any_direction(chance));
     return subject_of(hull);
@@ -59,7 +59,7 @@ Hull bevelled_disc() {
 }
 
 // Any direction, one along an edge or through a corner of the cells' cube, or one that two corners share.
-vec3 telling_direction(const Subject& hull, int k, Chance& chance) {
+vec3 telling_direction(const LoadedScene& hull, int k, Chance& chance) {
     if (k % 3 == 0) return any_direction(chance);
     if (k % 3 == 1) {
         const float steps[] = {-1, -0.5f, 0, 0.5f, 1};
@@ -76,7 +76,7 @@ vec3 telling_direction(const Subject& hull, int k, Chance& chance) {
     return glm::length(across) > 1e-3f ? across : any_direction(chance);
 }
 
-vec3 farthest_of_all(const Subject& hull, vec3 direction) {
+vec3 farthest_of_all(const LoadedScene& hull, vec3 direction) {
     vec3 farthest(0);
     float reach = -1e30f;
     for (physics::uint k = 0; k < hull.solid.head.vertices; ++k) {
@@ -98,7 +98,7 @@ TEST_CASE("by its cells a hull finds the very corner that looking at all of them
     Chance chance(3);
     for (const int size : sizes) {
         for (const vec3 form : forms) {
-            const Subject hull = hull_of(size, form, chance);
+            const LoadedScene hull = hull_of(size, form, chance);
             CAPTURE(size, form.x, form.y, form.z);
             REQUIRE((hull.solid.head.across > 0) == (hull.solid.head.vertices >= 9));
             for (int k = 0; k < 3000; ++k) {
@@ -116,7 +116,7 @@ TEST_CASE("a hull's cell lists what reaches farthest in directions near it, and 
     std::size_t listed = 0, asked = 0;
     for (const int size : {9, 16, 32, 64}) {
         for (const vec3 form : forms) {
-            const Subject hull = hull_of(size, form, chance);
+            const LoadedScene hull = hull_of(size, form, chance);
             const physics::Hulls table = hull.state.hull_table();
             for (int k = 0; k < 1000; ++k) {
                 const vec3 direction = glm::normalize(telling_direction(hull, k, chance));
@@ -166,12 +166,12 @@ TEST_CASE("the best of two hulls' faces is the best of all of them, however deep
                 const auto any_turn = [&] {
                     return glm::normalize(vec4(any_direction(chance), 0.1f) + vec4(0, 0, 0, between(chance, -1, 1)));
                 };
-                const physics::Solid solids[] = {physics::solid_of(state.traits[0], any_turn(), table),
-                                                 physics::solid_of(state.traits[1], any_turn(), table)};
+                const physics::ConvexShape solids[] = {physics::convex_shape_of(state.properties[0], any_turn(), table),
+                                                       physics::convex_shape_of(state.properties[1], any_turn(), table)};
                 const vec3 d = between(chance, 0, 1.5f) * any_direction(chance);
                 double best = -1e30;
                 for (int side = 0; side < 2; ++side) {
-                    const physics::Solid &own = solids[side], &other = solids[1 - side];
+                    const physics::ConvexShape &own = solids[side], &other = solids[1 - side];
                     for (physics::uint i = 0; i < own.head.faces; ++i) {
                         const vec4 plane = physics::plane_of(own, i, table);
                         double least = 1e30;

@@ -14,11 +14,11 @@ namespace {
 
 constexpr float touch = 0.002f;  // m
 
-Traits traits_of(uint shape, vec3 size) {
-    Traits traits{};
-    traits.shape = shape;
-    traits.size = size;
-    return traits;
+BodyProperties properties_of(uint shape, vec3 size) {
+    BodyProperties properties{};
+    properties.shape = shape;
+    properties.size = size;
+    return properties;
 }
 Pose pose_at(vec3 position, vec4 orientation = vec4(0, 0, 0, 1)) {
     return {position, 0, orientation};
@@ -26,11 +26,11 @@ Pose pose_at(vec3 position, vec4 orientation = vec4(0, 0, 0, 1)) {
 vec4 turn_about_z(float angle) {
     return {0, 0, std::sin(angle / 2), std::cos(angle / 2)};
 }
-Course still(const Traits& traits, const Pose& pose) {
-    return course_of(traits, pose.position, pose.orientation, pose, 1);
+MotionPath still(const BodyProperties& properties, const Pose& pose) {
+    return path_of(properties, pose.position, pose.orientation, pose, 1);
 }
-Course from_to(const Traits& traits, const Pose& start, const Pose& end, float until = 1) {
-    return course_of(traits, start.position, start.orientation, end, until);
+MotionPath from_to(const BodyProperties& properties, const Pose& start, const Pose& end, float until = 1) {
+    return path_of(properties, start.position, start.orientation, end, until);
 }
 
 Parameters parameters() {
@@ -38,31 +38,31 @@ Parameters parameters() {
     p.speculative = 10 * touch;
     return p;
 }
-Impact meet(const Traits& a, const Course& course_a, const Traits& b, const Course& course_b) {
-    return impact_of(a, course_a, b, course_b, limits_of(a, b, UNHELD, parameters()), false, Hulls{});
+Impact meet(const BodyProperties& a, const MotionPath& course_a, const BodyProperties& b, const MotionPath& course_b) {
+    return impact_of(a, course_a, b, course_b, limits_of(a, b, NO_CONTACT, parameters()), false, Hulls{});
 }
 
-const Traits ball = traits_of(SHAPE_SPHERE, vec3(0.1f, 0, 0));
-const Traits ground = traits_of(SHAPE_PLANE, vec3(0, 1, 0));
-const Traits wall = traits_of(SHAPE_BOX, vec3(0.025f, 2, 2));
+const BodyProperties ball = properties_of(SHAPE_SPHERE, vec3(0.1f, 0, 0));
+const BodyProperties ground = properties_of(SHAPE_PLANE, vec3(0, 1, 0));
+const BodyProperties wall = properties_of(SHAPE_BOX, vec3(0.025f, 2, 2));
 
 }  // namespace
 
 TEST_CASE("a ball meets a plane, a wall and a ball where the way to it ends") {
     const auto at = [](float way, float gap) { return Approx((gap - touch) / way).margin(0.1f * touch / way); };
-    const Course down = from_to(ball, pose_at({0, 1, 0}), pose_at({0, -4, 0}));
+    const MotionPath down = from_to(ball, pose_at({0, 1, 0}), pose_at({0, -4, 0}));
     REQUIRE(meet(ball, down, ground, still(ground, pose_at(vec3(0)))).fraction == at(5, 0.9f));
-    const Course across = from_to(ball, pose_at({-1, 0.3f, 0}), pose_at({4, 0.3f, 0}));
+    const MotionPath across = from_to(ball, pose_at({-1, 0.3f, 0}), pose_at({4, 0.3f, 0}));
     const Impact front = meet(ball, across, wall, still(wall, pose_at(vec3(0))));
     REQUIRE(front.fraction == at(5, 1 - 0.125f));
     REQUIRE(front.normal.x == Approx(1));
     REQUIRE(meet(wall, still(wall, pose_at(vec3(0))), ball, across).normal.x == Approx(-1));
-    const Course towards = from_to(ball, pose_at({4, 0.3f, 0}), pose_at({-1, 0.3f, 0}));
+    const MotionPath towards = from_to(ball, pose_at({4, 0.3f, 0}), pose_at({-1, 0.3f, 0}));
     REQUIRE(meet(ball, across, ball, towards).fraction == at(10, 4.8f));
 }
 
 TEST_CASE("two balls that meet off centre touch when their centres are that near") {
-    const Course across = from_to(ball, pose_at({-2, 0.1f, 0}), pose_at({3, 0.1f, 0}));
+    const MotionPath across = from_to(ball, pose_at({-2, 0.1f, 0}), pose_at({3, 0.1f, 0}));
     const Impact impact = meet(ball, across, ball, still(ball, pose_at(vec3(0))));
     const float reach = std::sqrt(0.202f * 0.202f - 0.1f * 0.1f);
     REQUIRE(impact.fraction == Approx((2 - reach) / 5).margin(1e-3));
@@ -70,60 +70,62 @@ TEST_CASE("two balls that meet off centre touch when their centres are that near
 }
 
 TEST_CASE("what flies past or away is not stopped, and what already touches goes on") {
-    const Course past = from_to(ball, pose_at({-2, 0.105f, 0}), pose_at({3, 0.105f, 0}));
-    const Traits small = traits_of(SHAPE_BOX, vec3(0.2f, 0.001f, 0.2f));
-    REQUIRE(meet(ball, past, small, still(small, pose_at(vec3(0)))).fraction == NEVER);
-    const Course away = from_to(ball, pose_at({-0.2f, 0, 0}), pose_at({-5, 0, 0}));
-    REQUIRE(meet(ball, away, wall, still(wall, pose_at(vec3(0)))).fraction == NEVER);
-    const Course along = from_to(ball, pose_at({-3, 0.1005f, 0}), pose_at({3, 0.0995f, 0}));
-    REQUIRE(meet(ball, along, ground, still(ground, pose_at(vec3(0)))).fraction == NEVER);
-    const Course into = from_to(ball, pose_at({0, 0.1f, 0}), pose_at({0, -3, 0}));
+    const MotionPath past = from_to(ball, pose_at({-2, 0.105f, 0}), pose_at({3, 0.105f, 0}));
+    const BodyProperties small = properties_of(SHAPE_BOX, vec3(0.2f, 0.001f, 0.2f));
+    REQUIRE(meet(ball, past, small, still(small, pose_at(vec3(0)))).fraction == NO_HIT);
+    const MotionPath away = from_to(ball, pose_at({-0.2f, 0, 0}), pose_at({-5, 0, 0}));
+    REQUIRE(meet(ball, away, wall, still(wall, pose_at(vec3(0)))).fraction == NO_HIT);
+    const MotionPath along = from_to(ball, pose_at({-3, 0.1005f, 0}), pose_at({3, 0.0995f, 0}));
+    REQUIRE(meet(ball, along, ground, still(ground, pose_at(vec3(0)))).fraction == NO_HIT);
+    const MotionPath into = from_to(ball, pose_at({0, 0.1f, 0}), pose_at({0, -3, 0}));
     REQUIRE(meet(ball, into, ground, still(ground, pose_at(vec3(0)))).fraction < 0.01f);
 }
 
 TEST_CASE("a long box that turns strikes the ground with its end") {
-    const Traits rod = traits_of(SHAPE_BOX, vec3(1, 0.05f, 0.05f));
+    const BodyProperties rod = properties_of(SHAPE_BOX, vec3(1, 0.05f, 0.05f));
     // Its centre stays at 0.6 m; the lower corner is at 0.6 - sin a - 0.05 cos a.
     for (const float whole : {0.8f, 1.2f}) {
-        const Course turning = from_to(rod, pose_at({0, 0.6f, 0}), pose_at({0, 0.6f, 0}, turn_about_z(whole)));
+        const MotionPath turning = from_to(rod, pose_at({0, 0.6f, 0}), pose_at({0, 0.6f, 0}, turn_about_z(whole)));
         const Impact impact = meet(rod, turning, ground, still(ground, pose_at(vec3(0))));
         REQUIRE(impact.fraction < 1);
-        const Pose at = pose_on(turning, impact.fraction);
+        const Pose at = pose_along_path(turning, impact.fraction);
         const float angle = 2 * std::atan2(at.orientation.z, at.orientation.w);
         REQUIRE(0.6f - std::sin(angle) - 0.05f * std::cos(angle) == Approx(touch).margin(0.12f * touch));
     }
-    const Course not_far = from_to(rod, pose_at({0, 0.6f, 0}), pose_at({0, 0.6f, 0}, turn_about_z(0.5f)));
-    REQUIRE(meet(rod, not_far, ground, still(ground, pose_at(vec3(0)))).fraction == NEVER);
+    const MotionPath not_far = from_to(rod, pose_at({0, 0.6f, 0}), pose_at({0, 0.6f, 0}, turn_about_z(0.5f)));
+    REQUIRE(meet(rod, not_far, ground, still(ground, pose_at(vec3(0)))).fraction == NO_HIT);
 }
 
 TEST_CASE("who follows a stopped body is stopped behind it") {
-    const Course ahead = from_to(ball, pose_at({1, 0, 0}), pose_at({6, 0, 0}), 0.1f);  // ends at 1.5
-    const Course behind = from_to(ball, pose_at({0, 0, 0}), pose_at({5, 0, 0}));
+    const MotionPath ahead = from_to(ball, pose_at({1, 0, 0}), pose_at({6, 0, 0}), 0.1f);  // ends at 1.5
+    const MotionPath behind = from_to(ball, pose_at({0, 0, 0}), pose_at({5, 0, 0}));
     REQUIRE(meet(ball, behind, ball, ahead).fraction == Approx((1.3f - touch) / 5).margin(1e-4));
-    const Course free_ahead = from_to(ball, pose_at({1, 0, 0}), pose_at({6, 0, 0}));
-    REQUIRE(meet(ball, behind, ball, free_ahead).fraction == NEVER);
+    const MotionPath free_ahead = from_to(ball, pose_at({1, 0, 0}), pose_at({6, 0, 0}));
+    REQUIRE(meet(ball, behind, ball, free_ahead).fraction == NO_HIT);
 }
 
 TEST_CASE("no ways of random bodies through each other are missed, and none is stopped inside") {
     tests::Noise noise(5);
-    const Traits kinds[] = {ball, traits_of(SHAPE_CAPSULE, vec3(0.05f, 0.2f, 0)), traits_of(SHAPE_BOX, vec3(0.2f, 0.02f, 0.1f))};
+    const BodyProperties kinds[] = {ball, properties_of(SHAPE_CAPSULE, vec3(0.05f, 0.2f, 0)),
+                                    properties_of(SHAPE_BOX, vec3(0.2f, 0.02f, 0.1f))};
     int met = 0, late = 0;
     for (int i = 0; i < 3000; ++i) {
-        const Traits &a = kinds[i % 3], &b = kinds[i / 3 % 3];
+        const BodyProperties &a = kinds[i % 3], &b = kinds[i / 3 % 3];
         const auto some = [&] { return pose_at(noise.vector() * 1.0f, unit_quaternion(vec4(noise.vector(), 1.1f))); };
         const Pose starts[2] = {some(), some()}, ends[2] = {some(), some()};
-        if (gap_between(a, starts[0], b, starts[1], 1e30f, Hulls{}).distance < 2 * touch) continue;
-        const Course ca = from_to(a, starts[0], ends[0]), cb = from_to(b, starts[1], ends[1]);
+        if (distance_between_shapes(a, starts[0], b, starts[1], 1e30f, Hulls{}).distance < 2 * touch) continue;
+        const MotionPath ca = from_to(a, starts[0], ends[0]), cb = from_to(b, starts[1], ends[1]);
         const float fraction = meet(a, ca, b, cb).fraction;
         met += fraction < 1;
         float least = 1e30f;
         const float last = smaller(fraction, 1.0f);
         for (int k = 0; k <= 200; ++k) {
             const float t = last * static_cast<float>(k) / 200;
-            least = smaller(least, gap_between(a, pose_on(ca, t), b, pose_on(cb, t), 1e30f, Hulls{}).distance);
+            least = smaller(
+                least, distance_between_shapes(a, pose_along_path(ca, t), b, pose_along_path(cb, t), 1e30f, Hulls{}).distance);
         }
         CAPTURE(i, fraction);
-        REQUIRE(least > -1.1f * limits_of(a, b, UNHELD, parameters()).slop);
+        REQUIRE(least > -1.1f * limits_of(a, b, NO_CONTACT, parameters()).slop);
         late += fraction < 1 && least < 0.9f * touch;  // out of rounds between touching and entering
     }
     REQUIRE(met > 100);
@@ -132,24 +134,25 @@ TEST_CASE("no ways of random bodies through each other are missed, and none is s
 
 TEST_CASE("what was stopped is not stopped at the same place in the next step") {
     tests::Noise noise(6);
-    const Traits kinds[] = {ball, traits_of(SHAPE_CAPSULE, vec3(0.05f, 0.2f, 0)), traits_of(SHAPE_BOX, vec3(0.2f, 0.02f, 0.1f))};
+    const BodyProperties kinds[] = {ball, properties_of(SHAPE_CAPSULE, vec3(0.05f, 0.2f, 0)),
+                                    properties_of(SHAPE_BOX, vec3(0.2f, 0.02f, 0.1f))};
     int met = 0;
     for (int i = 0; i < 3000; ++i) {
         const bool falls = i % 2 == 1;
-        const Traits &a = kinds[i % 3], &b = falls ? ground : kinds[i / 3 % 3];
+        const BodyProperties &a = kinds[i % 3], &b = falls ? ground : kinds[i / 3 % 3];
         const auto some = [&] { return pose_at(noise.vector() * 1.0f, unit_quaternion(vec4(noise.vector(), 1.1f))); };
         const auto above = [&](Pose pose) { return pose_at(pose.position + vec3(0, falls ? 2 : 0, 0), pose.orientation); };
-        const Course ca = from_to(a, above(some()), some());
-        const Course cb = falls ? still(ground, pose_at(vec3(0))) : from_to(b, some(), some());
+        const MotionPath ca = from_to(a, above(some()), some());
+        const MotionPath cb = falls ? still(ground, pose_at(vec3(0))) : from_to(b, some(), some());
         const float first = meet(a, ca, b, cb).fraction;
         if (first >= 1) continue;
         ++met;
-        const auto on = [&](const Traits& traits, const Course& course) {
-            const Pose at = pose_on(course, first);
-            return from_to(traits, at, pose_at(at.position + course.way, unit_quaternion(at.orientation + course.turn)));
+        const auto on = [&](const BodyProperties& properties, const MotionPath& course) {
+            const Pose at = pose_along_path(course, first);
+            return from_to(properties, at, pose_at(at.position + course.way, unit_quaternion(at.orientation + course.turn)));
         };
         CAPTURE(i, first);
-        for (const uint hold : {UNHELD, HELD, FORSAKEN})
+        for (const uint hold : {NO_CONTACT, IN_CONTACT, CONTACT_LOST})
             REQUIRE(impact_of(a, on(a, ca), b, on(b, cb), limits_of(a, b, hold, parameters()), false, Hulls{}).fraction > 0);
     }
     REQUIRE(met > 300);
@@ -165,24 +168,24 @@ TEST_CASE("what is driven out of the bounds of its neighbours' search is stopped
     p.cell = p.inverse_cell = 1;
     const Velocity flying{vec3(60, 0, 0), 0, vec3(0), 0};
     const Pose start = pose_at(vec3(0));
-    const Bounds bounds = bounds_of(ball, 0, start, flying, Load{}, p);
-    const auto part = [&](vec3 end) { return seen_part(ball, flight_of(start), pose_at(end), bounds); };
+    const Bounds bounds = bounds_of(ball, 0, start, flying, BodyForces{}, p);
+    const auto part = [&](vec3 end) { return seen_part(ball, sweep_of(start), pose_at(end), bounds); };
     REQUIRE(part({1, 0, 0}) == 1);
     REQUIRE(part({-1, 0, 0}) == Approx(0.07f));  // the speculative distance and half of its thickness
     REQUIRE(part({0.5f, 0.5f, 0}) == Approx(0.14f));
 }
 
 TEST_CASE("a body that waits keeps its energy") {
-    Load load{};
+    BodyForces load{};
     load.acceleration = vec3(0, -9.81f, 0);
-    const Flight flight = flight_of(pose_at({0, 10, 0}));
+    const Sweep sweep = sweep_of(pose_at({0, 10, 0}));
     const Velocity end{vec3(20, -15, 0), 0.001f, vec3(1, 2, 3), 0.001f};
     const Pose there = pose_at({0.3f, 9.7f, 0});
-    const Halted after = halted(flight, there, end, load, 0.25f);
+    const ClampedMotion after = clamp_motion(sweep, there, end, load, 0.25f);
     REQUIRE(after.pose.position.y == Approx(9.925f));
-    REQUIRE(after.velocity.rest_y == 0);
+    REQUIRE(after.velocity.low_y == 0);
     const auto energy = [](vec3 v, float height) { return 0.5 * glm::dot(glm::dvec3(v), glm::dvec3(v)) + 9.81 * height; };
     REQUIRE(energy(after.velocity.linear, after.pose.position.y) == Approx(energy(end.linear, 9.7f)).epsilon(1e-6));
     REQUIRE(after.velocity.angular == end.angular);
-    REQUIRE(halted(flight, there, end, Load{}, 0.25f).velocity.linear == end.linear);
+    REQUIRE(clamp_motion(sweep, there, end, BodyForces{}, 0.25f).velocity.linear == end.linear);
 }

@@ -13,7 +13,7 @@ Contact patch(std::uint32_t count) {
     Contact contact{};
     contact.count = count;
     contact.normal = vec3(0, 1, 0);
-    contact.turn_a = contact.turn_b = vec4(0, 0, 0, 1);
+    contact.orientation_a = contact.orientation_b = vec4(0, 0, 0, 1);
     for (std::uint32_t k = 0; k < count; ++k) contact.points[k] = vec4(k % 2 == 0 ? 0.5f : -0.5f, 0.5f, k < 2 ? 0.5f : -0.5f, 0);
     contact.features = 0x03020100u;
     return contact;
@@ -27,7 +27,7 @@ TEST_CASE("a contact that shrinks to one point keeps its push and its friction, 
     was.friction = vec3(0.5f, 0, 0.25f);
     was.twist = 0.75f;
     for (const std::uint32_t count : {1u, 2u, 4u}) {
-        const Impulse now = inherited(patch(count), was, matches_of(patch(count), patch(4), 0.1f));
+        const Impulse now = warm_start_from(patch(count), was, matches_of(patch(count), patch(4), 0.1f));
         INFO(count << " points");
         CHECK(now.normal.x == 4);
         CHECK(now.friction == was.friction);

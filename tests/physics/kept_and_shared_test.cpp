@@ -10,19 +10,19 @@ using namespace scree::physics;
 
 namespace {
 
-Traits box(float half) {
-    Traits traits{};
-    traits.shape = SHAPE_BOX;
-    traits.size = vec3(half);
-    traits.friction = 0.6f;
-    return traits;
+BodyProperties box(float half) {
+    BodyProperties properties{};
+    properties.shape = SHAPE_BOX;
+    properties.size = vec3(half);
+    properties.friction = 0.6f;
+    return properties;
 }
-Traits ball(float radius) {
-    Traits traits{};
-    traits.shape = SHAPE_SPHERE;
-    traits.size = vec3(radius);
-    traits.friction = 0.6f;
-    return traits;
+BodyProperties ball(float radius) {
+    BodyProperties properties{};
+    properties.shape = SHAPE_SPHERE;
+    properties.size = vec3(radius);
+    properties.friction = 0.6f;
+    return properties;
 }
 
 vec4 about_x(double degrees) {
@@ -35,11 +35,11 @@ bool kept(vec4 turn_a, vec4 turn_b, vec3 spin_b = vec3(0)) {
     Contact contact{};
     contact.count = 4;
     contact.normal = vec3(0, 1, 0);
-    contact.d = vec3(0, 1, 0);
-    contact.turn_a = contact.turn_b = vec4(0, 0, 0, 1);
+    contact.center_offset = vec3(0, 1, 0);
+    contact.orientation_a = contact.orientation_b = vec4(0, 0, 0, 1);
     // Narrow along the axis of turning, so that slip lets it go no sooner.
     for (int k = 0; k < 4; ++k) contact.points[k] = vec4(k % 2 == 0 ? 0.5f : -0.5f, 0.5f, k < 2 ? 0.01f : -0.01f, 0);
-    Impulse impulse = no_impulse(contact.d);
+    Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = vec4(1);
     Pose a{}, b{};
     a.orientation = turn_a;
@@ -49,18 +49,18 @@ bool kept(vec4 turn_a, vec4 turn_b, vec3 spin_b = vec3(0)) {
     Velocity va{}, vb{};
     vb.angular = spin_b;
     vb.linear = cross3(spin_b, vec3(0, 0.5f, 0));  // about the middle of the contact
-    return is_kept(contact, impulse, box(0.5f), a, va, box(0.5f), b, vb);
+    return is_persistent(contact, impulse, box(0.5f), a, va, box(0.5f), b, vb);
 }
 
-Parameters relaxed() {
+Parameters relax_contact() {
     Parameters parameters{};
     parameters.inverse_relaxation = 1 / 1.5f;
     parameters.speculative = 0.02f;
     return parameters;
 }
 
-float counted(float crowd) {
-    return contacts_of(crowd);
+float counted(float split_state) {
+    return contact_count_of(split_state);
 }
 
 }  // namespace
@@ -81,40 +81,42 @@ TEST_CASE("a corner resists twisting as a patch of a hundredth of the body, a ba
     Contact contact{};
     contact.count = 1;
     contact.normal = vec3(0, 1, 0);
-    contact.turn_a = contact.turn_b = vec4(0, 0, 0, 1);
-    CHECK(constraint_of(contact, box(0.5f), box(2), 0, 1, relaxed()).reach == Approx(0.005f));
-    CHECK(constraint_of(contact, box(0.5f), ball(2), 0, 1, relaxed()).reach == 0);
-    CHECK(constraint_of(contact, ball(0.5f), ball(2), 0, 1, relaxed()).reach == 0);
+    contact.orientation_a = contact.orientation_b = vec4(0, 0, 0, 1);
+    CHECK(constraint_of(contact, box(0.5f), box(2), 0, 1, relax_contact()).twist_arm == Approx(0.005f));
+    CHECK(constraint_of(contact, box(0.5f), ball(2), 0, 1, relax_contact()).twist_arm == 0);
+    CHECK(constraint_of(contact, ball(0.5f), ball(2), 0, 1, relax_contact()).twist_arm == 0);
 }
 
 TEST_CASE("the count of contacts that share a body lags behind those that carry") {
-    CHECK(counted(crowd_after(0, 1, 5)) == 1);
-    CHECK(counted(crowd_after(crowd_of(4, 5), 1, 5)) == 1);  // a blow has the whole body
-    float crowd = crowd_of(2, 5);
-    crowd = crowd_after(crowd, 3, 5);
-    CHECK(counted(crowd) == Approx(2.31f).margin(0.02));  // at once, what the iteration needs to converge
+    CHECK(counted(split_state_after(0, 1, 5)) == 1);
+    CHECK(counted(split_state_after(pack_split_state(4, 5), 1, 5)) == 1);  // a blow has the whole body
+    float split_state = pack_split_state(2, 5);
+    split_state = split_state_after(split_state, 3, 5);
+    CHECK(counted(split_state) == Approx(2.31f).margin(0.02));  // at once, what the iteration needs to converge
     int rise = 0, fall = 0;
-    while (counted(crowd) < 3 && rise < 1000) crowd = drifted(crowd, 3, static_cast<std::uint32_t>(++rise));
+    while (counted(split_state) < 3 && rise < 1000)
+        split_state = update_hysteresis(split_state, 3, static_cast<std::uint32_t>(++rise));
     CHECK(rise > 30);
     CHECK(rise < 60);
-    CHECK(counted(drifted(crowd, 3, 4)) == 3);
-    while (counted(crowd_after(crowd, 2, 5)) > 2 && fall < 1000) crowd = drifted(crowd, 2, static_cast<std::uint32_t>(++fall));
+    CHECK(counted(update_hysteresis(split_state, 3, 4)) == 3);
+    while (counted(split_state_after(split_state, 2, 5)) > 2 && fall < 1000)
+        split_state = update_hysteresis(split_state, 2, static_cast<std::uint32_t>(++fall));
     CHECK(fall > 200);
     CHECK(fall < 300);
 }
 
 TEST_CASE("of a body's mass half is shared alike and half by what presses") {
-    const Parameters parameters = relaxed();
-    const float crowd = crowd_of(3, 8);
-    const float parts[] = {1 / split_for(crowd, 4, parameters), 1 / split_for(crowd, 4, parameters),
-                           1 / split_for(crowd, 0, parameters)};
+    const Parameters parameters = relax_contact();
+    const float split_state = pack_split_state(3, 8);
+    const float parts[] = {1 / split_factor(split_state, 4, parameters), 1 / split_factor(split_state, 4, parameters),
+                           1 / split_factor(split_state, 0, parameters)};
     CHECK(parts[0] == Approx(1.5 * (0.5 / 3 + 0.25)).epsilon(0.01));
     CHECK(parts[2] == Approx(1.5 * (0.5 / 3)).epsilon(0.01));
     CHECK(parts[0] + parts[1] + parts[2] == Approx(1.5).epsilon(0.01));
     // As many as the count may lag behind: the relaxation stays below 2.
-    const float late = crowd_after(crowd_of(2, 8), 4, 8);
-    CHECK(4 / split_for(late, 2, parameters) < 2);
-    CHECK(4 / split_for(late, 2, parameters) > 1.5f);
-    CHECK(split_for(crowd_of(1, 8), 8, parameters) == 1);
-    CHECK(split_for(0, 0, parameters) == 1);  // of a new body nothing is known
+    const float late = split_state_after(pack_split_state(2, 8), 4, 8);
+    CHECK(4 / split_factor(late, 2, parameters) < 2);
+    CHECK(4 / split_factor(late, 2, parameters) > 1.5f);
+    CHECK(split_factor(pack_split_state(1, 8), 8, parameters) == 1);
+    CHECK(split_factor(0, 0, parameters) == 1);  // of a new body nothing is known
 }

@@ -291,7 +291,7 @@ TEST_CASE("program: bench writes a table and CSV with a row for every stage", "[
                  "copy_bytes_per_s,share_of_copy"));
     REQUIRE(std::count(csv.begin(), csv.end(), '\n') > 20);
     REQUIRE(says(csv, "solve_contacts"));
-    REQUIRE(says(bench.output, "bound_bodies"));
+    REQUIRE(says(bench.output, "compute_bounds"));
     REQUIRE(says(bench.output, "% of copying"));
 }
 

@@ -164,7 +164,7 @@ TEST_CASE("stages are timed when that is asked for, fused ones under their own n
     world.step(3);
     REQUIRE(time_of("substeps") == 0);
     REQUIRE(time_of("solve_contacts") == -1);
-    world.time_stages(true);
+    world.set_profiling(true);
     world.step(3);
     REQUIRE(time_of("substeps") > 0);
 }
@@ -173,7 +173,7 @@ TEST_CASE("a fused stage does stages of the plan, once each") {
     physics::Parameters parameters{};
     parameters.contact_capacity = 100;
     for (const bool everything : {false, true}) {
-        const std::vector<Stage> whole = plan(8, everything ? Content::everything() : Content{});
+        const std::vector<Stage> whole = plan(8, everything ? SceneFeatures::everything() : SceneFeatures{});
         std::vector<std::string> parts;
         for (const Stage& stage : fused(whole, parameters, 8)) {
             const std::uint32_t times = stage.reference ? 1 : std::max(1u, stage.pass >> 8 & 0xFFu);

@@ -27,7 +27,7 @@ Scene all_kinds() {
     sprung.turn.spring = Spring{2000, 5, 0.3f};  // too stiff to be a mere force
     Slider damped;
     damped.slide.spring = Spring{500, 5, 0};
-    SixDegrees wheel;
+    SixDof wheel;
     wheel.x.locked = wheel.z.locked = wheel.swing_z.locked = true;
     wheel.y.limits = Limits{-0.1f, 0.1f};
     wheel.twist.motor = Motor{5, 1};
@@ -88,7 +88,7 @@ Scene spokes() {
 // As many joints as a block takes, each entangled with as many others as it may be: four between each two plates of a row.
 Scene entangled() {
     Scene scene;
-    SixDegrees loose;
+    SixDof loose;
     loose.x.limits = loose.y.limits = loose.z.limits = Limits{-0.01f, 0.01f};
     loose.twist.limits = loose.swing_y.limits = loose.swing_z.limits = Limits{-0.02f, 0.02f};
     loose.twist.motor = Motor{3, 50};
@@ -169,6 +169,6 @@ TEST_CASE("joints that come and go while a world runs give the same bits on both
         CAPTURE(step);
         REQUIRE(there.state_hash() == cpu.state_hash());
     }
-    CHECK(there.joint(2).greatest_force == cpu.joint(2).greatest_force);
+    CHECK(there.joint(2).max_force == cpu.joint(2).max_force);
     CHECK(cpu.statistics().not_finite == 0);
 }

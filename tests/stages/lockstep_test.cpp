@@ -158,7 +158,7 @@ TEST_CASE("both processors stop fast bodies alike") {
             lockstep.step();
             require_equal(lockstep.result());
             lockstep.device().read(Table::bounds, std::as_writable_bytes(std::span(bounds)));
-            for (const physics::Bounds& around : bounds) stopped += physics::stop_of(around.flight) < 1;
+            for (const physics::Bounds& around : bounds) stopped += physics::stop_of(around.sweep) < 1;
         }
         REQUIRE(stopped > 50);
     }

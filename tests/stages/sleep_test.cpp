@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "compute/step/scene_compiler.h"
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
@@ -55,14 +56,14 @@ Scene columns(unsigned boxes) {
 }
 
 struct Seen {
-    std::size_t asleep = 0;             // most at any time
-    std::size_t woken = 0, shaken = 0;  // all in all
+    std::size_t asleep = 0;                    // most at any time
+    std::size_t woken = 0, wake_contacts = 0;  // all in all
 };
 
 Seen walk(const Scene& scene, const Settings& settings, const Watched& watched, int steps) {
     Lockstep lockstep(scene, settings, watched.device, 2);
     const physics::uint sleep_steps = sleep_steps_of(settings);
-    std::vector<physics::uint> rests(scene.bodies.size()), before = rests;
+    std::vector<physics::uint> sleep_states(scene.bodies.size()), before = sleep_states;
     Seen seen;
     for (int step = 0; step < steps; ++step) {
         lockstep.step();
@@ -70,15 +71,15 @@ Seen walk(const Scene& scene, const Settings& settings, const Watched& watched, 
         INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                      << result.detail);
         REQUIRE(result.equal);
-        lockstep.device().read(Table::rests, std::as_writable_bytes(std::span(rests)));
+        lockstep.device().read(Table::sleep_states, std::as_writable_bytes(std::span(sleep_states)));
         std::size_t asleep = 0;
-        for (std::size_t i = 0; i < rests.size(); ++i) {
-            const bool sleeps = physics::is_asleep(rests[i], sleep_steps);
+        for (std::size_t i = 0; i < sleep_states.size(); ++i) {
+            const bool sleeps = physics::is_asleep(sleep_states[i], sleep_steps);
             asleep += sleeps;
             seen.woken += physics::is_asleep(before[i], sleep_steps) && !sleeps;
         }
         seen.asleep = std::max(seen.asleep, asleep);
-        before = rests;
+        before = sleep_states;
     }
     return seen;
 }
@@ -98,7 +99,7 @@ TEST_CASE("bodies fall asleep and are struck with the same bits on both processo
     }
 }
 
-TEST_CASE("columns fall asleep, are struck and shaken with the same bits on both processors") {
+TEST_CASE("columns fall asleep, are struck and wake_contacts with the same bits on both processors") {
     const Watched watched;
     Settings light;
     light.sleep_time = 0.08f;

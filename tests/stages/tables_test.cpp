@@ -29,7 +29,7 @@ bool take_turns(const std::string& one, const std::string& other) {
 #define SCREE_SHARE(later, earlier) all.insert({#later, #earlier});
         SCREE_SHARES(SCREE_SHARE)
 #undef SCREE_SHARE
-        // carried lies where contact_starts lies, and so where kind_starts does.
+        // carried lies where contact_starts lies, and so where pair_type_starts does.
         for (const auto& [later, middle] : std::set(all))
             for (const auto& [between, earlier] : std::set(all))
                 if (middle == between) all.insert({later, earlier});
@@ -72,8 +72,8 @@ TEST_CASE("parts lie where the scene says, and their rows have no mass of their 
     CHECK(state.part_in(first).position.x < 0);
     CHECK(state.part_in(first + 1).position.x > 0);
     for (std::uint32_t row = first; row < state.fixed().bodies; ++row) {
-        CHECK(state.traits[row].inverse_mass == 0);
-        CHECK(state.traits[row].inverse_inertia == vec3(0));
-        CHECK(state.traits[row].owner == 1);
+        CHECK(state.properties[row].inverse_mass == 0);
+        CHECK(state.properties[row].inverse_inertia == vec3(0));
+        CHECK(state.properties[row].owner == 1);
     }
 }

@@ -13,8 +13,8 @@ using namespace scree;
 
 namespace {
 
-std::vector<Content> all_contents() {
-    std::vector<Content> all;
+std::vector<SceneFeatures> all_contents() {
+    std::vector<SceneFeatures> all;
     for (std::uint32_t bits = 0; bits < 1u << 12; ++bits) {
         const auto has = [&](std::uint32_t bit) { return (bits >> bit & 1u) != 0; };
         all.push_back({has(0), has(1), has(2), has(3), has(4), has(5), has(6), has(7), has(8), has(9), has(10), has(11)});
@@ -33,8 +33,8 @@ Names without_barrier(const std::vector<Stage>& stages) {
 }  // namespace
 
 TEST_CASE("barriers: a step waits wherever a stage needs what one before it has written") {
-    for (const Content& content : all_contents()) {
-        const std::vector<Stage> stages = plan(2, content);
+    for (const SceneFeatures& features : all_contents()) {
+        const std::vector<Stage> stages = plan(2, features);
         REQUIRE(stages.back().barrier_after);
         for (std::size_t i = 0, first = 0; i < stages.size(); ++i) {
             for (std::size_t before = first; before < i; ++before) {
@@ -49,12 +49,12 @@ TEST_CASE("barriers: a step waits wherever a stage needs what one before it has 
 TEST_CASE("barriers: only stages that do not disturb each other run side by side") {
     const Names without_joints = without_barrier(plan(3, {}));
     for (const std::string& names : without_joints)
-        CHECK((names.starts_with("collide_") || names == "wake_touched | wake_deserted"));
+        CHECK((names.starts_with("collide_") || names == "wake_touched | wake_unsupported"));
     Names joined;
-    for (const std::string& names : without_barrier(plan(3, Content::everything())))
+    for (const std::string& names : without_barrier(plan(3, SceneFeatures::everything())))
         if (!names.starts_with("collide_")) joined.insert(names);
     CHECK(joined == Names{"count_slots | count_joint_slots", "fill_slots | fill_joint_slots", "prepare_contacts | prepare_joints",
-                          "relax_contacts | relax_joints", "wake_touched | wake_deserted"});
+                          "relax_contacts | relax_joints", "wake_touched | wake_unsupported"});
 }
 
 TEST_CASE("barriers: stages that are several in turn wait for each other") {
@@ -68,20 +68,21 @@ TEST_CASE("a table lasts from step to step if something reads it before it is wr
     const std::vector<Table>& lasting = lasting_tables();
     using enum Table;
     CHECK(std::set<Table>(lasting.begin(), lasting.end()) ==
-          std::set{parameters, counts,   traits, poses,     velocities,      masses,          rests,
-                   strains,    hulls,    parts,  fractures, pieces,          tyres,           way_points,
-                   joints,     vehicles, ids,    actions,   contacts_before, impulses_before, first_contacts});
+          std::set{parameters, counts,   properties, poses,     velocities,      masses,          sleep_states,
+                   strains,    hulls,    parts,      fractures, pieces,          tyres,           way_points,
+                   joints,     vehicles, ids,        actions,   contacts_before, impulses_before, first_contacts});
 }
 
 TEST_CASE("what is compared after a stage is whole there, and every table that outlasts a step is compared once it is written") {
     std::set<Table> compared;
-    for (const Stage& stage : plan(2, Content::everything()))
+    for (const Stage& stage : plan(2, SceneFeatures::everything()))
         for (const Compared& each : stage.compared) compared.insert(each.table);
     using enum Table;
     for (const Table table :
-         {counts,      traits,         poses,     velocities,    masses,      loads,     bounds,   cell_ends,      cell_entries,
-          kind_starts, pair_starts,    pairs,     pairs_by_kind, strains,     manifolds, touching, contact_starts, contacts,
-          impulses,    first_contacts, slot_ends, slot_sides,    constraints, slots,     rests,    joints,         vehicles})
+         {counts,         properties,       poses,       velocities,     masses,        forces,     bounds,      cell_ends,
+          cell_entries,   pair_type_starts, pair_starts, pairs,          pairs_by_type, strains,    manifolds,   point_counts,
+          contact_starts, contacts,         impulses,    first_contacts, slot_ends,     slot_sides, constraints, slots,
+          sleep_states,   joints,           vehicles})
         CHECK(compared.contains(table));
 }
 

@@ -221,6 +221,6 @@ TEST_CASE("where nothing is fast, nothing is done for it") {
         REQUIRE(runner->step());
         REQUIRE(state.counted().pairs > 60);
         REQUIRE(state.counted().fast == 0);
-        REQUIRE(state.counted().arguments[physics::WORK_FLIGHTS].x == 0);
+        REQUIRE(state.counted().arguments[physics::WORK_CCD_PAIRS].x == 0);
     }
 }

@@ -262,7 +262,7 @@ TEST_CASE("what slept on a body that breaks wakes and falls") {
     REQUIRE(world.body(2).asleep);
     world.add_body(body_of(Sphere{0.3f}, {-3, 0.8f, 0}, {20, 1, 0}));
     world.step(180);
-    CHECK_FALSE(world.body(1).there);
+    CHECK_FALSE(world.body(1).exists);
     CHECK(world.body(2).position.y < 1.5f);
 }
 
@@ -280,8 +280,8 @@ TEST_CASE("a body that may break can be added to a world, and nothing acts on on
     REQUIRE(world.scene().bodies.size() == 8);
     CHECK(world.scene().bodies[5].piece_of == 1);
     world.step(120);
-    CHECK_FALSE(world.body(1).there);
-    CHECK(world.body(3).there);
+    CHECK_FALSE(world.body(1).exists);
+    CHECK(world.body(3).exists);
     const vec3 before = world.body(1).position;
     world.apply_impulse(1, {0, 1000, 0});
     world.explode(vec3(0), 10, 5);

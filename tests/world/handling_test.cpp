@@ -261,11 +261,11 @@ TEST_CASE("what touches a body carries its weight") {
     world.step(120);
     const float weight = 1000 * 9.81f;
     float up = 0, down = 0;
-    for (const Touching& touching : world.touching(2)) (touching.body == 1 ? up : down) += touching.force;
+    for (const BodyContact& touching : world.contacts_of(2)) (touching.body == 1 ? up : down) += touching.force;
     REQUIRE(up == Approx(2 * weight).epsilon(0.01));
     REQUIRE(down == Approx(weight).epsilon(0.01));
-    REQUIRE(world.touching(0).size() == 1);
-    REQUIRE(world.touching(0)[0].points == 4);
+    REQUIRE(world.contacts_of(0).size() == 1);
+    REQUIRE(world.contacts_of(0)[0].points == 4);
 }
 
 TEST_CASE("a hold that makes no sense is refused by name, and leaves no trace") {

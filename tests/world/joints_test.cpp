@@ -60,7 +60,7 @@ TEST_CASE("a hinge stops at its limits") {
     hinge.turn.limits = Limits{-0.5f, 0.25f};
     World world(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake(), 1);
     world.step(300);
-    CHECK(world.joint(0).places[twist] == Approx(-0.5f).margin(0.005));
+    CHECK(world.joint(0).coordinates[twist] == Approx(-0.5f).margin(0.005));
     CHECK(glm::length(world.body(0).angular_velocity) < 0.01f);
 }
 
@@ -132,7 +132,7 @@ TEST_CASE("a joint tears above its force, and not below") {
     World tears(scene, awake(), 1);
     tears.step(120);
     CHECK(tears.joint(0).broken);
-    CHECK(tears.joint(0).greatest_force > 0.9f * weight);
+    CHECK(tears.joint(0).max_force > 0.9f * weight);
     CHECK(tears.statistics().joints_broken == 1);
     CHECK(tears.body(0).position.y < -5);
     CHECK(tears.snapshot().joints[0].broken);
@@ -158,7 +158,7 @@ TEST_CASE("a joint of a body that breaks tears, and what hung on it falls") {
     REQUIRE_FALSE(world.joint(0).broken);
     REQUIRE_FALSE(world.joint(1).broken);
     world.step(60);
-    REQUIRE_FALSE(world.body(0).there);
+    REQUIRE_FALSE(world.body(0).exists);
     CHECK(world.joint(0).broken);
     CHECK(world.joint(1).broken);
     CHECK(world.statistics().joints_broken == 2);
@@ -232,11 +232,11 @@ TEST_CASE("joints that are added while a world runs hold, those beside them go o
     scene.joints.push_back(joint_at(scene, Ball{}, the_world, 1, {0.6f, -2, 0}));
     World world(scene, {}, 1);
     world.step(240);
-    const float greatest = world.joint(0).greatest_force;
+    const float greatest = world.joint(0).max_force;
     const vec3 low = world.body(1).position;
     // From where the upper one has come to rest to where the lower one has.
     REQUIRE(world.add_joint(world.joint_at(Fixed{}, 0, 1, 0.5f * (world.body(0).position + low), {0, 1, 0})) == 2);
-    CHECK(world.joint(0).greatest_force == greatest);
+    CHECK(world.joint(0).max_force == greatest);
     CHECK(world.scene().joints.size() == 3);
     world.step(60);
     CHECK(world.joint(2).gap < 1e-3f);
@@ -245,7 +245,7 @@ TEST_CASE("joints that are added while a world runs hold, those beside them go o
     world.step(120);
     const float weight = 2 * mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass * 9.81f;
     CHECK(world.joint(1).gap < 2e-3f);
-    CHECK(world.joint(0).greatest_force > 0.9f * weight);  // it bears both now
+    CHECK(world.joint(0).max_force > 0.9f * weight);  // it bears both now
     CHECK(world.body(1).position.y > -3);
     world.remove_joint(0);
     world.remove_joint(0);
@@ -313,7 +313,7 @@ TEST_CASE("bad joints are refused by name, with what to do about it") {
 }
 
 TEST_CASE("joints come back from a scene file as they were") {
-    SixDegrees six;
+    SixDof six;
     six.x.limits = Limits{-1, 2};
     six.twist.motor = Motor{1.25f, 30};
     six.swing_y.spring = Spring{10, 0.5f, 0.1f, 7};

@@ -103,7 +103,7 @@ TEST_CASE("of the overlapping pairs those are found once in which one body stirs
 
     // Three in four sleep, and half of the kinematic bodies stand.
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        if (scene.bodies[i].motion == Motion::dynamic && i % 4 != 0) state.rests[i] = state.fixed().sleep_steps;
+        if (scene.bodies[i].motion == Motion::dynamic && i % 4 != 0) state.sleep_states[i] = state.fixed().sleep_steps;
         const bool stands = scene.bodies[i].motion == Motion::dynamic ? i % 4 != 0 : i % 2 == 0;
         if (stands) state.velocities[i].linear = state.velocities[i].angular = vec3(0);
     }
@@ -117,15 +117,15 @@ TEST_CASE("of the overlapping pairs those are found once in which one body stirs
     (void)runner.step(stop_before_moving);
     REQUIRE(state.counted().overflow == 0);
 
-    const auto stirs = [&](std::size_t i) { return (state.bounds[i].level & physics::STILL) == 0; };
+    const auto stirs = [&](std::size_t i) { return (state.bounds[i].level & physics::INACTIVE) == 0; };
     std::size_t carried = 0, stirring = 0;
     for (std::size_t i = 0; i < state.counted().pairs; ++i) {
         const physics::Pair& pair = state.pairs[i];
         CAPTURE(pair.a, pair.b);
         REQUIRE(found.emplace(pair.a, pair.b).second);
-        REQUIRE((pair.kind == physics::KIND_STILL) == (!stirs(pair.a) && !stirs(pair.b)));
-        if (pair.kind == physics::KIND_STILL) REQUIRE(touched.contains({pair.a, pair.b}));
-        carried += pair.kind == physics::KIND_STILL;
+        REQUIRE((pair.pair_type == physics::PAIR_INACTIVE) == (!stirs(pair.a) && !stirs(pair.b)));
+        if (pair.pair_type == physics::PAIR_INACTIVE) REQUIRE(touched.contains({pair.a, pair.b}));
+        carried += pair.pair_type == physics::PAIR_INACTIVE;
     }
     Scene now = scene;
     for (std::size_t i = 0; i < now.bodies.size(); ++i) {

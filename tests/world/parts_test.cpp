@@ -130,10 +130,10 @@ TEST_CASE("parts of one body do not push each other, and touching tells of bodie
     World world(scene, {}, 1);
     world.step(120);
     REQUIRE(glm::length(world.body(2).position - vec3(0, 0.3f, 0)) < 0.003f);
-    const std::vector<Touching> touching = world.touching(1);
+    const std::vector<BodyContact> touching = world.contacts_of(1);
     REQUIRE(touching.size() > 2);
     float force = 0;
-    for (const Touching& touch : touching) {
+    for (const BodyContact& touch : touching) {
         REQUIRE((touch.body == 0 || touch.body == 2));
         if (touch.body == 0) force += touch.force;
     }

@@ -13,7 +13,7 @@ using namespace scree;
 
 namespace {
 
-std::size_t moved(const World& world) {
+std::size_t integrate(const World& world) {
     std::size_t count = 0;
     for (std::size_t id = 0; id < world.scene().bodies.size(); ++id) count += world.row_of(id) != id;
     return count;
@@ -88,13 +88,13 @@ TEST_CASE("what a user asks of bodies in another order in memory happens to the 
         CAPTURE(i);
         require_alike(world, plain);
     }
-    REQUIRE(moved(world) > 100);
+    REQUIRE(integrate(world) > 100);
     for (const std::size_t body : {0u, 20u, 151u}) {
-        const std::vector<Touching> touching = world.touching(body);
-        REQUIRE(touching.size() == plain.touching(body).size());
-        for (const Touching& one : touching) {
-            const std::vector<Touching> others = plain.touching(body);
-            REQUIRE(std::any_of(others.begin(), others.end(), [&](const Touching& other) {
+        const std::vector<BodyContact> touching = world.contacts_of(body);
+        REQUIRE(touching.size() == plain.contacts_of(body).size());
+        for (const BodyContact& one : touching) {
+            const std::vector<BodyContact> others = plain.contacts_of(body);
+            REQUIRE(std::any_of(others.begin(), others.end(), [&](const BodyContact& other) {
                 return other.body == one.body && other.points == one.points && other.force == one.force;
             }));
         }
@@ -116,13 +116,13 @@ TEST_CASE("vehicles, joints, compounds and what breaks are none the wiser for an
         for (int i = 0; i < 100; ++i) {
             if (i % 10 == 1) world.reorder();
             for (World* one : {&plain, &world}) {
-                if (i == 50 && !scene.vehicles.empty()) one->put_upright(1);
+                if (i == 50 && !scene.vehicles.empty()) one->reset_upright(1);
                 one->step();
             }
             CAPTURE(i);
             REQUIRE(world.state_hash() == plain.state_hash());
         }
-        REQUIRE(moved(world) > 20);
+        REQUIRE(integrate(world) > 20);
         REQUIRE(world.bodies_there() == plain.bodies_there());
         const Statistics a = world.statistics(), b = plain.statistics();
         REQUIRE(a.kinetic_energy == b.kinetic_energy);
@@ -164,7 +164,7 @@ TEST_CASE("statistics and what touches a body are told alike, to the last bit an
         REQUIRE(a.penetration_mean == b.penetration_mean);
         REQUIRE(a.penetration_max == b.penetration_max);
         for (std::size_t body = 0; body < world.scene().bodies.size(); ++body) {
-            const std::vector<Touching> touching = world.touching(body), others = plain.touching(body);
+            const std::vector<BodyContact> touching = world.contacts_of(body), others = plain.contacts_of(body);
             REQUIRE(touching.size() == others.size());
             for (std::size_t k = 0; k < others.size(); ++k) {
                 CAPTURE(body, k);
@@ -209,8 +209,8 @@ TEST_CASE("a world of many bodies begins in order, unless it is told not to") {
     Settings never;
     never.reordering = false;
     World world(scene, {}, 1), plain(scene, never, 1);
-    REQUIRE(moved(world) > 3000);
-    REQUIRE(moved(plain) == 0);
+    REQUIRE(integrate(world) > 3000);
+    REQUIRE(integrate(plain) == 0);
     world.step(2);
     plain.step(2);
     REQUIRE(world.state_hash() == plain.state_hash());

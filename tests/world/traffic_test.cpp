@@ -35,7 +35,7 @@ Traffic traffic(const Scene& scene, const std::string& stage) {
 }  // namespace
 
 TEST_CASE("traffic: every stage of the plan says which tables it reads and writes") {
-    for (const Stage& stage : plan(8, Content::everything())) {
+    for (const Stage& stage : plan(8, SceneFeatures::everything())) {
         CAPTURE(stage.name);
         CHECK_FALSE(stage.reads.empty());
         CHECK_FALSE(stage.writes.empty());
@@ -48,7 +48,7 @@ TEST_CASE("traffic: the solver moves its contacts and bodies once in every subst
     const double binned = sizeof(physics::uint);
     REQUIRE(solver.read == 3 * (contacts * (binned + sizeof(physics::Constraint) + sizeof(physics::Impulse)) +
                                 bodies * (sizeof(physics::Mass) + sizeof(physics::Velocity))));
-    REQUIRE(solver.written == 3 * (contacts * sizeof(physics::Impulse) + slots * sizeof(physics::Slot)));
+    REQUIRE(solver.written == 3 * (contacts * sizeof(physics::Impulse) + slots * sizeof(physics::VelocityDelta)));
 }
 
 TEST_CASE("traffic: a hull is read once, however many bodies have it and however many pairs they are in") {
@@ -61,7 +61,7 @@ TEST_CASE("traffic: a hull is read once, however many bodies have it and however
     };
     const double whole = 1 + 8 + 2 * 6 + 2;  // records: head, corners, faces and where theirs are listed, the list of 24 bytes
     const double of_a_pair = sizeof(physics::uint) + sizeof(physics::Pair) +
-                             2 * (sizeof(physics::Traits) + sizeof(physics::Pose) + sizeof(physics::Velocity));
+                             2 * (sizeof(physics::BodyProperties) + sizeof(physics::Pose) + sizeof(physics::Velocity));
     REQUIRE(read(1) == whole * sizeof(physics::uvec4) + of_a_pair);
     REQUIRE(read(10) == whole * sizeof(physics::uvec4) + 10 * of_a_pair);
 }

@@ -55,7 +55,7 @@ TEST_CASE("a vehicle that cannot be is refused with its place and the reason") {
     refused("/wheels/1/joint", "is a wheel of vehicle 0 already", [](Vehicle& v, Scene&) { v.wheels[1] = v.wheels[0]; });
     refused("/wheels/0/joint", "must be a hinge or have six degrees", [](Vehicle&, Scene& s) { s.joints[0].kind = Ball{}; });
     refused("/wheels/0/joint", "its twist must be free",
-            [](Vehicle&, Scene& s) { std::get<SixDegrees>(s.joints[0].kind).twist.locked = true; });
+            [](Vehicle&, Scene& s) { std::get<SixDof>(s.joints[0].kind).twist.locked = true; });
     refused("/wheels/3/steers", "cannot be steered", [](Vehicle& v, Scene&) { v.wheels[3].steers = true; });
     refused("/wheels/0/radius", "must be positive, m, is 0", [](Vehicle& v, Scene&) { v.wheels[0].radius = 0; });
     refused("/wheels/0/brake", "is NaN", [](Vehicle& v, Scene&) { v.wheels[0].brake = std::nanf(""); });
@@ -162,7 +162,7 @@ TEST_CASE("a car on its roof is put on its wheels where it is, with its heading"
     const vec3 before = world.body(1).position;
     world.set_velocity(1, {0, 6, 0}, {2.5f, 0, -4});
     for (int i = 0; i < 300 && up_of(world.body(1)).y > 0; ++i) world.step();
-    world.put_upright(0);
+    world.reset_upright(0);
     world.step(180);
     const BodyState now = world.body(1);
     REQUIRE(up_of(now).y > 0.99f);

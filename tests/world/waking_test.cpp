@@ -113,14 +113,14 @@ TEST_CASE("a weight laid gently on a sleeping see-saw tips it") {
     // The same, with a third weight just above the right end that floats until then.
     scene.bodies.push_back(at(Box{vec3(0.3f)}, vec3(2, 1.71f, 0)));
     scene.bodies.back().gravity_scale = 0;
-    World loaded(scene, {}, 1);
-    require_sleep(loaded, 3);
+    World apply_forces(scene, {}, 1);
+    require_sleep(apply_forces, 3);
     for (int i = 0; i < 120; ++i) {
-        loaded.apply_force(5, vec3(0, -0.25f * 216 * 9.81f, 0));  // a quarter of one weight
-        loaded.step();
+        apply_forces.apply_force(5, vec3(0, -0.25f * 216 * 9.81f, 0));  // a quarter of one weight
+        apply_forces.step();
     }
-    REQUIRE(place(loaded, 4).y < 0.7f);
-    REQUIRE(place(loaded, 3).y > 1.3f);
+    REQUIRE(place(apply_forces, 4).y < 0.7f);
+    REQUIRE(place(apply_forces, 3).y > 1.3f);
 }
 
 TEST_CASE("a heavy load on a sleeping stack wakes it down to the ground, a light one does not") {
@@ -172,12 +172,12 @@ TEST_CASE("a sleeper whose support is gone from one step to the next wakes, and 
     ReferenceRunner runner(1);
     runner.attach(state);
     const physics::uint sleep_steps = state.fixed().sleep_steps;
-    const auto sleeps = [&](std::size_t body) { return physics::is_asleep(state.rests[body], sleep_steps); };
+    const auto sleeps = [&](std::size_t body) { return physics::is_asleep(state.sleep_states[body], sleep_steps); };
     for (int i = 0; i < 180 && !(sleeps(1) && sleeps(2)); ++i) REQUIRE(runner.step());
     REQUIRE(runner.step());
     REQUIRE(sleeps(2));
     state.poses[1].position.x += 5;
-    state.rests[1] = 1;  // awake, but not restless
+    state.sleep_states[1] = 1;  // awake, but not restless
     REQUIRE(runner.step());
     REQUIRE_FALSE(sleeps(2));
     for (int i = 0; i < 30; ++i) REQUIRE(runner.step());

@@ -7,9 +7,9 @@ namespace scree::reference {
 
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     const auto words = [](auto& table) { return reinterpret_cast<std::uint32_t*>(table.data()); };
-    return {items.data(),           words(state.parameters), words(state.traits),     words(state.constraints),
+    return {items.data(),           words(state.parameters), words(state.properties), words(state.constraints),
             words(state.slot_ends), words(state.poses),      words(state.velocities), words(state.masses),
-            words(state.loads),     words(state.impulses),   words(state.slots)};
+            words(state.forces),    words(state.impulses),   words(state.slots)};
 }
 
 const WideStages* wide_stages(int most) {

@@ -46,7 +46,7 @@ struct Group {
     Constraint c;
     Impulse impulse;
     Indices a, b;
-    Couple before;
+    VelocityPair before;
 
     SCREE_INLINE Group(const WideTables& tables, std::size_t first, std::size_t last)
         : contacts(listed(tables.items, first, last)),
@@ -59,16 +59,19 @@ struct Group {
 
     SCREE_INLINE vec3 pull(const WideTables& tables) const {
         if (none(c.restitution > 0.0f)) return vec3(0.0f);
-        return choose(c.restitution > 0.0f, pull_of(gather<Load>(tables.loads, a), gather<Load>(tables.loads, b)), vec3(0.0f));
+        return choose(c.restitution > 0.0f,
+                      relative_acceleration(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)),
+                      vec3(0.0f));
     }
-    SCREE_INLINE void hand_out(const WideTables& tables, const Impulse& after, const Couple& share, Float carrying, Float told_a,
-                               Float told_b) const {
+    SCREE_INLINE void hand_out(const WideTables& tables, const Impulse& after, const VelocityPair& share, Float carrying,
+                               Float told_a, Float told_b) const {
         scatter(tables.impulses, contacts.only(live), after);
         hand_out(tables, share, carrying, told_a, told_b);
     }
-    SCREE_INLINE void hand_out(const WideTables& tables, const Couple& share, Float carrying, Float told_a, Float told_b) const {
-        scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), slot_of(share.a, carrying, told_b));
-        scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), slot_of(share.b, carrying, told_a));
+    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float carrying, Float told_a,
+                               Float told_b) const {
+        scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, carrying, told_b));
+        scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, carrying, told_a));
     }
 };
 
@@ -77,12 +80,12 @@ void hand_out(const WideTables& tables, std::size_t first, std::size_t last) {
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Group group(tables, first, last);
-        const Mass ma = lent(gather<Mass>(tables.masses, group.a), group.impulse, p);
-        const Mass mb = lent(gather<Mass>(tables.masses, group.b), group.impulse, p);
-        const Float carrying = carries(group.c, group.impulse, group.before, p);
-        const Couple share = shares_of(group.before, group.before, ma, mb);
-        group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), carrying, group.impulse.pressed,
-                       group.impulse.pressed);
+        const Mass ma = split_mass(gather<Mass>(tables.masses, group.a), group.impulse, p);
+        const Mass mb = split_mass(gather<Mass>(tables.masses, group.b), group.impulse, p);
+        const Float carrying = is_active(group.c, group.impulse, group.before, p);
+        const VelocityPair share = to_body_deltas(group.before, group.before, ma, mb);
+        group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), carrying, group.impulse.normal_sum,
+                       group.impulse.normal_sum);
     }
 }
 
@@ -91,11 +94,11 @@ void solve(const WideTables& tables, std::size_t first, std::size_t last) {
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Group group(tables, first, last);
-        const Mass ma = lent(gather<Mass>(tables.masses, group.a), group.impulse, p);
-        const Mass mb = lent(gather<Mass>(tables.masses, group.b), group.impulse, p);
-        const Solved after = solved(group.c, group.impulse, group.before, ma, mb, group.pull(tables), p);
-        const Couple share = shares_of(group.before, after.couple, ma, mb);
-        group.hand_out(tables, after.impulse, share, blow_of(after.impulse), 0.0f, 0.0f);
+        const Mass ma = split_mass(gather<Mass>(tables.masses, group.a), group.impulse, p);
+        const Mass mb = split_mass(gather<Mass>(tables.masses, group.b), group.impulse, p);
+        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.pull(tables), p);
+        const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
+        group.hand_out(tables, after.impulse, share, is_impact(after.impulse), 0.0f, 0.0f);
     }
 }
 
@@ -108,13 +111,13 @@ SCREE_INLINE Float told_by(const std::uint32_t* told, const Indices& bodies) {
 // physics::shared_for, which asks for a load only where there is a blow.
 SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const Indices& bodies, const Parameters& p) {
     const Mass mass = gather<Mass>(tables.masses, bodies);
-    if (none(blow_of(impulse) > 0.0f)) return lent(mass, impulse, p);
-    return shared_for(impulse, mass, gather<Load>(tables.loads, bodies), p);
+    if (none(is_impact(impulse) > 0.0f)) return split_mass(mass, impulse, p);
+    return impact_mass(impulse, mass, gather<BodyForces>(tables.forces, bodies), p);
 }
 
 // What the contacts carry in this substep, added to what they carried in those before.
 SCREE_INLINE void feel(const WideTables& tables, const Group& group, const Impulse& impulse, std::size_t items) {
-    const Float carried = pressing(impulse);
+    const Float carried = normal_impulse(impulse);
     for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
         float& sum = tables.carried[group.contacts.of[lane]];
         sum = tables.first ? carried.v[lane] : sum + carried.v[lane];
@@ -128,13 +131,13 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         const Group group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const Solved after = relaxed(group.c, was, group.before, ma, mb, group.pull(tables), p);
+        const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.pull(tables), p);
         if (tables.carried != nullptr) feel(tables, group, after.impulse, last - first);
-        Impulse impulse = without_blows(after.impulse, group.c.count);
-        impulse.pressed = pressing(impulse);
-        Couple share = shares_of(group.before, after.couple, ma, mb);
-        const Float carrying = carries(group.c, impulse, after.couple, p);
-        Float told_a = impulse.pressed, told_b = impulse.pressed;
+        Impulse impulse = clear_impacts(after.impulse, group.c.count);
+        impulse.normal_sum = normal_impulse(impulse);
+        VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
+        const Float carrying = is_active(group.c, impulse, after.pair_velocity, p);
+        Float told_a = impulse.normal_sum, told_b = impulse.normal_sum;
         if (tables.told == nullptr) {
             share = warm_start(group.c, impulse, share, ma, mb);
         } else {
@@ -146,7 +149,7 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
 }
 
 // What the contacts did to each body: the sums over its slots, in their order. A slot is eight floats, added side by side.
-SCREE_INLINE Slot sums_of_slots(const WideTables& tables, const Indices& bodies) {
+SCREE_INLINE VelocityDelta sums_of_slots(const WideTables& tables, const Indices& bodies) {
     using Eight [[gnu::vector_size(32)]] = float;
     std::uint32_t sums[8 * SCREE_LANES];
     for (int lane = 0; lane < lanes; ++lane) {
@@ -159,7 +162,7 @@ SCREE_INLINE Slot sums_of_slots(const WideTables& tables, const Indices& bodies)
         }
         __builtin_memcpy(sums + 8 * lane, &sum, sizeof sum);
     }
-    return gather<Slot>(sums, Indices(lane_numbers()));
+    return gather<VelocityDelta>(sums, Indices(lane_numbers()));
 }
 
 void begin(const WideTables& tables, std::size_t first, std::size_t last) {
@@ -167,16 +170,16 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Indices bodies(listed(tables.items, first, last));
-        const Slot sum = sums_of_slots(tables, bodies);
-        const Traits traits = gather<Traits>(tables.traits, bodies);
-        const Load load = gather<Load>(tables.loads, bodies);
+        const VelocityDelta sum = sums_of_slots(tables, bodies);
+        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
+        const BodyForces load = gather<BodyForces>(tables.forces, bodies);
         Velocity change, velocity = gather<Velocity>(tables.velocities, bodies);
         change.linear = sum.linear;
         change.angular = sum.angular;
-        velocity = accelerated(velocity, change, load, traits, p);
+        velocity = integrate_velocity(velocity, change, load, properties, p);
         Mass mass = gather<Mass>(tables.masses, bodies);
-        if (tables.first) mass.split = drifted(mass.split, sum.carries, tables.steps);
-        mass.split = crowd_after(mass.split, sum.carries, sum.told);
+        if (tables.first) mass.split = update_hysteresis(mass.split, sum.is_active, tables.steps);
+        mass.split = split_state_after(mass.split, sum.is_active, sum.told);
         const Indices live = bodies.only(living(first, last));
         scatter(tables.velocities, live, velocity);
         scatter(tables.masses, live, mass);
@@ -188,22 +191,22 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Indices bodies(listed(tables.items, first, last));
-        const Slot sum = sums_of_slots(tables, bodies);
-        const Traits traits = gather<Traits>(tables.traits, bodies);
-        Load load = gather<Load>(tables.loads, bodies);
+        const VelocityDelta sum = sums_of_slots(tables, bodies);
+        const BodyProperties properties = gather<BodyProperties>(tables.properties, bodies);
+        BodyForces load = gather<BodyForces>(tables.forces, bodies);
         Velocity velocity = gather<Velocity>(tables.velocities, bodies);
         velocity.linear = velocity.linear + sum.linear;
         velocity.angular = velocity.angular + sum.angular;
-        load.blows = sum.carries;
-        const Moved after = moved(gather<Pose>(tables.poses, bodies), velocity, traits, p.h);
+        load.impacts = sum.is_active;
+        const RigidState after = integrate(gather<Pose>(tables.poses, bodies), velocity, properties, p.h);
         const Indices live = bodies.only(living(first, last));
-        scatter(tables.loads, live, load);
+        scatter(tables.forces, live, load);
         scatter(tables.poses, live, after.pose);
         scatter(tables.velocities, live, after.velocity);
-        if (none(!turns_evenly(traits))) continue;
+        if (none(!has_isotropic_inertia(properties))) continue;
         const Mass mass = gather<Mass>(tables.masses, bodies);
-        scatter(tables.masses, bodies.only(living(first, last) && !turns_evenly(traits)),
-                mass_in_world(traits, after.pose.orientation, mass.split));
+        scatter(tables.masses, bodies.only(living(first, last) && !has_isotropic_inertia(properties)),
+                mass_in_world(properties, after.pose.orientation, mass.split));
     }
 }
 

@@ -11,13 +11,13 @@ namespace scree::reference {
 struct WideTables {
     const std::uint32_t* items;  // contacts or bodies that the stage works on
     const std::uint32_t* parameters;
-    const std::uint32_t* traits;
+    const std::uint32_t* properties;
     const std::uint32_t* constraints;
     const std::uint32_t* slot_ends;
     std::uint32_t* poses;
     std::uint32_t* velocities;
     std::uint32_t* masses;
-    std::uint32_t* loads;
+    std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
     const std::uint32_t* told = nullptr;  // a float per body: what it tells of its rest; null but in the last pass

@@ -12,15 +12,15 @@
 
 namespace scree::demos {
 
-std::unique_ptr<Runner> Machine::make_runner() const {
+std::unique_ptr<Runner> Backend::make_runner() const {
     return device ? make_device_runner(device) : make_reference_runner(options.threads);
 }
 
-double Machine::copy_speed() const {
+double Backend::copy_speed() const {
     return device ? host::device_copy_speed(device) : host::processor_copy_speed(options.threads);
 }
 
-void Machine::require_valid() const {
+void Backend::require_valid() const {
     const std::shared_ptr<host::Device>& watched = device ? device : screen;
     if (!watched || !options.validate) return;
     const std::vector<std::string> messages = watched->validation_messages();
@@ -31,7 +31,7 @@ void Machine::require_valid() const {
 namespace {
 
 // A software device shares the cores with the processor's own path: whichever is faster here.
-void take_the_faster(Machine& machine) {
+void take_the_faster(Backend& machine) {
     const host::DeviceReport& device = machine.device->report();
     const std::string key = fmt::format("{}, {}, {} threads", device.name, device.driver, machine.options.threads);
     const Paces paces = paces_of(key, [&] {
@@ -47,8 +47,8 @@ void take_the_faster(Machine& machine) {
 
 }  // namespace
 
-Machine choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions) {
-    Machine machine{options, nullptr, ""};
+Backend choose_machine(const MachineOptions& options, Choice choice, const std::vector<const char*>& window_extensions) {
+    Backend machine{options, nullptr, ""};
     const bool shows = !window_extensions.empty();
     const auto open = [&] {
         return host::Device::open(
@@ -78,7 +78,7 @@ Machine choose_machine(const MachineOptions& options, Choice choice, const std::
     return machine;
 }
 
-std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine& machine, const host::ShapeInstances& instances,
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Backend& machine, const host::ShapeInstances& instances,
                                                  const host::CanvasOptions& options) {
     std::shared_ptr<host::Device> device = machine.device ? machine.device : machine.screen;
     if (!device) device = host::Device::open({.which = "", .validation = machine.options.validate, .on_message = {}});
@@ -93,11 +93,11 @@ host::BodyTables tables_on_device(Runner& runner) {
         const DeviceRunner::Range range = device.range(table);
         return host::TableView(range.buffer, range.offset, range.bytes);
     };
-    host::BodyTables tables{view(Table::traits),   view(Table::poses),    view(Table::velocities),
+    host::BodyTables tables{view(Table::properties),   view(Table::poses),    view(Table::velocities),
                             view(Table::contacts), view(Table::impulses), counts.contacts};
     tables.slot_ends = view(Table::slot_ends);
     tables.slot_sides = view(Table::slot_sides);
-    tables.rests = view(Table::rests);
+    tables.sleep_states = view(Table::sleep_states);
     tables.bounds = view(Table::bounds);
     tables.ids = view(Table::ids);
     tables.joints = view(Table::joints);

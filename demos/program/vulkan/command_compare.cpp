@@ -25,8 +25,8 @@ struct Options {
 };
 
 int compare(const Options& options) {
-    const Subject subject = load_subject(options.scene);
-    const Machine machine = choose_machine(options.machine, Choice::a_device);
+    const LoadedScene subject = load_subject(options.scene);
+    const Backend machine = choose_machine(options.machine, Choice::a_device);
     const int steps = options.scene.step_count(1);
     std::optional<Progress> progress(std::in_place, subject.name, steps, "steps", options.quiet);
     const LockstepResult result = at_work([&] {

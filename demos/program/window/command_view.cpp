@@ -58,7 +58,7 @@ private:
     double events_ = 0, seconds_ = 0, rate_ = 0;
 };
 
-host::Camera camera_of(const Eye& eye) {
+host::Camera camera_of(const OrbitCamera& eye) {
     host::Camera camera;
     const Viewpoint view = eye.viewpoint();
     camera.eye = view.eye;
@@ -70,7 +70,7 @@ host::Camera camera_of(const Eye& eye) {
 // The window and what is in it.
 class Viewer {
 public:
-    Viewer(const Options& options, const host::Display& display, Machine machine);
+    Viewer(const Options& options, const host::Display& display, Backend machine);
     void run();
     void write_report();
     void write_recording();
@@ -82,7 +82,7 @@ private:
     void draw();
 
     const Options& options_;
-    Machine machine_;
+    Backend machine_;
     Session session_;
     Interaction interaction_;
     Panel panel_;
@@ -97,7 +97,7 @@ private:
     Clock::time_point started_ = Clock::now();
 };
 
-Viewer::Viewer(const Options& options, const host::Display& display, Machine machine)
+Viewer::Viewer(const Options& options, const host::Display& display, Backend machine)
     : options_(options),
       machine_(std::move(machine)),
       session_(options.scene, [this] { return machine_.make_runner(); }),
@@ -143,7 +143,7 @@ void Viewer::draw() {
     window_.end_panel();
     make_drawing();
     drawing_->update();
-    const Subject& subject = session_.subject();
+    const LoadedScene& subject = session_.subject();
     const World& world = session_.world();
     const std::string caption =
         panel_.shown ? ""
@@ -238,7 +238,7 @@ int view(Options options) {
     require_writable_file("--record", options.record);
     require_writable_file("--report", options.report);
     const std::unique_ptr<host::Display> display = open_display(options);
-    const Machine machine = choose_machine(options.machine, Choice::fastest, display->extensions());
+    const Backend machine = choose_machine(options.machine, Choice::fastest, display->extensions());
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
     {
         Viewer viewer(options, *display, machine);

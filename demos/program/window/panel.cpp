@@ -99,13 +99,13 @@ void Panel::show_selected(Session& session, Interaction& interaction) {
     const Body& body = scene.bodies[*selected];
     const float mass = mass_properties(body.shape, body.density).mass;
     if (looked_body_ != *selected || ImGui::GetTime() - looked_at_ > look_every || ImGui::GetTime() < looked_at_) {
-        touching_ = world.touching(*selected);
+        touching_ = world.contacts_of(*selected);
         looked_body_ = *selected;
         looked_at_ = ImGui::GetTime();
     }
     float force = 0;
     int points = 0;
-    for (const Touching& touching : touching_) {
+    for (const BodyContact& touching : touching_) {
         force += touching.force;
         points += touching.points;
     }
@@ -128,7 +128,7 @@ void Panel::show_vehicle(Session& session, Interaction& interaction) {
     say_line(fmt::format("{}: {:.0f} km/h{}", name.empty() ? fmt::format("vehicle {}", *which) : name,
                          static_cast<double>(now.speed) * 3.6, now.by_route ? ", drives by itself" : ""));
     say_line("W S A D or arrows drive it, Space: hand brake");
-    if (ImGui::Button("on its wheels")) interaction.put_upright();
+    if (ImGui::Button("on its wheels")) interaction.reset_upright();
     ImGui::SameLine();
     ImGui::Checkbox("chase", &interaction.chases);
 }

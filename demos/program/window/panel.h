@@ -30,8 +30,8 @@ private:
     void show_vehicle(Session& session, Interaction& interaction);
     void show_pull(Interaction& interaction) const;
 
-    std::vector<Touching> touching_;  // of the selected body, looked at some times a second
-    double looked_at_ = -1;           // s, of Dear ImGui's clock
+    std::vector<BodyContact> touching_;  // of the selected body, looked at some times a second
+    double looked_at_ = -1;              // s, of Dear ImGui's clock
     std::size_t looked_body_ = 0;
 };
 

@@ -10,23 +10,23 @@ namespace {
 constexpr const char* cure = "this scree was built without Vulkan; configure it with -DSCREE_VULKAN=ON";
 }
 
-std::unique_ptr<Runner> Machine::make_runner() const {
+std::unique_ptr<Runner> Backend::make_runner() const {
     return make_reference_runner(options.threads);
 }
 
-double Machine::copy_speed() const {
+double Backend::copy_speed() const {
     return host::processor_copy_speed(options.threads);
 }
 
-void Machine::require_valid() const {}
+void Backend::require_valid() const {}
 
-Machine choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {
+Backend choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {
     if (options.backend == "vulkan") throw UsageError(std::string("--backend vulkan: ") + cure);
     if (!options.device.empty()) throw UsageError(std::string("--device: ") + cure);
     return {options, nullptr, ""};
 }
 
-std::unique_ptr<host::Canvas> make_vulkan_canvas(const Machine&, const host::ShapeInstances&, const host::CanvasOptions&) {
+std::unique_ptr<host::Canvas> make_vulkan_canvas(const Backend&, const host::ShapeInstances&, const host::CanvasOptions&) {
     throw host::DeviceError(std::string("Vulkan: ") + cure);
 }
 

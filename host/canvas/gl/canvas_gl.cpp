@@ -27,14 +27,14 @@ constexpr GLenum function_of(Compare compare) {
 
 }  // namespace
 
-void GlCanvas::Interior::fill(Binding binding, const void* data, std::size_t bytes) const {
+void GlCanvas::Impl::fill(Binding binding, const void* data, std::size_t bytes) const {
     gl.glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffers[binding]);
     // Memory anew: what the last picture is drawn from need not be waited for. A shader may look at a table without records.
     gl.glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16)), nullptr, GL_STREAM_DRAW);
     gl.glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
 }
 
-void GlCanvas::Interior::fill_tables(ColorBy by) const {
+void GlCanvas::Impl::fill_tables(ColorBy by) const {
     GLint64 most = 0;
     gl.glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &most);
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {
@@ -50,7 +50,7 @@ void GlCanvas::Interior::fill_tables(ColorBy by) const {
 }
 
 // What colour bodies have, which of them are seen, and how finely they shall be drawn.
-void GlCanvas::Interior::look() const {
+void GlCanvas::Impl::look() const {
     if (scenery.bodies() == 0) return;
     for (std::size_t i = 0; i < looks.size(); ++i) {
         gl.glUseProgram(looks[i]);
@@ -59,12 +59,12 @@ void GlCanvas::Interior::look() const {
     }
 }
 
-void GlCanvas::Interior::begin(const Target& on) const {
+void GlCanvas::Impl::begin(const Target& on) const {
     gl.glBindFramebuffer(GL_FRAMEBUFFER, on.framebuffer);
     gl.glViewport(0, 0, on.width, on.height);
 }
 
-void GlCanvas::Interior::set_state(const DrawState& state) const {
+void GlCanvas::Impl::set_state(const DrawState& state) const {
     const auto set = [this](GLenum what, bool on) { on ? gl.glEnable(what) : gl.glDisable(what); };
     set(GL_CULL_FACE, state.cull != Cull::none);
     if (state.cull != Cull::none) gl.glCullFace(state.cull == Cull::back ? GL_BACK : GL_FRONT);
@@ -75,7 +75,7 @@ void GlCanvas::Interior::set_state(const DrawState& state) const {
     gl.glDepthMask(state.writes_depth ? GL_TRUE : GL_FALSE);
 }
 
-void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
+void GlCanvas::Impl::draw_all(Pass pass, std::uint32_t quad_count) const {
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Draw& draw = draws[i];
         Run items = scenery.items(draw.items, tables, quad_count);
@@ -106,7 +106,7 @@ void GlCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) const {
     }
 }
 
-void GlCanvas::Interior::draw_shadows(std::size_t light) const {
+void GlCanvas::Impl::draw_shadows(std::size_t light) const {
     begin(shadow_maps[light]);
     gl.glDepthMask(GL_TRUE);
     gl.glClearDepthf(1);
@@ -114,7 +114,7 @@ void GlCanvas::Interior::draw_shadows(std::size_t light) const {
     draw_all(light == 0 ? Pass::sun_map : Pass::sky_map, 0);
 }
 
-void GlCanvas::Interior::draw_picture(std::uint32_t quad_count) const {
+void GlCanvas::Impl::draw_picture(std::uint32_t quad_count) const {
     begin(scene);
     gl.glDepthMask(GL_TRUE);
     gl.glClearDepthf(0);  // infinitely far
@@ -131,7 +131,7 @@ void GlCanvas::Interior::draw_picture(std::uint32_t quad_count) const {
 }
 
 GlCanvas::GlCanvas(const ShapeInstances& instances, const CanvasOptions& options)
-    : interior_(std::make_unique<Interior>(instances, options)) {}
+    : interior_(std::make_unique<Impl>(instances, options)) {}
 GlCanvas::~GlCanvas() = default;
 
 std::string GlCanvas::name() const {
@@ -148,7 +148,7 @@ void GlCanvas::set_tables(const BodyTables& tables) {
 }
 
 void GlCanvas::begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
-    const Interior& in = *interior_;
+    const Impl& in = *interior_;
     const CanvasOptions& options = in.options;
     require_tables(in.tables, options, scale.by);
     const Frame frame = make_frame(camera, scale, options, scene_low, scene_high);
@@ -167,7 +167,7 @@ void GlCanvas::begin(const Camera& camera, const ColorScale& scale, const std::s
 }
 
 Image GlCanvas::finish() {
-    const Interior& in = *interior_;
+    const Impl& in = *interior_;
     const CanvasOptions& options = in.options;
     const GlContext::Current current(in.context);
     in.gl.glBindFramebuffer(GL_FRAMEBUFFER, in.target.framebuffer);

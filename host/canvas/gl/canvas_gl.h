@@ -21,8 +21,8 @@ public:
     Image finish() override;
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 }  // namespace scree::host

@@ -33,7 +33,7 @@ CanvasOptions checked(CanvasOptions options, const GlContext& context) {
 
 }  // namespace
 
-GlCanvas::Interior::Interior(const ShapeInstances& shapes, const CanvasOptions& chosen)
+GlCanvas::Impl::Impl(const ShapeInstances& shapes, const CanvasOptions& chosen)
     : gl(context.gl()), options(checked(chosen, context)), scenery(shapes), draws(draws_of(options)) {
     const GlContext::Current current(context);
     make_state();
@@ -45,7 +45,7 @@ GlCanvas::Interior::Interior(const ShapeInstances& shapes, const CanvasOptions& 
     check("making a canvas");
 }
 
-void GlCanvas::Interior::make_state() {
+void GlCanvas::Impl::make_state() {
     GLint tables_of_vertex = 0, bindings = 0;
     gl.glGetIntegerv(GL_MAX_VERTEX_SHADER_STORAGE_BLOCKS, &tables_of_vertex);
     gl.glGetIntegerv(GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS, &bindings);
@@ -68,7 +68,7 @@ void GlCanvas::Interior::make_state() {
     gl.glPixelStorei(GL_PACK_ALIGNMENT, 1);
 }
 
-void GlCanvas::Interior::make_buffers() {
+void GlCanvas::Impl::make_buffers() {
     gl.glGenBuffers(static_cast<GLsizei>(buffers.size()), buffers.data());
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {
         if (binding_infos()[i].source != Source::image) gl.glBindBufferBase(GL_SHADER_STORAGE_BUFFER, i, buffers[i]);
@@ -90,7 +90,7 @@ void GlCanvas::Interior::make_buffers() {
                     scenery.indices.data(), GL_STATIC_DRAW);
 }
 
-GLuint GlCanvas::Interior::shader(GLenum kind, std::string_view name) const {
+GLuint GlCanvas::Impl::shader(GLenum kind, std::string_view name) const {
     const std::string_view text = name.empty() ? "#version 310 es\nvoid main() {}\n" : shaders::find_es(name);
     if (text.empty()) throw DeviceError("the program was built without the shader " + std::string(name));
     const std::size_t first_line = text.find('\n') + 1;
@@ -113,7 +113,7 @@ GLuint GlCanvas::Interior::shader(GLenum kind, std::string_view name) const {
     throw DeviceError("OpenGL ES: the shader " + std::string(name) + " does not compile: " + log.data());
 }
 
-GLuint GlCanvas::Interior::linked(const std::vector<GLuint>& parts, const std::string& what) const {
+GLuint GlCanvas::Impl::linked(const std::vector<GLuint>& parts, const std::string& what) const {
     const GLuint name = gl.glCreateProgram();
     for (const GLuint part : parts) {
         gl.glAttachShader(name, part);
@@ -128,7 +128,7 @@ GLuint GlCanvas::Interior::linked(const std::vector<GLuint>& parts, const std::s
     throw DeviceError("OpenGL ES: " + what + " does not link: " + log.data());
 }
 
-GlCanvas::Interior::Program GlCanvas::Interior::linked(std::string_view vertex, std::string_view fragment) const {
+GlCanvas::Impl::Program GlCanvas::Impl::linked(std::string_view vertex, std::string_view fragment) const {
     Program program{vertex, fragment};
     program.name = linked({shader(GL_VERTEX_SHADER, vertex), shader(GL_FRAGMENT_SHADER, fragment)},
                           std::string(vertex) + " with " + std::string(fragment));
@@ -138,7 +138,7 @@ GlCanvas::Interior::Program GlCanvas::Interior::linked(std::string_view vertex, 
     return program;
 }
 
-void GlCanvas::Interior::make_programs() {
+void GlCanvas::Impl::make_programs() {
     for (const Draw& draw : draws) {
         const auto alike = std::find_if(programs.begin(), programs.end(), [&](const Program& program) {
             return program.vertex == draw.state.vertex && program.fragment == draw.state.fragment;
@@ -149,7 +149,7 @@ void GlCanvas::Interior::make_programs() {
     for (std::size_t i = 0; i < looks.size(); ++i) looks[i] = linked({shader(GL_COMPUTE_SHADER, LOOKS[i])}, LOOKS[i]);
 }
 
-GLuint GlCanvas::Interior::texture(GLenum format, int width, int height, GLint filter) const {
+GLuint GlCanvas::Impl::texture(GLenum format, int width, int height, GLint filter) const {
     GLuint made = 0;
     gl.glGenTextures(1, &made);
     gl.glBindTexture(GL_TEXTURE_2D, made);
@@ -161,7 +161,7 @@ GLuint GlCanvas::Interior::texture(GLenum format, int width, int height, GLint f
     return made;
 }
 
-GLuint GlCanvas::Interior::renderbuffer(GLenum format, int samples) const {
+GLuint GlCanvas::Impl::renderbuffer(GLenum format, int samples) const {
     GLuint made = 0;
     gl.glGenRenderbuffers(1, &made);
     gl.glBindRenderbuffer(GL_RENDERBUFFER, made);
@@ -169,7 +169,7 @@ GLuint GlCanvas::Interior::renderbuffer(GLenum format, int samples) const {
     return made;
 }
 
-void GlCanvas::Interior::require_complete() const {
+void GlCanvas::Impl::require_complete() const {
     const GLenum status = gl.glCheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return;
     std::ostringstream message;
@@ -177,7 +177,7 @@ void GlCanvas::Interior::require_complete() const {
     throw DeviceError(message.str());
 }
 
-void GlCanvas::Interior::make_shadow_maps() {
+void GlCanvas::Impl::make_shadow_maps() {
     for (std::size_t i = 0; i < shadow_maps.size(); ++i) {
         Target& map = shadow_maps[i];
         const std::uint32_t binding = i == 0 ? SUN_MAP : SKY_MAP;
@@ -196,7 +196,7 @@ void GlCanvas::Interior::make_shadow_maps() {
     }
 }
 
-void GlCanvas::Interior::make_picture() {
+void GlCanvas::Impl::make_picture() {
     const bool smooths = options.samples == 1;
     scene = target = {0, options.width, options.height};
     gl.glGenFramebuffers(1, &scene.framebuffer);
@@ -217,7 +217,7 @@ void GlCanvas::Interior::make_picture() {
     require_complete();
 }
 
-void GlCanvas::Interior::make_glyphs() {
+void GlCanvas::Impl::make_glyphs() {
     const GlyphAtlas& atlas = glyph_atlas();
     textures[GLYPHS] = texture(GL_R8, atlas.width, atlas.height, GL_LINEAR);
     gl.glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, atlas.width, atlas.height, GL_RED, GL_UNSIGNED_BYTE, atlas.levels.data());
@@ -227,7 +227,7 @@ void GlCanvas::Interior::make_glyphs() {
     }
 }
 
-void GlCanvas::Interior::check(const char* what) const {
+void GlCanvas::Impl::check(const char* what) const {
     const GLenum error = gl.glGetError();
     if (error == GL_NO_ERROR) return;
     std::ostringstream message;

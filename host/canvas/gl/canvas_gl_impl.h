@@ -11,8 +11,8 @@
 
 namespace scree::host {
 
-struct GlCanvas::Interior {
-    Interior(const ShapeInstances& shapes, const CanvasOptions& chosen);
+struct GlCanvas::Impl {
+    Impl(const ShapeInstances& shapes, const CanvasOptions& chosen);
 
     // Shaders linked together, and where their values go; -1: they have none.
     struct Program {

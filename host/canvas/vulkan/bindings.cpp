@@ -10,7 +10,7 @@ bool is_sampler(std::uint32_t binding) {
 
 }  // namespace
 
-void VulkanCanvas::Interior::make_layout() {
+void VulkanCanvas::Impl::make_layout() {
     const VulkanFunctions& vk = device->vk();
     std::array<VkDescriptorSetLayoutBinding, BINDINGS> bindings{};
     std::uint32_t samplers = 0;
@@ -54,7 +54,7 @@ void VulkanCanvas::Interior::make_layout() {
 }
 
 // The buffer that a shader reads, filled with what lies in host memory.
-VkDescriptorBufferInfo VulkanCanvas::Interior::table_of(std::uint32_t binding, ColorBy by) {
+VkDescriptorBufferInfo VulkanCanvas::Impl::table_of(std::uint32_t binding, ColorBy by) {
     const auto all_of = [](const Buffer& buffer) { return VkDescriptorBufferInfo{buffer.handle(), 0, VK_WHOLE_SIZE}; };
     switch (binding) {
         case INSTANCES:
@@ -88,7 +88,7 @@ VkDescriptorBufferInfo VulkanCanvas::Interior::table_of(std::uint32_t binding, C
     return all_of(copy);
 }
 
-void VulkanCanvas::Interior::write_set(ColorBy by) {
+void VulkanCanvas::Impl::write_set(ColorBy by) {
     std::array<VkDescriptorBufferInfo, BINDINGS> buffer_infos{};
     std::array<VkDescriptorImageInfo, BINDINGS> image_infos{};
     std::array<VkWriteDescriptorSet, BINDINGS> writes{};

@@ -12,27 +12,27 @@
 
 namespace scree::host {
 
-void VulkanCanvas::Interior::begin() {
+void VulkanCanvas::Impl::begin() {
     VkCommandBufferBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO;
     info.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
     check(device->vk().vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
 }
 
-void VulkanCanvas::Interior::wait() {
+void VulkanCanvas::Impl::wait() {
     if (!pending) return;
     pending = false;
     check(device->vk().vkWaitForFences(device->handle(), 1, &drawn, VK_TRUE, std::numeric_limits<std::uint64_t>::max()),
           "waiting for a picture");
 }
 
-void VulkanCanvas::Interior::end_and_wait() {
+void VulkanCanvas::Impl::end_and_wait() {
     check(device->vk().vkEndCommandBuffer(commands), "vkEndCommandBuffer");
     device->submit_and_wait({commands});
 }
 
-void VulkanCanvas::Interior::image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
-                                           VkPipelineStageFlags after, VkAccessFlags written, VkAccessFlags read) {
+void VulkanCanvas::Impl::image_barrier(VkImage image, VkImageLayout from, VkImageLayout to, VkPipelineStageFlags before,
+                                       VkPipelineStageFlags after, VkAccessFlags written, VkAccessFlags read) {
     VkImageMemoryBarrier barrier{};
     barrier.sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER;
     barrier.srcAccessMask = written;
@@ -46,7 +46,7 @@ void VulkanCanvas::Interior::image_barrier(VkImage image, VkImageLayout from, Vk
 }
 
 // What colour bodies have, which of them are seen, and how finely they shall be drawn.
-void VulkanCanvas::Interior::look() {
+void VulkanCanvas::Impl::look() {
     if (scenery.bodies() == 0) return;
     const VulkanFunctions& vk = device->vk();
     vk.vkCmdBindDescriptorSets(commands, VK_PIPELINE_BIND_POINT_COMPUTE, layout, 0, 1, &set, 0, nullptr);
@@ -64,7 +64,7 @@ void VulkanCanvas::Interior::look() {
     }
 }
 
-void VulkanCanvas::Interior::draw_bodies(const Draw& draw) {
+void VulkanCanvas::Impl::draw_bodies(const Draw& draw) {
     const VulkanFunctions& vk = device->vk();
     const BodyRun& run = scenery.runs[draw.run];
     const Run mesh = scenery.mesh(draw.mesh);
@@ -78,7 +78,7 @@ void VulkanCanvas::Interior::draw_bodies(const Draw& draw) {
     }
 }
 
-void VulkanCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) {
+void VulkanCanvas::Impl::draw_all(Pass pass, std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const Draw& draw = draws[i];
@@ -95,7 +95,7 @@ void VulkanCanvas::Interior::draw_all(Pass pass, std::uint32_t quad_count) {
     }
 }
 
-void VulkanCanvas::Interior::draw_shadows(std::size_t light) {
+void VulkanCanvas::Impl::draw_shadows(std::size_t light) {
     const VulkanFunctions& vk = device->vk();
     const ShadowMap& map = shadow_maps[light];
     VkClearValue clear{};
@@ -112,7 +112,7 @@ void VulkanCanvas::Interior::draw_shadows(std::size_t light) {
     vk.vkCmdEndRenderPass(commands);
 }
 
-void VulkanCanvas::Interior::draw_picture(std::uint32_t quad_count) {
+void VulkanCanvas::Impl::draw_picture(std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
     std::array<VkClearValue, 2> clear{};  // black, and depth 0: infinitely far
     VkRenderPassBeginInfo info{};
@@ -136,7 +136,7 @@ void VulkanCanvas::Interior::draw_picture(std::uint32_t quad_count) {
 }
 
 VulkanCanvas::VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const CanvasOptions& options)
-    : interior_(std::make_unique<Interior>(std::move(device), instances, options)) {}
+    : interior_(std::make_unique<Impl>(std::move(device), instances, options)) {}
 VulkanCanvas::~VulkanCanvas() = default;
 
 std::string VulkanCanvas::name() const {
@@ -153,8 +153,8 @@ void VulkanCanvas::set_tables(const BodyTables& tables) {
     interior_->tables = tables;
 }
 
-void VulkanCanvas::Interior::record(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
-                                    vec3 scene_high) {
+void VulkanCanvas::Impl::record(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
+                                vec3 scene_high) {
     wait();
     const VulkanFunctions& vk = device->vk();
     require_tables(tables, options, scale.by);
@@ -183,7 +183,7 @@ void VulkanCanvas::Interior::record(const Camera& camera, const ColorScale& scal
 
 void VulkanCanvas::begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                          vec3 scene_high) {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     const VulkanFunctions& vk = in.device->vk();
     const CanvasOptions& options = in.options;
     in.record(camera, scale, caption, scene_low, scene_high);
@@ -219,7 +219,7 @@ const CanvasOptions& VulkanCanvas::options() const {
 }
 
 Image VulkanCanvas::finish() {
-    Interior& in = *interior_;
+    Impl& in = *interior_;
     const CanvasOptions& options = in.options;
     in.wait();
     if (options.bits == 16) {

@@ -28,8 +28,8 @@ public:
     const CanvasOptions& options() const;
 
 private:
-    struct Interior;
-    std::unique_ptr<Interior> interior_;
+    struct Impl;
+    std::unique_ptr<Impl> interior_;
 };
 
 }  // namespace scree::host

@@ -24,7 +24,7 @@ CanvasOptions checked(CanvasOptions options, const Device& device) {
 
 }  // namespace
 
-VulkanCanvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
+VulkanCanvas::Impl::Impl(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen)
     : device(std::move(opened)), options(checked(chosen, *device)), scenery(shapes), draws(draws_of(options)), objects(device) {
     make_buffers();
     make_layout();
@@ -37,7 +37,7 @@ VulkanCanvas::Interior::Interior(std::shared_ptr<Device> opened, const ShapeInst
     upload_glyphs();
 }
 
-VulkanCanvas::Interior::~Interior() {
+VulkanCanvas::Impl::~Impl() {
     try {
         wait();
     } catch (const DeviceError&) {
@@ -45,7 +45,7 @@ VulkanCanvas::Interior::~Interior() {
     }
 }
 
-void VulkanCanvas::Interior::make_buffers() {
+void VulkanCanvas::Impl::make_buffers() {
     const auto filled = [this](const char* name, const auto& records) {
         Buffer buffer(device, name, std::span(records).size_bytes());
         buffer.write(records.data(), buffer.bytes());
@@ -66,7 +66,7 @@ void VulkanCanvas::Interior::make_buffers() {
     picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
 }
 
-void VulkanCanvas::Interior::make_samplers() {
+void VulkanCanvas::Impl::make_samplers() {
     const VulkanFunctions& vk = device->vk();
     VkSamplerCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO;
@@ -80,7 +80,7 @@ void VulkanCanvas::Interior::make_samplers() {
     depth_sampler = objects.make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler");
 }
 
-void VulkanCanvas::Interior::make_shadow_maps() {
+void VulkanCanvas::Impl::make_shadow_maps() {
     shadow_pass = make_shadow_pass(objects);
     for (std::size_t i = 0; i < shadow_maps.size(); ++i) {
         ShadowMap& map = shadow_maps[i];
@@ -93,7 +93,7 @@ void VulkanCanvas::Interior::make_shadow_maps() {
     }
 }
 
-void VulkanCanvas::Interior::make_picture() {
+void VulkanCanvas::Impl::make_picture() {
     const VkFormat format = color_format(options.bits);
     picture_pass = make_picture_pass(objects, options.samples, format);
     const auto surface = [&](VkFormat of, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
@@ -117,7 +117,7 @@ void VulkanCanvas::Interior::make_picture() {
     }
 }
 
-void VulkanCanvas::Interior::make_pipelines() {
+void VulkanCanvas::Impl::make_pipelines() {
     for (std::size_t i = 0; i < draws.size(); ++i) {
         const DrawState& state = draws[i].state;
         const auto alike = std::find_if(draws.begin(), draws.begin() + static_cast<std::ptrdiff_t>(i),
@@ -138,7 +138,7 @@ void VulkanCanvas::Interior::make_pipelines() {
     }
 }
 
-void VulkanCanvas::Interior::make_looks() {
+void VulkanCanvas::Impl::make_looks() {
     const VulkanFunctions& vk = device->vk();
     for (std::size_t i = 0; i < LOOKS.size(); ++i) {
         VkComputePipelineCreateInfo info{};
@@ -153,7 +153,7 @@ void VulkanCanvas::Interior::make_looks() {
     }
 }
 
-void VulkanCanvas::Interior::make_commands() {
+void VulkanCanvas::Impl::make_commands() {
     const VulkanFunctions& vk = device->vk();
     VkCommandPoolCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO;
@@ -171,7 +171,7 @@ void VulkanCanvas::Interior::make_commands() {
     drawn = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence, "vkCreateFence");
 }
 
-void VulkanCanvas::Interior::upload_glyphs() {
+void VulkanCanvas::Impl::upload_glyphs() {
     const VulkanFunctions& vk = device->vk();
     const GlyphAtlas& atlas = glyph_atlas();
     glyphs = objects.surface({VK_FORMAT_R8_UNORM, atlas.width, atlas.height,

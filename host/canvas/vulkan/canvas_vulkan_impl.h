@@ -18,11 +18,11 @@ struct ShadowMap {
     int size = 0;  // texels
 };
 
-struct VulkanCanvas::Interior {
-    Interior(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen);
-    ~Interior();
-    Interior(const Interior&) = delete;
-    Interior& operator=(const Interior&) = delete;
+struct VulkanCanvas::Impl {
+    Impl(std::shared_ptr<Device> opened, const ShapeInstances& shapes, const CanvasOptions& chosen);
+    ~Impl();
+    Impl(const Impl&) = delete;
+    Impl& operator=(const Impl&) = delete;
 
     std::shared_ptr<Device> device;
     CanvasOptions options;
@@ -33,7 +33,7 @@ struct VulkanCanvas::Interior {
     BodyTables tables;
     std::array<Buffer, BINDINGS> copies;  // of tables in host memory
     Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints;
-    Objects objects;
+    VulkanObjectPool objects;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
     VkPipelineLayout layout = VK_NULL_HANDLE;
     VkDescriptorSet set = VK_NULL_HANDLE;

@@ -25,7 +25,7 @@ constexpr VkPipelineStageFlags DEPTH_TESTS =
 constexpr VkAccessFlags DEPTH_ACCESS = VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
 constexpr VkAccessFlags COLOR_ACCESS = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
 
-VkRenderPass make_pass(Objects& objects, std::span<const VkAttachmentDescription> attachments,
+VkRenderPass make_pass(VulkanObjectPool& objects, std::span<const VkAttachmentDescription> attachments,
                        const VkSubpassDescription& subpass, std::span<const VkSubpassDependency> dependencies) {
     const VulkanFunctions& vk = objects.device()->vk();
     VkRenderPassCreateInfo info{};
@@ -109,7 +109,7 @@ struct FixedState {
 
 }  // namespace
 
-VkRenderPass make_shadow_pass(Objects& objects) {
+VkRenderPass make_shadow_pass(VulkanObjectPool& objects) {
     const std::array attachments{attachment(DEPTH_FORMAT, 1, true, VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL)};
     const VkAttachmentReference depth{0, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
     VkSubpassDescription subpass{};
@@ -123,7 +123,7 @@ VkRenderPass make_shadow_pass(Objects& objects) {
     return make_pass(objects, attachments, subpass, dependencies);
 }
 
-VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat format) {
+VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, VkFormat format) {
     const bool resolves = samples > 1;
     std::array attachments{
         attachment(format, samples, !resolves,
@@ -152,7 +152,7 @@ VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat format) {
     return make_pass(objects, std::span(attachments).first(resolves ? 3 : 2), subpass, dependencies);
 }
 
-VkRenderPass make_smoothing_pass(Objects& objects, VkFormat format) {
+VkRenderPass make_smoothing_pass(VulkanObjectPool& objects, VkFormat format) {
     std::array attachments{attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[0].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
@@ -168,7 +168,7 @@ VkRenderPass make_smoothing_pass(Objects& objects, VkFormat format) {
     return make_pass(objects, attachments, subpass, dependencies);
 }
 
-VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape) {
+VkPipeline make_pipeline(VulkanObjectPool& objects, const PipelineShape& shape) {
     const std::shared_ptr<Device>& device = objects.device();
     const VulkanFunctions& vk = device->vk();
     std::array<VkPipelineShaderStageCreateInfo, 2> stages{};

@@ -14,13 +14,13 @@ constexpr VkFormat color_format(int bits) {
 constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
 // Depth only, left ready to be read by fragment shaders.
-VkRenderPass make_shadow_pass(Objects& objects);
+VkRenderPass make_shadow_pass(VulkanObjectPool& objects);
 // Attachments: colour, depth and, with more than one sample, the picture into which the colour is resolved, to be copied. With
 // one sample the colour is left ready to be read by the fragment shader that smooths it.
-VkRenderPass make_picture_pass(Objects& objects, int samples, VkFormat format);
+VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, VkFormat format);
 
 // One attachment: the picture, drawn over wholly and left ready to be copied.
-VkRenderPass make_smoothing_pass(Objects& objects, VkFormat format);
+VkRenderPass make_smoothing_pass(VulkanObjectPool& objects, VkFormat format);
 
 struct PipelineShape {
     DrawState state;
@@ -29,6 +29,6 @@ struct PipelineShape {
     int samples = 1;
     int width = 0, height = 0;  // pixels
 };
-VkPipeline make_pipeline(Objects& objects, const PipelineShape& shape);
+VkPipeline make_pipeline(VulkanObjectPool& objects, const PipelineShape& shape);
 
 }  // namespace scree::host

@@ -7,11 +7,11 @@
 
 namespace scree::host {
 
-Objects::~Objects() {
+VulkanObjectPool::~VulkanObjectPool() {
     for (auto end = ends_.rbegin(); end != ends_.rend(); ++end) (*end)();
 }
 
-Surface Objects::surface(const SurfaceShape& shape) {
+Surface VulkanObjectPool::surface(const SurfaceShape& shape) {
     const VulkanFunctions& vk = device_->vk();
     VkImageCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO;
@@ -43,7 +43,7 @@ Surface Objects::surface(const SurfaceShape& shape) {
     return surface;
 }
 
-VkFramebuffer Objects::framebuffer(VkRenderPass pass, std::span<const VkImageView> views, int width, int height) {
+VkFramebuffer VulkanObjectPool::framebuffer(VkRenderPass pass, std::span<const VkImageView> views, int width, int height) {
     const VulkanFunctions& vk = device_->vk();
     VkFramebufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO;
@@ -56,7 +56,7 @@ VkFramebuffer Objects::framebuffer(VkRenderPass pass, std::span<const VkImageVie
     return make(vk.vkCreateFramebuffer, vk.vkDestroyFramebuffer, info, "vkCreateFramebuffer");
 }
 
-VkShaderModule Objects::shader(const char* name) {
+VkShaderModule VulkanObjectPool::shader(const char* name) {
     const VulkanFunctions& vk = device_->vk();
     const auto words = shaders::find(name);
     if (words.empty()) throw DeviceError(std::string("the program was built without the shader ") + name);

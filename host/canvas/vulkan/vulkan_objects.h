@@ -24,12 +24,12 @@ struct SurfaceShape {
     int samples = 1;
 };
 
-class Objects {
+class VulkanObjectPool {
 public:
-    explicit Objects(std::shared_ptr<Device> device) : device_(std::move(device)) {}
-    ~Objects();  // in the opposite order of their making
-    Objects(const Objects&) = delete;
-    Objects& operator=(const Objects&) = delete;
+    explicit VulkanObjectPool(std::shared_ptr<Device> device) : device_(std::move(device)) {}
+    ~VulkanObjectPool();  // in the opposite order of their making
+    VulkanObjectPool(const VulkanObjectPool&) = delete;
+    VulkanObjectPool& operator=(const VulkanObjectPool&) = delete;
 
     // make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler"). Throws DeviceError.
     template <typename Info, typename Handle>

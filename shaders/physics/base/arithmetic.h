@@ -145,7 +145,7 @@ LAW Axes axes_of(vec4 q) {
 }
 
 // A velocity too small to move anything is zero: denormals cost a hundredfold on some processors and vanish on others.
-LAW vec3 without_dust(vec3 v) {
+LAW vec3 flush_tiny(vec3 v) {
     return vec3(choose(abs(v.x) < 1.0e-18f, 0.0f, v.x), choose(abs(v.y) < 1.0e-18f, 0.0f, v.y),
                 choose(abs(v.z) < 1.0e-18f, 0.0f, v.z));
 }

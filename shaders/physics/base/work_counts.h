@@ -17,8 +17,8 @@ LAW uvec4 scan_work_for(uint items, Parameters parameters) {
     uint block = parameters.group_size << SCAN_SHIFT;
     return uvec4((items + block) >> (parameters.group_shift + SCAN_SHIFT), 1u, 1u, items + 1u);
 }
-LAW uint spans_of(uint pairs) {
-    return (pairs + SPAN - 1u) >> SPAN_SHIFT;
+LAW uint pair_blocks_of(uint pairs) {
+    return (pairs + PAIR_BLOCK - 1u) >> PAIR_BLOCK_SHIFT;
 }
 
 LAW Counts with_pairs(Counts counts, uint total, Parameters parameters) {
@@ -29,17 +29,17 @@ LAW Counts with_pairs(Counts counts, uint total, Parameters parameters) {
     }
     counts.pairs = counts.overflow == 0u ? total : 0u;
     counts.arguments[WORK_PAIRS] = work_for(counts.pairs, parameters);
-    counts.arguments[WORK_SPANS] = work_for(spans_of(counts.pairs), parameters);
-    counts.arguments[WORK_KIND_BLOCKS] = scan_work_for(KINDS * spans_of(counts.pairs), parameters);
-    counts.arguments[WORK_PAIR_BLOCKS] = scan_work_for(counts.pairs, parameters);
-    counts.arguments[WORK_FLIGHTS] = work_for(counts.fast != 0u ? counts.pairs : 0u, parameters);
+    counts.arguments[WORK_PAIR_BLOCKS] = work_for(pair_blocks_of(counts.pairs), parameters);
+    counts.arguments[WORK_PAIR_TYPE_SCAN_BLOCKS] = scan_work_for(PAIR_TYPES * pair_blocks_of(counts.pairs), parameters);
+    counts.arguments[WORK_PAIR_SCAN_BLOCKS] = scan_work_for(counts.pairs, parameters);
+    counts.arguments[WORK_CCD_PAIRS] = work_for(counts.fast != 0u ? counts.pairs : 0u, parameters);
     return counts;
 }
 
-LAW Counts with_kinds(Counts counts, uint kind, uint first, uint last, Parameters parameters) {
-    counts.kind_first[kind] = first;
-    counts.kind_first[kind + 1u] = last;
-    counts.arguments[WORK_KIND + kind] = work_for(last - first, parameters);
+LAW Counts with_kinds(Counts counts, uint pair_type, uint first, uint last, Parameters parameters) {
+    counts.pair_type_first[pair_type] = first;
+    counts.pair_type_first[pair_type + 1u] = last;
+    counts.arguments[WORK_PAIR_TYPE + pair_type] = work_for(last - first, parameters);
     return counts;
 }
 
@@ -49,7 +49,7 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
         counts.required_contacts = total;
         counts.pairs = 0u;
         counts.arguments[WORK_PAIRS] = work_for(0u, parameters);
-        counts.arguments[WORK_FLIGHTS] = work_for(0u, parameters);
+        counts.arguments[WORK_CCD_PAIRS] = work_for(0u, parameters);
     }
     counts.contacts = counts.overflow == 0u ? total : 0u;
     counts.arguments[WORK_CONTACTS] = work_for(counts.contacts, parameters);
@@ -58,7 +58,8 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
 
 // At the start of a step, and with overflow still set: nothing to do for anyone. A scan has its total to say.
 LAW uvec4 empty_work(uint row, Parameters parameters) {
-    return row == WORK_KIND_BLOCKS || row == WORK_PAIR_BLOCKS ? scan_work_for(0u, parameters) : work_for(0u, parameters);
+    return row == WORK_PAIR_TYPE_SCAN_BLOCKS || row == WORK_PAIR_SCAN_BLOCKS ? scan_work_for(0u, parameters)
+                                                                             : work_for(0u, parameters);
 }
 LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.pairs = 0u;
@@ -67,11 +68,11 @@ LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.levels_stirring = 0u;
     counts.large_stirring = 0u;
     counts.sleepers = 0u;
-    counts.solved = 0u;
+    counts.solver_contacts = 0u;
     counts.pairs_coarse = 0u;
     counts.fast = 0u;
     counts.broken = 0u;
-    for (uint k = 0u; k < KINDS + 1u; ++k) counts.kind_first[k] = 0u;
+    for (uint k = 0u; k < PAIR_TYPES + 1u; ++k) counts.pair_type_first[k] = 0u;
     for (uint k = 0u; k < WORKS; ++k) counts.arguments[k] = empty_work(k, parameters);
     return counts;
 }

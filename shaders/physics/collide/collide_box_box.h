@@ -103,7 +103,7 @@ LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
 
 // One point, between the nearest points of the two edges. Where the edges of two boxes that are apart end before they meet, the
 // way between their ends is the normal: along the axis they would seem nearer than they are.
-LAW Touch touch_of_edges(Pose pose_a, BoxView view, vec3 own, vec3 other, EdgeAxis axis, float margin) {
+LAW ManifoldBuffer manifold_of_edges(Pose pose_a, BoxView view, vec3 own, vec3 other, EdgeAxis axis, float margin) {
     uint i = axis.k >= 6u ? 2u : (axis.k >= 3u ? 1u : 0u);
     uint j = axis.k - 3u * i;
     view = of_turned(from_turned(view, i), j);
@@ -138,13 +138,14 @@ LAW Touch touch_of_edges(Pose pose_a, BoxView view, vec3 own, vec3 other, EdgeAx
 
     vec3 world_normal = rotate(pose_a.orientation, turned_back(normal, i));
     vec3 point = rotate(pose_a.orientation, turned_back((on_a + on_b) * 0.5f, i));
-    return with_point(touch_along(world_normal), point, separation, 64u + axis.k, margin);
+    return with_point(manifold_along(world_normal), point, separation, 64u + axis.k, margin);
 }
 
 // The face `face` of the seeing box (the reference, at `pose`) against the face of the other that looks back at it. Points are
 // from the reference's centre; the normal points away from it. A feature is one of overlay_corner(). Where no part of the other
 // face lies above this one and the touch must hold nevertheless, the face's point nearest to the deepest corner stands in.
-LAW Touch touch_of_faces(Pose pose, BoxView view, vec3 own, vec3 other, uint face, float slop, float margin, bool must_hold) {
+LAW ManifoldBuffer manifold_of_faces(Pose pose, BoxView view, vec3 own, vec3 other, uint face, float slop, float margin,
+                                     bool must_hold) {
     view = from_turned(view, face);
     own = turned(own, face);
     float outward = view.d.x < 0.0f ? -1.0f : 1.0f;
@@ -162,7 +163,7 @@ LAW Touch touch_of_faces(Pose pose, BoxView view, vec3 own, vec3 other, uint fac
     Overlay overlay = overlay_of(centre, e, f, own.y, own.z, flat_within);
     uint chosen = best_four(overlay, margin, flat_within);
 
-    Touch touch = touch_along(rotate(pose.orientation, turned_back(vec3(outward, 0.0f, 0.0f), face)));
+    ManifoldBuffer touch = manifold_along(rotate(pose.orientation, turned_back(vec3(outward, 0.0f, 0.0f), face)));
     for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
         bool stands_in = k == 0u && chosen == 0u && must_hold;
         if (stands_in || (chosen & (1u << k)) != 0u) {
@@ -180,7 +181,7 @@ LAW Touch touch_of_faces(Pose pose, BoxView view, vec3 own, vec3 other, uint fac
 }
 
 // A face of A is preferred, then one of B, then an edge against an edge: what resting boxes do must not hop between them.
-LAW Touch collide_box_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_box_box(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     BoxView b_from_a = view_of(pose_a, pose_b);
     BoxView a_from_b = reversed(b_from_a);
     float slop = smaller(slop_of(a.size), slop_of(b.size));
@@ -190,14 +191,14 @@ LAW Touch collide_box_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float ma
     uint face_b = largest_of(faces_b);
     float best_a = coordinate(faces_a, face_a);
     float best_b = coordinate(faces_b, face_b);
-    if (larger(best_a, best_b) >= margin) return no_touch();
+    if (larger(best_a, best_b) >= margin) return empty_manifold();
     EdgeAxis edge = best_edge_axis(b_from_a, a.size, b.size);
-    if (edge.separation >= margin) return no_touch();
+    if (edge.separation >= margin) return empty_manifold();
 
     bool of_b = best_b > best_a + 0.1f * slop;
     float best_face = of_b ? best_b : best_a;
     bool edge_serves = edge.separation > best_face - slop;
-    Touch touch = no_touch();
+    ManifoldBuffer touch = empty_manifold();
     if (edge.separation <= best_face + slop) {
         Pose reference = pose_a;
         BoxView view = b_from_a;
@@ -211,12 +212,12 @@ LAW Touch collide_box_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float ma
             other = a.size;
             face = face_b;
         }
-        touch = touch_of_faces(reference, view, own, other, face, slop, margin, best_face < 0.0f && !edge_serves);
+        touch = manifold_of_faces(reference, view, own, other, face, slop, margin, best_face < 0.0f && !edge_serves);
         if (of_b) touch = flipped(touch, pose_a.position - pose_b.position);
     }
     // Where the faces do not lie above each other as deep as their planes say, an edge that is no worse serves.
     if (edge_serves && deepest_of(touch) > best_face + slop) {
-        Touch by_edges = touch_of_edges(pose_a, b_from_a, a.size, b.size, edge, margin);
+        ManifoldBuffer by_edges = manifold_of_edges(pose_a, b_from_a, a.size, b.size, edge, margin);
         if (by_edges.count > 0u) touch = by_edges;
     }
     return touch;

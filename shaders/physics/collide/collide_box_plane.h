@@ -7,12 +7,12 @@
 LAWS_BEGIN
 
 // The corners of the face that looks at the plane; it holds the deepest one. A feature is a corner of the box: its three signs.
-LAW Touch collide_box_plane(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_box_plane(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 normal = rotate_back(pose_a.orientation, b.size);
     float height = -dot3(b.size, pose_b.position - pose_a.position);
     vec3 slant = absolute3(normal);
     uint face = slant.y >= slant.x && slant.y >= slant.z ? 1u : (slant.x >= slant.z ? 0u : 2u);
-    Touch touch = touch_along(-b.size);
+    ManifoldBuffer touch = manifold_along(-b.size);
     for (uint k = 0u; k < 4u; ++k) {
         float first = (k & 1u) == 0u ? -1.0f : 1.0f;
         float second = (k & 2u) == 0u ? -1.0f : 1.0f;

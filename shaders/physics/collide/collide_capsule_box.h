@@ -147,7 +147,7 @@ LAW Stretch stretch_along_box(vec3 normal, vec3 centre, vec3 half_axis, vec3 ext
 }
 
 // Two points where the capsule lies along a face or an edge, otherwise one.
-LAW Touch collide_capsule_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_capsule_box(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 centre = rotate_back(pose_b.orientation, pose_a.position - pose_b.position);
     vec3 half_axis = rotate_back(pose_b.orientation, upright(pose_a.orientation) * a.size.y);
     float radius = a.size.x;
@@ -159,7 +159,7 @@ LAW Touch collide_capsule_box(Traits a, Pose pose_a, Traits b, Pose pose_b, floa
         way.normal = turned_back(vec3(coordinate(way.normal, face) < 0.0f ? -1.0f : 1.0f, 0.0f, 0.0f), face);
         way.support = coordinate(b.size, face);
     }
-    Touch touch = touch_along(-rotate(pose_b.orientation, way.normal));
+    ManifoldBuffer touch = manifold_along(-rotate(pose_b.orientation, way.normal));
     for (uint k = 0u; k < 3u; ++k) {
         bool along = two && k < 2u;
         float t = along ? (k == 0u ? stretch.low : stretch.high) : way.t;

@@ -9,7 +9,7 @@ LAWS_BEGIN
 // One point between the nearest points of the axes (Ericson, Real-Time Collision Detection, 5.1.9). Two, at the ends of the
 // stretch that the capsules share, where they are so nearly parallel that the axes part sideways by less than a tenth of the
 // radii there (which misjudges the gap by at most 1/200 of them). Axes that cross part along their common perpendicular.
-LAW Touch collide_capsule_capsule(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_capsule_capsule(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 d = pose_b.position - pose_a.position;
     vec3 u = upright(pose_a.orientation);
     vec3 v = upright(pose_b.orientation);
@@ -37,7 +37,7 @@ LAW Touch collide_capsule_capsule(Traits a, Pose pose_a, Traits b, Pose pose_b, 
     vec3 sideways = unit3(across, tangent(u));
     vec3 normal = gap > 1.0e-5f * radii ? unit3(between, sideways) : sideways;
 
-    Touch touch = touch_along(normal);
+    ManifoldBuffer touch = manifold_along(normal);
     float shared_length = high - low;
     float parting = 0.1f * radii;
     bool parallel = squared < 0.03f && squared * shared_length * shared_length < parting * parting;

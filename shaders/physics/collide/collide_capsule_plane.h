@@ -7,13 +7,13 @@
 LAWS_BEGIN
 
 // One point below each end that is near enough.
-LAW Touch collide_capsule_plane(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_capsule_plane(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 half_axis = upright(pose_a.orientation) * a.size.y;
     float height = -dot3(b.size, pose_b.position - pose_a.position);
     float rise = dot3(b.size, half_axis);
     float low = (height - rise) - a.size.x;
     float high = (height + rise) - a.size.x;
-    Touch touch = touch_along(-b.size);
+    ManifoldBuffer touch = manifold_along(-b.size);
     touch = with_point(touch, -half_axis - b.size * (a.size.x + 0.5f * low), low, 0u, margin);
     if (a.size.y > 0.0f) {
         touch = with_point(touch, half_axis - b.size * (a.size.x + 0.5f * high), high, 1u, margin);

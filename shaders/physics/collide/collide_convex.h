@@ -15,7 +15,7 @@ CONSTANT float LIES_ALONG_SQUARED = 0.0009f;
 CONSTANT float RUNS_ALONG_SQUARED = 0.9991f;
 
 // The face, line or point of a body that is not a polyhedron.
-LAW Feature side_facing(Solid solid, vec3 direction, Hulls hulls) {
+LAW Feature side_facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     if (solid.shape == SHAPE_SPHERE || (solid.shape == SHAPE_CAPSULE && solid.size.y <= 0.0f))
         return point_at(solid.axes.y * solid.size.y);
     if (!has_straight_side(solid.shape)) return point_at(support_by_size(solid.shape, solid.size, solid.axes, direction));
@@ -40,7 +40,7 @@ LAW Feature side_facing(Solid solid, vec3 direction, Hulls hulls) {
 }
 
 // The face or line of a body that looks most in a (unit) direction. A polyhedron's has the corner in it that reaches farthest.
-LAW Feature facing(Solid solid, vec3 direction, Hulls hulls) {
+LAW Feature facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     if (solid.shape != SHAPE_HULL && solid.shape != SHAPE_BOX) return side_facing(solid, direction, hulls);
     vec3 corner = support_of(solid, direction, hulls);
     float within = 1.0e-3f * solid.scale;
@@ -66,7 +66,7 @@ LAW Feature facing(Solid solid, vec3 direction, Hulls hulls) {
     return face_as_feature(solid, best, direction, hulls);
 }
 
-LAW vec3 corner_at(Solid solid, uint k, Hulls hulls) {
+LAW vec3 corner_at(ConvexShape solid, uint k, Hulls hulls) {
     vec3 local = solid.size;
     if (solid.shape == SHAPE_BOX) {
         if ((k & 1u) == 0u) local.x = -local.x;
@@ -79,7 +79,7 @@ LAW vec3 corner_at(Solid solid, uint k, Hulls hulls) {
 }
 
 // The edge or the point that reaches farthest in a (unit) direction.
-LAW Feature edge_facing(Solid solid, vec3 direction, Hulls hulls) {
+LAW Feature edge_facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     vec3 end = support_of(solid, direction, hulls);
     if (solid.shape == SHAPE_HULL || solid.shape == SHAPE_BOX) {
         vec3 other = end;
@@ -108,7 +108,7 @@ LAW Feature edge_facing(Solid solid, vec3 direction, Hulls hulls) {
 }
 
 // One point, or two along edges that lie along each other; the normal is the axis between them. Points from A's centre.
-LAW Touch touch_of_lines(Solid a, Solid b, vec3 d, Separation s, float margin, Hulls hulls) {
+LAW ManifoldBuffer manifold_of_lines(ConvexShape a, ConvexShape b, vec3 d, Separation s, float margin, Hulls hulls) {
     Feature on_a = point_at(d);
     Feature on_b = on_a;
     for (uint k = 0u; k < 2u; ++k) {
@@ -120,7 +120,7 @@ LAW Touch touch_of_lines(Solid a, Solid b, vec3 d, Separation s, float margin, H
     vec3 r = (d + on_b.first) - on_a.first;
     float aa = dot3(run_a, run_a), bb = dot3(run_b, run_b), ab = dot3(run_a, run_b);
     float least = 1.0e-10f * a.scale * b.scale;
-    Touch touch = touch_along(s.normal);
+    ManifoldBuffer touch = manifold_along(s.normal);
     bool lines = on_a.points == 2u && on_b.points == 2u && aa > least && bb > least;
     if (lines && ab * ab > RUNS_ALONG_SQUARED * (aa * bb)) {
         // Where the two run beside each other, as parts of A's.
@@ -155,7 +155,8 @@ LAW Touch touch_of_lines(Solid a, Solid b, vec3 d, Separation s, float margin, H
 }
 
 // The face `face` of the first against what of the other looks back at it. Points from the first's centre.
-LAW Touch touch_of_face(Solid own, Solid other, vec3 d, uint face, float slop, float margin, Hulls hulls) {
+LAW ManifoldBuffer manifold_of_face(ConvexShape own, ConvexShape other, vec3 d, uint face, float slop, float margin,
+                                    Hulls hulls) {
     vec4 plane = plane_of(own, face, hulls);
     vec3 normal = vec3(plane.x, plane.y, plane.z);
     Feature sides = face_as_feature(own, face, normal, hulls);
@@ -167,21 +168,21 @@ LAW Touch touch_of_face(Solid own, Solid other, vec3 d, uint face, float slop, f
         middle = k == 0u ? at : middle + at;
     }
     middle = middle * reciprocal(float(sides.points));
-    Ground ground = ground_of(normal, plane.w, corner - middle, middle);
+    ReferencePlane reference = reference_plane_of(normal, plane.w, corner - middle, middle);
     Feature across = facing(other, -normal, hulls);
-    return touch_over(ground, own, sides, other, across, 0u, d, margin, 0.1f * slop, margin, hulls);
+    return manifold_over(reference, own, sides, other, across, 0u, d, margin, 0.1f * slop, margin, hulls);
 }
 
-LAW Touch collide_convex(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float margin, Hulls hulls) {
-    Solid a = solid_of(ta, pose_a.orientation, hulls), b = solid_of(tb, pose_b.orientation, hulls);
+LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties tb, Pose pose_b, float margin, Hulls hulls) {
+    ConvexShape a = convex_shape_of(ta, pose_a.orientation, hulls), b = convex_shape_of(tb, pose_b.orientation, hulls);
     vec3 d = pose_b.position - pose_a.position;
     Separation s = separation_of(a, b, d, margin, hulls);
-    if (s.distance >= margin) return no_touch();
+    if (s.distance >= margin) return empty_manifold();
     float slop = FACE_PREFERENCE * smaller(a.scale, b.scale);
     bool of_b = s.by_face_b > s.by_face_a + 0.1f * slop;
     float by_face = of_b ? s.by_face_b : s.by_face_a;
     if (by_face >= s.distance - slop) {
-        Solid own = a, other = b;
+        ConvexShape own = a, other = b;
         vec3 between = d;
         uint face = s.face_a;
         if (of_b) {
@@ -190,23 +191,23 @@ LAW Touch collide_convex(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float m
             between = -d;
             face = s.face_b;
         }
-        Touch touch = touch_of_face(own, other, between, face, slop, margin, hulls);
+        ManifoldBuffer touch = manifold_of_face(own, other, between, face, slop, margin, hulls);
         if (of_b) touch = flipped(touch, -d);
         // Where they do not lie over each other as deep as the face's plane says, an edge serves.
         if (touch.count > 0u && deepest_of(touch) <= by_face + slop) return touch;
     }
-    return touch_of_lines(a, b, d, s, margin, hulls);
+    return manifold_of_lines(a, b, d, s, margin, hulls);
 }
 
 // The plane first. All corners of a polyhedron count, whichever face looks down.
-LAW Touch collide_plane_convex(Traits tp, Pose plane, Traits tb, Pose pose, float margin, Hulls hulls) {
-    Solid b = solid_of(tb, pose.orientation, hulls);
+LAW ManifoldBuffer collide_plane_convex(BodyProperties tp, Pose plane, BodyProperties tb, Pose pose, float margin, Hulls hulls) {
+    ConvexShape b = convex_shape_of(tb, pose.orientation, hulls);
     vec3 normal = tp.size;
     float height = dot3(normal, pose.position - plane.position);
     vec3 lowest = support_of(b, -normal, hulls);
     float ceiling = smaller(margin, (height + dot3(normal, lowest)) + 0.25f * b.scale);
     Feature down = facing(b, -normal, hulls);
-    Ground ground = ground_of(normal, -height, b.axes.x, lowest);
+    ReferencePlane reference = reference_plane_of(normal, -height, b.axes.x, lowest);
     if (down.points > 2u && (b.shape == SHAPE_CYLINDER || b.shape == SHAPE_CONE)) {  // nothing clips the rim: four serve
         down.points = 4u;
         down.stride = 4u;
@@ -214,8 +215,8 @@ LAW Touch collide_plane_convex(Traits tp, Pose plane, Traits tb, Pose pose, floa
     Feature no_sides = down;
     no_sides.points = 0u;
     uint corners = b.shape == SHAPE_HULL ? b.head.vertices : 0u;
-    Touch touch = touch_over(ground, b, no_sides, b, down, corners, lowest - lowest, ceiling, 0.1f * (FACE_PREFERENCE * b.scale),
-                             margin, hulls);
+    ManifoldBuffer touch = manifold_over(reference, b, no_sides, b, down, corners, lowest - lowest, ceiling,
+                                         0.1f * (FACE_PREFERENCE * b.scale), margin, hulls);
     touch = flipped(touch, plane.position - pose.position);
     touch.manifold.normal = normal;
     return touch;

@@ -7,7 +7,7 @@
 LAWS_BEGIN
 
 // A centre inside the box leaves through the nearest face: of equally near ones y, then x, then z.
-LAW Touch collide_sphere_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_sphere_box(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 centre = rotate_back(pose_b.orientation, pose_a.position - pose_b.position);
     vec3 excess = centre - larger3(-b.size, smaller3(centre, b.size));
     float gap = length3(excess);
@@ -27,7 +27,7 @@ LAW Touch collide_sphere_box(Traits a, Pose pose_a, Traits b, Pose pose_b, float
             outward = vec3(0.0f, 0.0f, centre.z < 0.0f ? -1.0f : 1.0f);
         }
     }
-    return touch_of_balls(-rotate(pose_b.orientation, outward), gap, a.size.x, 0.0f, margin);
+    return manifold_of_balls(-rotate(pose_b.orientation, outward), gap, a.size.x, 0.0f, margin);
 }
 
 LAWS_END

@@ -7,11 +7,11 @@
 LAWS_BEGIN
 
 // A sphere centred on the capsule's axis is pushed out sideways.
-LAW Touch collide_sphere_capsule(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_sphere_capsule(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 d = pose_b.position - pose_a.position;
     vec3 axis = upright(pose_b.orientation);
     vec3 nearest = d + axis * clamped(-dot3(axis, d), -b.size.y, b.size.y);
-    return touch_of_balls(unit3(nearest, tangent(axis)), length3(nearest), a.size.x, b.size.x, margin);
+    return manifold_of_balls(unit3(nearest, tangent(axis)), length3(nearest), a.size.x, b.size.x, margin);
 }
 
 LAWS_END

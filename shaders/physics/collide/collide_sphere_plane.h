@@ -6,9 +6,9 @@
 
 LAWS_BEGIN
 
-LAW Touch collide_sphere_plane(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_sphere_plane(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     float height = -dot3(b.size, pose_b.position - pose_a.position);
-    return touch_of_balls(-b.size, height, a.size.x, 0.0f, margin);
+    return manifold_of_balls(-b.size, height, a.size.x, 0.0f, margin);
 }
 
 LAWS_END

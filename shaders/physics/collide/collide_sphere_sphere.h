@@ -7,9 +7,9 @@
 LAWS_BEGIN
 
 // Coincident centres part upwards.
-LAW Touch collide_sphere_sphere(Traits a, Pose pose_a, Traits b, Pose pose_b, float margin) {
+LAW ManifoldBuffer collide_sphere_sphere(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 d = pose_b.position - pose_a.position;
-    return touch_of_balls(unit3(d, vec3(0.0f, 1.0f, 0.0f)), length3(d), a.size.x, b.size.x, margin);
+    return manifold_of_balls(unit3(d, vec3(0.0f, 1.0f, 0.0f)), length3(d), a.size.x, b.size.x, margin);
 }
 
 LAWS_END

@@ -13,14 +13,15 @@ LAWS_BEGIN
 CONSTANT float UNDER_SEAM = 0.05f;
 
 // The sphere first. By the point of the triangle that is nearest to its centre.
-LAW Touch collide_sphere_triangle(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float margin, Hulls hulls) {
-    Solid triangle = solid_of(tb, pose_b.orientation, hulls);
+LAW ManifoldBuffer collide_sphere_triangle(BodyProperties ta, Pose pose_a, BodyProperties tb, Pose pose_b, float margin,
+                                           Hulls hulls) {
+    ConvexShape triangle = convex_shape_of(tb, pose_b.orientation, hulls);
     float radius = ta.size.x;
     vec3 centre = pose_a.position - pose_b.position;
     vec4 plane = plane_of(triangle, 0u, hulls);
     vec3 face = vec3(plane.x, plane.y, plane.z);
     float height = dot3(face, centre) - plane.w;
-    if (!in_front(height, radius) || height - radius >= margin) return no_touch();
+    if (!in_front(height, radius) || height - radius >= margin) return empty_manifold();
     Simplex nearest =
         nearest_on_triangle(corner_of_triangle(triangle, 0u, hulls) - centre, corner_of_triangle(triangle, 1u, hulls) - centre,
                             corner_of_triangle(triangle, 2u, hulls) - centre);
@@ -30,22 +31,23 @@ LAW Touch collide_sphere_triangle(Traits ta, Pose pose_a, Traits tb, Pose pose_b
         vec3 towards = unit3(-nearest.nearest, face);
         normal = allowed_normal(triangle, face, towards, hulls);
         vec3 bent = normal - towards;
-        if (dot3(bent, bent) > BENT_SQUARED) return no_touch();
+        if (dot3(bent, bent) > BENT_SQUARED) return empty_manifold();
         distance_to = -dot3(normal, nearest.nearest);
     }
-    return touch_of_balls(-normal, distance_to, radius, 0.0f, margin);
+    return manifold_of_balls(-normal, distance_to, radius, 0.0f, margin);
 }
 
 // Any other convex body first. Face on face, edge or corner, else edge on edge, as between convex bodies; but a normal that the
 // triangle's edges refuse is turned to its face, and holds what lies over that.
-LAW Touch collide_convex_triangle(Traits ta, Pose pose_a, Traits tb, Pose pose_b, float margin, Hulls hulls) {
-    Solid own = solid_of(tb, pose_b.orientation, hulls), other = solid_of(ta, pose_a.orientation, hulls);
+LAW ManifoldBuffer collide_convex_triangle(BodyProperties ta, Pose pose_a, BodyProperties tb, Pose pose_b, float margin,
+                                           Hulls hulls) {
+    ConvexShape own = convex_shape_of(tb, pose_b.orientation, hulls), other = convex_shape_of(ta, pose_a.orientation, hulls);
     vec3 d = pose_a.position - pose_b.position;
     vec4 plane = plane_of(own, 0u, hulls);
     vec3 face = vec3(plane.x, plane.y, plane.z);
-    if (!in_front(dot3(face, d) - plane.w, other.scale)) return no_touch();
+    if (!in_front(dot3(face, d) - plane.w, other.scale)) return empty_manifold();
     Separation s = separation_of(own, other, d, margin, hulls);
-    if (s.distance >= margin) return no_touch();
+    if (s.distance >= margin) return empty_manifold();
     float slop = FACE_PREFERENCE * smaller(own.scale, other.scale);
     vec3 normal = allowed_normal(own, face, s.normal, hulls);
     vec3 bent = normal - s.normal;
@@ -54,26 +56,26 @@ LAW Touch collide_convex_triangle(Traits ta, Pose pose_a, Traits tb, Pose pose_b
     if (refused && !on_face) {
         vec3 off_face = normal - face;
         on_face = dot3(off_face, off_face) < 1.0e-12f && s.by_face_a >= s.distance - UNDER_SEAM * other.scale;
-        if (!on_face) return no_touch();
+        if (!on_face) return empty_manifold();
     }
     bool of_b = !on_face && s.by_face_b >= s.distance - slop;
     if (on_face || of_b) {
-        Solid first = own, second = other;
+        ConvexShape first = own, second = other;
         vec3 between = d;
         if (of_b) {
             first = other;
             second = own;
             between = -d;
         }
-        Touch touch = touch_of_face(first, second, between, of_b ? s.face_b : 0u, slop, margin, hulls);
+        ManifoldBuffer touch = manifold_of_face(first, second, between, of_b ? s.face_b : 0u, slop, margin, hulls);
         float by_face = of_b ? s.by_face_b : s.by_face_a;
         bool holds = touch.count > 0u && deepest_of(touch) <= by_face + slop;
         if (of_b && holds) return touch;
         if (on_face && (holds || refused)) return flipped(touch, d);
     }
     s.normal = normal;
-    s.distance = dot3(normal, difference_along(own, other, d, normal, hulls)) - other.radius;
-    return flipped(touch_of_lines(own, other, d, s, margin, hulls), d);
+    s.distance = dot3(normal, minkowski_support(own, other, d, normal, hulls)) - other.radius;
+    return flipped(manifold_of_lines(own, other, d, s, margin, hulls), d);
 }
 
 LAWS_END

@@ -11,26 +11,26 @@
 
 LAWS_BEGIN
 
-LAW bool is_part(Traits traits) {
-    return (traits.motion & MOTION_OF_PART) != 0u;
+LAW bool is_part(BodyProperties properties) {
+    return (properties.motion & MOTION_OF_PART) != 0u;
 }
 // How the body moves that a row belongs to.
-LAW uint motion_of(Traits traits) {
-    return traits.motion & 3u;
+LAW uint motion_of(BodyProperties properties) {
+    return properties.motion & 3u;
 }
 
 LAW Pose pose_of_part(PoseInBody part, Pose owner) {
     Pose pose;
     pose.position = owner.position + rotate(owner.orientation, part.position);
-    pose.rest_x = 0.0f;
+    pose.low_x = 0.0f;
     pose.orientation = compose(owner.orientation, part.orientation);
     return pose;
 }
 LAW Velocity velocity_of_part(PoseInBody part, Pose owner, Velocity velocity) {
     Velocity own = velocity;
     own.linear = velocity.linear + cross3(velocity.angular, rotate(owner.orientation, part.position));
-    own.rest_y = 0.0f;
-    own.rest_z = 0.0f;
+    own.low_y = 0.0f;
+    own.low_z = 0.0f;
     return own;
 }
 

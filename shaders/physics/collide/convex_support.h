@@ -9,9 +9,9 @@ LAWS_BEGIN
 
 // A body as a convex core and a radius around it (of spheres and capsules; else 0). Directions and points are along the world's
 // axes, from the body's centre.
-struct Solid {
+struct ConvexShape {
     Axes axes;
-    vec3 size;      // as in Traits
+    vec3 size;      // as in BodyProperties
     uint shape;     // SHAPE_*, but no plane
     HullHead head;  // of a hull its own; of a box its corners and faces; of others the faces that are flat
     uint hull;      // its place in the table
@@ -21,19 +21,19 @@ struct Solid {
 };
 
 // A device that knows both to be hulls (ONLY_HULLS) leaves out what is asked of other shapes.
-LAW Solid solid_of(Traits traits, vec4 orientation, Hulls hulls) {
-    Solid solid;
+LAW ConvexShape convex_shape_of(BodyProperties properties, vec4 orientation, Hulls hulls) {
+    ConvexShape solid;
     solid.axes = axes_of(orientation);
-    solid.size = traits.size;
+    solid.size = properties.size;
 #ifdef ONLY_HULLS
     solid.shape = SHAPE_HULL;
 #else
-    solid.shape = traits.shape == SHAPE_TRIANGLE ? SHAPE_HULL : traits.shape;
+    solid.shape = properties.shape == SHAPE_TRIANGLE ? SHAPE_HULL : properties.shape;
 #endif
-    solid.hull = hull_of(traits);
-    solid.radius = has_round_core(traits.shape) ? traits.size.x : 0.0f;
-    solid.scale = thickness(traits);
-    if (traits.shape == SHAPE_TRIANGLE) solid.scale = largest_component(traits.size);
+    solid.hull = hull_of(properties);
+    solid.radius = has_round_core(properties.shape) ? properties.size.x : 0.0f;
+    solid.scale = min_half_width(properties);
+    if (properties.shape == SHAPE_TRIANGLE) solid.scale = largest_component(properties.size);
     solid.pad = 0.0f;
     solid.head.vertices = solid.shape == SHAPE_BOX ? 8u : 0u;
     solid.head.faces = flat_faces(solid.shape);
@@ -52,7 +52,7 @@ struct Corners {
 };
 // At least those that reach farthest in a direction (in the body's frame) or in one that differs from it by less than 1.8
 // degrees: a hull's cell lists few, and of two hulls of 32 corners an eighth is read of what would be.
-LAW Corners corners_towards(Solid solid, vec3 local, Hulls hulls) {
+LAW Corners corners_towards(ConvexShape solid, vec3 local, Hulls hulls) {
     Corners corners;
     corners.list = uvec4(0u);
     corners.count = solid.head.vertices;
@@ -73,7 +73,7 @@ LAW uint corner_in(Corners corners, uint k) {
 // The first of a hull's vertices that reach farthest in a direction, in the hull's frame. That cells list few matters twice:
 // lavapipe ends a shader's loops after 65,535 rounds in all, without a word, and two hulls of 30 corners that spin beside each
 // other came to more when each asked all of its corners one by one.
-LAW vec3 farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
+LAW vec3 farthest_vertex(ConvexShape solid, vec3 local, Hulls hulls) {
     Corners corners = corners_towards(solid, local, hulls);
     vec3 farthest = local;
     float reach = -1.0e30f;
@@ -89,14 +89,14 @@ LAW vec3 farthest_vertex(Solid solid, vec3 local, Hulls hulls) {
 }
 
 // The point of the core farthest in a direction (of any length but 0).
-LAW vec3 support_of(Solid solid, vec3 direction, Hulls hulls) {
+LAW vec3 support_of(ConvexShape solid, vec3 direction, Hulls hulls) {
     if (solid.shape == SHAPE_HULL) return in_world(solid.axes, farthest_vertex(solid, in_body(solid.axes, direction), hulls));
     return support_by_size(solid.shape, solid.size, solid.axes, direction);
 }
 
 // xyz: outward, unit; w: distance of the face from the centre, m. Faces 2k and 2k + 1 of a box look down and up axis k; a
 // cylinder's look down and up y.
-LAW vec4 plane_of(Solid solid, uint face, Hulls hulls) {
+LAW vec4 plane_of(ConvexShape solid, uint face, Hulls hulls) {
     if (solid.shape == SHAPE_HULL) {
         vec4 plane = hull_plane(hulls, solid.hull, solid.head, face);
         vec3 normal = in_world(solid.axes, vec3(plane.x, plane.y, plane.z));
@@ -125,7 +125,7 @@ struct Faces {
     float beyond;  // so much, at most, do the normals of all others point in the direction asked for
     float pad;
 };
-LAW Faces all_faces(Solid solid) {
+LAW Faces all_faces(ConvexShape solid) {
     Faces faces;
     faces.list = uvec4(0u);
     faces.count = solid.head.faces;
@@ -135,7 +135,7 @@ LAW Faces all_faces(Solid solid) {
     return faces;
 }
 // At least those that look most in a direction (in the body's frame).
-LAW Faces faces_towards(Solid solid, vec3 local, Hulls hulls) {
+LAW Faces faces_towards(ConvexShape solid, vec3 local, Hulls hulls) {
     Faces faces = all_faces(solid);
     if (solid.head.across == 0u) return faces;
     faces.list = hull_record(hulls, hull_first_cell(solid.hull, solid.head) + 2u * cell_of(local, solid.head.across) + 1u);
@@ -181,7 +181,7 @@ LAW Feature point_at(vec3 point) {
 // A disc's corners begin where it reaches farthest in the direction, so that what rolls on a rim has its lowest point; as long as
 // it leans by less than that (sine, squared: 1.1 degrees), they stay where they are on the body.
 CONSTANT float FLAT_SQUARED = 0.0004f;
-LAW Feature face_as_feature(Solid solid, uint face, vec3 direction, Hulls hulls) {
+LAW Feature face_as_feature(ConvexShape solid, uint face, vec3 direction, Hulls hulls) {
     Feature feature = line_between(solid.axes.y, solid.axes.x);
     feature.face = face;
     feature.points = 4u;
@@ -212,7 +212,7 @@ LAW vec3 sixteenth(uint k, vec3 from, vec3 quarter) {
     return k >= 4u ? w : v;
 }
 // Corner k, counter-clockwise seen from outside.
-LAW vec3 corner_of(Solid solid, Feature feature, uint k, Hulls hulls) {
+LAW vec3 corner_of(ConvexShape solid, Feature feature, uint k, Hulls hulls) {
     if (feature.points <= 2u) return k == 0u ? feature.first : feature.second;
     if (solid.shape == SHAPE_HULL)
         return in_world(solid.axes, hull_corner(hulls, solid.hull, solid.head, feature.first_corner + k * feature.stride));

@@ -20,7 +20,7 @@
 
 LAWS_BEGIN
 
-struct Gap {
+struct DistanceBound {
     vec3 normal;     // unit, world, from A to B
     float distance;  // m, < 0 inside
 };
@@ -32,7 +32,7 @@ LAW vec3 axis_towards(vec4 orientation, uint k, float side) {
 }
 
 // The widest of the fifteen separations: no distance is less, and none of them is positive where the boxes overlap.
-LAW Gap gap_of_boxes(Traits a, Pose pose_a, Traits b, Pose pose_b) {
+LAW DistanceBound distance_of_boxes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b) {
     BoxView view = view_of(pose_a, pose_b);
     BoxView back = reversed(view);
     vec3 faces_a = face_separations(view, a.size, b.size);
@@ -40,7 +40,7 @@ LAW Gap gap_of_boxes(Traits a, Pose pose_a, Traits b, Pose pose_b) {
     EdgeAxis edge = best_edge_axis(view, a.size, b.size);
     uint face_a = largest_of(faces_a);
     uint face_b = largest_of(faces_b);
-    Gap gap;
+    DistanceBound gap;
     gap.distance = coordinate(faces_a, face_a);
     gap.normal = axis_towards(pose_a.orientation, face_a, coordinate(view.d, face_a));
     if (coordinate(faces_b, face_b) > gap.distance) {
@@ -58,8 +58,8 @@ LAW Gap gap_of_boxes(Traits a, Pose pose_a, Traits b, Pose pose_b) {
     return gap;
 }
 
-LAW Gap gap_of_touch(Touch touch) {
-    Gap gap;
+LAW DistanceBound distance_of_manifold(ManifoldBuffer touch) {
+    DistanceBound gap;
     gap.normal = touch.manifold.normal;
     gap.distance = deepest_of(touch);
     return gap;
@@ -67,16 +67,16 @@ LAW Gap gap_of_touch(Touch touch) {
 
 #ifndef WITHOUT_CONVEX
 // Of a cylinder, cone, hull or triangle (the second) and any other shape. What lies behind a triangle is far away from it.
-LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
-    Gap gap;
-    Solid of_b = solid_of(b, pose_b.orientation, hulls);
+LAW DistanceBound distance_of_convex(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float enough, Hulls hulls) {
+    DistanceBound gap;
+    ConvexShape of_b = convex_shape_of(b, pose_b.orientation, hulls);
     vec3 d = pose_b.position - pose_a.position;
     if (a.shape == SHAPE_PLANE) {
         gap.normal = a.size;
         gap.distance = dot3(a.size, d + support_of(of_b, -a.size, hulls));
         return gap;
     }
-    Solid of_a = solid_of(a, pose_a.orientation, hulls);
+    ConvexShape of_a = convex_shape_of(a, pose_a.orientation, hulls);
     if (b.shape == SHAPE_TRIANGLE) {
         vec4 plane = plane_of(of_b, 0u, hulls);
         vec3 face = vec3(plane.x, plane.y, plane.z);
@@ -94,29 +94,30 @@ LAW Gap gap_of_convex(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough
 #endif
 
 // The simpler shape first, as the laws of touching want it.
-LAW Gap gap_in_order(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
+LAW DistanceBound distance_in_order(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float enough, Hulls hulls) {
 #ifndef WITHOUT_CONVEX
-    if (is_general_convex(b.shape) || b.shape == SHAPE_TRIANGLE) return gap_of_convex(a, pose_a, b, pose_b, enough, hulls);
+    if (is_general_convex(b.shape) || b.shape == SHAPE_TRIANGLE) return distance_of_convex(a, pose_a, b, pose_b, enough, hulls);
 #endif
     float any = 1.0e30f;
     if (a.shape == SHAPE_SPHERE) {
-        if (b.shape == SHAPE_SPHERE) return gap_of_touch(collide_sphere_sphere(a, pose_a, b, pose_b, any));
-        if (b.shape == SHAPE_CAPSULE) return gap_of_touch(collide_sphere_capsule(a, pose_a, b, pose_b, any));
-        if (b.shape == SHAPE_BOX) return gap_of_touch(collide_sphere_box(a, pose_a, b, pose_b, any));
-        return gap_of_touch(collide_sphere_plane(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_SPHERE) return distance_of_manifold(collide_sphere_sphere(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_CAPSULE) return distance_of_manifold(collide_sphere_capsule(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_BOX) return distance_of_manifold(collide_sphere_box(a, pose_a, b, pose_b, any));
+        return distance_of_manifold(collide_sphere_plane(a, pose_a, b, pose_b, any));
     }
     if (a.shape == SHAPE_CAPSULE) {
-        if (b.shape == SHAPE_CAPSULE) return gap_of_touch(collide_capsule_capsule(a, pose_a, b, pose_b, any));
-        if (b.shape == SHAPE_BOX) return gap_of_touch(collide_capsule_box(a, pose_a, b, pose_b, any));
-        return gap_of_touch(collide_capsule_plane(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_CAPSULE) return distance_of_manifold(collide_capsule_capsule(a, pose_a, b, pose_b, any));
+        if (b.shape == SHAPE_BOX) return distance_of_manifold(collide_capsule_box(a, pose_a, b, pose_b, any));
+        return distance_of_manifold(collide_capsule_plane(a, pose_a, b, pose_b, any));
     }
-    if (b.shape == SHAPE_BOX) return gap_of_boxes(a, pose_a, b, pose_b);
-    return gap_of_touch(collide_box_plane(a, pose_a, b, pose_b, any));
+    if (b.shape == SHAPE_BOX) return distance_of_boxes(a, pose_a, b, pose_b);
+    return distance_of_manifold(collide_box_plane(a, pose_a, b, pose_b, any));
 }
 // Of what is at least `enough` (m) apart, an axis and a gap along it of so much are enough.
-LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, Hulls hulls) {
+LAW DistanceBound distance_between_shapes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float enough,
+                                          Hulls hulls) {
     bool swap = a.shape > b.shape;
-    Traits first = a, second = b;
+    BodyProperties first = a, second = b;
     Pose first_pose = pose_a, second_pose = pose_b;
     if (swap) {
         first = b;
@@ -124,7 +125,7 @@ LAW Gap gap_between(Traits a, Pose pose_a, Traits b, Pose pose_b, float enough, 
         first_pose = pose_b;
         second_pose = pose_a;
     }
-    Gap gap = gap_in_order(first, first_pose, second, second_pose, enough, hulls);
+    DistanceBound gap = distance_in_order(first, first_pose, second, second_pose, enough, hulls);
     if (swap) gap.normal = -gap.normal;
     return gap;
 }

@@ -15,7 +15,7 @@ CONSTANT float PATCH_BIAS = 0.98f;
 CONSTANT uint PATCH_POINTS = 32u;  // 2 * MOST_SIDES: a polygon clipped by each side of another has one more corner for each
 
 // The plane of heights: unit normal, and axes in it.
-struct Ground {
+struct ReferencePlane {
     vec3 normal;
     float offset;  // height 0, along the normal, m
     vec3 u;
@@ -25,25 +25,25 @@ struct Ground {
     vec3 middle;  // m
     float pad_m;
 };
-LAW vec4 over_ground(Ground ground, vec3 point, uint name) {
-    vec3 from = point - ground.middle;
-    return vec4(dot3(ground.normal, point) - ground.offset, dot3(ground.u, from), dot3(ground.v, from), float(name));
+LAW vec4 onto_reference_plane(ReferencePlane reference, vec3 point, uint name) {
+    vec3 from = point - reference.middle;
+    return vec4(dot3(reference.normal, point) - reference.offset, dot3(reference.u, from), dot3(reference.v, from), float(name));
 }
-LAW vec3 from_ground(Ground ground, vec4 p, float height) {
-    vec3 flat_part = (ground.middle + ground.u * p.y) + ground.v * p.z;
-    return flat_part + ground.normal * (height - (dot3(ground.normal, ground.middle) - ground.offset));
+LAW vec3 from_reference_plane(ReferencePlane reference, vec4 p, float height) {
+    vec3 flat_part = (reference.middle + reference.u * p.y) + reference.v * p.z;
+    return flat_part + reference.normal * (height - (dot3(reference.normal, reference.middle) - reference.offset));
 }
-LAW Ground ground_of(vec3 normal, float offset, vec3 along, vec3 middle) {
-    Ground ground;
-    ground.normal = normal;
-    ground.offset = offset;
-    ground.u = unit3(along - normal * dot3(along, normal), tangent(normal));
-    ground.v = cross3(normal, ground.u);
-    ground.middle = middle;
-    ground.pad_u = 0.0f;
-    ground.pad_v = 0.0f;
-    ground.pad_m = 0.0f;
-    return ground;
+LAW ReferencePlane reference_plane_of(vec3 normal, float offset, vec3 along, vec3 middle) {
+    ReferencePlane reference;
+    reference.normal = normal;
+    reference.offset = offset;
+    reference.u = unit3(along - normal * dot3(along, normal), tangent(normal));
+    reference.v = cross3(normal, reference.u);
+    reference.middle = middle;
+    reference.pad_u = 0.0f;
+    reference.pad_v = 0.0f;
+    reference.pad_m = 0.0f;
+    return reference;
 }
 
 // What lies over a face, or over a plane. `sides`: of the own face, whose corners `own` knows; none (points = 0) of a plane.
@@ -52,8 +52,8 @@ LAW Ground ground_of(vec3 normal, float offset, vec3 along, vec3 middle) {
 //
 // The arrays stay inside this one function: handed from one to another they would be copied, and drivers took a minute to compile
 // that.
-LAW Touch touch_over(Ground ground, Solid own, Feature sides, Solid other, Feature across, uint corners, vec3 d, float ceiling,
-                     float flat_within, float margin, Hulls hulls) {
+LAW ManifoldBuffer manifold_over(ReferencePlane reference, ConvexShape own, Feature sides, ConvexShape other, Feature across,
+                                 uint corners, vec3 d, float ceiling, float flat_within, float margin, Hulls hulls) {
     vec4 points[64];  // x: height, y, z: in the plane, m; w: feature. Two lists of PATCH_POINTS, each clipped into the other
     uint base = 0u;
     uint count = 0u;
@@ -64,7 +64,7 @@ LAW Touch touch_over(Ground ground, Solid own, Feature sides, Solid other, Featu
             corner = in_world(other.axes, hull_vertex(hulls, other.hull, k));
         else
             corner = corner_of(other, across, k, hulls);
-        vec4 p = over_ground(ground, d + corner, k);
+        vec4 p = onto_reference_plane(reference, d + corner, k);
         p.x = p.x - other.radius;
         if ((sides.points == 0u && p.x >= ceiling) || count >= PATCH_POINTS) continue;
         points[count] = p;
@@ -76,7 +76,7 @@ LAW Touch touch_over(Ground ground, Solid own, Feature sides, Solid other, Featu
         uint side = k == 0u ? sides.points - 1u : k - 1u;  // the last one first: where the first side begins
         if (sides.points == 0u) break;
         vec4 start = from;
-        vec4 to = over_ground(ground, corner_of(own, sides, side, hulls), 0u);
+        vec4 to = onto_reference_plane(reference, corner_of(own, sides, side, hulls), 0u);
         from = to;
         if (k == 0u) continue;
         float run_y = to.y - start.y, run_z = to.z - start.z;
@@ -113,7 +113,7 @@ LAW Touch touch_over(Ground ground, Solid own, Feature sides, Solid other, Featu
         low = low + 1u;
         lowest = smaller(lowest, p.x);
     }
-    Touch touch = touch_along(ground.normal);
+    ManifoldBuffer touch = manifold_along(reference.normal);
     float above = larger(lowest, 0.0f);
     vec4 a = vec4(0.0f), b = a, c = a;
     float area_abc = 0.0f;
@@ -134,7 +134,7 @@ LAW Touch touch_over(Ground ground, Solid own, Feature sides, Solid other, Featu
             }
         }
         if (!found) break;
-        touch = with_point(touch, from_ground(ground, next, 0.5f * next.x), next.x, uint(next.w), margin);
+        touch = with_point(touch, from_reference_plane(reference, next, 0.5f * next.x), next.x, uint(next.w), margin);
         if (step == 0u) a = next;
         if (step <= 1u) b = next;
         if (step <= 2u) c = next;

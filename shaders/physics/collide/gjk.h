@@ -124,13 +124,13 @@ LAW Simplex with_corner(Simplex s, vec3 p) {
 
 // The point of B less the point of A that reach farthest against each other along a direction from A to B; d: B's centre less
 // A's.
-LAW vec3 difference_along(Solid a, Solid b, vec3 d, vec3 direction, Hulls hulls) {
+LAW vec3 minkowski_support(ConvexShape a, ConvexShape b, vec3 d, vec3 direction, Hulls hulls) {
     return (d + support_of(b, -direction, hulls)) - support_of(a, direction, hulls);
 }
 
 // Where the shortest way from A's core to B's is found: its `nearest`, m; `start`: a direction to begin with. Where they overlap,
 // any short way.
-LAW Simplex way_between(Solid a, Solid b, vec3 d, vec3 start, Hulls hulls) {
+LAW Simplex gjk_closest(ConvexShape a, ConvexShape b, vec3 d, vec3 start, Hulls hulls) {
     Simplex simplex = simplex_of(start, 0u, start, start, start);
     bool nearer = true;
     for (uint k = 0u; k < NEAREST_ROUNDS && nearer; ++k) {
@@ -139,7 +139,7 @@ LAW Simplex way_between(Solid a, Solid b, vec3 d, vec3 start, Hulls hulls) {
         nearer = squared >= 1.0e-20f;
         if (nearer) {
             bool first = simplex.count == 0u;
-            vec3 corner = difference_along(a, b, d, way, hulls);
+            vec3 corner = minkowski_support(a, b, d, way, hulls);
             nearer = first || squared - dot3(way, corner) > NEAREST_PROGRESS * squared;
             if (nearer) {
                 Simplex next = with_corner(simplex, corner);

@@ -63,47 +63,48 @@ LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
     return (uint(cell.x) + (row ^ (row >> 13))) & (buckets - 1u);
 }
 
-LAW bool is_large(Traits traits) {
-    return traits.large != 0u;
+LAW bool is_large(BodyProperties properties) {
+    return properties.large != 0u;
 }
 
 // The level of what is nowhere in the grid: a body that touches with its parts only, or is not there.
-CONSTANT uint NOWHERE = 0x40u;
+CONSTANT uint NOT_IN_GRID = 0x40u;
 
 // Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
 // fast may not leave them, so the fall is in them too. `bend`: of a part's way (bend_of_way); 0 of a body.
-LAW Bounds bounds_of(Traits traits, float bend, Pose pose, Velocity velocity, Load load, Parameters parameters) {
-    vec3 half_size = half_extents_of(traits, pose.orientation);
+LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity velocity, BodyForces load,
+                     Parameters parameters) {
+    vec3 half_size = half_extents_of(properties, pose.orientation);
     bool moves = in_motion(velocity);
-    if (traits.shape == SHAPE_PLANE) {
+    if (properties.shape == SHAPE_PLANE) {
         half_size = vec3(1.0e30f);
-    } else if (moves && traits.shape != SHAPE_SPHERE) {
-        float reach = farthest_of(traits);
+    } else if (moves && properties.shape != SHAPE_SPHERE) {
+        float reach = bounding_radius(properties);
         // Turning widens the bounds by at most the arc, and never beyond the sphere around the body.
         float arc = length3(velocity.angular) * parameters.dt * reach;
         half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
     }
     half_size = half_size + vec3(parameters.speculative);
-    if (moves && is_part(traits)) half_size = half_size + vec3(bend);
+    if (moves && is_part(properties)) half_size = half_size + vec3(bend);
     vec3 way = velocity.linear * parameters.dt;
     Bounds bounds;
     bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));
     bounds.upper = pose.position + half_size + larger3(way, vec3(0.0f));
-    if (will_be_fast(traits, velocity, parameters)) {
+    if (will_be_fast(properties, velocity, parameters)) {
         vec3 fall = way + load.acceleration * (parameters.dt * parameters.dt);
         bounds.lower = smaller3(bounds.lower, pose.position - half_size + fall);
         bounds.upper = larger3(bounds.upper, pose.position + half_size + fall);
     }
     bounds.level = 0u;
     bounds.bucket = parameters.buckets;
-    bounds.flight = flight_of(pose);
-    if (!is_large(traits)) {
+    bounds.sweep = sweep_of(pose);
+    if (!is_large(properties)) {
         vec3 extent = bounds.upper - bounds.lower;
         bounds.level = level_of(larger(extent.x, larger(extent.y, extent.z)), parameters.inverse_cell);
         bounds.bucket = bucket_of(cell_of(bounds.lower, bounds.upper, bounds.level, parameters.inverse_cell), bounds.level,
                                   parameters.buckets);
     }
-    if (traits.shape == SHAPE_NONE) bounds.level = NOWHERE;
+    if (properties.shape == SHAPE_NONE) bounds.level = NOT_IN_GRID;
     return bounds;
 }
 
@@ -112,9 +113,9 @@ LAW Bounds no_bounds(Pose pose) {
     Bounds bounds;
     bounds.lower = pose.position;
     bounds.upper = pose.position;
-    bounds.level = NOWHERE;
+    bounds.level = NOT_IN_GRID;
     bounds.bucket = NONE;
-    bounds.flight = flight_of(pose);
+    bounds.sweep = sweep_of(pose);
     return bounds;
 }
 
@@ -137,62 +138,62 @@ LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
 }
 
 // Set in the level of a body's bounds: it does not stir in this step (sleep.h).
-CONSTANT uint STILL = 0x100u;
+CONSTANT uint INACTIVE = 0x100u;
 
 // Set in the level of a cell's entry: the body is dynamic, or a part of one that is.
 CONSTANT uint MOVES = 0x200u;
-LAW uint level_of_entry(uint level, Traits traits) {
-    return motion_of(traits) == MOTION_DYNAMIC ? level | MOVES : level;
+LAW uint level_of_entry(uint level, BodyProperties properties) {
+    return motion_of(properties) == MOTION_DYNAMIC ? level | MOVES : level;
 }
 
 // A pair of grid bodies one of which stirs is listed once. What stirs finds what is still on its own level and on coarser ones;
 // what is still finds what stirs on coarser ones, because nobody looks into finer levels. Pairs of still bodies are not looked
 // for.
 LAW bool finds(uint body, uint level, uint other, uint other_level) {
-    bool still = (level & STILL) != 0u, other_still = (other_level & STILL) != 0u;
-    if (still) return !other_still && level - STILL < other_level;
-    return other_still ? level <= other_level - STILL : owns_pair(body, level, other, other_level);
+    bool still = (level & INACTIVE) != 0u, other_still = (other_level & INACTIVE) != 0u;
+    if (still) return !other_still && level - INACTIVE < other_level;
+    return other_still ? level <= other_level - INACTIVE : owns_pair(body, level, other, other_level);
 }
 // The same in the list of large bodies.
 LAW bool finds_large(uint body, uint level, bool large, uint other, uint other_level) {
-    bool other_still = (other_level & STILL) != 0u;
-    if ((level & STILL) != 0u) return !large && !other_still;
+    bool other_still = (other_level & INACTIVE) != 0u;
+    if ((level & INACTIVE) != 0u) return !large && !other_still;
     return !large || other_still || body < other;
 }
 // Levels on which a body has partners to find.
 LAW uint levels_to_search(uint level, Counts counts) {
-    if ((level & NOWHERE) != 0u) return 0u;
-    if ((level & STILL) != 0u) return counts.levels_stirring & ~((2u << (level - STILL)) - 1u);
+    if ((level & NOT_IN_GRID) != 0u) return 0u;
+    if ((level & INACTIVE) != 0u) return counts.levels_stirring & ~((2u << (level - INACTIVE)) - 1u);
     return counts.levels & ~((1u << level) - 1u);
 }
 
-LAW bool can_touch(Traits a, Traits b) {
+LAW bool can_touch(BodyProperties a, BodyProperties b) {
     bool moves = motion_of(a) == MOTION_DYNAMIC || motion_of(b) == MOTION_DYNAMIC;
     return moves && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE) && a.owner != b.owner;
 }
 
 // The first four shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); with the others all have
-// one law, but for planes and triangles; what two hulls need of it is a kind of its own. KIND_KEPT is a contact that is kept,
-// KIND_STILL one between two bodies that do not stir.
-CONSTANT uint KIND_PLANE_CONVEX = 9u;
-CONSTANT uint KIND_CONVEX = 10u;
-CONSTANT uint KIND_HULL_HULL = 11u;
-CONSTANT uint KIND_SPHERE_TRIANGLE = 12u;
-CONSTANT uint KIND_CONVEX_TRIANGLE = 13u;
-CONSTANT uint KIND_KEPT = 14u;
-CONSTANT uint KIND_STILL = 15u;
-LAW uint kind_of(uint shape_a, uint shape_b) {
+// one law, but for planes and triangles; what two hulls need of it is a kind of its own. PAIR_PERSISTENT is a contact that is
+// kept, PAIR_INACTIVE one between two bodies that do not stir.
+CONSTANT uint PAIR_PLANE_CONVEX = 9u;
+CONSTANT uint PAIR_CONVEX = 10u;
+CONSTANT uint PAIR_HULL_HULL = 11u;
+CONSTANT uint PAIR_SPHERE_TRIANGLE = 12u;
+CONSTANT uint PAIR_CONVEX_TRIANGLE = 13u;
+CONSTANT uint PAIR_PERSISTENT = 14u;
+CONSTANT uint PAIR_INACTIVE = 15u;
+LAW uint pair_type_of(uint shape_a, uint shape_b) {
     uint low = shape_a < shape_b ? shape_a : shape_b;
     uint high = shape_a < shape_b ? shape_b : shape_a;
-    if (high == SHAPE_TRIANGLE) return low == SHAPE_SPHERE ? KIND_SPHERE_TRIANGLE : KIND_CONVEX_TRIANGLE;
-    if (low == SHAPE_HULL) return KIND_HULL_HULL;
-    if (is_general_convex(high)) return low == SHAPE_PLANE ? KIND_PLANE_CONVEX : KIND_CONVEX;
+    if (high == SHAPE_TRIANGLE) return low == SHAPE_SPHERE ? PAIR_SPHERE_TRIANGLE : PAIR_CONVEX_TRIANGLE;
+    if (low == SHAPE_HULL) return PAIR_HULL_HULL;
+    if (is_general_convex(high)) return low == SHAPE_PLANE ? PAIR_PLANE_CONVEX : PAIR_CONVEX;
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 
 // How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step. Those of fast bodies
 // that will not meet are dropped again (time_of_impact.h).
-LAW float margin_of(Traits a, Velocity va, Traits b, Velocity vb, Parameters parameters) {
+LAW float margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, Parameters parameters) {
     float turning = length3(va.angular) * (a.shape == SHAPE_SPHERE ? 0.0f : length3(a.size)) +
                     length3(vb.angular) * (b.shape == SHAPE_SPHERE ? 0.0f : length3(b.size));
     return parameters.speculative + (length3(vb.linear - va.linear) + turning) * parameters.dt;

@@ -8,8 +8,8 @@
 LAWS_BEGIN
 
 // A touch along the unit normal (from A to B) that has no points yet.
-LAW Touch touch_along(vec3 normal) {
-    Touch touch;
+LAW ManifoldBuffer manifold_along(vec3 normal) {
+    ManifoldBuffer touch;
     touch.manifold.normal = normal;
     touch.manifold.features = 0u;
     touch.manifold.points[0] = vec4(0.0f, 0.0f, 0.0f, 0.0f);
@@ -22,13 +22,13 @@ LAW Touch touch_along(vec3 normal) {
     touch.pad2 = 0u;
     return touch;
 }
-LAW Touch no_touch() {
-    return touch_along(vec3(0.0f, 0.0f, 0.0f));
+LAW ManifoldBuffer empty_manifold() {
+    return manifold_along(vec3(0.0f, 0.0f, 0.0f));
 }
 
 // The touch and one more point (from A's centre, world axes, m), if its separation (m) is below the margin (m). A fifth point is
 // left out. The slots are named one by one, so that on a GPU they stay registers.
-LAW Touch with_point(Touch touch, vec3 point, float separation, uint feature, float margin) {
+LAW ManifoldBuffer with_point(ManifoldBuffer touch, vec3 point, float separation, uint feature, float margin) {
     if (separation < margin && touch.count < 4u) {
         vec4 slot = vec4(point.x, point.y, point.z, separation);
         if (touch.count == 0u) touch.manifold.points[0] = slot;
@@ -42,13 +42,13 @@ LAW Touch with_point(Touch touch, vec3 point, float separation, uint feature, fl
 }
 
 // Two round surfaces around the point 0 (radius_a, m) and a point `distance_between` (m) along the normal (radius_b, m).
-LAW Touch touch_of_balls(vec3 normal, float distance_between, float radius_a, float radius_b, float margin) {
+LAW ManifoldBuffer manifold_of_balls(vec3 normal, float distance_between, float radius_a, float radius_b, float margin) {
     float separation = distance_between - (radius_a + radius_b);
-    return with_point(touch_along(normal), normal * (radius_a + 0.5f * separation), separation, 0u, margin);
+    return with_point(manifold_along(normal), normal * (radius_a + 0.5f * separation), separation, 0u, margin);
 }
 
 // The least separation of its points (m); 1e30 if it has none.
-LAW float deepest_of(Touch touch) {
+LAW float deepest_of(ManifoldBuffer touch) {
     float least = touch.count > 0u ? touch.manifold.points[0].w : 1.0e30f;
     if (touch.count > 1u) least = smaller(least, touch.manifold.points[1].w);
     if (touch.count > 2u) least = smaller(least, touch.manifold.points[2].w);
@@ -61,7 +61,7 @@ LAW vec4 seen_from(vec4 point, vec3 d) {
 }
 
 // A touch found for (first, second), as (second, first) would have it; d = second's position - first's position (m).
-LAW Touch flipped(Touch touch, vec3 d) {
+LAW ManifoldBuffer flipped(ManifoldBuffer touch, vec3 d) {
     touch.manifold.normal = -touch.manifold.normal;
     if (touch.count > 0u) touch.manifold.points[0] = seen_from(touch.manifold.points[0], d);
     if (touch.count > 1u) touch.manifold.points[1] = seen_from(touch.manifold.points[1], d);
@@ -71,7 +71,7 @@ LAW Touch flipped(Touch touch, vec3 d) {
 }
 
 // The touch of a part, counted from its body's centre; offset: from there to the part's own (m).
-LAW Touch from_body(Touch touch, vec3 offset) {
+LAW ManifoldBuffer from_body(ManifoldBuffer touch, vec3 offset) {
     if (touch.count > 0u) touch.manifold.points[0] = seen_from(touch.manifold.points[0], -offset);
     if (touch.count > 1u) touch.manifold.points[1] = seen_from(touch.manifold.points[1], -offset);
     if (touch.count > 2u) touch.manifold.points[2] = seen_from(touch.manifold.points[2], -offset);

@@ -68,7 +68,7 @@ LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
             }
         }
     }
-    float ground = larger(lowest, 0.0f);
+    float reference = larger(lowest, 0.0f);
     vec4 b = a;
     vec4 c = a;
     float area_abc = 0.0f;
@@ -79,7 +79,7 @@ LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
         for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
             if ((present & (1u << k)) != 0u) {
                 vec4 p = overlay_corner(overlay, k);
-                float score = merit(step, a, b, c, area_abc, p) * nearness(p.x - ground, flat_within);
+                float score = merit(step, a, b, c, area_abc, p) * nearness(p.x - reference, flat_within);
                 if (REDUCE_BIAS * score > best) {
                     best = score;
                     bit = 1u << k;

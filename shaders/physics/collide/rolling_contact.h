@@ -18,12 +18,12 @@ CONSTANT float MOST_TURN_AHEAD = 0.2f;
 CONSTANT float MOST_WAY_AHEAD = 0.25f;
 
 // By how much time a pair is taken ahead, s; 0: its contact is found where the bodies are.
-LAW float time_ahead(Traits a, Velocity va, Traits b, Velocity vb, Parameters parameters) {
+LAW float time_ahead(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, Parameters parameters) {
     if (!is_smooth(a.shape) && !is_smooth(b.shape)) return 0.0f;
     float ahead = 0.5f * parameters.dt;
     float turn = length3(va.angular) + length3(vb.angular);
     float way = length3(vb.linear - va.linear);
-    float most_way = MOST_WAY_AHEAD * smaller(thickness(a), thickness(b));
+    float most_way = MOST_WAY_AHEAD * smaller(min_half_width(a), min_half_width(b));
     if (turn * ahead > MOST_TURN_AHEAD) ahead = MOST_TURN_AHEAD * reciprocal(turn);
     if (way * ahead > most_way) ahead = most_way * reciprocal(way);
     return ahead;
@@ -37,9 +37,9 @@ LAW Pose pose_ahead(Pose pose, Velocity velocity, float ahead) {
 
 // Which body a contact's points stay with: the one that rolls, or the thinner one. A ball rolls on, a small box slides on over a
 // big one, and the contact goes with it.
-LAW bool stays_with_b(Traits a, Traits b) {
+LAW bool stays_with_b(BodyProperties a, BodyProperties b) {
     if (can_roll(a.shape) != can_roll(b.shape)) return can_roll(b.shape);
-    return thickness(b) < thickness(a);
+    return min_half_width(b) < min_half_width(a);
 }
 
 LAW float speed_at(Manifold manifold, vec4 point, Velocity va, Velocity vb, vec3 d) {
@@ -49,7 +49,8 @@ LAW float speed_at(Manifold manifold, vec4 point, Velocity va, Velocity vb, vec3
 }
 // A touch of bodies that were taken ahead, d apart then, as it is now: points where they will be about the body that they stay
 // with, separations as they are.
-LAW Touch brought_back(Touch touch, Traits a, Velocity va, Traits b, Velocity vb, vec3 d, float ahead) {
+LAW ManifoldBuffer brought_back(ManifoldBuffer touch, BodyProperties a, Velocity va, BodyProperties b, Velocity vb, vec3 d,
+                                float ahead) {
     vec3 back = stays_with_b(a, b) ? (va.linear - vb.linear) * ahead : d - d;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= touch.count) continue;

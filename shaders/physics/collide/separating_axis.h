@@ -32,18 +32,18 @@ struct Separation {
 
 // A hull's planes are looked at in its own frame, others' in the world's: the plane of a face, a vector to go with it, and how
 // high a point lies over it.
-LAW vec4 plane_as_listed(Solid own, uint face, Hulls hulls) {
+LAW vec4 plane_as_listed(ConvexShape own, uint face, Hulls hulls) {
     if (own.shape == SHAPE_HULL) return hull_plane(hulls, own.hull, own.head, face);
     return plane_of(own, face, hulls);
 }
-LAW vec3 as_listed(Solid own, vec3 v) {
+LAW vec3 as_listed(ConvexShape own, vec3 v) {
     return own.shape == SHAPE_HULL ? in_body(own.axes, v) : v;
 }
 LAW float height_over(vec4 plane, vec3 point) {
     return dot3(vec3(plane.x, plane.y, plane.z), point) - plane.w;
 }
 // Of some faces that over which the point lies highest.
-LAW uint highest_over(Solid own, Faces faces, vec3 point, Hulls hulls) {
+LAW uint highest_over(ConvexShape own, Faces faces, vec3 point, Hulls hulls) {
     uint found = 0u;
     float best = -1.0e30f;
     for (uint k = 0u; k < faces.count; ++k) {
@@ -58,7 +58,7 @@ LAW uint highest_over(Solid own, Faces faces, vec3 point, Hulls hulls) {
 }
 
 // Whether a point, seen from the body's centre, lies over a face: then nothing near that face's axis parts the bodies farther.
-LAW bool lies_over(Solid own, uint face, vec3 point, Hulls hulls) {
+LAW bool lies_over(ConvexShape own, uint face, vec3 point, Hulls hulls) {
     vec4 plane = plane_of(own, face, hulls);
     vec3 normal = vec3(plane.x, plane.y, plane.z);
     if (own.shape == SHAPE_CYLINDER || own.shape == SHAPE_CONE) {
@@ -96,7 +96,7 @@ LAW bool lies_over_triangle(Simplex s, vec3 point) {
 // highest; then those over which that centre lies high enough, seeing how far the other reaches in any direction, and no lower
 // the corner that is lowest over the best face so far. Of equals the first counts. The second body's are only looked at so far
 // as they may be better than the first's best, and no more is asked once the two are known to be `enough` (m) apart.
-LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, float enough, Hulls hulls) {
+LAW Separation separation_by_faces(ConvexShape a, ConvexShape b, vec3 d, float enough, Hulls hulls) {
     Separation s;
     s.normal = unit3(d, a.axes.y);
     s.distance = -1.0e30f;
@@ -107,8 +107,8 @@ LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, float enough, Hulls
     s.over_face = false;
     vec3 over_best = d;
     for (uint side = 0u; side < 2u; ++side) {
-        Solid own = a;
-        Solid other = b;
+        ConvexShape own = a;
+        ConvexShape other = b;
         vec3 between = d;
         if (side == 1u) {
             own = b;
@@ -173,7 +173,7 @@ LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, float enough, Hulls
         }
     }
     if (s.by_face_a > -1.0e30f || s.by_face_b > -1.0e30f) {
-        Solid own = a;
+        ConvexShape own = a;
         if (s.by_face_b > s.by_face_a) own = b;
         s.over_face = lies_over(own, s.by_face_b > s.by_face_a ? s.face_b : s.face_a, over_best, hulls);
     }
@@ -182,7 +182,7 @@ LAW Separation separation_by_faces(Solid a, Solid b, vec3 d, float enough, Hulls
 
 // The axis to try next after the faces: of the first three, what the sides say; then the way between bodies pushed apart.
 CONSTANT uint SIDE_AXES = 3u;
-LAW vec3 side_axis_between(Solid a, Solid b, vec3 d, uint k) {
+LAW vec3 side_axis_between(ConvexShape a, ConvexShape b, vec3 d, uint k) {
     if (k == 0u) return side_normal(a.shape, a.size, a.axes, d);
     if (k == 1u) return -side_normal(b.shape, b.size, b.axes, -d);
     vec3 across = unit3(cross3(a.axes.y, b.axes.y), a.axes.x);
@@ -190,7 +190,7 @@ LAW vec3 side_axis_between(Solid a, Solid b, vec3 d, uint k) {
 }
 
 // Stops early where the two are known to be `enough` apart.
-LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls) {
+LAW Separation separation_of(ConvexShape a, ConvexShape b, vec3 d, float enough, Hulls hulls) {
     float radii = a.radius + b.radius;
     Separation s = separation_by_faces(a, b, d, enough + radii, hulls);
     float room = PUSH_ROOM * smaller(a.scale, b.scale);
@@ -204,11 +204,11 @@ LAW Separation separation_of(Solid a, Solid b, vec3 d, float enough, Hulls hulls
             normal = side_axis_between(a, b, d, k);
         } else {
             vec3 push = apart ? d - d : s.normal * (room - s.distance);
-            Simplex nearest = way_between(a, b, d + push, s.normal, hulls);
+            Simplex nearest = gjk_closest(a, b, d + push, s.normal, hulls);
             normal = unit3(nearest.nearest, s.normal);
             known = !curved && lies_over_triangle(nearest, push);
         }
-        float distance = dot3(normal, difference_along(a, b, d, normal, hulls));
+        float distance = dot3(normal, minkowski_support(a, b, d, normal, hulls));
         float gain = distance - s.distance;
         if (gain > 0.0f) {
             s.distance = distance;

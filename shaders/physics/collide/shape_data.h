@@ -1,5 +1,5 @@
-// What completes a body's shape, in a table of its kind (Traits.shape_data): convex hulls, and triangles of meshes, which lie
-// there as hulls of one face (triangle.h), each at its place in the table of hulls, equal hulls once; and tyres (tyre.h).
+// What completes a body's shape, in a table of its kind (BodyProperties.shape_data): convex hulls, and triangles of meshes, which
+// lie there as hulls of one face (triangle.h), each at its place in the table of hulls, equal hulls once; and tyres (tyre.h).
 //
 // From a hull's place on: one record (vertices, faces and cells as uints, inner radius in m); a record a vertex (m); a record a
 // face (its unit normal outward, and its distance from the centre, m); another a face (its first corner in the list, how many, -,
@@ -38,12 +38,12 @@ struct Hulls {
 uvec4 hull_record(Hulls table, uint place);  // shaders/stages/lib/shape_data.glsl
 #endif
 
-LAW uint hull_of(Traits traits) {
-    return traits.shape_data;
+LAW uint hull_of(BodyProperties properties) {
+    return properties.shape_data;
 }
 // In the table of tyres, counted from 1; 0: no tyre.
-LAW uint tyre_of(Traits traits) {
-    return takes_tyre(traits.shape) ? traits.shape_data : 0u;
+LAW uint tyre_of(BodyProperties properties) {
+    return takes_tyre(properties.shape) ? properties.shape_data : 0u;
 }
 LAW vec3 point_in(uvec4 record) {
     return vec3(uintBitsToFloat(record.x), uintBitsToFloat(record.y), uintBitsToFloat(record.z));

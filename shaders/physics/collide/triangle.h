@@ -22,15 +22,15 @@ CONSTANT float STILL_IN_FRONT = 0.5f;
 // rests on the seam of two triangles belongs to neither; with more, it belongs to both twice over.
 CONSTANT float BENT_SQUARED = 0.0004f;
 
-LAW vec3 limit_at(Solid triangle, uint edge, Hulls hulls) {
+LAW vec3 limit_at(ConvexShape triangle, uint edge, Hulls hulls) {
     return in_world(triangle.axes, point_in(hull_record(hulls, triangle.hull + FIRST_LIMIT + edge)));
 }
-LAW vec3 corner_of_triangle(Solid triangle, uint k, Hulls hulls) {
+LAW vec3 corner_of_triangle(ConvexShape triangle, uint k, Hulls hulls) {
     return in_world(triangle.axes, hull_vertex(hulls, triangle.hull, k < 3u ? k : k - 3u));
 }
 
 // The unit normal if its edges allow it, else what is nearest to it that they allow; away from the triangle.
-LAW vec3 allowed_normal(Solid triangle, vec3 face, vec3 normal, Hulls hulls) {
+LAW vec3 allowed_normal(ConvexShape triangle, vec3 face, vec3 normal, Hulls hulls) {
     vec3 allowed = normal;
     uint refused = 0u;
     vec3 from = corner_of_triangle(triangle, 0u, hulls);

@@ -22,14 +22,14 @@ LAWS_BEGIN
 // Of a threshold of momentum: less is no blow but a touch, and what slides along the ground would break.
 CONSTANT float LEAST_BLOW = 0.1f;
 
-LAW bool may_break(Traits traits) {
-    return traits.fracture != NONE && traits.motion == MOTION_DYNAMIC;
+LAW bool may_break(BodyProperties properties) {
+    return properties.fracture != NONE && properties.motion == MOTION_DYNAMIC;
 }
 
 // What a body remembers for the next step, N s: the blow, or its momentum.
-LAW float strain_after(Fracturing fracturing, float blow, Traits traits, Velocity velocity) {
+LAW float strain_after(Fracturing fracturing, float blow, BodyProperties properties, Velocity velocity) {
     if (fracturing.of_momentum == 0u) return blow;
-    return length3(velocity.linear) * reciprocal(traits.inverse_mass);
+    return length3(velocity.linear) * reciprocal(properties.inverse_mass);
 }
 // The part of their impulses that its contacts keep, 1 if it stays whole. `blow`: the greatest impulse of one contact, N s;
 // `strain`: what the step before left.
@@ -42,8 +42,8 @@ LAW float kept_part(Fracturing fracturing, float blow, float strain) {
 
 // A body's velocity when a contact of it gives back `impulse`, N s. Of A: side 0.
 LAW Velocity given_back(Velocity velocity, Mass mass, Constraint c, Impulse contact, uint side, float impulse) {
-    c = at_present(c, contact.d);
-    Levers r = levers_of(c, c.centre, contact.d);
+    c = refresh_round_contact(c, contact.center_offset);
+    LeverArms r = lever_arms(c, c.centre, contact.center_offset);
     vec3 push = side == 0u ? c.normal * impulse : c.normal * -impulse;
     velocity.linear = velocity.linear + push * mass.inverse_mass;
     velocity.angular = velocity.angular + turned_by(mass, cross3(side == 0u ? r.a : r.b, push));
@@ -51,18 +51,18 @@ LAW Velocity given_back(Velocity velocity, Mass mass, Constraint c, Impulse cont
 }
 
 // A piece of the body where it belongs, and as fast as a part of the whole.
-LAW Moved piece_of(PoseInBody piece, Pose pose, Velocity velocity) {
+LAW RigidState piece_of(PoseInBody piece, Pose pose, Velocity velocity) {
     vec3 arm = rotate(pose.orientation, piece.position);
-    vec3 way = arm + vec3(pose.rest_x, velocity.rest_y, velocity.rest_z);
-    Moved part;
+    vec3 way = arm + vec3(pose.low_x, velocity.low_y, velocity.low_z);
+    RigidState part;
     part.pose.position = pose.position + way;
     vec3 rest = way - (part.pose.position - pose.position);
-    part.pose.rest_x = rest.x;
+    part.pose.low_x = rest.x;
     part.pose.orientation = unit_quaternion(compose(pose.orientation, piece.orientation));
     part.velocity.linear = velocity.linear + cross3(velocity.angular, arm);
-    part.velocity.rest_y = rest.y;
+    part.velocity.low_y = rest.y;
     part.velocity.angular = velocity.angular;
-    part.velocity.rest_z = rest.z;
+    part.velocity.low_z = rest.z;
     return part;
 }
 

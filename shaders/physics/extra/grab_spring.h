@@ -36,7 +36,7 @@ LAW Velocity pulled(Velocity velocity, Pose pose, Mass mass, Grip grip, Paramete
     vec3 push = shortened(push_for(wanted, r, mass), grip.most);
     velocity.linear = velocity.linear + push;
     velocity.angular = velocity.angular + turned_by(mass, cross3(r, push * reciprocal(mass.inverse_mass)));
-    return limited(velocity, parameters);
+    return clamp_velocity(velocity, parameters);
 }
 
 LAWS_END

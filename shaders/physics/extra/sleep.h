@@ -41,62 +41,62 @@ CONSTANT float TOUCH_DISTANCE = 0.25f;  // of the speculative distance: what com
 CONSTANT uint NEARNESS_SHIFT = 3u;      // 1/8: more, and sleep begins beside what still moves, to be woken at once
 CONSTANT float FOREVER = 65536.0f;      // quiet steps of what cannot move
 
-LAW uint quiet_steps(uint rest) {
-    return rest & QUIET_BITS;
+LAW uint quiet_steps(uint sleep_state) {
+    return sleep_state & QUIET_BITS;
 }
 // At the step's start; being woken does not change it.
-LAW bool has_slept(uint rest, uint sleep_steps) {
-    return quiet_steps(rest) >= sleep_steps;
+LAW bool has_slept(uint sleep_state, uint sleep_steps) {
+    return quiet_steps(sleep_state) >= sleep_steps;
 }
-LAW bool is_asleep(uint rest, uint sleep_steps) {
-    return rest < WOKEN && has_slept(rest, sleep_steps);
+LAW bool is_asleep(uint sleep_state, uint sleep_steps) {
+    return sleep_state < WOKEN && has_slept(sleep_state, sleep_steps);
 }
 LAW uint shaking_bit(uint depth) {
     return depth == 0u ? 0u : 1u << (SHAKING_SHIFT + depth - 1u);
 }
 // Whether the body shakes others exactly that deep.
-LAW bool shakes(uint rest, uint depth) {
-    return (rest >> (SHAKING_SHIFT + depth - 1u)) == 1u;
+LAW bool shakes(uint sleep_state, uint depth) {
+    return (sleep_state >> (SHAKING_SHIFT + depth - 1u)) == 1u;
 }
 // Not woken itself, but behind someone who was.
-LAW bool is_shaken(uint rest, uint sleep_steps) {
-    return rest > WOKEN && (rest & WOKEN) == 0u && has_slept(rest, sleep_steps);
+LAW bool is_shaken(uint sleep_state, uint sleep_steps) {
+    return sleep_state > WOKEN && (sleep_state & WOKEN) == 0u && has_slept(sleep_state, sleep_steps);
 }
 
 // Whether contacts and forces move a body in this step.
-LAW bool is_movable(uint motion, uint rest, uint sleep_steps) {
-    return motion == MOTION_DYNAMIC && !is_asleep(rest, sleep_steps);
+LAW bool is_movable(uint motion, uint sleep_state, uint sleep_steps) {
+    return motion == MOTION_DYNAMIC && !is_asleep(sleep_state, sleep_steps);
 }
 // Whether a body may move, and therefore looks for others.
-LAW bool stirs(uint motion, Velocity velocity, uint rest, uint sleep_steps) {
+LAW bool stirs(uint motion, Velocity velocity, uint sleep_state, uint sleep_steps) {
     if (motion == MOTION_KINEMATIC) return in_motion(velocity);
-    return is_movable(motion, rest, sleep_steps);
+    return is_movable(motion, sleep_state, sleep_steps);
 }
-LAW bool is_restless(uint motion, uint rest) {
-    return motion != MOTION_DYNAMIC || quiet_steps(rest) == 0u;
+LAW bool is_restless(uint motion, uint sleep_state) {
+    return motion != MOTION_DYNAMIC || quiet_steps(sleep_state) == 0u;
 }
 // Whether a body wakes those that are joined to it. Being woken by one that it is joined to does not count before the next step.
-LAW bool stirs_joined(uint motion, Velocity velocity, uint rest) {
+LAW bool stirs_joined(uint motion, Velocity velocity, uint sleep_state) {
     if (motion == MOTION_KINEMATIC) return in_motion(velocity);
-    return motion == MOTION_DYNAMIC && ((rest & WOKEN) != 0u || quiet_steps(rest) == 0u);
+    return motion == MOTION_DYNAMIC && ((sleep_state & WOKEN) != 0u || quiet_steps(sleep_state) == 0u);
 }
 
 // ---- falling asleep
 // The speed of a body's fastest point, 1 where sleep ends.
-LAW float pace_of(Traits traits, Velocity velocity, Parameters parameters) {
-    float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * thickness(traits));
-    return (length3(velocity.linear) + length3(velocity.angular) * farthest_of(traits)) * reciprocal(limit);
+LAW float pace_of(BodyProperties properties, Velocity velocity, Parameters parameters) {
+    float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * min_half_width(properties));
+    return (length3(velocity.linear) + length3(velocity.angular) * bounding_radius(properties)) * reciprocal(limit);
 }
 // What a body tells those who touch it: its quiet steps; less than none if it moves whatever it meets.
-LAW float told_quiet(uint motion, Velocity velocity, uint rest) {
+LAW float told_quiet(uint motion, Velocity velocity, uint sleep_state) {
     if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? -1.0f : FOREVER;
-    return (rest & WOKEN) != 0u ? 0.0f : float(quiet_steps(rest));
+    return (sleep_state & WOKEN) != 0u ? 0.0f : float(quiet_steps(sleep_state));
 }
 // The record for the next step. `carrying`: contacts that do; `told`: the least of what the bodies behind them told.
-LAW uint rest_after(uint rest, float pace, float carrying, float told, uint sleep_steps) {
+LAW uint sleep_state_after(uint sleep_state, float pace, float carrying, float told, uint sleep_steps) {
     if (pace > 1.0f || carrying == 0.0f || told < 0.0f || sleep_steps == NO_SLEEP) return 0u;
-    uint quiet = (rest & WOKEN) != 0u ? 0u : quiet_steps(rest);
-    if (!is_shaken(rest, sleep_steps)) {
+    uint quiet = (sleep_state & WOKEN) != 0u ? 0u : quiet_steps(sleep_state);
+    if (!is_shaken(sleep_state, sleep_steps)) {
         uint least = uint(told) + (sleep_steps >> NEARNESS_SHIFT);
         quiet = (least < quiet ? least : quiet) + 1u;
         quiet = quiet < QUIET_BITS ? quiet : QUIET_BITS;
@@ -129,15 +129,15 @@ LAW uint depth_of(float approach, Parameters parameters) {
 }
 // The load of a contact on a sleeper is that of the last step in which both bodies were awake.
 LAW float load_of(bool one_sleeps, Contact before, Impulse was) {
-    return one_sleeps ? before.load : pressing(was);
+    return one_sleeps ? before.load : normal_impulse(was);
 }
-LAW bool load_changed(float now, float then, Traits sleeper, Parameters parameters) {
+LAW bool load_changed(float now, float then, BodyProperties sleeper, Parameters parameters) {
     float weight = length3(parameters.gravity) * abs(sleeper.gravity_scale) * parameters.h * reciprocal(sleeper.inverse_mass);
     return abs(now - then) > LOAD_CHANGE * (then + weight);
 }
 // Whether a contact wakes the sleeper at one of its ends. `restless`: the body at the other end is; `now`, `then`: the load in
 // the last step, and when the sleeper fell asleep, N s.
-LAW bool wakes(bool restless, float approach, float now, float then, Traits sleeper, Parameters parameters) {
+LAW bool wakes(bool restless, float approach, float now, float then, BodyProperties sleeper, Parameters parameters) {
     if (restless && (approach >= 0.0f || now > 0.0f)) return true;
     return load_changed(now, then, sleeper, parameters);
 }

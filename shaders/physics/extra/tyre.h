@@ -22,9 +22,9 @@ LAW vec3 along_surface(vec3 normal, vec3 v) {
 }
 
 // The constraint of a contact of a tyre: of A, or of B. `v`: of the two bodies as the step begins; d as in Contact.
-LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, Couple v) {
+LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, VelocityPair v) {
     if (c.anchor == ANCHOR_ROUND) return c;
-    Levers r = levers_of(c, c.centre, d);
+    LeverArms r = lever_arms(c, c.centre, d);
     vec3 slip = along_surface(c.normal, velocity_at(r, v));
     // How the tyre goes along, seen from the ground, as part of the slip of B over A.
     vec3 way = is_a ? (v.b.linear + cross3(v.b.angular, r.b)) - v.a.linear : v.b.linear - (v.a.linear + cross3(v.a.angular, r.a));
@@ -34,7 +34,7 @@ LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, Couple v) {
     float beyond = clamped((slipping - tyre.best_slip) * reciprocal(1.0f - tyre.best_slip), 0.0f, 1.0f);
     c.friction = c.friction * (1.0f - beyond * (1.0f - tyre.sliding));
     c.radius_a = tyre.best_slip * pace;
-    c.reach = 0.0f;  // what twists a tread on the ground is small, and would hold the car straight
+    c.twist_arm = 0.0f;  // what twists a tread on the ground is small, and would hold the car straight
     return c;
 }
 
@@ -44,11 +44,11 @@ LAW uvec4 matches_of_tyre(Contact now, Contact before, bool is_a, float radius) 
     uint taken = 0u;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= now.count) break;
-        vec3 point = is_a ? xyz(now.points[k]) : xyz(now.points[k]) - now.d;
+        vec3 point = is_a ? xyz(now.points[k]) : xyz(now.points[k]) - now.center_offset;
         float nearest = radius * radius;
         for (uint j = 0u; j < 4u; ++j) {
             if (j >= before.count) break;
-            vec3 apart = point - (is_a ? xyz(before.points[j]) : xyz(before.points[j]) - before.d);
+            vec3 apart = point - (is_a ? xyz(before.points[j]) : xyz(before.points[j]) - before.center_offset);
             float score = dot3(apart, apart);
             if (score < nearest && ((taken >> j) & 1u) == 0u) {
                 nearest = score;

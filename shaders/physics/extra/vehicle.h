@@ -18,12 +18,12 @@ CONSTANT float THROTTLE_GAIN = 0.5f;  // per m/s of speed that is lacking
 CONSTANT float BRAKE_GAIN = 0.25f;    // per m/s above what is wanted, and
 CONSTANT float BRAKE_FROM = 0.5f;     // m/s, so much above
 
-LAW Axes vehicle_axes(Handling v, vec4 orientation) {
+LAW Axes vehicle_axes(VehicleDynamics v, vec4 orientation) {
     return axes_of(compose(orientation, v.frame));
 }
 
 // The tightest curve that may be asked for at the present speed, 1/m.
-LAW float tightest_now(Handling v) {
+LAW float tightest_now(VehicleDynamics v) {
     return smaller(v.tightest, v.lateral * reciprocal(larger(v.speed * v.speed, 0.01f)));
 }
 
@@ -42,14 +42,14 @@ struct Routes {
 WayPoint way_point_at(Routes routes, uint place);  // shaders/stages/drive_vehicles.comp
 #endif
 
-LAW vec4 way_point(Routes routes, Handling v, uint k) {
+LAW vec4 way_point(Routes routes, VehicleDynamics v, uint k) {
     WayPoint point = way_point_at(routes, v.route + k);
     return vec4(point.position.x, point.position.y, point.position.z, point.speed);
 }
-LAW bool has_arrived(Handling v) {
+LAW bool has_arrived(VehicleDynamics v) {
     return v.next >= v.points;
 }
-LAW uint behind_point(Handling v, uint k) {
+LAW uint behind_point(VehicleDynamics v, uint k) {
     return k + 1u < v.points ? k + 1u : (v.loops != 0u ? 0u : k);
 }
 // How far along the leg from one way point to the next a place is, 0 to 1 and beyond.
@@ -58,7 +58,7 @@ LAW float part_of_leg(vec4 from, vec4 to, vec3 place) {
     return dot3(place - xyz(from), leg) * reciprocal(larger(dot3(leg, leg), 1.0e-6f));
 }
 
-LAW Handling parked(Handling v) {
+LAW VehicleDynamics parked(VehicleDynamics v) {
     v.throttle = 0.0f;
     v.steer = 0.0f;
     v.brake = 0.5f;
@@ -68,7 +68,7 @@ LAW Handling parked(Handling v) {
 
 // The driver: towards a point of the route that lies ahead, on the circle through it (pure pursuit: Coulter, CMU-RI-TR-92-01,
 // 1992), as fast as the route says.
-LAW Handling by_route(Handling v, Routes routes, Axes axes, vec3 place) {
+LAW VehicleDynamics by_route(VehicleDynamics v, Routes routes, Axes axes, vec3 place) {
     if (has_arrived(v)) return parked(v);
     vec4 from = way_point(routes, v, v.next == 0u ? v.points - 1u : v.next - 1u);
     vec4 to = way_point(routes, v, v.next);
@@ -105,7 +105,7 @@ LAW Handling by_route(Handling v, Routes routes, Axes axes, vec3 place) {
 }
 
 // Once a step: what the driver does, and how the wheels are turned by now.
-LAW Handling driven(Handling v, Routes routes, Pose pose, Velocity velocity, Parameters parameters) {
+LAW VehicleDynamics driven(VehicleDynamics v, Routes routes, Pose pose, Velocity velocity, Parameters parameters) {
     Axes axes = vehicle_axes(v, pose.orientation);
     v.speed = dot3(axes.z, velocity.linear);
     if (v.by_route != 0u && v.points != 0u) v = by_route(v, routes, axes, pose.position);
@@ -115,24 +115,24 @@ LAW Handling driven(Handling v, Routes routes, Pose pose, Velocity velocity, Par
 }
 
 // Every wheel's axle points to the middle of the curve (Ackermann): tan(angle) = ahead / (radius - aside).
-LAW float wheel_angle(Handling v, VehicleWheel wheel) {
+LAW float wheel_angle(VehicleDynamics v, VehicleWheel wheel) {
     float rise = wheel.ahead * v.curvature;
     float angle = angle_of(abs(rise), larger(1.0f - wheel.aside * v.curvature, 0.05f));
     return choose(rise < 0.0f, -angle, angle);
 }
 
-LAW float wheel_throttle(Handling v, VehicleWheel wheel) {
+LAW float wheel_throttle(VehicleDynamics v, VehicleWheel wheel) {
     return clamped(v.throttle + wheel.skid * v.steer, -1.0f, 1.0f);
 }
 // The motor of a wheel that spins so fast against the chassis, rad/s.
-LAW JointAxis wheel_motor(JointAxis axis, Handling v, VehicleWheel wheel, float spin) {
+LAW JointAxis wheel_motor(JointAxis axis, VehicleDynamics v, VehicleWheel wheel, float spin) {
     float braking = wheel.brake * v.brake + wheel.hand_brake * v.hand_brake;
     float throttle = wheel_throttle(v, wheel);
     axis.speed = 0.0f;
     axis.most = larger(wheel.drag, braking);
     bool is_track = wheel.skid != 0.0f && (v.throttle != 0.0f || v.steer != 0.0f);
     if (braking <= 0.0f && (throttle != 0.0f || is_track)) {
-        float fastest = (throttle < 0.0f ? -v.back_speed : v.top_speed) * reciprocal(wheel.radius);
+        float fastest = (throttle < 0.0f ? -v.reverse_speed : v.top_speed) * reciprocal(wheel.radius);
         float torque = smaller(wheel.torque, wheel.power * reciprocal(larger(abs(spin), 0.1f)));
         // The throttle says how hard a car's wheels are driven, and how fast a tank's, of which one side may have to stand.
         axis.speed = is_track ? fastest * abs(throttle) : fastest;
@@ -143,7 +143,7 @@ LAW JointAxis wheel_motor(JointAxis axis, Handling v, VehicleWheel wheel, float 
 }
 
 // Whether it keeps its bodies awake.
-LAW bool is_under_way(Handling v) {
+LAW bool is_under_way(VehicleDynamics v) {
     if (v.by_route != 0u && v.points != 0u) return !has_arrived(v);
     return v.throttle != 0.0f || (v.steer != 0.0f && v.brake <= 0.0f && v.hand_brake <= 0.0f);
 }

@@ -14,21 +14,21 @@ LAW uint feature_of(uint features, uint point) {
 }
 
 // How far a point may have wandered on a body and still be the same, m.
-LAW float match_radius(Traits a, Traits b) {
-    return 0.1f * smaller(thickness(a), thickness(b));
+LAW float match_radius(BodyProperties a, BodyProperties b) {
+    return 0.1f * smaller(min_half_width(a), min_half_width(b));
 }
 
 LAW Impulse no_impulse(vec3 d) {
     Impulse impulse;
     impulse.normal = vec4(0.0f);
     impulse.separation = vec4(0.0f);
-    impulse.approach = vec4(0.0f);
+    impulse.impact_velocity = vec4(0.0f);
     impulse.friction = vec3(0.0f);
     impulse.twist = 0.0f;
     impulse.rolling = vec3(0.0f);
-    impulse.slipped = 0.0f;
-    impulse.d = d;
-    impulse.pressed = 0.0f;
+    impulse.slide_distance = 0.0f;
+    impulse.center_offset = d;
+    impulse.normal_sum = 0.0f;
     return impulse;
 }
 
@@ -44,11 +44,11 @@ LAW uvec4 matches_of(Contact now, Contact before, float radius) {
     uint taken = 0u;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= now.count) break;
-        vec3 anchor = rotate_back(now.turn_a, xyz(now.points[k]));
+        vec3 anchor = rotate_back(now.orientation_a, xyz(now.points[k]));
         float nearest = radius * radius;
         for (uint j = 0u; j < 4u; ++j) {
             if (j >= before.count) break;
-            vec3 apart = anchor - rotate_back(before.turn_a, xyz(before.points[j]));
+            vec3 apart = anchor - rotate_back(before.orientation_a, xyz(before.points[j]));
             float score = dot3(apart, apart);
             if (feature_of(now.features, k) != feature_of(before.features, j)) score = score + 1.0e-8f;
             if (score < nearest && ((taken >> j) & 1u) == 0u) {
@@ -61,8 +61,8 @@ LAW uvec4 matches_of(Contact now, Contact before, float radius) {
     return matches;
 }
 
-LAW Impulse inherited(Contact now, Impulse was, uvec4 matches) {
-    Impulse impulse = no_impulse(now.d);
+LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
+    Impulse impulse = no_impulse(now.center_offset);
     for (uint k = 0u; k < 4u; ++k) {
         if (matches[k] == NONE) continue;
         impulse.normal[k] = was.normal[matches[k]];
@@ -85,11 +85,11 @@ LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b)
     contact.features = manifold.features;
     contact.normal = manifold.normal;
     contact.age = 0u;
-    contact.d = b.position - a.position;
+    contact.center_offset = b.position - a.position;
     contact.load = 0.0f;
     for (uint k = 0u; k < 4u; ++k) contact.points[k] = manifold.points[k];
-    contact.turn_a = a.orientation;
-    contact.turn_b = b.orientation;
+    contact.orientation_a = a.orientation;
+    contact.orientation_b = b.orientation;
     return contact;
 }
 
@@ -98,23 +98,23 @@ LAW vec4 separations_of(Manifold manifold) {
 }
 
 // Between two round bodies the point and the normal follow both; others stay with one of them (rolling_contact.h).
-LAW bool is_round(Traits traits) {
-    return has_round_core(traits.shape);
+LAW bool is_round(BodyProperties properties) {
+    return has_round_core(properties.shape);
 }
-LAW bool rolls(Traits traits) {
-    return can_roll(traits.shape);
+LAW bool rolls(BodyProperties properties) {
+    return can_roll(properties.shape);
 }
-LAW uint anchor_of(Contact contact, Traits a, Traits b) {
+LAW uint anchor_of(Contact contact, BodyProperties a, BodyProperties b) {
     if (is_round(a) && is_round(b) && contact.count == 1u) return ANCHOR_ROUND;
     return stays_with_b(a, b) ? ANCHOR_B : ANCHOR_A;
 }
 
 // Half the least width of a body along its surface, seen against the normal, m: what slides further has left it.
-LAW float width_along(Traits traits, vec4 orientation, vec3 normal) {
-    if (traits.shape != SHAPE_BOX || is_part(traits)) return thickness(traits);
+LAW float width_along(BodyProperties properties, vec4 orientation, vec3 normal) {
+    if (properties.shape != SHAPE_BOX || is_part(properties)) return min_half_width(properties);
     vec3 slant = absolute3(rotate_back(orientation, normal));
-    if (slant.x >= slant.y && slant.x >= slant.z) return smaller(traits.size.y, traits.size.z);
-    return slant.y >= slant.z ? smaller(traits.size.x, traits.size.z) : smaller(traits.size.x, traits.size.y);
+    if (slant.x >= slant.y && slant.x >= slant.z) return smaller(properties.size.y, properties.size.z);
+    return slant.y >= slant.z ? smaller(properties.size.x, properties.size.z) : smaller(properties.size.x, properties.size.y);
 }
 
 // The reach of a corner or a crossing of edges, of the thinner body's half width: a point is a small patch in truth. With none, a
@@ -136,7 +136,8 @@ LAW vec3 patch_centre(Contact contact, Parameters parameters) {
     return centre * reciprocal(weights);
 }
 
-LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a, uint slot_b, Parameters parameters) {
+LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties tb, uint slot_a, uint slot_b,
+                             Parameters parameters) {
     Constraint c;
     c.a = contact.a;
     c.b = contact.b;
@@ -151,24 +152,25 @@ LAW Constraint constraint_of(Contact contact, Traits ta, Traits tb, uint slot_a,
     c.anchor = anchor_of(contact, ta, tb);
     c.radius_a = c.anchor == ANCHOR_ROUND ? ta.size.x : 0.0f;
     c.radius_b = c.anchor == ANCHOR_ROUND ? tb.size.x : 0.0f;
-    c.leave = c.anchor == ANCHOR_ROUND ? 1.0e30f : width_along(ta, contact.turn_a, contact.normal);
-    if (c.anchor == ANCHOR_A) c.leave = width_along(tb, contact.turn_b, contact.normal);
+    c.slide_limit = c.anchor == ANCHOR_ROUND ? 1.0e30f : width_along(ta, contact.orientation_a, contact.normal);
+    if (c.anchor == ANCHOR_A) c.slide_limit = width_along(tb, contact.orientation_b, contact.normal);
     vec3 centre = patch_centre(contact, parameters);
     float reach = 0.0f;
     for (uint k = 0u; k < 4u; ++k) {
         c.arms[k] = vec4(0.0f);
         if (k >= contact.count) continue;
         vec3 arm = xyz(contact.points[k]);
-        c.arms[k] = vec4(c.anchor == ANCHOR_B ? arm - contact.d : arm, 0.0f);
+        c.arms[k] = vec4(c.anchor == ANCHOR_B ? arm - contact.center_offset : arm, 0.0f);
         reach = reach + length3(arm - centre);
     }
-    c.reach = reach * reciprocal(float(contact.count));
-    if (contact.count == 1u) c.reach = rolls(ta) || rolls(tb) ? 0.0f : POINT_PATCH * smaller(thickness(ta), thickness(tb));
-    c.centre = c.anchor == ANCHOR_B ? centre - contact.d : centre;
+    c.twist_arm = reach * reciprocal(float(contact.count));
+    if (contact.count == 1u)
+        c.twist_arm = rolls(ta) || rolls(tb) ? 0.0f : POINT_PATCH * smaller(min_half_width(ta), min_half_width(tb));
+    c.centre = c.anchor == ANCHOR_B ? centre - contact.center_offset : centre;
     if (c.anchor == ANCHOR_ROUND) {
         vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
         c.arms[0] = vec4(centre - half_gap - contact.normal * c.radius_a, 0.0f);
-        c.centre = (centre - contact.d) + half_gap + contact.normal * c.radius_b;
+        c.centre = (centre - contact.center_offset) + half_gap + contact.normal * c.radius_b;
     }
     return c;
 }
@@ -184,7 +186,7 @@ LAW Constraint idle_constraint(Contact contact) {
     c.friction = 0.0f;
     for (uint k = 0u; k < 4u; ++k) c.arms[k] = vec4(0.0f);
     c.centre = vec3(0.0f);
-    c.reach = 0.0f;
+    c.twist_arm = 0.0f;
     c.rolling_resistance = 0.0f;
     c.restitution = 0.0f;
     c.count = contact.count;
@@ -192,7 +194,7 @@ LAW Constraint idle_constraint(Contact contact) {
     c.radius_a = 0.0f;
     c.radius_b = 0.0f;
     c.pair = NONE;
-    c.leave = 1.0e30f;
+    c.slide_limit = 1.0e30f;
     return c;
 }
 

@@ -20,54 +20,54 @@ LAW bool is_idle(uint slot_a, uint slot_b) {
     return slot_a == NONE && slot_b == NONE;
 }
 // Whether the contact goes on as it was, with its points and impulses.
-LAW bool is_carried_forward(uint kind) {
-    return kind == KIND_KEPT || kind == KIND_STILL;
+LAW bool is_carried_forward(uint pair_type) {
+    return pair_type == PAIR_PERSISTENT || pair_type == PAIR_INACTIVE;
 }
 
 LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifold) {
     PreparedContact prepared;
-    prepared.contact = aged(before);
-    prepared.impulse = continued(prepared.contact, was);
+    prepared.contact = carry_forward(before);
+    prepared.impulse = carry_forward(prepared.contact, was);
     prepared.impulse.separation = separations_of(manifold);
     return prepared;
 }
 LAW PreparedContact newly_found(Pair pair, Manifold manifold, uint count, Pose a, Pose b) {
     PreparedContact prepared;
     prepared.contact = contact_of(pair, manifold, count, a, b);
-    prepared.impulse = no_impulse(prepared.contact.d);
+    prepared.impulse = no_impulse(prepared.contact.center_offset);
     prepared.impulse.separation = separations_of(manifold);
     return prepared;
 }
 
 // Warm starting across steps: the impulses of the points of last step's contact that are still there.
-LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impulse was, Traits a, Traits b) {
+LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impulse was, BodyProperties a, BodyProperties b) {
     uvec4 matches;
     if (tyre_of(a) != 0u || tyre_of(b) != 0u)
-        matches = matches_of_tyre(prepared.contact, before, tyre_of(a) != 0u, smaller(thickness(a), thickness(b)));
+        matches = matches_of_tyre(prepared.contact, before, tyre_of(a) != 0u, smaller(min_half_width(a), min_half_width(b)));
     else
         matches = matches_of(prepared.contact, before, match_radius(a, b));
     vec4 separation = prepared.impulse.separation;
-    prepared.impulse = inherited(prepared.contact, was, matches);
+    prepared.impulse = warm_start_from(prepared.contact, was, matches);
     prepared.impulse.separation = separation;
     return prepared;
 }
 
 // The load that a sleeper's waking is measured by (sleep.h): a dynamic body without a slot sleeps.
-LAW float load_since(Contact before, Impulse was, Traits a, uint slot_a, Traits b, uint slot_b) {
+LAW float load_since(Contact before, Impulse was, BodyProperties a, uint slot_a, BodyProperties b, uint slot_b) {
     bool a_sleeps = slot_a == NONE && motion_of(a) == MOTION_DYNAMIC;
     bool b_sleeps = slot_b == NONE && motion_of(b) == MOTION_DYNAMIC;
     return load_of(a_sleeps || b_sleeps, before, was);
 }
 
-// The constraint of the contact of a pair of bodies, of which these traits may be parts.
+// The constraint of the contact of a pair of bodies, of which these properties may be parts.
 LAW Constraint idle_between(Contact contact, uint body_a, uint body_b) {
     Constraint c = idle_constraint(contact);
     c.a = body_a;
     c.b = body_b;
     return c;
 }
-LAW Constraint constraint_between(Contact contact, uint pair, Traits ta, uint body_a, uint slot_a, Traits tb, uint body_b,
-                                  uint slot_b, Parameters parameters) {
+LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta, uint body_a, uint slot_a, BodyProperties tb,
+                                  uint body_b, uint slot_b, Parameters parameters) {
     Constraint c = constraint_of(contact, ta, tb, slot_a, slot_b, parameters);
     c.a = body_a;
     c.b = body_b;
@@ -78,17 +78,17 @@ LAW Constraint constraint_between(Contact contact, uint pair, Traits ta, uint bo
 // What the contact tells its bodies before the first substep: the velocity changes of its inherited impulses, and whether it
 // counts among the contacts that share them.
 struct ContactShare {
-    Couple change;
+    VelocityPair change;
     float carrying;
     float pad0;
     float pad1;
     float pad2;
 };
-LAW ContactShare first_share(Constraint c, Impulse impulse, Couple now, Mass a, Mass b, Parameters parameters) {
-    Mass lent_a = lent(a, impulse, parameters), lent_b = lent(b, impulse, parameters);
+LAW ContactShare first_share(Constraint c, Impulse impulse, VelocityPair now, Mass a, Mass b, Parameters parameters) {
+    Mass lent_a = split_mass(a, impulse, parameters), lent_b = split_mass(b, impulse, parameters);
     ContactShare share;
-    share.carrying = carries(c, impulse, now, parameters);
-    share.change = warm_start(c, impulse, shares_of(now, now, lent_a, lent_b), lent_a, lent_b);
+    share.carrying = is_active(c, impulse, now, parameters);
+    share.change = warm_start(c, impulse, to_body_deltas(now, now, lent_a, lent_b), lent_a, lent_b);
     share.pad0 = 0.0f;
     share.pad1 = 0.0f;
     share.pad2 = 0.0f;

@@ -42,7 +42,7 @@ LAW float round_gap(Constraint c, vec3 d) {
     return length3((d + c.centre) - xyz(c.arms[0])) - (c.radius_a + c.radius_b);
 }
 // The constraint as the bodies lie now: between two round ones, normal and point follow their centres of curvature.
-LAW Constraint at_present(Constraint c, vec3 d) {
+LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     bool follows = c.anchor == ANCHOR_ROUND;
     if (none(follows)) return c;
     vec3 core = xyz(c.arms[0]);
@@ -55,13 +55,13 @@ LAW Constraint at_present(Constraint c, vec3 d) {
     return c;
 }
 
-struct Solved {
+struct SolveResult {
     Impulse impulse;
-    Couple couple;  // the lent bodies' velocities afterwards
+    VelocityPair pair_velocity;  // the lent bodies' velocities afterwards
 };
 
 // Resistance to rolling: an impulse against the relative spin, at most rolling_resistance times the normal impulse.
-LAW Solved rolled(Constraint c, Solved s, float normal, Mass a, Mass b) {
+LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
     Mass k;
     k.xx = a.xx * a.split + b.xx * b.split;
     k.xy = a.xy * a.split + b.xy * b.split;
@@ -74,95 +74,102 @@ LAW Solved rolled(Constraint c, Solved s, float normal, Mass a, Mass b) {
     vec3 x = vec3(k.xx, k.xy, k.xz) * unit, y = vec3(k.xy, k.yy, k.yz) * unit, z = vec3(k.xz, k.yz, k.zz) * unit;
     vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
     float determinant = reciprocal(dot3(x, yz));
-    vec3 spin = (s.couple.b.angular - s.couple.a.angular) * unit;
+    vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
     vec3 wanted = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
     vec3 before = s.impulse.rolling;
     s.impulse.rolling = shortened(before - wanted, c.rolling_resistance * normal);
-    s.couple = twisted(s.couple, s.impulse.rolling - before, a, a.split, b, b.split);
+    s.pair_velocity = twisted(s.pair_velocity, s.impulse.rolling - before, a, a.split, b, b.split);
     return s;
 }
 
 // A tyre that bears nothing holds nothing; these keep its rows within what a float holds.
-CONSTANT float LEAST_HOLD = 1.0e-20f;  // N s
-CONSTANT float MOST_GIVE = 1.0e6f;     // of what the bodies give
+CONSTANT float LEAST_HOLD = 1.0e-20f;                // N s
+CONSTANT float MAX_INVERSE_EFFECTIVE_MASS = 1.0e6f;  // of what the bodies give
 
 // Friction of the patch: twist about the normal, then slip within the circular cone |f| <= mu n.
-LAW Solved rubbed(Constraint c, Solved s, float normal, Mass a, Mass b) {
+LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
     float most = c.friction * normal;
-    bool twists = c.reach > 0.0f;
+    bool twists = c.twist_arm > 0.0f;
     if (!none(twists)) {
-        float spin = dot3(c.normal, s.couple.b.angular - s.couple.a.angular);
+        float spin = dot3(c.normal, s.pair_velocity.b.angular - s.pair_velocity.a.angular);
         float before = s.impulse.twist;
-        float give = dot3(c.normal, turned_by(a, c.normal)) * a.split + dot3(c.normal, turned_by(b, c.normal)) * b.split;
-        float after = clamped(before - spin * reciprocal(give), -most * c.reach, most * c.reach);
+        float inverse_effective_mass =
+            dot3(c.normal, turned_by(a, c.normal)) * a.split + dot3(c.normal, turned_by(b, c.normal)) * b.split;
+        float after = clamped(before - spin * reciprocal(inverse_effective_mass), -most * c.twist_arm, most * c.twist_arm);
         s.impulse.twist = choose(twists, after, before);
-        s.couple = choose(twists, twisted(s.couple, c.normal * (after - before), a, a.split, b, b.split), s.couple);
+        s.pair_velocity =
+            choose(twists, twisted(s.pair_velocity, c.normal * (after - before), a, a.split, b, b.split), s.pair_velocity);
     }
     vec3 t1 = tangent(c.normal);
     vec3 t2 = cross3(c.normal, t1);
-    Levers r = levers_of(c, c.centre, s.impulse.d);
-    Row row1 = row_of(r, t1, a, b);
-    Row row2 = row_of(r, t2, a, b);
-    float k11 = row1.give_a * a.split + row1.give_b * b.split;
-    float k22 = row2.give_a * a.split + row2.give_b * b.split;
+    LeverArms r = lever_arms(c, c.centre, s.impulse.center_offset);
+    JacobianRow row1 = jacobian_row(r, t1, a, b);
+    JacobianRow row2 = jacobian_row(r, t2, a, b);
+    float k11 = row1.inverse_effective_mass_a * a.split + row1.inverse_effective_mass_b * b.split;
+    float k22 = row2.inverse_effective_mass_a * a.split + row2.inverse_effective_mass_b * b.split;
     float unit = reciprocal(k11 + k22);
     k11 = k11 * unit;
     k22 = k22 * unit;
-    float k12 = (dot3(row2.arm_a, row1.turn_a) * a.split + dot3(row2.arm_b, row1.turn_b) * b.split) * unit;
-    float slip1 = speed_along(row1, s.couple) * unit, slip2 = speed_along(row2, s.couple) * unit;
+    float k12 =
+        (dot3(row2.angular_a, row1.angular_response_a) * a.split + dot3(row2.angular_b, row1.angular_response_b) * b.split) *
+        unit;
+    float slip1 = speed_along(row1, s.pair_velocity) * unit, slip2 = speed_along(row2, s.pair_velocity) * unit;
     bool slips = c.radius_a > 0.0f;
     if (!none(slips)) {
         // A tyre (tyre.h): slip + give * impulse = 0, in the same units.
-        float give = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MOST_GIVE);
-        k11 = choose(slips, k11 + give, k11);
-        k22 = choose(slips, k22 + give, k22);
-        slip1 = choose(slips, slip1 + give * dot3(t1, s.impulse.friction), slip1);
-        slip2 = choose(slips, slip2 + give * dot3(t2, s.impulse.friction), slip2);
+        float inverse_effective_mass =
+            smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MAX_INVERSE_EFFECTIVE_MASS);
+        k11 = choose(slips, k11 + inverse_effective_mass, k11);
+        k22 = choose(slips, k22 + inverse_effective_mass, k22);
+        slip1 = choose(slips, slip1 + inverse_effective_mass * dot3(t1, s.impulse.friction), slip1);
+        slip2 = choose(slips, slip2 + inverse_effective_mass * dot3(t2, s.impulse.friction), slip2);
     }
     float inverse = reciprocal(k11 * k22 - k12 * k12);
     vec3 wanted = t1 * ((k22 * slip1 - k12 * slip2) * inverse) + t2 * ((k11 * slip2 - k12 * slip1) * inverse);
     vec3 before = s.impulse.friction;
     s.impulse.friction = shortened(before - wanted, most);
     vec3 change = s.impulse.friction - before;
-    s.couple = pushed(s.couple, row1, dot3(t1, change), a, a.split, b, b.split);
-    s.couple = pushed(s.couple, row2, dot3(t2, change), a, a.split, b, b.split);
+    s.pair_velocity = pushed(s.pair_velocity, row1, dot3(t1, change), a, a.split, b, b.split);
+    s.pair_velocity = pushed(s.pair_velocity, row2, dot3(t2, change), a, a.split, b, b.split);
     return s;
 }
 
 // Of friction's work: that on `s`, or what was before it, `t`.
-LAW Solved choose(bool condition, Solved s, Solved t) {
+LAW SolveResult choose(bool condition, SolveResult s, SolveResult t) {
     t.impulse.friction = choose(condition, s.impulse.friction, t.impulse.friction);
     t.impulse.twist = choose(condition, s.impulse.twist, t.impulse.twist);
     t.impulse.rolling = choose(condition, s.impulse.rolling, t.impulse.rolling);
-    t.couple = choose(condition, s.couple, t.couple);
+    t.pair_velocity = choose(condition, s.pair_velocity, t.pair_velocity);
     return t;
 }
-LAW bool rubs(Impulse impulse) {
+LAW bool has_friction(Impulse impulse) {
     vec3 f = impulse.friction, r = impulse.rolling;
     return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
 }
 
 // In both passes: in the one without bias alone, where a warm start is answered only once, over-relaxed splitting overshoots
 // for a share above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
-LAW Solved with_friction(Constraint c, Solved s, float normal, Mass a, Mass b) {
-    bool acts = normal != 0.0f || rubs(s.impulse);
+LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
+    bool acts = normal != 0.0f || has_friction(s.impulse);
     if (none(acts)) return s;
     bool resists = acts && c.rolling_resistance > 0.0f;
-    Solved after = s;
-    if (!none(resists)) after = choose(resists, rolled(c, s, normal, a, b), s);
-    return choose(acts, rubbed(c, after, normal, a, b), s);
+    SolveResult after = s;
+    if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
+    return choose(acts, solve_friction(c, after, normal, a, b), s);
 }
 
 // The biased pass: normal impulses against the soft spring, or exactly up to touching where the bodies are still apart.
-LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 pull, Parameters parameters) {
-    c = at_present(c, impulse.d);
-    bool gone = impulse.slipped > c.leave;
-    impulse.approach = vec4(0.0f);
+LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
+    c = refresh_round_contact(c, impulse.center_offset);
+    bool gone = impulse.slide_distance > c.slide_limit;
+    impulse.impact_velocity = vec4(0.0f);
     // What overlaps many bodies is pushed by all of them at once, and pushes add up from layer to layer. A quarter is left to
     // bear a load with: a tray under hundreds of boxes has small parts of its mass to push with.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
     bool bounces = c.restitution > 0.0f;
-    if (!none(bounces)) impulse.approach = choose(bounces, approaches(c, impulse, v, a, b, pull, parameters), impulse.approach);
+    if (!none(bounces))
+        impulse.impact_velocity =
+            choose(bounces, impact_velocities(c, impulse, v, a, b, pull, parameters), impulse.impact_velocity);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
@@ -171,7 +178,7 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
         for (int k = 0; k < 4; ++k) {
             bool there = swept && uint(k) < c.count;
             if (none(there)) break;
-            Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
+            LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
             float speed = dot3(c.normal, velocity_at(r, v));
             float separation = impulse.separation[k];
             float before = impulse.normal[k];
@@ -180,7 +187,7 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
                 choose(separation > 0.0f, speed + separation * parameters.inverse_h, parameters.mass_scale * speed + bias);
             bool acts = there && !(before == 0.0f && (gone || excess >= 0.0f));
             if (none(acts)) continue;  // a third of all contacts are merely near
-            Row row = row_of(r, c.normal, a, b);
+            JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
             change = choose(separation <= 0.0f, change - parameters.impulse_scale * before, change);
             float after = choose(gone, 0.0f, positive(before + change));
@@ -189,29 +196,29 @@ LAW Solved solved(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
         }
     }
-    Solved result;
+    SolveResult result;
     result.impulse = impulse;
-    result.couple = v;
-    return with_friction(c, result, normal, a, b);
+    result.pair_velocity = v;
+    return solve_patch_friction(c, result, normal, a, b);
 }
 
 // The pass without bias, after the bodies have moved with `v`: separations follow, what the spring added is taken back, impacts
 // are thrown back, friction acts.
-LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 pull, Parameters parameters) {
+LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     bool follows = c.anchor == ANCHOR_ROUND;
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < c.count && !follows;
         if (none(there)) break;
-        Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
+        LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
         float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
         impulse.separation[k] = choose(there, separation, impulse.separation[k]);
     }
-    bool gone = impulse.slipped > c.leave;  // as in the biased pass: the blow of this substep is not taken back
+    bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: the blow of this substep is not taken back
     vec3 way = (v.b.linear - v.a.linear) * parameters.h;
-    impulse.d = impulse.d + way;
-    impulse.slipped = impulse.slipped + length3(way - c.normal * dot3(way, c.normal));
-    if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.d), impulse.separation.x);
-    c = at_present(c, impulse.d);
+    impulse.center_offset = impulse.center_offset + way;
+    impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
+    if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.center_offset), impulse.separation.x);
+    c = refresh_round_contact(c, impulse.center_offset);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
@@ -220,31 +227,32 @@ LAW Solved relaxed(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3
         for (int k = 0; k < 4; ++k) {
             bool there = swept && uint(k) < c.count;
             if (none(there)) break;
-            Levers r = levers_of(c, xyz(c.arms[k]), impulse.d);
+            LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
             float speed = dot3(c.normal, velocity_at(r, v));
             float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
-            target = choose(impulse.approach[k] < 0.0f, thrown_back(c, impulse.approach[k], pull, parameters), target);
+            target = choose(impulse.impact_velocity[k] < 0.0f,
+                            restitution_target(c, impulse.impact_velocity[k], pull, parameters), target);
             float before = impulse.normal[k];
             // A blow about to fall is left to the next substep, which sees how fast it is.
-            bool waits = impulse.approach[k] == 0.0f && c.restitution > 0.0f && speed < -parameters.restitution_threshold;
+            bool waits = impulse.impact_velocity[k] == 0.0f && c.restitution > 0.0f && speed < -parameters.restitution_threshold;
             bool acts = there && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
             if (none(acts)) continue;
-            Row row = row_of(r, c.normal, a, b);
+            JacobianRow row = jacobian_row(r, c.normal, a, b);
             float after = choose(gone, 0.0f, positive(before - mass_along(row, a, b) * (speed + target)));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
         }
     }
-    Solved result;
+    SolveResult result;
     result.impulse = impulse;
-    result.couple = v;
-    return with_friction(c, result, normal, a, b);
+    result.pair_velocity = v;
+    return solve_patch_friction(c, result, normal, a, b);
 }
 
 // v, and what last substep's impulses do to whole bodies: the guess with which the next substep begins.
-LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
-    c = at_present(c, impulse.d);
+LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b) {
+    c = refresh_round_contact(c, impulse.center_offset);
     float normal = impulse.normal.x;
     vec3 moment = xyz(c.arms[0]) * impulse.normal.x;
     for (int k = 1; k < 4; ++k) {
@@ -253,17 +261,17 @@ LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
         normal = choose(there, normal + impulse.normal[k], normal);
         moment = choose(there, moment + xyz(c.arms[k]) * impulse.normal[k], moment);
     }
-    bool acts = normal != 0.0f || rubs(impulse);
+    bool acts = normal != 0.0f || has_friction(impulse);
     if (none(acts)) return v;
     // All points push along the normal, so their moments about a body come to one.
-    vec3 across = impulse.d * normal;
+    vec3 across = impulse.center_offset * normal;
     vec3 push = c.normal * normal + impulse.friction;
     vec3 twist = impulse.rolling + c.normal * impulse.twist;
-    Levers r = levers_of(c, c.centre, impulse.d);
+    LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
     bool on_b = c.anchor == ANCHOR_B;
     vec3 about_a = cross3(choose(on_b, moment + across, moment), c.normal) + cross3(r.a, impulse.friction) + twist;
     vec3 about_b = cross3(choose(on_b, moment, moment - across), c.normal) + cross3(r.b, impulse.friction) + twist;
-    Couple after = v;
+    VelocityPair after = v;
     after.a.linear = v.a.linear - push * a.inverse_mass;
     after.a.angular = v.a.angular - turned_by(a, about_a);
     after.b.linear = v.b.linear + push * b.inverse_mass;
@@ -272,17 +280,17 @@ LAW Couple warm_start(Constraint c, Impulse impulse, Couple v, Mass a, Mass b) {
 }
 
 // Whether the contact carries or will in the next substep, gravity included.
-LAW float carries(Constraint c, Impulse impulse, Couple v, Parameters parameters) {
+LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     bool carrying = false;
-    bool open = !(impulse.slipped > c.leave);
-    c = at_present(c, impulse.d);
+    bool open = !(impulse.slide_distance > c.slide_limit);
+    c = refresh_round_contact(c, impulse.center_offset);
     float fall = 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
     for (int k = 0; k < 4; ++k) {
         open = open && uint(k) < c.count;
         carrying = carrying || (open && impulse.normal[k] > 0.0f);
         open = open && !carrying;
         if (none(open)) break;
-        float speed = dot3(c.normal, velocity_at(levers_of(c, xyz(c.arms[k]), impulse.d), v));
+        float speed = dot3(c.normal, velocity_at(lever_arms(c, xyz(c.arms[k]), impulse.center_offset), v));
         carrying = carrying || (open && impulse.separation[k] + parameters.h * speed < fall);
         open = open && !carrying;
     }
@@ -290,19 +298,19 @@ LAW float carries(Constraint c, Impulse impulse, Couple v, Parameters parameters
 }
 
 // The whole bodies' shares of what the lent ones went through: (after - before) / split. The next warm start is added to it.
-LAW Couple shares_of(Couple before, Couple after, Mass a, Mass b) {
+LAW VelocityPair to_body_deltas(VelocityPair before, VelocityPair after, Mass a, Mass b) {
     float share_a = reciprocal(a.split), share_b = reciprocal(b.split);
-    Couple share = before;
+    VelocityPair share = before;
     share.a.linear = (after.a.linear - before.a.linear) * share_a;
     share.a.angular = (after.a.angular - before.a.angular) * share_a;
     share.b.linear = (after.b.linear - before.b.linear) * share_b;
     share.b.angular = (after.b.angular - before.b.angular) * share_b;
     return share;
 }
-LAW Slot slot_of(Velocity share, float carrying, float told) {
-    Slot slot;
+LAW VelocityDelta velocity_delta(Velocity share, float carrying, float told) {
+    VelocityDelta slot;
     slot.linear = share.linear;
-    slot.carries = carrying;
+    slot.is_active = carrying;
     slot.angular = share.angular;
     slot.told = told;
     return slot;

@@ -36,16 +36,16 @@ LAW float angle_of(float y, float x) {
 }
 
 // A joint as its bodies lie.
-struct JointPlace {
+struct JointConfiguration {
     vec3 x;       // its axes in A
     float twist;  // rad
     vec3 y;
     float swing_y;
     vec3 z;
     float swing_z;
-    vec3 arm_a;  // from A's centre to its anchor, m
+    vec3 angular_a;  // from A's centre to its anchor, m
     float pad0;
-    vec3 arm_b;
+    vec3 angular_b;
     float pad1;
     vec3 gap;  // from A's anchor to B's, m
     float pad2;
@@ -57,16 +57,16 @@ struct JointPlace {
     float pad4;
 };
 
-LAW JointPlace joint_place(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, vec4 frame_b, Pose b) {
-    JointPlace at;
+LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, vec4 frame_b, Pose b) {
+    JointConfiguration at;
     vec4 turn_a = compose(a.orientation, frame_a), turn_b = compose(b.orientation, frame_b);
     Axes axes = axes_of(turn_a);
     at.x = axes.x;
     at.y = axes.y;
     at.z = axes.z;
-    at.arm_a = rotate(a.orientation, anchor_a);
-    at.arm_b = rotate(b.orientation, anchor_b);
-    at.gap = ((b.position - a.position) + at.arm_b) - at.arm_a;
+    at.angular_a = rotate(a.orientation, anchor_a);
+    at.angular_b = rotate(b.orientation, anchor_b);
+    at.gap = ((b.position - a.position) + at.angular_b) - at.angular_a;
     // q = swing after twist, the twist about x (the swing's own part of x is 0).
     vec4 q = compose(conjugate(turn_a), turn_b);
     q = choose(q.w < 0.0f, -q, q);
@@ -75,7 +75,7 @@ LAW JointPlace joint_place(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, v
     at.twist = choose(q.x < 0.0f, -2.0f * half_twist, 2.0f * half_twist);
     float unit = reciprocal(larger(along, 1.0e-6f));
     float sy = (q.w * q.y - q.x * q.z) * unit, sz = (q.w * q.z + q.x * q.y) * unit;
-    vec3 clean = without_dust(vec3(sy, sz, along));  // a zero's sign is not the same everywhere
+    vec3 clean = flush_tiny(vec3(sy, sz, along));  // a zero's sign is not the same everywhere
     sy = clean.x;
     sz = clean.y;
     float across = square_root(sy * sy + sz * sz);
@@ -99,51 +99,51 @@ LAW JointPlace joint_place(vec3 anchor_a, vec4 frame_a, Pose a, vec3 anchor_b, v
 }
 
 // Acceleration of B's anchor against A's that comes of their turning, m/s^2.
-LAW vec3 turning_of(JointPlace at, Couple v) {
-    return cross3(v.b.angular, cross3(v.b.angular, at.arm_b)) - cross3(v.a.angular, cross3(v.a.angular, at.arm_a));
+LAW vec3 turning_of(JointConfiguration at, VelocityPair v) {
+    return cross3(v.b.angular, cross3(v.b.angular, at.angular_b)) - cross3(v.a.angular, cross3(v.a.angular, at.angular_a));
 }
-LAW vec3 anchors_apart(JointPlace at, Couple v) {
-    return (v.b.linear - v.a.linear) + (cross3(v.b.angular, at.arm_b) - cross3(v.a.angular, at.arm_a));
+LAW vec3 anchors_apart(JointConfiguration at, VelocityPair v) {
+    return (v.b.linear - v.a.linear) + (cross3(v.b.angular, at.angular_b) - cross3(v.a.angular, at.angular_a));
 }
 
 // How much of the drift counts, times half a substep.
-LAW float drift_part(Couple v, float h) {
+LAW float drift_part(VelocityPair v, float h) {
     float fastest = larger(dot3(v.a.angular, v.a.angular), dot3(v.b.angular, v.b.angular)) * (h * h);
     return 0.5f * h * clamped(1.0f - (fastest - DRIFT_TURN) * DRIFT_FADE, 0.0f, 1.0f);
 }
 
 // The row of one of the axes along which the joint moves; `row` brings its impulses.
-LAW JointRow linear_row(JointRow row, JointPlace at, uint axis, uint flags, Couple v, float h) {
+LAW JointRow linear_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, float h) {
     vec3 speed = anchors_apart(at, v);
     vec3 turning = turning_of(at, v);
     if ((flags & JOINT_RADIAL) != 0u) {
         row.direction = unit3(at.gap, at.x);
-        row.place = length3(at.gap);
-        row.arm_a = cross3(at.arm_a, row.direction);
+        row.coordinate = length3(at.gap);
+        row.angular_a = cross3(at.angular_a, row.direction);
         vec3 around = speed - row.direction * dot3(speed, row.direction);
-        float curve = dot3(around, around) * reciprocal(larger(row.place, 1.0e-3f));
+        float curve = dot3(around, around) * reciprocal(larger(row.coordinate, 1.0e-3f));
         row.drift = drift_part(v, h) * (dot3(row.direction, turning) + curve);
     } else {
         vec3 u = axis == 0u ? at.x : (axis == 1u ? at.y : at.z);
         row.direction = u;
-        row.place = dot3(u, at.gap);
-        row.arm_a = cross3(at.arm_a + at.gap, u);
+        row.coordinate = dot3(u, at.gap);
+        row.angular_a = cross3(at.angular_a + at.gap, u);
         vec3 rate = cross3(v.a.angular, u);
         row.drift = drift_part(v, h) * ((dot3(u, turning) + 2.0f * dot3(rate, speed)) + dot3(cross3(v.a.angular, rate), at.gap));
     }
-    row.arm_b = cross3(at.arm_b, row.direction);
+    row.angular_b = cross3(at.angular_b, row.direction);
     return row;
 }
 // And of one about which it turns: 0 the twist, 1 and 2 the swing.
-LAW JointRow angular_row(JointRow row, JointPlace at, uint axis, uint flags, Couple v, float h) {
+LAW JointRow angular_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, float h) {
     bool cone = (flags & JOINT_CONE) != 0u;
     vec3 u = axis == 0u ? at.twist_axis : (axis == 1u ? (cone ? at.swing_axis : at.y) : at.z);
     // What spins about its own x axis does not swing, however far it has swung: a steered wheel.
     if (axis != 0u && (flags & JOINT_SPINS) != 0u) u = u - at.twist_axis * dot3(u, at.x_b);
     row.direction = u;
-    row.place = axis == 0u ? at.twist : (axis == 1u ? (cone ? at.swing : at.swing_y) : at.swing_z);
-    row.arm_a = u;
-    row.arm_b = u;
+    row.coordinate = axis == 0u ? at.twist : (axis == 1u ? (cone ? at.swing : at.swing_y) : at.swing_z);
+    row.angular_a = u;
+    row.angular_b = u;
     row.drift = drift_part(v, h) * dot3(cross3(v.a.angular, u), v.b.angular - v.a.angular);
     return row;
 }
@@ -152,8 +152,8 @@ LAW bool is_linear(uint axis) {
     return axis < 3u;
 }
 // Speed of the place.
-LAW float row_speed(JointRow row, bool linear, Couple v) {
-    float turning = dot3(row.arm_b, v.b.angular) - dot3(row.arm_a, v.a.angular);
+LAW float row_speed(JointRow row, bool linear, VelocityPair v) {
+    float turning = dot3(row.angular_b, v.b.angular) - dot3(row.angular_a, v.a.angular);
     return linear ? dot3(row.direction, v.b.linear - v.a.linear) + turning : turning;
 }
 LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {

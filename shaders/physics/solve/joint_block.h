@@ -19,11 +19,11 @@ CONSTANT uint SETTLING_ROUND = 2u;  // from then on bounds are only let go: with
 // ---- what the bodies lend the block
 // In the biased pass, joints come after the contacts, and only blocks share a body. In the one without, it is shared with the
 // contacts, and if it is struck among those who strike it.
-LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float blows, float pressed, bool biased, Parameters parameters) {
+LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float impacts, float normal_sum, bool biased, Parameters parameters) {
     if (biased)
         mass.split = larger(1.0f, float(blocks) * parameters.inverse_relaxation);
     else
-        mass.split = blows > 1.0f ? blows : split_for(mass.split, pressed, parameters);
+        mass.split = impacts > 1.0f ? impacts : split_factor(mass.split, normal_sum, parameters);
     if (moves) return mass;
     mass.xx = 0.0f;
     mass.xy = 0.0f;
@@ -34,7 +34,7 @@ LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float blows, float p
     mass.inverse_mass = 0.0f;
     return mass;
 }
-LAW Velocity changed_by(Velocity velocity, Slot slot) {
+LAW Velocity changed_by(Velocity velocity, VelocityDelta slot) {
     velocity.linear = velocity.linear + slot.linear;
     velocity.angular = velocity.angular + slot.angular;
     return velocity;
@@ -58,9 +58,9 @@ LAW RowResponse row_response(JointRow row, uint axis, Mass a, Mass b) {
     RowResponse response;
     response.direction = row.direction;
     response.axis = axis;
-    response.turn_a = turned_by(a, row.arm_a);
+    response.turn_a = turned_by(a, row.angular_a);
     response.inverse_mass_a = a.inverse_mass;
-    response.turn_b = turned_by(b, row.arm_b);
+    response.turn_b = turned_by(b, row.angular_b);
     response.inverse_mass_b = b.inverse_mass;
     response.split_a = a.split;
     response.split_b = b.split;
@@ -90,43 +90,45 @@ LAW float entry_through(vec3 direction, vec3 arm, vec3 other_direction, vec3 oth
     return (both_linear ? dot3(direction, other_direction) * inverse_mass + turning : turning) * split;
 }
 // The entry of J M^-1 J^T for a row with this direction and these arms, and the row of the response.
-LAW float row_entry(vec3 direction, vec3 arm_a, vec3 arm_b, uint axis, RowResponse to, uint ends) {
+LAW float row_entry(vec3 direction, vec3 angular_a, vec3 angular_b, uint axis, RowResponse to, uint ends) {
     bool linear = is_linear(axis) && is_linear(to.axis);
     float sum = 0.0f;
     if ((ends & ENDS_A_A) != 0u)
-        sum = entry_through(direction, arm_a, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
+        sum = entry_through(direction, angular_a, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
     if ((ends & ENDS_A_B) != 0u) {
-        float entry = -entry_through(direction, arm_a, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
+        float entry = -entry_through(direction, angular_a, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
         sum = (ends & ENDS_A_A) != 0u ? sum + entry : entry;
     }
     if ((ends & ENDS_B_A) != 0u) {
-        float entry = -entry_through(direction, arm_b, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
+        float entry = -entry_through(direction, angular_b, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
         sum = (ends & (ENDS_A_A | ENDS_A_B)) != 0u ? sum + entry : entry;
     }
     if ((ends & ENDS_B_B) != 0u) {
-        float entry = entry_through(direction, arm_b, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
+        float entry = entry_through(direction, angular_b, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
         sum = ends != ENDS_B_B ? sum + entry : entry;
     }
     return sum;
 }
 
 // The row as its bodies lie, with the inverse of its effective mass (`a`, `b`: the lent bodies; `ends`: those that there are).
-LAW JointRow placed_row(JointRow row, JointPlace at, uint axis, uint flags, Couple v, Mass a, Mass b, uint ends, float h) {
+LAW JointRow placed_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, Mass a, Mass b, uint ends,
+                        float h) {
     if (is_linear(axis))
         row = linear_row(row, at, axis, flags, v, h);
     else
         row = angular_row(row, at, axis - 3u, flags, v, h);
-    row.give = row_entry(row.direction, row.arm_a, row.arm_b, axis, row_response(row, axis, a, b), ends);
-    row.drive_change = 0.0f;
-    row.stop_change = 0.0f;
+    row.inverse_effective_mass =
+        row_entry(row.direction, row.angular_a, row.angular_b, axis, row_response(row, axis, a, b), ends);
+    row.motor_change = 0.0f;
+    row.limit_change = 0.0f;
     return row;
 }
 
 // ---- elimination and substitution
-LAW float right_hand_side(float speed, Demand demand) {
+LAW float right_hand_side(float speed, RowTarget demand) {
     return -(speed + demand.bias);
 }
-LAW float softened(float entry, Demand demand) {
+LAW float softened(float entry, RowTarget demand) {
     return entry + demand.compliance;
 }
 // The multiplier with which an equation loses its unknown: its entry over the pivot.
@@ -144,18 +146,18 @@ LAW float substituted(float sum, float inverse_pivot) {
 // ---- after a solution
 struct RowAfter {
     JointRow row;
-    uint pin;
+    uint active_flags;
     uint pad0;
     uint pad1;
     uint pad2;
 };
 // The row's impulses after a solution, within their bounds, and which bounds act next. `v`: of its bodies afterwards.
-LAW RowAfter row_after_round(JointAxis axis, JointRow row, uint index, uint pin, bool solved, float solution, Couple v,
-                             bool biased, bool settling, Parameters parameters) {
+LAW RowAfter row_after_round(JointAxis axis, JointRow row, uint index, uint active_flags, bool solved, float solution,
+                             VelocityPair v, bool biased, bool settling, Parameters parameters) {
     RowAfter after;
-    after.row = row_after(row, axis, pin, solved, solution, parameters);
+    after.row = row_after(row, axis, active_flags, solved, solution, parameters);
     float speed = row_speed(row, is_linear(index), v);
-    after.pin = pins_after(axis, row, index, pin, solved, solution, speed, biased, settling, parameters);
+    after.active_flags = active_set_after(axis, row, index, active_flags, solved, solution, speed, biased, settling, parameters);
     after.pad0 = 0u;
     after.pad1 = 0u;
     after.pad2 = 0u;
@@ -163,10 +165,10 @@ LAW RowAfter row_after_round(JointAxis axis, JointRow row, uint index, uint pin,
 }
 
 LAW float given_change(JointRow row) {
-    return row.drive_change + row.stop_change;
+    return row.motor_change + row.limit_change;
 }
 LAW float row_impulse(JointRow row) {
-    return row.drive + row.stop;
+    return row.motor_impulse + row.limit_impulse;
 }
 // What whole bodies feel of a row after a pass: its change, and where the next substep begins with a warm start all of it again.
 LAW float handed_impulse(JointRow row, bool warms) {
@@ -174,13 +176,13 @@ LAW float handed_impulse(JointRow row, bool warms) {
     return warms ? (row_impulse(row) + change) + change : change;
 }
 LAW JointRow committed(JointRow row) {
-    row.drive = row.drive + row.drive_change;
-    row.stop = row.stop + row.stop_change;
+    row.motor_impulse = row.motor_impulse + row.motor_change;
+    row.limit_impulse = row.limit_impulse + row.limit_change;
     return row;
 }
 LAW JointRow torn(JointRow row) {
-    row.drive = 0.0f;
-    row.stop = 0.0f;
+    row.motor_impulse = 0.0f;
+    row.limit_impulse = 0.0f;
     return row;
 }
 // On B.
@@ -191,16 +193,16 @@ LAW vec3 row_push(JointRow row) {
 // What a joint carries: sums of impulses within a step, N s, and with their means over it the greatest since the start, N.
 struct JointLoad {
     vec3 force;
-    float greatest_force;
+    float max_force;
     vec3 torque;
-    float greatest_torque;
+    float max_torque;
 };
 LAW JointLoad mean_load(JointLoad load, Parameters parameters) {
     float inverse_dt = reciprocal(parameters.dt);
     load.force = load.force * inverse_dt;
     load.torque = load.torque * inverse_dt;
-    load.greatest_force = larger(load.greatest_force, length3(load.force));
-    load.greatest_torque = larger(load.greatest_torque, length3(load.torque));
+    load.max_force = larger(load.max_force, length3(load.force));
+    load.max_torque = larger(load.max_torque, length3(load.torque));
     return load;
 }
 LAW bool joint_tears(vec3 force, float break_force, vec3 torque, float break_torque) {

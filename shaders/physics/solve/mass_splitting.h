@@ -26,43 +26,43 @@ CONSTANT uint FORGETTING_STEPS = 4u;
 
 // Two numbers in one word, each the upper half of a float: how many contacts, and what all of them press with. Bits of a number
 // that is neither denormal nor infinite, so a device may load and store it.
-LAW float crowd_of(float contacts, float pressing) {
+LAW float pack_split_state(float contacts, float normal_impulse) {
     uint count = (floatBitsToUint(contacts) + 0xFFFFu) >> 16u;  // rounded up
-    return uintBitsToFloat((floatBitsToUint(clamped(pressing, LEAST_PRESSING, 1.0e30f)) & 0xFFFF0000u) | count);
+    return uintBitsToFloat((floatBitsToUint(clamped(normal_impulse, LEAST_PRESSING, 1.0e30f)) & 0xFFFF0000u) | count);
 }
-LAW float contacts_of(float crowd) {
-    return uintBitsToFloat(floatBitsToUint(crowd) << 16u);
+LAW float contact_count_of(float split_state) {
+    return uintBitsToFloat(floatBitsToUint(split_state) << 16u);
 }
 
 // Once a step, before its first substep: the count drifts towards the contacts that carry.
-LAW float drifted(float crowd, float carrying, uint steps) {
-    uint was = floatBitsToUint(crowd) & 0xFFFFu;
-    uint now = floatBitsToUint(crowd_of(carrying, LEAST_PRESSING)) & 0xFFFFu;
+LAW float update_hysteresis(float split_state, float carrying, uint steps) {
+    uint was = floatBitsToUint(split_state) & 0xFFFFu;
+    uint now = floatBitsToUint(pack_split_state(carrying, LEAST_PRESSING)) & 0xFFFFu;
     was = choose(was < now, was + 1u, choose(was > now && (steps & (FORGETTING_STEPS - 1u)) == 0u, was - 1u, was));
-    return uintBitsToFloat((floatBitsToUint(crowd) & 0xFFFF0000u) | was);
+    return uintBitsToFloat((floatBitsToUint(split_state) & 0xFFFF0000u) | was);
 }
-LAW float crowd_after(float crowd, float carrying, float pressing) {
-    float counted = contacts_of(crowd);
+LAW float split_state_after(float split_state, float carrying, float normal_impulse) {
+    float counted = contact_count_of(split_state);
     bool afresh = carrying <= 1.0f || counted < 1.0f;
-    return crowd_of(choose(afresh, carrying, larger(counted, COUNTED_AT_ONCE * carrying)), pressing);
+    return pack_split_state(choose(afresh, carrying, larger(counted, COUNTED_AT_ONCE * carrying)), normal_impulse);
 }
 
 // s, where the contact is lent the s-th part of the mass: max(1, contacts / 1.5) if the parts are equal.
-LAW float split_for(float crowd, float pressed, Parameters parameters) {
-    float contacts = contacts_of(crowd);
-    float all = uintBitsToFloat(floatBitsToUint(crowd) & 0xFFFF0000u);
+LAW float split_factor(float split_state, float normal_sum, Parameters parameters) {
+    float contacts = contact_count_of(split_state);
+    float all = uintBitsToFloat(floatBitsToUint(split_state) & 0xFFFF0000u);
     float split = contacts * parameters.inverse_relaxation;
     bool weighed = contacts > 1.0f && 0.5f * all > LEAST_PRESSING;
-    float part = 0.5f * reciprocal(contacts) + 0.5f * smaller(1.0f, pressed * reciprocal(all));
+    float part = 0.5f * reciprocal(contacts) + 0.5f * smaller(1.0f, normal_sum * reciprocal(all));
     split = choose(weighed, parameters.inverse_relaxation * reciprocal(part), split);
     return larger(1.0f, split);
 }
 // The sum over a contact's points, N s.
-LAW float pressing(Impulse impulse) {
+LAW float normal_impulse(Impulse impulse) {
     return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
 }
-LAW Mass lent(Mass mass, Impulse impulse, Parameters parameters) {
-    mass.split = split_for(mass.split, impulse.pressed, parameters);
+LAW Mass split_mass(Mass mass, Impulse impulse, Parameters parameters) {
+    mass.split = split_factor(mass.split, impulse.normal_sum, parameters);
     return mass;
 }
 

@@ -34,8 +34,8 @@ CONSTANT float KEPT_TILT_SQUARED = 1.225e-5f;
 LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
     vec3 arm = xyz(contact.points[point]);
     vec3 half_gap = contact.normal * (0.5f * contact.points[point].w);
-    vec3 mark_a = rotate(a.orientation, rotate_back(contact.turn_a, arm - half_gap));
-    vec3 mark_b = rotate(b.orientation, rotate_back(contact.turn_b, (arm - contact.d) + half_gap));
+    vec3 mark_a = rotate(a.orientation, rotate_back(contact.orientation_a, arm - half_gap));
+    vec3 mark_b = rotate(b.orientation, rotate_back(contact.orientation_b, (arm - contact.center_offset) + half_gap));
     return (b.position - a.position) + mark_b - mark_a;
 }
 
@@ -58,16 +58,17 @@ LAW bool turned_little(vec4 before, vec4 now, uint points) {
 
 // Whether last step's contact serves for this step: it carried, the bodies do not roll on each other, and its marks
 // still lie together.
-LAW bool is_kept(Contact contact, Impulse impulse, Traits ta, Pose a, Velocity va, Traits tb, Pose b, Velocity vb) {
+LAW bool is_persistent(Contact contact, Impulse impulse, BodyProperties ta, Pose a, Velocity va, BodyProperties tb, Pose b,
+                       Velocity vb) {
     if (touches_in_a_point(ta.shape) || touches_in_a_point(tb.shape) || (is_round(ta) && is_round(tb))) return false;
     if ((impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) <= 0.0f) return false;
-    if (!turned_little(contact.turn_a, a.orientation, contact.count)) return false;
-    if (!turned_little(contact.turn_b, b.orientation, contact.count)) return false;
-    vec4 since_a = turn_since(contact.turn_a, a.orientation), since_b = turn_since(contact.turn_b, b.orientation);
+    if (!turned_little(contact.orientation_a, a.orientation, contact.count)) return false;
+    if (!turned_little(contact.orientation_b, b.orientation, contact.count)) return false;
+    vec4 since_a = turn_since(contact.orientation_a, a.orientation), since_b = turn_since(contact.orientation_b, b.orientation);
     vec3 tilt = xyz(since_a) - xyz(since_b);
     vec3 spin = vb.angular - va.angular;
     if (dot3(tilt, tilt) > KEPT_TILT_SQUARED || dot3(spin, spin) > KEPT_SPIN_SQUARED) return false;
-    float size = smaller(thickness(ta), thickness(tb));
+    float size = smaller(min_half_width(ta), min_half_width(tb));
     float tolerance = KEPT_SLIP * size;
     float fastest = KEPT_SPEED * size;
     for (uint k = 0u; k < 4u; ++k) {
@@ -75,13 +76,13 @@ LAW bool is_kept(Contact contact, Impulse impulse, Traits ta, Pose a, Velocity v
         vec3 slip = gap_between_marks(contact, k, a, b) - contact.normal * contact.points[k].w;
         if (dot3(slip, slip) > tolerance * tolerance) return false;
         vec3 arm = xyz(contact.points[k]);
-        vec3 speed = (vb.linear + cross3(vb.angular, arm - contact.d)) - (va.linear + cross3(va.angular, arm));
+        vec3 speed = (vb.linear + cross3(vb.angular, arm - contact.center_offset)) - (va.linear + cross3(va.angular, arm));
         if (dot3(speed, speed) > fastest * fastest) return false;
     }
     return true;
 }
 
-LAW Manifold kept_manifold(Contact contact, Pose a, Pose b) {
+LAW Manifold persistent_manifold(Contact contact, Pose a, Pose b) {
     Manifold manifold;
     manifold.normal = contact.normal;
     manifold.features = contact.features;
@@ -105,12 +106,12 @@ LAW Manifold resting_manifold(Contact contact, Impulse impulse) {
     return manifold;
 }
 
-LAW Contact aged(Contact contact) {
+LAW Contact carry_forward(Contact contact) {
     contact.age = contact.age + 1u;
     return contact;
 }
-LAW Impulse continued(Contact contact, Impulse was) {
-    Impulse impulse = no_impulse(contact.d);
+LAW Impulse carry_forward(Contact contact, Impulse was) {
+    Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = was.normal;
     impulse.friction = was.friction;
     impulse.twist = was.twist;

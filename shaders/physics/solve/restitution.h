@@ -19,29 +19,29 @@ LAWS_BEGIN
 
 // Sweeps over the points of a blow, in both passes: after a single one a box that fell flat on four points left spinning, and
 // rose to half its height; after four its spin was 0.007 rad/s, after eight 1e-6.
-CONSTANT int BLOW_SWEEPS = 8;
+CONSTANT int IMPACT_SWEEPS = 8;
 
 // Of the impulse that would stop a point: one that presses with less than this is struck. (With none at all, a row of balls that
 // a blow's forerunner had moved by 0.3 mm/s did not pass the blow on.)
-CONSTANT float TOUCH_OF_BLOW = 0.01f;
+CONSTANT float IMPACT_DISTANCE = 0.01f;
 
 // Acceleration of B against A, m/s^2.
-LAW vec3 pull_of(Load a, Load b) {
+LAW vec3 relative_acceleration(BodyForces a, BodyForces b) {
     return b.acceleration - a.acceleration;
 }
 
 // How fast the points strike that are to be thrown back, before any of them is answered: an answer at one of them turns the
 // bodies, and with them the others. The surface is met after a part of the substep.
-LAW vec4 approaches(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec3 pull, Parameters parameters) {
+LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     vec4 found = vec4(0.0f);
     float gain = parameters.h * dot3(c.normal, pull);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < c.count;
         if (none(there)) break;
-        Row row = row_of(levers_of(c, xyz(c.arms[k]), impulse.d), c.normal, a, b);
+        JacobianRow row = jacobian_row(lever_arms(c, xyz(c.arms[k]), impulse.center_offset), c.normal, a, b);
         float speed = speed_along(row, v);
         float way = parameters.h * speed;
-        bool strikes = impulse.normal[k] <= -TOUCH_OF_BLOW * mass_along(row, a, b) * speed;
+        bool strikes = impulse.normal[k] <= -IMPACT_DISTANCE * mass_along(row, a, b) * speed;
         bool meets = there && strikes && speed < -parameters.restitution_threshold && impulse.separation[k] + way < 0.0f;
         if (none(meets)) continue;
         float part = choose(impulse.separation[k] > 0.0f, -impulse.separation[k] * reciprocal(way), 0.0f);
@@ -52,30 +52,30 @@ LAW vec4 approaches(Constraint c, Impulse impulse, Couple v, Mass a, Mass b, vec
 }
 
 // The speed, toward the surface, after a blow: e times the approach, outward, and half a substep's gain.
-LAW float thrown_back(Constraint c, float approach, vec3 pull, Parameters parameters) {
-    return smaller(c.restitution * approach + 0.5f * parameters.h * dot3(c.normal, pull), 0.0f);
+LAW float restitution_target(Constraint c, float impact_velocity, vec3 pull, Parameters parameters) {
+    return smaller(c.restitution * impact_velocity + 0.5f * parameters.h * dot3(c.normal, pull), 0.0f);
 }
 
-LAW float blow_of(Impulse impulse) {
-    vec4 a = impulse.approach;
+LAW float is_impact(Impulse impulse) {
+    vec4 a = impulse.impact_velocity;
     return choose(a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f, 1.0f, 0.0f);
 }
 
 // The mass as it is shared in the pass without bias.
-LAW Mass shared_for(Impulse impulse, Mass mass, Load load, Parameters parameters) {
-    mass = lent(mass, impulse, parameters);
-    mass.split = choose(blow_of(impulse) > 0.0f, larger(1.0f, load.blows), mass.split);
+LAW Mass impact_mass(Impulse impulse, Mass mass, BodyForces load, Parameters parameters) {
+    mass = split_mass(mass, impulse, parameters);
+    mass.split = choose(is_impact(impulse) > 0.0f, larger(1.0f, load.impacts), mass.split);
     return mass;
 }
 
 // The impulse of a blow is spent: the next substep must not begin with it.
-LAW Impulse without_blows(Impulse impulse, uint count) {
+LAW Impulse clear_impacts(Impulse impulse, uint count) {
     bool blow = false;
     float normal = 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < count;
         if (none(there)) break;
-        bool struck = there && impulse.approach[k] < 0.0f;
+        bool struck = there && impulse.impact_velocity[k] < 0.0f;
         impulse.normal[k] = choose(struck, 0.0f, impulse.normal[k]);
         blow = blow || struck;
         normal = choose(there, normal + impulse.normal[k], normal);
@@ -88,7 +88,7 @@ LAW Impulse without_blows(Impulse impulse, uint count) {
 }
 
 LAW uint sweeps_of(Constraint c, Impulse impulse) {
-    return choose(c.count > 1u && blow_of(impulse) > 0.0f, uint(BLOW_SWEEPS), 1u);
+    return choose(c.count > 1u && is_impact(impulse) > 0.0f, uint(IMPACT_SWEEPS), 1u);
 }
 
 LAWS_END

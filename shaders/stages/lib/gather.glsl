@@ -7,7 +7,7 @@ struct Gathered {
     Velocity change;
     float carrying;
     float told;
-    float pressing;
+    float normal_impulse;
 };
 
 Gathered gather(uint body) {
@@ -15,15 +15,15 @@ Gathered gather(uint body) {
     sum.change = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
     sum.carrying = 0.0f;
     sum.told = FOREVER;
-    sum.pressing = 0.0f;
+    sum.normal_impulse = 0.0f;
     uint last = READ_WORD(slot_ends, body);
     for (uint k = body == 0u ? 0u : READ_WORD(slot_ends, body - 1u); k < last; ++k) {
-        Slot slot = READ(slots, k);
+        VelocityDelta slot = READ(slots, k);
         sum.change.linear = sum.change.linear + slot.linear;
         sum.change.angular = sum.change.angular + slot.angular;
-        sum.carrying = sum.carrying + slot.carries;
-        sum.pressing = sum.pressing + slot.told;
-        if (slot.carries > 0.0f) sum.told = smaller(sum.told, slot.told);
+        sum.carrying = sum.carrying + slot.is_active;
+        sum.normal_impulse = sum.normal_impulse + slot.told;
+        if (slot.is_active > 0.0f) sum.told = smaller(sum.told, slot.told);
     }
     return sum;
 }

@@ -12,16 +12,16 @@
 
 #define EACH_OF_SIX(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u)
 
-uint block_first, block_joints, block_members;
+uint block_first, block_joints, block_bodies;
 
 // False if there is no such block, or nothing in it moves.
 bool enter_block(uint index) {
     if (index >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u) return false;
     block_first = joints.at[index].first_of_block;
     block_joints = block_first + joints.at[block_first].block_joints;
-    block_members = block_first + joints.at[block_first].block_members;
+    block_bodies = block_first + joints.at[block_first].block_bodies;
     bool moves = false;
-    for (uint m = block_first; m < block_members && !moves; ++m) moves = joints.at[m].slot != NONE;
+    for (uint m = block_first; m < block_bodies && !moves; ++m) moves = joints.at[m].slot != NONE;
     return moves;
 }
 
@@ -33,35 +33,35 @@ Pose pose_of(uint body) {
     if (body != NONE) return poses.at[body];
     return Pose(vec3(0.0f), 0.0f, vec4(0.0f, 0.0f, 0.0f, 1.0f));
 }
-Velocity velocity_of(uint body, uint member) {
-    if (member != NONE) return joints.at[member].velocity;
+Velocity velocity_of(uint body, uint block_body) {
+    if (block_body != NONE) return joints.at[block_body].velocity;
     if (body != NONE) return velocities.at[body];
     return Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
 }
-Couple couple_of(uint j) {
-    Couple v;
-    v.a = velocity_of(joints.at[j].a, joints.at[j].member_a);
-    v.b = velocity_of(joints.at[j].b, joints.at[j].member_b);
+VelocityPair couple_of(uint j) {
+    VelocityPair v;
+    v.a = velocity_of(joints.at[j].a, joints.at[j].block_body_a);
+    v.b = velocity_of(joints.at[j].b, joints.at[j].block_body_b);
     return v;
 }
 
-Mass mass_of(uint member) {
-    if (member != NONE) return joints.at[member].mass;
+Mass mass_of(uint block_body) {
+    if (block_body != NONE) return joints.at[block_body].mass;
     return Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
 }
 
 void lend(bool biased) {
-    for (uint m = block_first; m < block_members; ++m) {
-        uint body = joints.at[m].member;
-        joints.at[m].mass = mass_of_member(masses.at[body], joints.at[m].slot != NONE, joints.at[m].blocks, loads.at[body].blows,
-                                           joints.at[m].pressed, biased, PARAMETERS);
+    for (uint m = block_first; m < block_bodies; ++m) {
+        uint body = joints.at[m].block_body;
+        joints.at[m].mass = mass_of_member(masses.at[body], joints.at[m].slot != NONE, joints.at[m].blocks,
+                                           forces.at[body].impacts, joints.at[m].normal_sum, biased, PARAMETERS);
     }
 }
 
 // `biased`: with what the contacts have just done to them, which is in the slots before those of the blocks.
 void take_velocities(bool biased) {
-    for (uint m = block_first; m < block_members; ++m) {
-        uint body = joints.at[m].member;
+    for (uint m = block_first; m < block_bodies; ++m) {
+        uint body = joints.at[m].block_body;
         Velocity velocity = velocities.at[body];
         if (biased && joints.at[m].slot != NONE) {
             uint last = WORD(slot_ends, body) - joints.at[m].blocks;
@@ -73,16 +73,16 @@ void take_velocities(bool biased) {
     }
 }
 void restore_velocities() {
-    for (uint m = block_first; m < block_members; ++m) joints.at[m].velocity = joints.at[m].velocity_before;
+    for (uint m = block_first; m < block_bodies; ++m) joints.at[m].velocity = joints.at[m].velocity_before;
 }
 
 void place_rows(uint j) {
     uint a = joints.at[j].a, b = joints.at[j].b;
-    JointPlace at = joint_place(joints.at[j].anchor_a, joints.at[j].frame_a, pose_of(a), joints.at[j].anchor_b,
-                                joints.at[j].frame_b, pose_of(b));
-    Couple v = couple_of(j);
+    JointConfiguration at = joint_configuration(joints.at[j].anchor_a, joints.at[j].frame_a, pose_of(a), joints.at[j].anchor_b,
+                                                joints.at[j].frame_b, pose_of(b));
+    VelocityPair v = couple_of(j);
     uint flags = joints.at[j].flags;
-    uint side_a = joints.at[j].member_a, side_b = joints.at[j].member_b;
+    uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b;
     Mass mass_a = mass_of(side_a), mass_b = mass_of(side_b);
     uint ends = shared_ends(side_a, side_b, side_a, side_b);
     for (uint k = 0u; k < 6u; ++k) {
@@ -93,21 +93,21 @@ void place_rows(uint j) {
 
 void push_row(uint j, uint k, float impulse) {
     JointRow row = joints.at[j].rows[k];
-    uint side_a = joints.at[j].member_a, side_b = joints.at[j].member_b;
+    uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b;
     bool linear = is_linear(k);
     if (side_a != NONE)
         joints.at[side_a].velocity =
-            row_pushed(joints.at[side_a].velocity, row.direction, row.arm_a, -impulse, linear, joints.at[side_a].mass);
+            row_pushed(joints.at[side_a].velocity, row.direction, row.angular_a, -impulse, linear, joints.at[side_a].mass);
     if (side_b != NONE)
         joints.at[side_b].velocity =
-            row_pushed(joints.at[side_b].velocity, row.direction, row.arm_b, impulse, linear, joints.at[side_b].mass);
+            row_pushed(joints.at[side_b].velocity, row.direction, row.angular_b, impulse, linear, joints.at[side_b].mass);
 }
 
 // Which axes are unknowns; the others' impulses are given, and act at once.
 void choose_unknowns(uint j, bool biased) {
     uint unknowns = 0u;
-    uint pins = joints.at[j].pins;
-    Couple v;
+    uint active_set = joints.at[j].active_set;
+    VelocityPair v;
     v.a = velocity_of(NONE, NONE);
     v.b = v.a;
     if (joints.at[j].a != NONE) v.a = velocities.at[joints.at[j].a];
@@ -116,14 +116,14 @@ void choose_unknowns(uint j, bool biased) {
         JointAxis axis = joints.at[j].axes[k];
         JointRow row = joints.at[j].rows[k];
         if (!row_acts(axis, row)) continue;
-        uint pin = pins_of(pins, k);
-        if (row_is_unknown(axis, row, pin, biased, PARAMETERS)) unknowns |= 1u << k;
-        row = row_given(axis, row, pin, row_speed(row, is_linear(k), v), biased, PARAMETERS);
+        uint active_flags = active_set_of(active_set, k);
+        if (row_is_unknown(axis, row, active_flags, biased, PARAMETERS)) unknowns |= 1u << k;
+        row = row_given(axis, row, active_flags, row_speed(row, is_linear(k), v), biased, PARAMETERS);
         joints.at[j].rows[k] = row;
         float given = given_change(row);
         if (given != 0.0f) push_row(j, k, given);
     }
-    joints.at[j].solved = unknowns;
+    joints.at[j].solved_axes = unknowns;
 }
 
 #define UP_TO(n) ((2u << n) - 1u)  // of a set of six axes, a bit each
@@ -132,45 +132,45 @@ bool has(uint axes, uint k) {
     return (axes >> k & 1u) != 0u;
 }
 bool unknown(uint j, uint k) {
-    return has(joints.at[j].solved, k);
+    return has(joints.at[j].solved_axes, k);
 }
 
 // The entry of row n of joint i and the row of a response, that of a row of a joint between these members.
-float entry_of(uint i, uint n, RowResponse to, uint member_a, uint member_b) {
-    return row_entry(joints.at[i].rows[n].direction, joints.at[i].rows[n].arm_a, joints.at[i].rows[n].arm_b, n, to,
-                     shared_ends(joints.at[i].member_a, joints.at[i].member_b, member_a, member_b));
+float entry_of(uint i, uint n, RowResponse to, uint block_body_a, uint block_body_b) {
+    return row_entry(joints.at[i].rows[n].direction, joints.at[i].rows[n].angular_a, joints.at[i].rows[n].angular_b, n, to,
+                     shared_ends(joints.at[i].block_body_a, joints.at[i].block_body_b, block_body_a, block_body_b));
 }
 
-void set_up_equation(uint j, uint k, Couple v, bool biased) {
+void set_up_equation(uint j, uint k, VelocityPair v, bool biased) {
     JointRow row = joints.at[j].rows[k];
-    Demand demand = row_demand(joints.at[j].axes[k], row, k, pins_of(joints.at[j].pins, k), biased, PARAMETERS);
+    RowTarget demand = row_demand(joints.at[j].axes[k], row, k, active_set_of(joints.at[j].active_set, k), biased, PARAMETERS);
     joints.at[j].solution[k] = right_hand_side(row_speed(row, is_linear(k), v), demand);
-    uint member_a = joints.at[j].member_a, member_b = joints.at[j].member_b;
-    RowResponse response = row_response(row, k, mass_of(member_a), mass_of(member_b));
-    uint own = joints.at[j].solved;
+    uint block_body_a = joints.at[j].block_body_a, block_body_b = joints.at[j].block_body_b;
+    RowResponse response = row_response(row, k, mass_of(block_body_a), mass_of(block_body_b));
+    uint own = joints.at[j].solved_axes;
 #define SET_UP_OWN(n) \
-    if (n >= k && has(own, n)) joints.at[j].diagonal[6u * n + k] = entry_of(j, n, response, member_a, member_b);
+    if (n >= k && has(own, n)) joints.at[j].diagonal[6u * n + k] = entry_of(j, n, response, block_body_a, block_body_b);
     EACH_OF_SIX(SET_UP_OWN)
     joints.at[j].diagonal[7u * k] = softened(joints.at[j].diagonal[7u * k], demand);
-    uint links = joints.at[j].links;
-    for (uint l = 0u; l < links; ++l) {
-        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+    uint fill_in = joints.at[j].fill_in;
+    for (uint l = 0u; l < fill_in; ++l) {
+        uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
 #define SET_UP_LINK(n) \
-    if (has(theirs, n)) joints.at[j].coupling[36u * l + 6u * n + k] = entry_of(i, n, response, member_a, member_b);
+    if (has(theirs, n)) joints.at[j].coupling[36u * l + 6u * n + k] = entry_of(i, n, response, block_body_a, block_body_b);
         EACH_OF_SIX(SET_UP_LINK)
     }
 }
 void set_up_equations(uint j, bool biased) {
-    Couple v = couple_of(j);
+    VelocityPair v = couple_of(j);
     for (uint k = 0u; k < 6u; ++k)
         if (unknown(j, k)) set_up_equation(j, k, v, biased);
 }
 
 // Where joint j keeps its coupling with joint i: its links are in rising order.
 uint coupling_with(uint i, uint j) {
-    uint links = joints.at[j].links, before = 0u;
+    uint fill_in = joints.at[j].fill_in, before = 0u;
 #define COUNT_BEFORE(l) \
-    if (l < links && joints.at[j].links_to[l] < i) ++before;
+    if (l < fill_in && joints.at[j].fill_in_of[l] < i) ++before;
     EACH_OF_SIX(COUNT_BEFORE)
     COUNT_BEFORE(6u)
     COUNT_BEFORE(7u)
@@ -212,7 +212,7 @@ void eliminate(uint j, uint k) {
     float inverse = reciprocal(joints.at[j].diagonal[7u * k]);
     float known = joints.at[j].solution[k];
     joints.at[j].diagonal[7u * k] = inverse;
-    uint behind = joints.at[j].solved >> (k + 1u) << (k + 1u);
+    uint behind = joints.at[j].solved_axes >> (k + 1u) << (k + 1u);
 #define ELIMINATE_OWN(n)                                                                       \
     if (has(behind, n)) {                                                                      \
         float multiplier = multiplier_of(own.at[n], inverse);                                  \
@@ -220,9 +220,9 @@ void eliminate(uint j, uint k) {
         lessen_diagonal(j, 6u * n, behind & UP_TO(n), multiplier, own);                        \
     }
     EACH_OF_SIX(ELIMINATE_OWN)
-    uint links = joints.at[j].links;
-    for (uint l = 0u; l < links; ++l) {
-        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+    uint fill_in = joints.at[j].fill_in;
+    for (uint l = 0u; l < fill_in; ++l) {
+        uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
         Column pushed = column_of_link(j, l, k);
 #define ELIMINATE_LINK(n)                                                                      \
     if (has(theirs, n)) {                                                                      \
@@ -233,7 +233,7 @@ void eliminate(uint j, uint k) {
     }
         EACH_OF_SIX(ELIMINATE_LINK)
         for (uint e = 0u; e < l; ++e) {
-            uint to = joints.at[j].links_to[e], between = joints.at[to].solved, target = coupling_with(i, to);
+            uint to = joints.at[j].fill_in_of[e], between = joints.at[to].solved_axes, target = coupling_with(i, to);
             Column other = column_of_link(j, e, k);
 #define ELIMINATE_BETWEEN(n) \
     if (has(theirs, n)) lessen_coupling(to, target + 6u * n, between, multiplier_of(pushed.at[n], inverse), other);
@@ -244,12 +244,12 @@ void eliminate(uint j, uint k) {
 
 void substitute(uint j, uint k) {
     float sum = joints.at[j].solution[k];
-    uint own = joints.at[j].solved, links = joints.at[j].links;
+    uint own = joints.at[j].solved_axes, fill_in = joints.at[j].fill_in;
 #define SUBSTITUTE_OWN(n) \
     if (n > k && has(own, n)) sum = less_multiple(sum, joints.at[j].diagonal[6u * n + k], joints.at[j].solution[n]);
     EACH_OF_SIX(SUBSTITUTE_OWN)
-    for (uint l = 0u; l < links; ++l) {
-        uint i = joints.at[j].links_to[l], theirs = joints.at[i].solved;
+    for (uint l = 0u; l < fill_in; ++l) {
+        uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
 #define SUBSTITUTE_LINK(n) \
     if (has(theirs, n)) sum = less_multiple(sum, joints.at[j].coupling[36u * l + 6u * n + k], joints.at[i].solution[n]);
         EACH_OF_SIX(SUBSTITUTE_LINK)
@@ -274,18 +274,18 @@ void solve_equations(bool biased) {
 // Whether another bound acts than was thought.
 bool look_at_bounds(uint j, bool biased, bool settling) {
     bool others = false;
-    Couple v = couple_of(j);
+    VelocityPair v = couple_of(j);
     for (uint k = 0u; k < 6u; ++k) {
         JointAxis axis = joints.at[j].axes[k];
         JointRow row = joints.at[j].rows[k];
         if (!row_acts(axis, row)) continue;
-        uint pin = pins_of(joints.at[j].pins, k);
+        uint active_flags = active_set_of(joints.at[j].active_set, k);
         bool solved = unknown(j, k);
         float solution = solved ? joints.at[j].solution[k] : 0.0f;
-        RowAfter after = row_after_round(axis, row, k, pin, solved, solution, v, biased, settling, PARAMETERS);
+        RowAfter after = row_after_round(axis, row, k, active_flags, solved, solution, v, biased, settling, PARAMETERS);
         joints.at[j].rows[k] = after.row;
-        if (after.pin == pin) continue;
-        joints.at[j].pins = with_pins(joints.at[j].pins, k, after.pin);
+        if (after.active_flags == active_flags) continue;
+        joints.at[j].active_set = with_active_set(joints.at[j].active_set, k, after.active_flags);
         others = true;
     }
     return others;
@@ -311,7 +311,7 @@ void solve_block(bool biased) {
         lend(biased);
         take_velocities(biased);
         for (uint j = block_first; j < block_joints; ++j) {
-            joints.at[j].solved = 0u;
+            joints.at[j].solved_axes = 0u;
             if (holds(j)) place_rows(j);
         }
         joints.at[block_first].unsettled = 1u;
@@ -331,7 +331,7 @@ void solve_block(bool biased) {
 
 // Empties what the bodies are about to be told.
 void begin_shares() {
-    for (uint m = block_first; m < block_members; ++m) {
+    for (uint m = block_first; m < block_bodies; ++m) {
         joints.at[m].velocity = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
         joints.at[m].mass.split = 1.0f;
     }
@@ -373,14 +373,14 @@ vec3 torque_impulse(uint j) {
 }
 
 void note_pressing() {
-    for (uint m = block_first; m < block_members; ++m) joints.at[m].pressed = 0.0f;
+    for (uint m = block_first; m < block_bodies; ++m) joints.at[m].normal_sum = 0.0f;
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
-        float pressing = length3(force_impulse(j));
-        if (joints.at[j].member_a != NONE)
-            joints.at[joints.at[j].member_a].pressed = joints.at[joints.at[j].member_a].pressed + pressing;
-        if (joints.at[j].member_b != NONE)
-            joints.at[joints.at[j].member_b].pressed = joints.at[joints.at[j].member_b].pressed + pressing;
+        float normal_impulse = length3(force_impulse(j));
+        if (joints.at[j].block_body_a != NONE)
+            joints.at[joints.at[j].block_body_a].normal_sum = joints.at[joints.at[j].block_body_a].normal_sum + normal_impulse;
+        if (joints.at[j].block_body_b != NONE)
+            joints.at[joints.at[j].block_body_b].normal_sum = joints.at[joints.at[j].block_body_b].normal_sum + normal_impulse;
     }
 }
 

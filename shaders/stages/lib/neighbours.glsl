@@ -8,9 +8,9 @@
 
 // Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
 bool kept_apart(uint body, uint other) {
-    uint listed = READ(traits, body).joints != NONE ? body : other;
+    uint listed = READ(properties, body).joints != NONE ? body : other;
     uint partner = listed == body ? other : body;
-    for (uint j = READ(traits, listed).joints; j != NONE;) {
+    for (uint j = READ(properties, listed).joints; j != NONE;) {
         bool is_a = joints.at[j].a == listed;
         if ((is_a ? joints.at[j].b : joints.at[j].a) == partner && joints.at[j].broken == 0u &&
             (joints.at[j].flags & JOINT_COLLIDES) == 0u)
@@ -26,13 +26,13 @@ void meets(uint body, uint other) {
     found(other);
 }
 
-void look_through_large(uint body, Traits own, Bounds around) {
+void look_through_large(uint body, BodyProperties own, Bounds around) {
     for (uint k = READ_WORD(cell_ends, PARAMETERS.buckets - 1u); k < READ_WORD(cell_ends, PARAMETERS.buckets); ++k) {
         uint other = READ(cell_entries, k).body;
         CellEntry entry = READ(cell_entries, k);
         if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
-        Traits theirs = READ(traits, other);
+        BodyProperties theirs = READ(properties, other);
         if (!can_touch(own, theirs)) continue;
         bool near = true;
         if (theirs.shape == SHAPE_PLANE)
@@ -44,7 +44,7 @@ void look_through_large(uint body, Traits own, Bounds around) {
 }
 
 // The cells along x are one run of buckets, which may wrap round the end of the grid's entries.
-void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last_x, uint level) {
+void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, int last_x, uint level) {
     uint low = bucket_of(from, level, PARAMETERS.buckets);
     uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
     uint end = READ_WORD(cell_ends, PARAMETERS.buckets - 1u);
@@ -54,12 +54,13 @@ void look_through_row(uint body, Traits own, Bounds around, ivec3 from, int last
     for (uint k = 0u; k < entries; ++k) {
         uint place = first + k < end ? first + k : first + k - end;
         CellEntry entry = READ(cell_entries, place);
-        if ((entry.level & ~(STILL | MOVES)) != level) continue;
+        if ((entry.level & ~(INACTIVE | MOVES)) != level) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         if (!finds(id, around.level, id_of(entry.body), entry.level & ~MOVES)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
         if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
-        if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(traits, entry.body).owner == own.owner) continue;
+        if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(properties, entry.body).owner == own.owner)
+            continue;
         if (motion_of(own) == MOTION_DYNAMIC || (entry.level & MOVES) != 0u) meets(body, entry.body);
     }
 }
@@ -69,18 +70,18 @@ void carry_over(uint body) {
     for (uint k = READ_WORD(first_contacts, body); k < last; ++k) {
         uint a = READ(contacts_before, k).a;
         uint other = a == body ? READ(contacts_before, k).b : a;
-        if ((READ(bounds, other).level & STILL) != 0u) found(other);
+        if ((READ(bounds, other).level & INACTIVE) != 0u) found(other);
     }
 }
 
 void look_around(uint body) {
     Bounds around = READ(bounds, body);
-    if ((around.level & NOWHERE) != 0u) return;
-    bool still = (around.level & STILL) != 0u;
+    if ((around.level & NOT_IN_GRID) != 0u) return;
+    bool still = (around.level & INACTIVE) != 0u;
     if (still) carry_over(body);
     uint levels = levels_to_search(around.level, COUNTED);
     if (still && levels == 0u && COUNTED.large_stirring == 0u) return;
-    Traits own = READ(traits, body);
+    BodyProperties own = READ(properties, body);
     look_through_large(body, own, around);
     if (is_large(own)) return;
     for (uint level = 0u; level < LEVELS && (levels >> level) != 0u; ++level) {

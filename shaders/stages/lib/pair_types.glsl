@@ -4,33 +4,35 @@
 
 #include "shaders/stages/lib/stage.glsl"
 
-void count_kinds_of(uint span) {
-    uint spans = spans_of(COUNTED.pairs);
-    if (span >= spans) return;
-    uint found[KINDS];
-    for (uint k = 0u; k < KINDS; ++k) found[k] = 0u;
-    uint last = min((span + 1u) * SPAN, COUNTED.pairs);
-    for (uint pair = span * SPAN; pair < last; ++pair) ++found[READ(pairs, pair).kind];
-    for (uint k = 0u; k < KINDS; ++k) WORD(kind_counts, k * spans + span) = found[k];
+void count_kinds_of(uint pair_block) {
+    uint pair_blocks = pair_blocks_of(COUNTED.pairs);
+    if (pair_block >= pair_blocks) return;
+    uint found[PAIR_TYPES];
+    for (uint k = 0u; k < PAIR_TYPES; ++k) found[k] = 0u;
+    uint last = min((pair_block + 1u) * PAIR_BLOCK, COUNTED.pairs);
+    for (uint pair = pair_block * PAIR_BLOCK; pair < last; ++pair) ++found[READ(pairs, pair).pair_type];
+    for (uint k = 0u; k < PAIR_TYPES; ++k) WORD(pair_type_counts, k * pair_blocks + pair_block) = found[k];
 }
 
 // In their order.
-void list_kinds_of(uint span) {
-    uint spans = spans_of(COUNTED.pairs);
-    if (span >= spans) return;
-    uint next[KINDS];
-    for (uint k = 0u; k < KINDS; ++k) next[k] = READ_WORD(kind_starts, k * spans + span);
-    uint last = min((span + 1u) * SPAN, COUNTED.pairs);
-    for (uint pair = span * SPAN; pair < last; ++pair) WORD(pairs_by_kind, next[READ(pairs, pair).kind]++) = pair;
+void list_kinds_of(uint pair_block) {
+    uint pair_blocks = pair_blocks_of(COUNTED.pairs);
+    if (pair_block >= pair_blocks) return;
+    uint next[PAIR_TYPES];
+    for (uint k = 0u; k < PAIR_TYPES; ++k) next[k] = READ_WORD(pair_type_starts, k * pair_blocks + pair_block);
+    uint last = min((pair_block + 1u) * PAIR_BLOCK, COUNTED.pairs);
+    for (uint pair = pair_block * PAIR_BLOCK; pair < last; ++pair)
+        WORD(pairs_by_type, next[READ(pairs, pair).pair_type]++) = pair;
 }
 
 // Says how many pairs of a kind there are.
-void tell_kind(uint kind) {
-    uint spans = spans_of(COUNTED.pairs);
-    if (kind >= KINDS || spans == 0u) return;
-    uint first = READ_WORD(kind_starts, kind * spans), last = READ_WORD(kind_starts, (kind + 1u) * spans);
-    COUNTS.kind_first[kind + 1u] = last;
-    COUNTS.arguments[WORK_KIND + kind] = work_for(last - first, PARAMETERS);
+void tell_kind(uint pair_type) {
+    uint pair_blocks = pair_blocks_of(COUNTED.pairs);
+    if (pair_type >= PAIR_TYPES || pair_blocks == 0u) return;
+    uint first = READ_WORD(pair_type_starts, pair_type * pair_blocks),
+         last = READ_WORD(pair_type_starts, (pair_type + 1u) * pair_blocks);
+    COUNTS.pair_type_first[pair_type + 1u] = last;
+    COUNTS.arguments[WORK_PAIR_TYPE + pair_type] = work_for(last - first, PARAMETERS);
 }
 
 #endif

@@ -15,37 +15,37 @@
 // Gathers warm starts (and the last substep's relaxation), adds forces, pulls what the user holds, and splits the body among the
 // contacts that carry.
 void begin_body(uint i, bool first) {
-    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(rests, i), PARAMETERS.sleep_steps)) return;
-    Traits body = READ(traits, i);
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
+    BodyProperties body = READ(properties, i);
     if (body.motion != MOTION_DYNAMIC) return;
     Gathered sum = gather(i);
-    Velocity velocity = accelerated(READ(velocities, i), sum.change, READ(loads, i), body, PARAMETERS);
+    Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, READ(forces, i), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
             velocity = pulled(velocity, READ(poses, i), READ(masses, i), PARAMETERS.grips[k], PARAMETERS);
     }
     velocities.at[i] = velocity;
-    float crowd = READ(masses, i).split;
-    if (first) crowd = drifted(crowd, sum.carrying, COUNTED.steps);
-    masses.at[i].split = crowd_after(crowd, sum.carrying, sum.pressing);
+    float split_state = READ(masses, i).split;
+    if (first) split_state = update_hysteresis(split_state, sum.carrying, COUNTED.steps);
+    masses.at[i].split = split_state_after(split_state, sum.carrying, sum.normal_impulse);
 }
 
 // Gathers the biased pass and moves the body by a substep.
 void move_body(uint i) {
-    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(rests, i), PARAMETERS.sleep_steps)) return;
-    Traits body = READ(traits, i);
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
+    BodyProperties body = READ(properties, i);
     if (body.motion == MOTION_FIXED || is_part(body) || is_absent(body.motion)) return;
     Velocity velocity = READ(velocities, i);
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
-        loads.at[i].blows = sum.carrying;
+        forces.at[i].impacts = sum.carrying;
     }
-    Moved after = moved(READ(poses, i), velocity, body, PARAMETERS.h);
+    RigidState after = integrate(READ(poses, i), velocity, body, PARAMETERS.h);
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
-    if (!turns_evenly(body)) masses.at[i] = mass_in_world(body, after.pose.orientation, READ(masses, i).split);
+    if (!has_isotropic_inertia(body)) masses.at[i] = mass_in_world(body, after.pose.orientation, READ(masses, i).split);
 }
 
 #endif

@@ -9,26 +9,26 @@
 
 // With bias.
 void solve_contact(uint place) {
-    if (place >= COUNTED.solved) return;
-    uint i = READ_WORD(solved_contacts, place);
+    if (place >= COUNTED.solver_contacts) return;
+    uint i = READ_WORD(contacts_to_solve, place);
     Constraint c = narrowed(READ(constraints, i));
     Impulse impulse = narrowed(READ(impulses, i));
-    Mass ma = lent(READ(masses, c.a), impulse, PARAMETERS);
-    Mass mb = lent(READ(masses, c.b), impulse, PARAMETERS);
-    Couple before;
+    Mass ma = split_mass(READ(masses, c.a), impulse, PARAMETERS);
+    Mass mb = split_mass(READ(masses, c.b), impulse, PARAMETERS);
+    VelocityPair before;
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
-    vec3 pull = c.restitution > 0.0f ? pull_of(READ(loads, c.a), READ(loads, c.b)) : vec3(0.0f);
-    Solved after = solved(c, impulse, before, ma, mb, pull, PARAMETERS);
+    vec3 pull = c.restitution > 0.0f ? relative_acceleration(READ(forces, c.a), READ(forces, c.b)) : vec3(0.0f);
+    SolveResult after = solve_contact(c, impulse, before, ma, mb, pull, PARAMETERS);
     impulses.at[i].normal = after.impulse.normal;
-    if (BOUNCES) impulses.at[i].approach = after.impulse.approach;
+    if (BOUNCES) impulses.at[i].impact_velocity = after.impulse.impact_velocity;
     impulses.at[i].friction = after.impulse.friction;
     impulses.at[i].twist = after.impulse.twist;
     if (ROLLS) impulses.at[i].rolling = after.impulse.rolling;
-    Couple share = shares_of(before, after.couple, ma, mb);
-    float blow = blow_of(after.impulse);
-    if (c.slot_a != NONE) slots.at[c.slot_a] = slot_of(share.a, blow, 0.0f);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = slot_of(share.b, blow, 0.0f);
+    VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
+    float blow = is_impact(after.impulse);
+    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, blow, 0.0f);
+    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, blow, 0.0f);
 }
 
 const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
@@ -36,43 +36,43 @@ const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
 // Without bias. It also hands out the next substep's warm start, or after the last one what each body tells the other of its
 // rest. Where bodies may break it also adds up what each contact carries in the step.
 void relax_contact(uint place, uint pass) {
-    if (place >= COUNTED.solved) return;
-    uint i = READ_WORD(solved_contacts, place);
+    if (place >= COUNTED.solver_contacts) return;
+    uint i = READ_WORD(contacts_to_solve, place);
     Constraint c = narrowed(READ(constraints, i));
     Impulse impulse = narrowed(READ(impulses, i));
-    Mass ma = shared_for(impulse, READ(masses, c.a), READ(loads, c.a), PARAMETERS);
-    Mass mb = shared_for(impulse, READ(masses, c.b), READ(loads, c.b), PARAMETERS);
-    Couple before;
+    Mass ma = impact_mass(impulse, READ(masses, c.a), READ(forces, c.a), PARAMETERS);
+    Mass mb = impact_mass(impulse, READ(masses, c.b), READ(forces, c.b), PARAMETERS);
+    VelocityPair before;
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
-    vec3 pull = c.restitution > 0.0f ? pull_of(READ(loads, c.a), READ(loads, c.b)) : vec3(0.0f);
-    Solved after = relaxed(c, impulse, before, ma, mb, pull, PARAMETERS);
+    vec3 pull = c.restitution > 0.0f ? relative_acceleration(READ(forces, c.a), READ(forces, c.b)) : vec3(0.0f);
+    SolveResult after = relax_contact(c, impulse, before, ma, mb, pull, PARAMETERS);
     if (BREAKING) {
-        float sum = pressing(after.impulse);
+        float sum = normal_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
         SET_FLOAT(carried, i, sum);
     }
-    impulse = without_blows(after.impulse, c.count);
-    impulse.pressed = pressing(impulse);
+    impulse = clear_impacts(after.impulse, c.count);
+    impulse.normal_sum = normal_impulse(impulse);
     impulses.at[i].normal = impulse.normal;
     impulses.at[i].separation = impulse.separation;
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
     if (ROLLS) impulses.at[i].rolling = impulse.rolling;
-    impulses.at[i].slipped = impulse.slipped;
-    impulses.at[i].d = impulse.d;
-    impulses.at[i].pressed = impulse.pressed;
-    Couple share = shares_of(before, after.couple, ma, mb);
-    float told_a = impulse.pressed, told_b = impulse.pressed;
+    impulses.at[i].slide_distance = impulse.slide_distance;
+    impulses.at[i].center_offset = impulse.center_offset;
+    impulses.at[i].normal_sum = impulse.normal_sum;
+    VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
+    float told_a = impulse.normal_sum, told_b = impulse.normal_sum;
     if ((pass & LAST_SUBSTEP) == 0u) {
         share = warm_start(c, impulse, share, ma, mb);
     } else {
-        told_a = told_quiet(READ(traits, c.a).motion, before.a, READ_WORD(rests, c.a));
-        told_b = told_quiet(READ(traits, c.b).motion, before.b, READ_WORD(rests, c.b));
+        told_a = told_quiet(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
+        told_b = told_quiet(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
     }
-    float carrying = carries(c, impulse, after.couple, PARAMETERS);
-    if (c.slot_a != NONE) slots.at[c.slot_a] = slot_of(share.a, carrying, told_b);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = slot_of(share.b, carrying, told_a);
+    float carrying = is_active(c, impulse, after.pair_velocity, PARAMETERS);
+    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, carrying, told_b);
+    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, carrying, told_a);
 }
 
 #endif

@@ -39,11 +39,11 @@ SCREE_BUFFERS(SCREE_DECLARE_TEXELS)
 #define SCREE_READ_OF_LISTS SCREE_READ
 #endif
 SCREE_READ_OF_LISTS(counts, Counts)
-SCREE_READ(traits, Traits)
+SCREE_READ(properties, BodyProperties)
 SCREE_READ_OF_SOLVER(poses, Pose)
 SCREE_READ_OF_SOLVER(velocities, Velocity)
 SCREE_READ_OF_SOLVER(masses, Mass)
-SCREE_READ_OF_SOLVER(loads, Load)
+SCREE_READ_OF_SOLVER(forces, BodyForces)
 SCREE_READ(bounds, Bounds)
 SCREE_READ(cell_entries, CellEntry)
 SCREE_READ(pairs, Pair)
@@ -52,7 +52,7 @@ SCREE_READ(contacts_before, Contact)
 SCREE_READ_OF_SOLVER(impulses, Impulse)
 SCREE_READ(impulses_before, Impulse)
 SCREE_READ_OF_LISTS(constraints, Constraint)
-SCREE_READ_OF_SOLVER(slots, Slot)
+SCREE_READ_OF_SOLVER(slots, VelocityDelta)
 SCREE_READ(candidates, Candidate)
 #endif
 

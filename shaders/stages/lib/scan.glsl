@@ -22,7 +22,7 @@ uint scan_items() {
     if (SCANNED == SCAN_CELLS)
         items = PARAMETERS.buckets + 1u;
     else if (SCANNED == SCAN_KINDS)
-        items = KINDS * spans_of(COUNTED.pairs);
+        items = PAIR_TYPES * pair_blocks_of(COUNTED.pairs);
     else if (SCANNED == SCAN_CONTACTS)
         items = COUNTED.pairs;
     return items;
@@ -34,9 +34,9 @@ uint scan_read(uint i) {
     else if (SCANNED == SCAN_PAIRS)
         value = READ_WORD(pair_counts, i);
     else if (SCANNED == SCAN_KINDS)
-        value = READ_WORD(kind_counts, i);
+        value = READ_WORD(pair_type_counts, i);
     else if (SCANNED == SCAN_CONTACTS)
-        value = READ_WORD(touching, i) > 0u ? 1u : 0u;
+        value = READ_WORD(point_counts, i) > 0u ? 1u : 0u;
     else
         value = READ_WORD(slot_counts, i);
     return value;
@@ -49,7 +49,7 @@ void scan_write(uint i, uint sum) {
     else if (SCANNED == SCAN_SLOTS)
         WORD(slot_starts, i) = sum;
     else if (SCANNED == SCAN_KINDS)
-        WORD(kind_starts, i) = sum;
+        WORD(pair_type_starts, i) = sum;
     else
         WORD(contact_starts, i) = sum;
 }

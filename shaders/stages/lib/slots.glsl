@@ -6,7 +6,7 @@
 #include "shaders/stages/lib/ids.glsl"
 
 bool can_be_moved(uint body) {
-    return is_movable(READ(traits, body).motion, READ_WORD(rests, body), PARAMETERS.sleep_steps);
+    return is_movable(READ(properties, body).motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps);
 }
 
 // Of each body that can be moved.
@@ -28,10 +28,10 @@ void fill_slots_of(uint contact) {
     if (moves_a) WORD(slot_sides, atomicAdd(WORD(slot_starts, of_a), 1u)) = 2u * contact;
     if (moves_b) WORD(slot_sides, atomicAdd(WORD(slot_starts, of_b), 1u)) = 2u * contact + 1u;
     if (!moves_a && !moves_b) return;
-    uint place = atomicAdd(COUNTS.solved, 1u);
-    WORD(solved_contacts, place) = contact;
+    uint place = atomicAdd(COUNTS.solver_contacts, 1u);
+    WORD(contacts_to_solve, place) = contact;
     uint group = place >> PARAMETERS.group_shift;
-    if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVED].x, group + 1u);
+    if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVER_CONTACTS].x, group + 1u);
 }
 
 // By the id of the contact's owner, then by contact, and joints behind them: so that the body's sum has one order.

@@ -60,7 +60,7 @@ push;
 
 // The body that a row belongs to.
 uint body_of(uint row) {
-    return row < PARAMETERS.first_part ? row : READ(traits, row).owner;
+    return row < PARAMETERS.first_part ? row : READ(properties, row).owner;
 }
 
 uint thread() {

@@ -12,11 +12,11 @@
 // ---- tables: buffer, name, block, record, length
 #define SCREE_WIDE_TABLES(X)                                                                     \
     X(1, counts, CountsTable, Counts, one)                                                       \
-    X(2, traits, TraitsTable, Traits, bodies)                                                    \
+    X(2, properties, PropertiesTable, BodyProperties, bodies)                                    \
     X(3, poses, PosesTable, Pose, bodies)                                                        \
     X(4, velocities, VelocitiesTable, Velocity, bodies)                                          \
     X(5, masses, MassesTable, Mass, bodies)                                                      \
-    X(6, loads, LoadsTable, Load, bodies)                                                        \
+    X(6, forces, ForcesTable, BodyForces, bodies)                                                \
     X(7, actions, ActionsTable, Action, actions)                                                 \
     X(8, bounds, BoundsTable, Bounds, bodies)                                                    \
     X(9, cell_entries, CellEntriesTable, CellEntry, bodies)                                      \
@@ -27,7 +27,7 @@
     X(14, impulses, ImpulsesTable, Impulse, contacts)                                            \
     X(15, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                               \
     X(16, constraints, ConstraintsTable, Constraint, contacts)                                   \
-    X(17, slots, SlotsTable, Slot, slots)                                                        \
+    X(17, slots, SlotsTable, VelocityDelta, slots)                                               \
     X(18, candidates, CandidatesTable, Candidate, candidates) /* near each body, in any order */ \
     X(19, joints, JointsTable, Joint, joints)                                                    \
     X(20, vehicles, VehiclesTable, Vehicle, vehicles)
@@ -38,14 +38,14 @@
     X(21, cell_ends, WordsTable, uint, buckets)             /* of each bucket's entries in cell_entries */                     \
     X(21, pair_starts, WordsTable, uint, bodies_and_end)    /* of the pairs that each row owns */                              \
     X(21, slot_ends, WordsTable, uint, bodies_and_end)      /* of each body's slots */                                         \
-    X(21, first_contacts, WordsTable, uint, bodies_and_end) /* that each row owns; until order_slots, of the last step */      \
-    X(21, rests, WordsTable, uint, bodies)                  /* how long each body has been quiet, and what woke it: sleep.h */ \
+    X(21, first_contacts, WordsTable, uint, bodies_and_end) /* that each row owns; until sort_slots, of the last step */       \
+    X(21, sleep_states, WordsTable, uint, bodies)           /* how long each body has been quiet, and what woke it: sleep.h */ \
     X(21, ids, WordsTable, uint, bodies)                    /* which of the scene's bodies, or which part, is in each row */   \
     X(21, strains, WordsTable, float, bodies)               /* of bodies that break: what the last step left: fracture.h */    \
-    X(21, touching, WordsTable, uint, pairs)                /* points of each pair's manifold; with DOUBTFUL */                \
-    X(21, pairs_by_kind, WordsTable, uint, pairs)                                                                              \
-    X(21, solved_contacts, WordsTable, uint, contacts)     /* those that move somebody, in any order */                        \
-    X(21, kind_starts, WordsTable, uint, kinds)            /* in pairs_by_kind, of each kind's pairs in each span */           \
+    X(21, point_counts, WordsTable, uint, pairs)            /* points of each pair's manifold; with SPECULATIVE */             \
+    X(21, pairs_by_type, WordsTable, uint, pairs)                                                                              \
+    X(21, contacts_to_solve, WordsTable, uint, contacts)   /* those that move somebody, in any order */                        \
+    X(21, pair_type_starts, WordsTable, uint, pair_types)       /* in pairs_by_type, of each kind's pairs in each span */           \
     X(21, contact_starts, WordsTable, uint, pairs_and_end) /* of each pair's contact: the contact itself, if it has one */     \
     X(21, carried, WordsTable, float, contacts)            /* where bodies may break: normal impulse in this step, N s */      \
     X(21, slot_sides, WordsTable, uint, slots)             /* whose each slot is: 2 * contact + side, or OF_JOINT | record */  \
@@ -82,12 +82,12 @@
     X(pair_starts, pair_counts) \
     X(slot_ends, slot_counts)   \
     X(slot_ends, slot_starts)   \
-    X(kind_starts, kind_counts)
+    X(pair_type_starts, pair_type_counts)
 
 // ---- tables of words that take turns in the same memory of a device: each is dead when the next is written
-#define SCREE_SHARES(X)               /* table, whose memory it takes over */        \
-    X(contact_starts, kind_starts)    /* when the pairs are sorted by kind */        \
-    X(carried, contact_starts)        /* when bodies know which contacts they own */ \
-    X(solved_contacts, pairs_by_kind) /* when all pairs have been collided */
+#define SCREE_SHARES(X)                 /* table, whose memory it takes over */        \
+    X(contact_starts, pair_type_starts) /* when the pairs are sorted by kind */        \
+    X(carried, contact_starts)          /* when bodies know which contacts they own */ \
+    X(contacts_to_solve, pairs_by_type) /* when all pairs have been collided */
 
 #endif

@@ -9,7 +9,7 @@
 #define pair_counts_offset pair_starts_offset
 #define slot_counts_offset slot_ends_offset
 #define slot_starts_offset slot_ends_offset
-#define kind_counts_offset kind_starts_offset
+#define pair_type_counts_offset pair_type_starts_offset
 
 #define WORD(table, i) words.at[PARAMETERS.table##_offset + (i)]
 #define SET_FLOAT(table, i, value) WORD(table, i) = floatBitsToUint(value)

@@ -224,8 +224,7 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
 
 TEST_CASE("canvases: both show joints alike, from host memory and from the device", "[canvas][gl]") {
     Scene scene = heap();
-    const JointKind kinds[] = {Ball{},      Hinge{},     Slider{}, Fixed{}, Distance{.least = 0, .greatest = 2},
-                               ConeTwist{}, SixDegrees{}};
+    const JointKind kinds[] = {Ball{}, Hinge{}, Slider{}, Fixed{}, Distance{.least = 0, .greatest = 2}, ConeTwist{}, SixDof{}};
     for (std::size_t i = 3; i + 1 < scene.bodies.size(); i += 2) {
         const std::size_t other = i % 5 == 0 ? the_world : i + 1;
         scene.joints.push_back(joint_at(scene, kinds[i / 2 % 7], i, other, scene.bodies[i].position + vec3(0.3f), {0, 0, 1}));
@@ -293,7 +292,7 @@ TEST_CASE("canvases: tables in host memory and on the device give the same pixel
     const Image from_memory = picture(*canvas, world, {});
     BodyTables tables = demos::tables_of(world.state());
     std::vector<std::unique_ptr<Buffer>> buffers;
-    for (TableView* const table : {&tables.traits, &tables.poses, &tables.velocities, &tables.touches, &tables.pushes}) {
+    for (TableView* const table : {&tables.properties, &tables.poses, &tables.velocities, &tables.touches, &tables.pushes}) {
         buffers.push_back(std::make_unique<Buffer>(validated_device(), "a table", table->bytes.size()));
         buffers.back()->write(table->bytes.data(), table->bytes.size());
         *table = buffers.back().get();

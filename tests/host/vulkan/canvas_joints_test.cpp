@@ -77,9 +77,9 @@ TEST_CASE("torn joints are not drawn, nor those of bodies that are not there, no
     add_pair(torn).broken = 1;
     add_pair(empty).b = 0;
     add_pair(gone);
-    gone.traits(1).motion = plain.traits(1).motion = physics::MOTION_BROKEN;
+    gone.properties(1).motion = plain.properties(1).motion = physics::MOTION_BROKEN;
     CHECK(gone.picture(with_joints(1), AHEAD).rgba == plain.picture(small(1), AHEAD).rgba);
-    plain.traits(1).motion = physics::MOTION_DYNAMIC;
+    plain.properties(1).motion = physics::MOTION_DYNAMIC;
     CHECK(torn.picture(with_joints(1), AHEAD).rgba == plain.picture(small(1), AHEAD).rgba);
     CHECK(empty.picture(with_joints(1), AHEAD).rgba == plain.picture(small(1), AHEAD).rgba);
     require_no_messages();

@@ -128,7 +128,7 @@ TEST_CASE("a body has the colour of what its contacts push, and of how many they
 TEST_CASE("a body has the colour of its spin's angular momentum, of its rest and of its material", "[canvas]") {
     Stage stage;
     add_two_boxes(stage);
-    stage.traits(0).inverse_inertia = vec3(0.5f, 0.25f, 1);
+    stage.properties(0).inverse_inertia = vec3(0.5f, 0.25f, 1);
     stage.velocity(0).angular = {0, 1.5f, 0};
     const Image spinning = stage.picture(lit_from_aside(), AHEAD, scale_of(ColorBy::angular_momentum, 0, 10));
     CHECK(has_hue(left_of(spinning), map_color(ColorMap::viridis, 0.6f)));
@@ -142,8 +142,8 @@ TEST_CASE("a body has the colour of its spin's angular momentum, of its rest and
     CHECK(has_hue(right_of(resting), map_color(ColorMap::viridis, 1)));  // asleep
     ColorScale scale = scale_of(ColorBy::material, 0, 1);
     scale.materials = {{{0.2f, 0, 1}, "smooth"}, {{0.9f, 0, 1}, "rough"}};  // 8 kg in 8 m^3
-    stage.traits(0).friction = 0.85f;
-    stage.traits(1).friction = 0.3f;
+    stage.properties(0).friction = 0.85f;
+    stage.properties(1).friction = 0.3f;
     const Image materials = stage.picture(lit_from_aside(), AHEAD, scale);
     CHECK(has_hue(left_of(materials), name_color(1)));
     CHECK(has_hue(right_of(materials), name_color(0)));

@@ -14,11 +14,11 @@
 
 namespace scree::host {
 
+using physics::BodyProperties;
 using physics::Bounds;
 using physics::Contact;
 using physics::Impulse;
 using physics::Pose;
-using physics::Traits;
 using physics::Velocity;
 
 inline std::shared_ptr<Device> validated_device() {
@@ -36,12 +36,12 @@ public:
     void add(scree::physics::uint shape, vec3 size, vec3 position, vec3 velocity = vec3(0), float mass = 1,
              glm::vec4 turn = {0, 0, 0, 1}) {
         const auto index = static_cast<std::uint32_t>(traits_.size());
-        Traits traits{};
-        traits.shape = shape;
-        traits.size = size;
-        traits.inverse_mass = mass > 0 ? 1 / mass : 0;
-        traits.motion = mass > 0 ? scree::physics::MOTION_DYNAMIC : scree::physics::MOTION_FIXED;
-        traits_.push_back(traits);
+        BodyProperties properties{};
+        properties.shape = shape;
+        properties.size = size;
+        properties.inverse_mass = mass > 0 ? 1 / mass : 0;
+        properties.motion = mass > 0 ? scree::physics::MOTION_DYNAMIC : scree::physics::MOTION_FIXED;
+        traits_.push_back(properties);
         poses_.push_back({position, 0, turn});
         velocities_.push_back({velocity, 0, vec3(0), 0});
         std::vector<std::uint32_t>* const lists[] = {&shapes_.spheres, &shapes_.capsules, &shapes_.boxes, &shapes_.planes};
@@ -54,10 +54,10 @@ public:
         touch.a = touch.b - 1;
         touch.count = 1;
         touch.normal = normal;
-        touch.d = poses_[touch.b].position - poses_[touch.a].position;
+        touch.center_offset = poses_[touch.b].position - poses_[touch.a].position;
         touch.points[0] = glm::vec4(point - poses_[touch.a].position, 0);
-        touch.turn_a = poses_[touch.a].orientation;
-        touch.turn_b = poses_[touch.b].orientation;
+        touch.orientation_a = poses_[touch.a].orientation;
+        touch.orientation_b = poses_[touch.b].orientation;
         touches_.push_back(touch);
         Impulse impulse{};
         impulse.normal.x = push;
@@ -68,7 +68,7 @@ public:
         slot_ends_ = std::move(ends);
         slot_sides_ = std::move(sides);
     }
-    Traits& traits(std::size_t body) { return traits_.at(body); }
+    BodyProperties& properties(std::size_t body) { return traits_.at(body); }
     Velocity& velocity(std::size_t body) { return velocities_.at(body); }
     void set_rest(std::size_t body, std::uint32_t rest) {
         rests_.resize(traits_.size());
@@ -113,7 +113,7 @@ public:
         table(device, ids_table_, ids_);
         tables.slot_ends = &slot_ends_table_;
         tables.slot_sides = &slot_sides_table_;
-        tables.rests = &rests_table_;
+        tables.sleep_states = &rests_table_;
         tables.bounds = &bounds_table_;
         tables.ids = &ids_table_;
         tables.joint_count = static_cast<std::uint32_t>(joints_.size());
@@ -146,7 +146,7 @@ private:
         buffer.write(records.data(), buffer.bytes());
     }
 
-    std::vector<Traits> traits_;
+    std::vector<BodyProperties> traits_;
     std::vector<Pose> poses_;
     std::vector<Velocity> velocities_;
     ShapeInstances shapes_;

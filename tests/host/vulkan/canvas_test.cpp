@@ -202,15 +202,15 @@ TEST_CASE("a canvas follows buffers that were made anew", "[canvas]") {
     const std::unique_ptr<Canvas> canvas = first.canvas(small(1));
     const Image before = canvas->draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4));
     const std::shared_ptr<Device> device = validated_device();
-    Buffer traits(device, "traits", sizeof(Traits)), poses(device, "poses", sizeof(Pose)),
+    Buffer properties(device, "properties", sizeof(BodyProperties)), poses(device, "poses", sizeof(Pose)),
         velocities(device, "velocities", sizeof(Velocity));
-    Traits body{};
+    BodyProperties body{};
     body.size = vec3(1);
     body.inverse_mass = 1;
     const Pose moved{{3, 2, 0}, 0, {0, 0, 0, 1}};
-    traits.write(&body, sizeof body);
+    properties.write(&body, sizeof body);
     poses.write(&moved, sizeof moved);
-    canvas->set_tables({&traits, &poses, &velocities});
+    canvas->set_tables({&properties, &poses, &velocities});
     CHECK(canvas->draw(AHEAD, {}, "", vec3(-4, 0, -4), vec3(4)).rgba == second.picture(small(1), AHEAD).rgba);
     CHECK(before.rgba != second.picture(small(1), AHEAD).rgba);
 }

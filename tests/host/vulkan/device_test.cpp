@@ -108,10 +108,10 @@ TEST_CASE("validation notices a mistake and forwards it") {
 TEST_CASE("synchronisation validation notices a missing barrier") {
     const auto device = Device::open({.which = "", .validation = true, .staged = false, .on_message = {}});
     const Buffer a(device, "a", 256), b(device, "b", 256), c(device, "c", 256);
-    Recording recording(device);
-    recording.copy(a, b, 256);
-    recording.copy(b, c, 256);
-    recording.end();
+    CommandBuffer commands(device);
+    commands.copy(a, b, 256);
+    commands.copy(b, c, 256);
+    commands.end();
     REQUIRE(device->validation_messages().size() == 1);
     REQUIRE_THAT(device->validation_messages()[0], Catch::Contains("READ_AFTER_WRITE") || Catch::Contains("READ-AFTER-WRITE"));
 }
@@ -150,10 +150,10 @@ TEST_CASE("a range outside a buffer is refused") {
     REQUIRE_THROWS_AS(buffer.write(data, 17), std::out_of_range);
     REQUIRE_THROWS_AS(buffer.read(data, 1, 16), std::out_of_range);
     REQUIRE_THROWS_AS(buffer.read(data, 2, ~std::size_t{0}), std::out_of_range);
-    Recording recording(device.get());
-    REQUIRE_THROWS_AS(recording.copy(buffer, buffer, 8, 12, 0), std::out_of_range);
-    REQUIRE_THROWS_AS(recording.dispatch_indirect(buffer, 8), std::out_of_range);
-    recording.end();
+    CommandBuffer commands(device.get());
+    REQUIRE_THROWS_AS(commands.copy(buffer, buffer, 8, 12, 0), std::out_of_range);
+    REQUIRE_THROWS_AS(commands.dispatch_indirect(buffer, 8), std::out_of_range);
+    commands.end();
 }
 
 TEST_CASE("a buffer larger than a binding is refused by name where it is to be bound, and found by its address") {
@@ -161,12 +161,13 @@ TEST_CASE("a buffer larger than a binding is refused by name where it is to be b
     options.largest_binding = 1000;
     const auto device = Device::open(options);
     const Buffer buffer(device, "pairs", 1001);
-    const auto bound = std::make_shared<TableLayout>(device, 1, 0);
-    REQUIRE_THROWS_WITH(Table(bound, {&buffer}), Catch::Contains("the buffer pairs of 1001") && Catch::Contains("once, 1000"));
+    const auto bound = std::make_shared<BindingSetLayout>(device, 1, 0);
+    REQUIRE_THROWS_WITH(BindingSet(bound, {&buffer}),
+                        Catch::Contains("the buffer pairs of 1001") && Catch::Contains("once, 1000"));
     REQUIRE(device->report().has_addresses);
     REQUIRE(buffer.address() != 0);
-    const auto far = std::make_shared<TableLayout>(device, 1, 0, Reach::far);
-    REQUIRE_NOTHROW(Table(far, {&buffer}));
+    const auto far = std::make_shared<BindingSetLayout>(device, 1, 0, Reach::far);
+    REQUIRE_NOTHROW(BindingSet(far, {&buffer}));
 }
 
 TEST_CASE("a moved buffer keeps its bytes and leaves an empty one") {
@@ -198,28 +199,28 @@ TEST_CASE("a dispatch with push constants reaches every item and no other") {
     const VkDispatchIndirectCommand groups{(count + group - 1) / group, 1, 1};
     arguments.write(&groups, sizeof groups, 16);
 
-    auto layout = std::make_shared<TableLayout>(device.get(), 3, 8);
-    const Table table(layout, {&inputs, &outputs, nullptr});
+    auto layout = std::make_shared<BindingSetLayout>(device.get(), 3, 8);
+    const BindingSet table(layout, {&inputs, &outputs, nullptr});
     const Pipeline pipeline(layout, "affine", affine(), {5});
-    Recording recording(device.get(), 3);
-    recording.bind(pipeline, table);
+    CommandBuffer commands(device.get(), 3);
+    commands.bind(pipeline, table);
     const Push push{count, 7};
-    recording.push(&push, sizeof push);
-    recording.timestamp();
-    indirect ? recording.dispatch_indirect(arguments, 16) : recording.dispatch(groups.x);
-    recording.barrier();
-    recording.timestamp();
-    recording.copy(outputs, inputs, 4, 4 * (room - 1), 4 * (room - 1));
-    recording.timestamp();
-    recording.end();
-    for (int again = 0; again < 2; ++again) device->submit_and_wait({recording.handle()});
-    device->submit_and_wait({recording.handle(), recording.handle()});
+    commands.push(&push, sizeof push);
+    commands.timestamp();
+    indirect ? commands.dispatch_indirect(arguments, 16) : commands.dispatch(groups.x);
+    commands.barrier();
+    commands.timestamp();
+    commands.copy(outputs, inputs, 4, 4 * (room - 1), 4 * (room - 1));
+    commands.timestamp();
+    commands.end();
+    for (int again = 0; again < 2; ++again) device->submit_and_wait({commands.handle()});
+    device->submit_and_wait({commands.handle(), commands.handle()});
 
     outputs.read(got.data(), room * 4);
     for (std::uint32_t i = 0; i < room; ++i) REQUIRE(got[i] == (i < count ? values[i] * 7 + 5 : poison));
     inputs.read(got.data(), 4, 4 * (room - 1));
     REQUIRE(got[0] == poison);
-    const std::vector<double> seconds = recording.timestamp_seconds();
+    const std::vector<double> seconds = commands.timestamp_seconds();
     REQUIRE(seconds.size() == (device->timestamp_bits() > 0 ? 2u : 0u));
     for (double s : seconds) REQUIRE((s >= 0 && s < 10));
 }
@@ -228,20 +229,20 @@ TEST_CASE("stages that feed each other through a barrier run in order") {
     const Watched device;
     const std::uint32_t count = 1000;
     Buffer a(device.get(), "a", count * 4), b(device.get(), "b", count * 4);
-    auto layout = std::make_shared<TableLayout>(device.get(), 2, 8);
-    const Table there(layout, {&a, &b}), back(layout, {&b, &a});
+    auto layout = std::make_shared<BindingSetLayout>(device.get(), 2, 8);
+    const BindingSet there(layout, {&a, &b}), back(layout, {&b, &a});
     const Pipeline pipeline(layout, "affine", affine(), {1});
-    Recording recording(device.get());
+    CommandBuffer commands(device.get());
     const Push push{count, 2};
     for (int i = 0; i < 10; ++i) {
-        recording.bind(pipeline, i % 2 == 0 ? there : back);
-        if (i == 0) recording.push(&push, sizeof push);
-        recording.dispatch((count + group - 1) / group);
-        recording.barrier();
+        commands.bind(pipeline, i % 2 == 0 ? there : back);
+        if (i == 0) commands.push(&push, sizeof push);
+        commands.dispatch((count + group - 1) / group);
+        commands.barrier();
     }
-    recording.zero(b);
-    recording.end();
-    device->submit_and_wait({recording.handle()});
+    commands.zero(b);
+    commands.end();
+    device->submit_and_wait({commands.handle()});
     std::vector<std::uint32_t> got(count);
     a.read(got.data(), count * 4);
     REQUIRE(got == std::vector<std::uint32_t>(count, 1023));
@@ -252,23 +253,23 @@ TEST_CASE("stages that feed each other through a barrier run in order") {
 TEST_CASE("wrong use of a table, a pipeline and a recording is refused with its reason") {
     const Watched device;
     const Buffer buffer(device.get(), "buffer", 16);
-    REQUIRE_THROWS_AS(TableLayout(device.get(), 1u << 30, 0), DeviceError);
-    REQUIRE_THROWS_AS(TableLayout(device.get(), 1, 1u << 20), DeviceError);
-    auto layout = std::make_shared<TableLayout>(device.get(), 2, 8);
-    REQUIRE_THROWS_AS(Table(layout, {&buffer}), std::invalid_argument);
+    REQUIRE_THROWS_AS(BindingSetLayout(device.get(), 1u << 30, 0), DeviceError);
+    REQUIRE_THROWS_AS(BindingSetLayout(device.get(), 1, 1u << 20), DeviceError);
+    auto layout = std::make_shared<BindingSetLayout>(device.get(), 2, 8);
+    REQUIRE_THROWS_AS(BindingSet(layout, {&buffer}), std::invalid_argument);
     REQUIRE_THROWS_WITH(Pipeline(layout, "broken", std::vector<std::uint32_t>{1, 2, 3}),
                         Catch::Contains("broken: not a SPIR-V module"));
-    Recording recording(device.get(), 1);
+    CommandBuffer commands(device.get(), 1);
     const Push push{1, 1};
-    REQUIRE_THROWS_AS(recording.push(&push, sizeof push), std::logic_error);
+    REQUIRE_THROWS_AS(commands.push(&push, sizeof push), std::logic_error);
     const Pipeline pipeline(layout, "affine", affine());
-    const Table table(layout, {&buffer, &buffer});
-    recording.bind(pipeline, table);
-    REQUIRE_THROWS_AS(recording.push(&push, 12), std::invalid_argument);
-    recording.timestamp();
-    REQUIRE_THROWS_AS(recording.timestamp(), std::out_of_range);
+    const BindingSet table(layout, {&buffer, &buffer});
+    commands.bind(pipeline, table);
+    REQUIRE_THROWS_AS(commands.push(&push, 12), std::invalid_argument);
+    commands.timestamp();
+    REQUIRE_THROWS_AS(commands.timestamp(), std::out_of_range);
     if (device->limits().maxComputeWorkGroupCount[0] < ~0u) {
-        REQUIRE_THROWS_AS(recording.dispatch(~0u), DeviceError);
+        REQUIRE_THROWS_AS(commands.dispatch(~0u), DeviceError);
     }
 }
 

@@ -81,7 +81,7 @@ void require_as_compiled(const StageDeclaration& stage) {
     for (const std::string& way : ways) {
         INFO("shader " << stage.name << way);
         const house::Accesses accesses = accesses_of_shader(stage.name + way);
-        CHECK(accesses.tested_bits == stage.features);
+        CHECK(accesses.tested_bits == stage.tested_features);
         const auto compiled = shader_accesses(accesses);
         for (const auto& [table, access] : compiled) {
             INFO("table " << name_of(table));
@@ -117,9 +117,9 @@ TEST_CASE("house: every shader of a stage is declared, and stands in a plan", "[
     std::set<std::string> declared, planned, recorded, compiled;
     for (const StageDeclaration& stage : stage_declarations()) CHECK(declared.insert(stage.name).second);
     // With joints the runs of stages that are one in a small world have others between them.
-    for (const Content& content : {Content::everything(), Content{}}) {
-        for (const Stage& stage : plan(2, content)) planned.insert(stage.name);
-        for (const Stage& stage : fused(plan(2, content), small, 8)) recorded.insert(stage.name);
+    for (const SceneFeatures& features : {SceneFeatures::everything(), SceneFeatures{}}) {
+        for (const Stage& stage : plan(2, features)) planned.insert(stage.name);
+        for (const Stage& stage : fused(plan(2, features), small, 8)) recorded.insert(stage.name);
     }
     CHECK(declared == planned);
     recorded.insert(planned.begin(), planned.end());
@@ -130,13 +130,13 @@ TEST_CASE("house: every shader of a stage is declared, and stands in a plan", "[
 
 TEST_CASE("house: a stage that is several in turn reads and writes no table that none of them does", "[house]") {
     const physics::Parameters small{};
-    for (const Content& content : {Content::everything(), Content{}}) {
-        for (const Stage& stage : fused(plan(2, content), small, 8)) {
+    for (const SceneFeatures& features : {SceneFeatures::everything(), SceneFeatures{}}) {
+        for (const Stage& stage : fused(plan(2, features), small, 8)) {
             if (stage.reference) continue;
             for (const std::string& way : ways) {
                 INFO("shader " << stage.name << way);
                 const house::Accesses accesses = accesses_of_shader(stage.name + way);
-                CHECK(accesses.tested_bits == stage.features);
+                CHECK(accesses.tested_bits == stage.tested_features);
                 for (const auto& [table, access] : shader_accesses(accesses)) {
                     INFO("table " << name_of(table));
                     if (access.loads) CHECK(find(stage.reads, table) != nullptr);

@@ -230,10 +230,10 @@ TEST_CASE("a window whose surface is lost makes another and shows on") {
         options.width = window.width();
         options.height = window.height();
         const auto canvas = make_vulkan_canvas(device, {}, options);
-        const std::vector<scree::physics::Traits> traits(1);
+        const std::vector<scree::physics::BodyProperties> properties(1);
         const std::vector<scree::physics::Pose> poses(1);
         const std::vector<scree::physics::Velocity> velocities(1);
-        canvas->set_tables({traits, poses, velocities});
+        canvas->set_tables({properties, poses, velocities});
         const auto shown = [&] {
             window.poll(0);
             window.begin_panel();

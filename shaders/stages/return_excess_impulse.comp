@@ -9,18 +9,18 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.broken == 0u) return;
-    if (!is_movable(READ(traits, i).motion, READ_WORD(rests, i), PARAMETERS.sleep_steps)) return;
+    if (!is_movable(READ(properties, i).motion, READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     Velocity velocity = velocities.at[i];
     uint last = READ_WORD(slot_ends, i);
     for (uint k = i == 0u ? 0u : READ_WORD(slot_ends, i - 1u); k < last; ++k) {
         if ((READ_WORD(slot_sides, k) & OF_JOINT) != 0u) continue;
         uint contact = READ_WORD(slot_sides, k) >> 1u;
         Constraint c = READ(constraints, contact);
-        float kept = smaller(READ(loads, c.a).kept, READ(loads, c.b).kept);
+        float kept = smaller(READ(forces, c.a).kept, READ(forces, c.b).kept);
         float impulse = READ_FLOAT(carried, contact);
         if (!(kept < 1.0f) || !(impulse > 0.0f)) continue;
         velocity = given_back(velocity, READ(masses, i), c, READ(impulses, contact), READ_WORD(slot_sides, k) & 1u,
                               impulse * (1.0f - kept));
     }
-    velocities.at[i] = limited(velocity, PARAMETERS);
+    velocities.at[i] = clamp_velocity(velocity, PARAMETERS);
 }

@@ -8,7 +8,7 @@
 void main() {
     uint i = thread();
     if (i < PARAMETERS.first_part || i >= PARAMETERS.bodies || COUNTED.overflow != 0u) return;
-    Traits body = READ(traits, i);
+    BodyProperties body = READ(properties, i);
     if (motion_of(body) == MOTION_FIXED) return;
     PoseInBody part = part_in(i);
     Pose owner = poses.at[body.owner];

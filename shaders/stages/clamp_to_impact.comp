@@ -8,9 +8,9 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.fast == 0u) return;
-    float stop = stop_of(READ(bounds, i).flight);
-    if (stop >= 1.0f || READ(traits, i).joints != NONE) return;
-    Halted after = halted(READ(bounds, i).flight, poses.at[i], velocities.at[i], READ(loads, i), stop);
+    float stop = stop_of(READ(bounds, i).sweep);
+    if (stop >= 1.0f || READ(properties, i).joints != NONE) return;
+    ClampedMotion after = clamp_motion(READ(bounds, i).sweep, poses.at[i], velocities.at[i], READ(forces, i), stop);
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
 }

@@ -7,8 +7,8 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTED.pairs || (WORD(touching, i) & DOUBTFUL) == 0u) return;
+    if (i >= COUNTED.pairs || (WORD(point_counts, i) & SPECULATIVE) == 0u) return;
     bool struck =
-        (READ(bounds, body_of(READ(pairs, i).a)).flight.struck | READ(bounds, body_of(READ(pairs, i).b)).flight.struck) != 0u;
-    WORD(touching, i) = struck ? WORD(touching, i) & ~DOUBTFUL : 0u;
+        (READ(bounds, body_of(READ(pairs, i).a)).sweep.struck | READ(bounds, body_of(READ(pairs, i).b)).sweep.struck) != 0u;
+    WORD(point_counts, i) = struck ? WORD(point_counts, i) & ~SPECULATIVE : 0u;
 }

@@ -7,11 +7,11 @@
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
-    uint i = thread() + COUNTED.kind_first[KIND_STILL];
-    if (i >= COUNTED.kind_first[KIND_STILL + 1u]) return;
-    uint index = READ_WORD(pairs_by_kind, i);
+    uint i = thread() + COUNTED.pair_type_first[PAIR_INACTIVE];
+    if (i >= COUNTED.pair_type_first[PAIR_INACTIVE + 1u]) return;
+    uint index = READ_WORD(pairs_by_type, i);
     uint previous = READ(pairs, index).previous;
     Contact contact = READ(contacts_before, previous);
     manifolds.at[index] = resting_manifold(contact, READ(impulses_before, previous));
-    WORD(touching, index) = contact.count;
+    WORD(point_counts, index) = contact.count;
 }

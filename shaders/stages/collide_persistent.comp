@@ -7,11 +7,11 @@
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
-    uint i = thread() + COUNTED.kind_first[KIND_KEPT];
-    if (i >= COUNTED.kind_first[KIND_KEPT + 1u]) return;
-    uint index = READ_WORD(pairs_by_kind, i);
+    uint i = thread() + COUNTED.pair_type_first[PAIR_PERSISTENT];
+    if (i >= COUNTED.pair_type_first[PAIR_PERSISTENT + 1u]) return;
+    uint index = READ_WORD(pairs_by_type, i);
     Pair pair = READ(pairs, index);
     Contact contact = READ(contacts_before, pair.previous);
-    manifolds.at[index] = kept_manifold(contact, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b)));
-    WORD(touching, index) = contact.count;
+    manifolds.at[index] = persistent_manifold(contact, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b)));
+    WORD(point_counts, index) = contact.count;
 }

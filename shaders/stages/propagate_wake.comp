@@ -6,8 +6,8 @@
 #include "shaders/stages/lib/stage.glsl"
 
 void shake(uint by, uint other) {
-    if (shakes(WORD(rests, by), push.pass) && READ(traits, other).motion == MOTION_DYNAMIC)
-        atomicOr(WORD(rests, other), shaking_bit(push.pass - 1u));
+    if (shakes(WORD(sleep_states, by), push.pass) && READ(properties, other).motion == MOTION_DYNAMIC)
+        atomicOr(WORD(sleep_states, other), shaking_bit(push.pass - 1u));
 }
 
 void main() {

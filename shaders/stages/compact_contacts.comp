@@ -6,13 +6,13 @@
 
 void main() {
     uint i = thread();
-    if (i >= COUNTED.pairs || READ_WORD(touching, i) == 0u) return;
+    if (i >= COUNTED.pairs || READ_WORD(point_counts, i) == 0u) return;
     uint contact = READ_WORD(contact_starts, i);
     constraints.at[contact].pair = i;
     constraints.at[contact].slot_a = NONE;
     constraints.at[contact].slot_b = NONE;
     if (!REORDERED) return;
-    // Until it is prepared, who owns it: order_slots asks.
+    // Until it is prepared, who owns it: sort_slots asks.
     Pair pair = READ(pairs, i);
     bool is_a = READ_WORD(pair_starts, pair.a) <= i && i < READ_WORD(pair_starts, pair.a + 1u);
     constraints.at[contact].a = id_of(is_a ? pair.a : pair.b);

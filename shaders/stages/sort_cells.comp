@@ -20,6 +20,6 @@ void main() {
         Bounds around = READ(bounds, body);
         cell_entries.at[k].lower = around.lower;
         cell_entries.at[k].upper = around.upper;
-        cell_entries.at[k].level = level_of_entry(around.level, READ(traits, body));
+        cell_entries.at[k].level = level_of_entry(around.level, READ(properties, body));
     }
 }

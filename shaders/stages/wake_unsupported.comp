@@ -15,7 +15,7 @@ bool owner_touches(uint owner, uint other) {
     while (low < high) {
         uint middle = (low + high) >> 1;
         uint partner = READ(pairs, middle).a == owner ? READ(pairs, middle).b : READ(pairs, middle).a;
-        if (partner == other) return READ_WORD(touching, middle) != 0u;
+        if (partner == other) return READ_WORD(point_counts, middle) != 0u;
         if (id_of(partner) < id)
             low = middle + 1u;
         else
@@ -27,16 +27,16 @@ bool owner_touches(uint owner, uint other) {
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.sleepers == 0u || !any_stirs(COUNTED)) return;
-    bool own_still = (READ(bounds, i).level & STILL) != 0u;
+    bool own_still = (READ(bounds, i).level & INACTIVE) != 0u;
     uint last = READ_WORD(first_contacts, i + 1u);
     for (uint k = READ_WORD(first_contacts, i); k < last; ++k) {
         uint a = READ(contacts_before, k).a;
         uint other = a == i ? READ(contacts_before, k).b : a;
-        if (((READ(bounds, other).level & STILL) != 0u) == own_still) continue;
+        if (((READ(bounds, other).level & INACTIVE) != 0u) == own_still) continue;
         uint sleeper = body_of(own_still ? i : other);
-        if (!has_slept(WORD(rests, sleeper), PARAMETERS.sleep_steps)) continue;
+        if (!has_slept(WORD(sleep_states, sleeper), PARAMETERS.sleep_steps)) continue;
         if (owner_touches(i, other) || owner_touches(other, i)) continue;
-        if (load_changed(0.0f, READ(contacts_before, k).load, READ(traits, sleeper), PARAMETERS))
-            atomicOr(WORD(rests, sleeper), WOKEN);
+        if (load_changed(0.0f, READ(contacts_before, k).load, READ(properties, sleeper), PARAMETERS))
+            atomicOr(WORD(sleep_states, sleeper), WOKEN);
     }
 }
