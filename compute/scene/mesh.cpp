@@ -190,7 +190,7 @@ std::string oddities(const MeshForm& form) {
     say(form.dropped, "triangle", "triangles", " without area, or repeated, left out");
     say(form.open, "open edge", "open edges", ": what rolls over one leaves the mesh");
     say(form.branching, "edge", "edges",
-        " where more than two triangles meet, or two that face opposite ways: seams there may be felt");
+        " where more than two triangles meet, or two that face opposite ways; bodies may catch on these edges");
     say(crossing_triangles(form), "triangle", "triangles",
         " that cut through another: what gets between their faces is pushed both ways");
     return text;

@@ -109,7 +109,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
         from[rows[id]] = row_of(id);
         to[row_of(id)] = rows[id];
     }
-    // All that wants memory first: whoever runs out of it finds every body where it was.
+    // Allocate first, for the strong exception guarantee.
     std::vector<std::uint32_t> by_id = rows;
     // One for every table: new memory takes longer than what is done to it.
     std::vector<std::byte> scratch(n * sizeof(physics::BodyProperties));

@@ -171,7 +171,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
 void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, in_parts({slots})},
+        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}},
@@ -190,7 +190,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
          {velocities, A::movers}, {properties}, {sleep_states}},
         {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_BREAKING});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, in_parts({slots}), {properties}, {sleep_states}},
+        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {properties}, {sleep_states}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
@@ -251,6 +251,13 @@ bool clash(const std::vector<Access>& some, const std::vector<Access>& others) {
         });
     });
 }
+// Validation tells hazards by buffers: other tables in the same one wait as well where one is read and one is written.
+bool clash_in_a_buffer(const std::vector<Access>& reads, const std::vector<Access>& writes) {
+    return std::any_of(reads.begin(), reads.end(), [&](const Access& a) {
+        return std::any_of(writes.begin(), writes.end(),
+                           [&](const Access& b) { return a.table != b.table && share_buffer(a.table, b.table); });
+    });
+}
 
 std::vector<Access> all_reads(const StageDeclaration& stage) {
     std::vector<Access> reads = stage.reads;
@@ -285,7 +292,9 @@ const char* name_of_pair_type(std::uint32_t pair_type) {
 }
 
 bool conflict(const StageDeclaration& before, const StageDeclaration& after) {
-    return clash(before.writes, all_reads(after)) || clash(before.writes, after.writes) || clash(all_reads(before), after.writes);
+    const std::vector<Access> before_reads = all_reads(before), after_reads = all_reads(after);
+    return clash(before.writes, after_reads) || clash(before.writes, after.writes) || clash(before_reads, after.writes) ||
+           clash_in_a_buffer(after_reads, before.writes) || clash_in_a_buffer(before_reads, after.writes);
 }
 
 }  // namespace scree

@@ -45,6 +45,13 @@ const std::array<BufferInfo, buffer_count>& buffer_infos() {
     return infos;
 }
 
+bool share_buffer(Table one, Table other) {
+#define SCREE_BUFFER(buffer, name, block, record, length) buffer,
+    static constexpr std::array buffers{SCREE_TABLES(SCREE_BUFFER)};
+#undef SCREE_BUFFER
+    return buffers[index_of(one)] == buffers[index_of(other)];
+}
+
 bool share_memory(Table one, Table other) {
     return first_owner(one) == first_owner(other);
 }

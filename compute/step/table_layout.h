@@ -19,6 +19,8 @@ struct BufferInfo {
 };
 const std::array<BufferInfo, buffer_count>& buffer_infos();  // by binding
 
+// Whether two tables lie in one buffer.
+bool share_buffer(Table one, Table other);
 // Whether two tables are one, or take turns in the same memory.
 bool share_memory(Table one, Table other);
 

@@ -73,7 +73,7 @@ void World::Impl::make_room_for_lists() {
 }
 
 void World::Impl::step() {
-    if (broken) throw std::logic_error("a step of this world failed for want of memory: it can be read, but goes no further");
+    if (broken) throw std::logic_error("a previous step ran out of memory; the world can be read but not stepped");
     broken = true;
     keep_order();
     take_up_grips();

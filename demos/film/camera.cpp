@@ -43,7 +43,7 @@ std::size_t body_named(const std::string& word, const Scene& scene) {
         }
     }
     if (std::holds_alternative<Plane>(scene.bodies[index].shape)) {
-        throw UsageError(fmt::format("--camera follow:{}: is a plane, which goes nowhere; name another body", word));
+        throw UsageError(fmt::format("--camera follow:{}: cannot follow a plane; choose a body that moves", word));
     }
     return index;
 }

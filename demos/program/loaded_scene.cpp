@@ -22,7 +22,7 @@ namespace scree::demos {
 namespace {
 
 // What a body takes while it is simulated: the scene itself, the tables of a step on the host and on the device, room for its
-// contacts. Too small, and a run ends half way for want of memory.
+// contacts. Too small, and a run ends half way, out of memory.
 constexpr double bytes_per_body = 7000;
 
 // Memory that this process may still take: what the system says is available, or less if a limit is set.

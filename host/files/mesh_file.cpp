@@ -207,7 +207,7 @@ private:
     void add_node(int index, const glm::dmat4& above, int depth) {
         const std::string place = "/nodes/" + std::to_string(index);
         if (index < 0 || static_cast<std::size_t>(index) >= model_.nodes.size()) source_.refuse(place + ": there is none");
-        if (depth > 100) source_.refuse(place + ": nodes lie in each other in a circle");
+        if (depth > 100) source_.refuse(place + ": the node hierarchy contains a cycle");
         if (++nodes_ > most_nodes)
             source_.refuse(place + ": with it the scene has more than " + std::to_string(most_nodes) +
                            " nodes, those with several parents counted for each; give every node one parent, or write the mesh "

@@ -49,7 +49,7 @@ std::filesystem::path target_of(const std::filesystem::path& path, const char* s
     if (fs::exists(status)) refuse("is not a regular file, and only such can be replaced by a whole video");
     fs::path target = path;
     for (int links = 0; fs::is_symlink(target, ignored); ++links) {  // to what is not there yet
-        if (links == 40) refuse("is a link that leads in a circle");
+        if (links == 40) refuse("is a symbolic link that leads back to itself");
         target = target.parent_path() / fs::read_symlink(target);
     }
     return target;

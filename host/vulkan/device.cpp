@@ -27,7 +27,7 @@ const char* result_name(VkResult result) {
         case VK_ERROR_INITIALIZATION_FAILED:
             return "VK_ERROR_INITIALIZATION_FAILED (the driver does not start)";
         case VK_ERROR_DEVICE_LOST:
-            return "VK_ERROR_DEVICE_LOST (the driver gave up, mostly because one submission took too long)";
+            return "VK_ERROR_DEVICE_LOST (device lost; usually a dispatch exceeded the driver's watchdog timeout)";
         case VK_ERROR_MEMORY_MAP_FAILED:
             return "VK_ERROR_MEMORY_MAP_FAILED";
         case VK_ERROR_LAYER_NOT_PRESENT:

@@ -37,16 +37,16 @@ std::vector<std::uint32_t> shuffled(const Scene& scene, std::mt19937& chance) {
 std::size_t check_shuffled(const Scene& given, std::shared_ptr<host::Device> device, int steps, const Settings& settings = {}) {
     const Scene scene = checked(given);
     World plain(scene, settings, 1);
-    Lockstep wake_contacts(scene, settings, device, 1);
+    Lockstep shaken(scene, settings, device, 1);
     std::mt19937 chance(3);
     std::size_t asleep = 0;
     for (int i = 0; i < steps; ++i) {
         if (i % 4 == 1) {
             const std::vector<std::uint32_t> rows = shuffled(scene, chance);
-            wake_contacts.change([&](State& state) { state.reorder(rows, Threads(2)); });
+            shaken.change([&](State& state) { state.reorder(rows, Threads(2)); });
         }
-        wake_contacts.step();
-        const LockstepResult& result = wake_contacts.result();
+        shaken.step();
+        const LockstepResult& result = shaken.result();
         INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
                      << result.detail);
         REQUIRE(result.equal);

@@ -57,7 +57,7 @@ Scene columns(unsigned boxes) {
 
 struct Seen {
     std::size_t asleep = 0;                    // most at any time
-    std::size_t woken = 0, wake_contacts = 0;  // all in all
+    std::size_t woken = 0, shaken = 0;  // all in all
 };
 
 Seen walk(const Scene& scene, const Settings& settings, const Watched& watched, int steps) {
@@ -99,7 +99,7 @@ TEST_CASE("bodies fall asleep and are struck with the same bits on both processo
     }
 }
 
-TEST_CASE("columns fall asleep, are struck and wake_contacts with the same bits on both processors") {
+TEST_CASE("columns fall asleep, are struck and shaken with the same bits on both processors") {
     const Watched watched;
     Settings light;
     light.sleep_time = 0.08f;

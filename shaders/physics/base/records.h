@@ -59,9 +59,8 @@ struct Tyre {
 };
 
 // ---- bodies, state
-// A position is the sum of a float and a rest below its last bit (compensated summation, Kahan 1965): a substep moves a body by
-// so little that the rounding of the sum, always to the same side, would else change its speed by 1e-4 and the angular momentum
-// with it. The rest fills the records' gaps.
+// Positions use compensated summation (Kahan 1965): a substep moves a body by so little that rounding, always to the same side,
+// would otherwise change its speed by 1e-4, and the angular momentum with it. The low-order term is stored in the vec3 padding.
 struct Pose {
     vec3 position;     // of the centre of mass, m
     float low_x;       // m

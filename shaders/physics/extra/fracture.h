@@ -1,10 +1,11 @@
 // When a body breaks, and what becomes of its motion.
 //
-// How a body comes apart is known before the first step: its pieces have rows of their own, which are nowhere until then. It
-// breaks at the end of the step in which one contact has carried more than its threshold: the normal impulse that the contact
-// handed it in this step and the greatest that one handed it in the step before, because a blow that falls between two steps is
-// one blow. So a load that stays counts twice what it presses with in a step. A threshold of momentum is that of the body itself
-// as the step began; it breaks if it had more, and a contact takes at least a tenth of the threshold from it.
+// How a body comes apart is known before the first step: fragments are pre-allocated and inactive, so fracture needs no
+// allocation and no host round trip. It breaks at the end of the step in which one contact has carried more than its threshold:
+// the normal impulse that the contact handed it in this step and the greatest that one handed it in the step before, because a
+// blow that falls between two steps is one blow. So a load that stays counts twice what it presses with in a step. A threshold of
+// momentum is that of the body itself as the step began; it breaks if it had more, and a contact takes at least a tenth of the
+// threshold from it.
 //
 // A body that breaks cannot bear more than its threshold. So of what its contacts carried in that step they keep the part
 // threshold / impulse, and the rest is given back, to both bodies at one place and in opposite directions: what strikes a pane
