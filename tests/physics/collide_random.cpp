@@ -53,7 +53,7 @@ TEST_CASE("random poses give finite points and unit normals", "[collide]") {
 
 TEST_CASE("poses on a lattice, where axes are parallel and features coincide, give finite points and unit normals", "[collide]") {
     const std::vector<BodyProperties> bodies = {sphere(0.5f), capsule(0.5f, 0.5f), capsule(0.25f, 0.0f), box(0.5f, 0.5f, 0.5f),
-                                        box(1, 0.5f, 0.25f)};
+                                                box(1, 0.5f, 0.25f)};
     const BodyProperties ground = plane(vec3(0, 1, 0));
     std::vector<vec4> orientations;
     for (int k = 0; k < 4; ++k) {
@@ -134,7 +134,8 @@ TEST_CASE("a body and its mirror role feel the same touch", "[collide]") {
         for (int k = 0; k < 5000; ++k) {
             const Case c = random_case(chance, {shape, shape, ""});
             const ManifoldBuffer one = collide(c.a, c.pose_a, c.b, c.pose_b, margin);
-            const ManifoldBuffer other = flipped(collide(c.b, c.pose_b, c.a, c.pose_a, margin), c.pose_a.position - c.pose_b.position);
+            const ManifoldBuffer other =
+                flipped(collide(c.b, c.pose_b, c.a, c.pose_a, margin), c.pose_a.position - c.pose_b.position);
             if (one.count == 0 && other.count == 0) continue;
             ++touching;
             const bool alike = one.count == other.count && std::abs(deepest_of(one) - deepest_of(other)) < 2e-5f &&

@@ -4,9 +4,9 @@
 #include <span>
 #include <vector>
 
-#include "compute/step/scene_compiler.h"
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
+#include "compute/step/scene_compiler.h"
 #include "compute/world.h"
 #include "shaders/physics/extra/sleep.h"
 #include "tests/world/heaps.h"
@@ -56,7 +56,7 @@ Scene columns(unsigned boxes) {
 }
 
 struct Seen {
-    std::size_t asleep = 0;                    // most at any time
+    std::size_t asleep = 0;             // most at any time
     std::size_t woken = 0, shaken = 0;  // all in all
 };
 

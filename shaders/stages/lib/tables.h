@@ -45,7 +45,7 @@
     X(21, point_counts, WordsTable, uint, pairs)            /* points of each pair's manifold; with SPECULATIVE */             \
     X(21, pairs_by_type, WordsTable, uint, pairs)                                                                              \
     X(21, contacts_to_solve, WordsTable, uint, contacts)   /* those that move somebody, in any order */                        \
-    X(21, pair_type_starts, WordsTable, uint, pair_types)       /* in pairs_by_type, of each kind's pairs in each span */           \
+    X(21, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, of each kind's pairs in each span */           \
     X(21, contact_starts, WordsTable, uint, pairs_and_end) /* of each pair's contact: the contact itself, if it has one */     \
     X(21, carried, WordsTable, float, contacts)            /* where bodies may break: normal impulse in this step, N s */      \
     X(21, slot_sides, WordsTable, uint, slots)             /* whose each slot is: 2 * contact + side, or OF_JOINT | record */  \
