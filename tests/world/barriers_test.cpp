@@ -53,8 +53,7 @@ TEST_CASE("barriers: only stages that do not disturb each other run side by side
     Names joined;
     for (const std::string& names : without_barrier(plan(3, SceneFeatures::everything())))
         if (!names.starts_with("collide_")) joined.insert(names);
-    CHECK(joined == Names{"count_slots | count_joint_slots", "fill_slots | fill_joint_slots", "prepare_contacts | prepare_joints",
-                          "relax_contacts | relax_joints", "wake_touched | wake_unsupported"});
+    CHECK(joined == Names{"prepare_contacts | prepare_joints"});  // others share the buffer of words
 }
 
 TEST_CASE("barriers: stages that are several in turn wait for each other") {
