@@ -8,8 +8,8 @@
 // In the laws of the solver a float, uint or bool may so be one of each of several contacts, which go the same way through the
 // text. So they say choose(condition, a, b) for what some contacts take and others do not, and branch on none(condition) alone,
 // where a part of the text is for no contact; an int is the same for all of them.
-#ifndef SCREE_PHYSICS_LANGUAGE_H
-#define SCREE_PHYSICS_LANGUAGE_H
+#ifndef SCREE_PHYSICS_DIALECT_H
+#define SCREE_PHYSICS_DIALECT_H
 
 #if defined(SCREE_LANES)
 // the includer has said what the words mean

@@ -2,8 +2,8 @@
 //
 // A list that would outgrow its buffer is known from its count alone, before anything is written. Then everything after it does
 // nothing, the bodies stay as they were, and the host grows the buffer and runs the step again: no contact is ever dropped.
-#ifndef SCREE_PHYSICS_COUNTS_H
-#define SCREE_PHYSICS_COUNTS_H
+#ifndef SCREE_PHYSICS_WORK_COUNTS_H
+#define SCREE_PHYSICS_WORK_COUNTS_H
 
 #include "shaders/physics/base/records.h"
 

@@ -3,8 +3,8 @@
 // Whatever touches is a row: a body of one convex shape, a part of a compound, a triangle of a mesh. Pairs, and the contacts of
 // the last step, are known by their rows, so several contacts of two bodies each find what they were. All that moves, sleeps and
 // wakes is a body: what touches a part touches its owner, and is counted from the owner's centre.
-#ifndef SCREE_PHYSICS_PARTS_H
-#define SCREE_PHYSICS_PARTS_H
+#ifndef SCREE_PHYSICS_COMPOUND_H
+#define SCREE_PHYSICS_COMPOUND_H
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"

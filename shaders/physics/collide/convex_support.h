@@ -1,6 +1,6 @@
 // What all convex shapes can be asked alike: how far they reach in a direction, and what faces they have.
-#ifndef SCREE_PHYSICS_SOLID_H
-#define SCREE_PHYSICS_SOLID_H
+#ifndef SCREE_PHYSICS_CONVEX_SUPPORT_H
+#define SCREE_PHYSICS_CONVEX_SUPPORT_H
 
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/extra/sweep.h"

@@ -1,6 +1,6 @@
 // How far two bodies are apart, and along which axis: the distance of round shapes, for two boxes a lower bound of it.
-#ifndef SCREE_PHYSICS_GAP_H
-#define SCREE_PHYSICS_GAP_H
+#ifndef SCREE_PHYSICS_DISTANCE_H
+#define SCREE_PHYSICS_DISTANCE_H
 
 #include "shaders/physics/collide/collide_box_box.h"
 #include "shaders/physics/collide/collide_box_plane.h"

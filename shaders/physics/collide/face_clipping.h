@@ -1,6 +1,6 @@
 // The part of a face that another body's face, edge or corner lies over, and its four points that hold best.
-#ifndef SCREE_PHYSICS_PATCH_H
-#define SCREE_PHYSICS_PATCH_H
+#ifndef SCREE_PHYSICS_FACE_CLIPPING_H
+#define SCREE_PHYSICS_FACE_CLIPPING_H
 
 #include "shaders/physics/collide/convex_support.h"
 #include "shaders/physics/collide/manifold.h"

@@ -1,7 +1,7 @@
 // The way between two convex cores that are apart: the algorithm of Gilbert, Johnson and Keerthi (IEEE J. Robotics and Automation
 // 4, 1988), with the nearest point of a simplex by its Voronoi regions (Ericson, Real-Time Collision Detection, 2005, 5.1).
-#ifndef SCREE_PHYSICS_NEAREST_H
-#define SCREE_PHYSICS_NEAREST_H
+#ifndef SCREE_PHYSICS_GJK_H
+#define SCREE_PHYSICS_GJK_H
 
 #include "shaders/physics/collide/convex_support.h"
 

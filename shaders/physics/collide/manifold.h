@@ -1,6 +1,6 @@
 // How a Touch is put together, and how it reads from the other body's side.
-#ifndef SCREE_PHYSICS_TOUCH_H
-#define SCREE_PHYSICS_TOUCH_H
+#ifndef SCREE_PHYSICS_MANIFOLD_H
+#define SCREE_PHYSICS_MANIFOLD_H
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"

@@ -1,6 +1,6 @@
 // Which four of up to eight points hold a body best.
-#ifndef SCREE_PHYSICS_REDUCE_H
-#define SCREE_PHYSICS_REDUCE_H
+#ifndef SCREE_PHYSICS_MANIFOLD_REDUCTION_H
+#define SCREE_PHYSICS_MANIFOLD_REDUCTION_H
 
 #include "shaders/physics/collide/rectangle_clipping.h"
 

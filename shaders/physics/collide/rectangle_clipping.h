@@ -1,6 +1,6 @@
 // What a parallelogram and a rectangle have in common: one box's face seen against another's.
-#ifndef SCREE_PHYSICS_CLIP_H
-#define SCREE_PHYSICS_CLIP_H
+#ifndef SCREE_PHYSICS_RECTANGLE_CLIPPING_H
+#define SCREE_PHYSICS_RECTANGLE_CLIPPING_H
 
 #include "shaders/physics/base/arithmetic.h"
 

@@ -7,8 +7,8 @@
 // of optimisation a proximal point method, Rockafellar, SIAM J. Control and Optimization 14, 1976). So discs, cones and polyhedra
 // need nothing but their supports, and edges need no list. Of an axis of polyhedra one look tells that it will not change: what
 // the bodies push against each other with lies over the face, or the origin over the triangle of their difference.
-#ifndef SCREE_PHYSICS_SEPARATION_H
-#define SCREE_PHYSICS_SEPARATION_H
+#ifndef SCREE_PHYSICS_SEPARATING_AXIS_H
+#define SCREE_PHYSICS_SEPARATING_AXIS_H
 
 #include "shaders/physics/collide/gjk.h"
 

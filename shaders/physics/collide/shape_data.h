@@ -10,8 +10,8 @@
 // way, and which of its faces may look that way: sixteen bytes each. The vertices: how many, and their numbers; none (0) where
 // more than fifteen may. The faces: how many, how much the others look that way at most (cosine_of), and the numbers. (A cube map
 // of a polytope's normal fan; compute/scene/hull_cells.h.)
-#ifndef SCREE_PHYSICS_HULLS_H
-#define SCREE_PHYSICS_HULLS_H
+#ifndef SCREE_PHYSICS_SHAPE_DATA_H
+#define SCREE_PHYSICS_SHAPE_DATA_H
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"

@@ -1,6 +1,6 @@
 // A body that the user holds: its point is drawn to a place by a damped spring, as strong as the body is heavy.
-#ifndef SCREE_PHYSICS_GRIP_H
-#define SCREE_PHYSICS_GRIP_H
+#ifndef SCREE_PHYSICS_GRAB_SPRING_H
+#define SCREE_PHYSICS_GRAB_SPRING_H
 
 #include "shaders/physics/solve/motion.h"
 

@@ -10,8 +10,8 @@
 // changed since it fell asleep: that is how support withdrawn, and a weight added, reach a sleeper that stays put. A blow runs
 // further than one body within a step, so it shakes sleepers behind the two that meet, through awake bodies too: these may move
 // in this step, and sleep on if it turns out that they hardly did.
-#ifndef SCREE_PHYSICS_REST_H
-#define SCREE_PHYSICS_REST_H
+#ifndef SCREE_PHYSICS_SLEEP_H
+#define SCREE_PHYSICS_SLEEP_H
 
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/mass_splitting.h"

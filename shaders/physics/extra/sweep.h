@@ -6,8 +6,8 @@
 // are stopped where their ways meet (find_impacts.comp), or where they leave the bounds in which their neighbours were searched.
 // A stopped body keeps its velocity and goes on in the next step, which finds its contact (the way of Box2D and Box3D, Erin
 // Catto, Continuous Collision, GDC 2013).
-#ifndef SCREE_PHYSICS_FLIGHT_H
-#define SCREE_PHYSICS_FLIGHT_H
+#ifndef SCREE_PHYSICS_SWEEP_H
+#define SCREE_PHYSICS_SWEEP_H
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"

@@ -3,8 +3,8 @@
 // Both go on until the gap between them, at the speed at which it can close at most, could be gone; there it is measured anew
 // (Mirtich, Impulse-based Dynamic Simulation, PhD thesis, Berkeley 1996). The gap along a fixed axis never exceeds the distance,
 // so only the speed along the axis counts: what flies past is done with in a few rounds.
-#ifndef SCREE_PHYSICS_IMPACT_H
-#define SCREE_PHYSICS_IMPACT_H
+#ifndef SCREE_PHYSICS_TIME_OF_IMPACT_H
+#define SCREE_PHYSICS_TIME_OF_IMPACT_H
 
 #include "shaders/physics/collide/distance.h"
 #include "shaders/physics/extra/sweep.h"

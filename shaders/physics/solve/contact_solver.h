@@ -29,8 +29,8 @@
 //   momentum on the warm start, b = 0.3; 0.5            0.148; 0.147   0.044; 0.043   0.024; 0.023
 // Momentum (l + b (l - l before), dropped where the change turns about) would win a tenth in the buildings for 32 bytes more in
 // every contact; piles came to rest no sooner. Sixteen substeps win more: 0.06 m for the column.
-#ifndef SCREE_PHYSICS_BLOCK_H
-#define SCREE_PHYSICS_BLOCK_H
+#ifndef SCREE_PHYSICS_CONTACT_SOLVER_H
+#define SCREE_PHYSICS_CONTACT_SOLVER_H
 
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"
@@ -83,8 +83,8 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
 }
 
 // A tyre that bears nothing holds nothing; these keep its rows within what a float holds.
-CONSTANT float LEAST_HOLD = 1.0e-20f;                // N s
-CONSTANT float MAX_INVERSE_EFFECTIVE_MASS = 1.0e6f;  // of what the bodies give
+CONSTANT float LEAST_HOLD = 1.0e-20f;    // N s
+CONSTANT float MAX_COMPLIANCE = 1.0e6f;  // times the inverse effective mass of the bodies
 
 // Friction of the patch: twist about the normal, then slip within the circular cone |f| <= mu n.
 LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
@@ -116,13 +116,12 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     float slip1 = speed_along(row1, s.pair_velocity) * unit, slip2 = speed_along(row2, s.pair_velocity) * unit;
     bool slips = c.radius_a > 0.0f;
     if (!none(slips)) {
-        // A tyre (tyre.h): slip + give * impulse = 0, in the same units.
-        float inverse_effective_mass =
-            smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MAX_INVERSE_EFFECTIVE_MASS);
-        k11 = choose(slips, k11 + inverse_effective_mass, k11);
-        k22 = choose(slips, k22 + inverse_effective_mass, k22);
-        slip1 = choose(slips, slip1 + inverse_effective_mass * dot3(t1, s.impulse.friction), slip1);
-        slip2 = choose(slips, slip2 + inverse_effective_mass * dot3(t2, s.impulse.friction), slip2);
+        // A tyre (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
+        float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MAX_COMPLIANCE);
+        k11 = choose(slips, k11 + compliance, k11);
+        k22 = choose(slips, k22 + compliance, k22);
+        slip1 = choose(slips, slip1 + compliance * dot3(t1, s.impulse.friction), slip1);
+        slip2 = choose(slips, slip2 + compliance * dot3(t2, s.impulse.friction), slip2);
     }
     float inverse = reciprocal(k11 * k22 - k12 * k12);
     vec3 wanted = t1 * ((k22 * slip1 - k12 * slip2) * inverse) + t2 * ((k11 * slip2 - k12 * slip1) * inverse);

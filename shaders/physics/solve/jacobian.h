@@ -1,6 +1,6 @@
 // How two bodies push each other at a point: lever arms, what a push does to either, and with what mass they meet it.
-#ifndef SCREE_PHYSICS_ROW_H
-#define SCREE_PHYSICS_ROW_H
+#ifndef SCREE_PHYSICS_JACOBIAN_H
+#define SCREE_PHYSICS_JACOBIAN_H
 
 #include "shaders/physics/base/inertia.h"
 

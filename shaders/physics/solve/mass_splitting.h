@@ -9,8 +9,8 @@
 // the edge of touching drove columns of ten boxes to and fro at 3 to 80 mm/s for ever. So the number of contacts among which a
 // body is shared lags behind those that carry: it rises by a hundredth part a step (at once to what the iteration needs to
 // converge), and falls by as much in four steps. One contact alone has the whole body at once: blows are exact.
-#ifndef SCREE_PHYSICS_CROWD_H
-#define SCREE_PHYSICS_CROWD_H
+#ifndef SCREE_PHYSICS_MASS_SPLITTING_H
+#define SCREE_PHYSICS_MASS_SPLITTING_H
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"

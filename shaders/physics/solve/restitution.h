@@ -9,8 +9,8 @@
 // The positions of a body that falls in substeps (v += g h, x += v h) lie on a parabola exactly, but one whose speed is v + g h /
 // 2 on the way down and v - g h / 2 on the way up: e times v alone would lose g h of the speed in every bounce (1% of the height
 // from 1 m at 480 Hz). So the speed is taken from that parabola where it meets the surface, and handed to the one that leaves.
-#ifndef SCREE_PHYSICS_BLOW_H
-#define SCREE_PHYSICS_BLOW_H
+#ifndef SCREE_PHYSICS_RESTITUTION_H
+#define SCREE_PHYSICS_RESTITUTION_H
 
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"

@@ -1,6 +1,6 @@
 // The pairs of one span by their kinds: counted, and, when the counts are summed, listed.
-#ifndef SCREE_STAGES_KINDS_GLSL
-#define SCREE_STAGES_KINDS_GLSL
+#ifndef SCREE_STAGES_PAIR_TYPES_GLSL
+#define SCREE_STAGES_PAIR_TYPES_GLSL
 
 #include "shaders/stages/lib/stage.glsl"
 

@@ -1,7 +1,7 @@
 // The first partners that each body finds while they are counted, kept so that they need not be sought again to be listed: twelve
 // in three quads for each body. They lie in the memory of the table of pairs, which nobody reads before it is made anew.
-#ifndef SCREE_STAGES_NOTES_GLSL
-#define SCREE_STAGES_NOTES_GLSL
+#ifndef SCREE_STAGES_PARTNER_CACHE_GLSL
+#define SCREE_STAGES_PARTNER_CACHE_GLSL
 
 #include "shaders/stages/lib/stage.glsl"
 

@@ -1,6 +1,6 @@
 // The table of hulls, as the laws ask for it.
-#ifndef SCREE_STAGES_HULLS_GLSL
-#define SCREE_STAGES_HULLS_GLSL
+#ifndef SCREE_STAGES_SHAPE_DATA_GLSL
+#define SCREE_STAGES_SHAPE_DATA_GLSL
 
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/stages/lib/stage.glsl"
