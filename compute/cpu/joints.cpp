@@ -289,7 +289,7 @@ private:
     std::span<Joint> joints_, members_;
 };
 
-bool movable(const State& state, std::uint32_t body) {
+bool may_move(const State& state, std::uint32_t body) {
     return physics::any_stirs(state.counted()) &&
            physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
 }
@@ -349,7 +349,7 @@ void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
             if (gone(joint.a) || gone(joint.b)) joint.broken = 1;
         for (Joint& record : block.block_bodies()) {
             record.slot = NONE;
-            if (movable(state, record.block_body)) std::atomic_ref(state.slot_ends[record.block_body]).fetch_add(1);
+            if (may_move(state, record.block_body)) std::atomic_ref(state.slot_ends[record.block_body]).fetch_add(1);
         }
     });
 }
@@ -357,7 +357,7 @@ void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
 void fill_joint_slots(State& state, const Threads& threads, std::uint32_t) {
     for_each_block(state, threads, [&](const Block& block) {
         for (const Joint& record : block.block_bodies()) {
-            if (!movable(state, record.block_body)) continue;
+            if (!may_move(state, record.block_body)) continue;
             const std::uint32_t slot = std::atomic_ref(state.slot_ends[record.block_body]).fetch_add(1);
             state.slot_sides[slot] = physics::OF_JOINT | static_cast<std::uint32_t>(&record - state.joints.data());
         }

@@ -18,16 +18,16 @@ namespace scree {
 namespace {
 
 using namespace fields;
-using json = nlohmann::ordered_json;
+using nlohmann::ordered_json;
 
-json number(double value) {
+ordered_json number(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
     return value;
 }
-json number(std::unsigned_integral auto value) {
+ordered_json number(std::unsigned_integral auto value) {
     return value;
 }
-json number(float value) {  // as it is written, 0.6, and not as the double next to it
+ordered_json number(float value) {  // as it is written, 0.6, and not as the double next to it
     char digits[64];
     const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     double wide = 0;
@@ -35,77 +35,77 @@ json number(float value) {  // as it is written, 0.6, and not as the double next
     return number(wide);
 }
 template <glm::length_t size>
-json number(const glm::vec<size, float>& v) {
-    json made = json::array();
+ordered_json number(const glm::vec<size, float>& v) {
+    ordered_json made = ordered_json::array();
     for (glm::length_t i = 0; i < size; ++i) made.push_back(number(v[i]));
     return made;
 }
 
-json reference(const std::string& name) {
+ordered_json reference(const std::string& name) {
     return {{"$ref", "#/$defs/" + name}};
 }
 
 // A side without a limit of its own says nothing.
-void limit(json& made, const Range& range) {
+void limit(ordered_json& made, const Range& range) {
     if (range.low > -static_cast<double>(unlimited)) made[range.above_low ? "exclusiveMinimum" : "minimum"] = number(range.low);
     if (range.high < static_cast<double>(unlimited)) made[range.below_high ? "exclusiveMaximum" : "maximum"] = number(range.high);
 }
-json number_within(const Range& range) {
+ordered_json number_within(const Range& range) {
     if (range.low <= -static_cast<double>(unlimited) && range.high >= static_cast<double>(unlimited)) return reference("number");
-    json made = {{"type", "number"}};
+    ordered_json made = {{"type", "number"}};
     limit(made, range);
     return made;
 }
-json array_of(const json& items, glm::length_t size) {
+ordered_json array_of(const ordered_json& items, glm::length_t size) {
     return {{"type", "array"}, {"items", items}, {"minItems", size}, {"maxItems", size}};
 }
 
 // What must be of an object beyond its fields; null takes a key away.
 template <class Struct>
-json conditions() {
+ordered_json conditions() {
     if constexpr (std::is_same_v<Struct, Fracture>)
-        return json::parse(R"({"oneOf": [{"required": ["impulse"]}, {"required": ["momentum"]}]})");
+        return ordered_json::parse(R"({"oneOf": [{"required": ["impulse"]}, {"required": ["momentum"]}]})");
     if constexpr (std::is_same_v<Struct, Viewpoint>)
-        return json::parse(R"({"oneOf": [{"required": ["eye", "target"], "not": {"required": ["path"]}},
+        return ordered_json::parse(R"({"oneOf": [{"required": ["eye", "target"], "not": {"required": ["path"]}},
             {"required": ["path"], "not": {"anyOf": [{"required": ["eye"]}, {"required": ["target"]},
                                                      {"required": ["vertical_fov"]}]}}],
             "properties": {"eye": {"default": null}, "target": {"default": null}}})");
-    return json::object();
+    return ordered_json::object();
 }
 
 class Schema {
 public:
     // The schema of a struct, whose fields' own structs are defined in $defs.
     template <class Struct>
-    json object(const char* about) {
-        json required = json::array(), properties = json::object();
+    ordered_json object(const char* about) {
+        ordered_json required = ordered_json::array(), properties = ordered_json::object();
         add_fields<Struct>(required, properties);
-        json made = {{"description", about}, {"type", "object"}};
+        ordered_json made = {{"description", about}, {"type", "object"}};
         if (!required.empty()) made["required"] = required;
         made["additionalProperties"] = false;
         made["properties"] = properties;
         made.merge_patch(conditions<Struct>());
         return made;
     }
-    void define(const std::string& name, json schema) { defs_[name] = std::move(schema); }
-    const json& defs() const { return defs_; }
+    void define(const std::string& name, ordered_json schema) { defs_[name] = std::move(schema); }
+    const ordered_json& defs() const { return defs_; }
 
 private:
     template <class Struct>
-    json defined() {
+    ordered_json defined() {
         constexpr auto& known = table<Struct>;
         if (!defs_.contains(known.name)) {
             defs_[known.name] = nullptr;  // its place, before those of what it holds
-            json made = object<Struct>(known.about);
+            ordered_json made = object<Struct>(known.about);
             defs_[known.name] = std::move(made);
         }
         return reference(known.name);
     }
 
     template <class Variant>
-    json one_of_kinds() {
+    ordered_json one_of_kinds() {
         constexpr auto& kinds = alternatives<Variant>;
-        json properties = json::object();
+        ordered_json properties = ordered_json::object();
         [&]<std::size_t... i>(std::index_sequence<i...>) {
             ((properties[kinds.keys[i]] = defined<std::variant_alternative_t<i, Variant>>()), ...);
         }
@@ -119,13 +119,13 @@ private:
     }
 
     template <class Struct>
-    void add_fields(json& required, json& properties) {
+    void add_fields(ordered_json& required, ordered_json& properties) {
         const Struct by_default{};
         for_each_field<Struct>([&]<class Member>(const Field<Struct, Member>& field) {
             if constexpr (HasTable<Member>) {
                 if (field.embedded()) return add_fields<Member>(required, properties);
             }
-            json made = type_of<Member>(field.range, field.refers);
+            ordered_json made = type_of<Member>(field.range, field.refers);
             if constexpr (Number<Member>) {
                 if (field.refers == Refers::to_nothing && field.range.holds(by_default.*field.member))
                     add_default(made, field, number(by_default.*field.member));
@@ -144,21 +144,21 @@ private:
             properties[field.key] = std::move(made);
         });
         if constexpr (std::is_same_v<Struct, Joint>) {
-            json optional = json::array();
+            ordered_json optional = ordered_json::array();
             add_fields<JointPlacement>(optional, properties);
         }
     }
     template <class Struct, class Member>
-    static void add_default(json& made, const Field<Struct, Member>& field, const json& value) {
+    static void add_default(ordered_json& made, const Field<Struct, Member>& field, const ordered_json& value) {
         if (field.presence != Presence::required) made["default"] = value;
     }
 
     template <class Member>
-    json type_of(const Range& range, Refers refers) {
+    ordered_json type_of(const Range& range, Refers refers) {
         if constexpr (is_optional<Member>) {
             return defined<typename Member::value_type>();
         } else if constexpr (is_list<Member>) {
-            json made = {{"type", "array"}, {"items", defined<typename Member::value_type>()}};
+            ordered_json made = {{"type", "array"}, {"items", defined<typename Member::value_type>()}};
             if (range.low > 0) made["minItems"] = number(range.low);
             if (range.high < largest) made["maxItems"] = number(range.high);
             return made;
@@ -171,7 +171,7 @@ private:
         } else if constexpr (std::is_same_v<Member, float>) {
             return number_within(range);
         } else if constexpr (requires { Member::length(); }) {
-            const json items = number_within(range);
+            const ordered_json items = number_within(range);
             return Member::length() == 3 && items.contains("$ref") ? reference("vector") : array_of(items, Member::length());
         } else if constexpr (std::is_same_v<Member, bool>) {
             return {{"type", "boolean"}};
@@ -180,7 +180,7 @@ private:
         } else if constexpr (std::is_same_v<Member, Shape>) {
             return reference("shape");
         } else {
-            json made = {{"type", "integer"}};
+            ordered_json made = {{"type", "integer"}};
             if (refers != Refers::to_nothing) made["type"] = {"integer", "string"};
             made["minimum"] = 0;
             limit(made, range);
@@ -188,37 +188,37 @@ private:
         }
     }
 
-    json defs_ = json::object();
+    ordered_json defs_ = ordered_json::object();
 };
 
 // An object or array: `before` it, `between` its elements, which `show` writes, and `after` it.
 template <class Show>
-void print_elements(std::string& text, const json& value, const std::string& before, const std::string& between,
+void print_elements(std::string& text, const ordered_json& value, const std::string& before, const std::string& between,
                     const std::string& after, const Show& show) {
     text += (value.is_object() ? "{" : "[") + (value.empty() ? "" : before);
     bool first = true;
     for (const auto& [key, one] : value.items()) {
         if (!std::exchange(first, false)) text += between;
-        if (value.is_object()) text += json(key).dump() + ": ";
+        if (value.is_object()) text += ordered_json(key).dump() + ": ";
         show(one);
     }
     text += (value.empty() ? "" : after) + (value.is_object() ? "}" : "]");
 }
-std::string on_one_line(const json& value) {
+std::string on_one_line(const ordered_json& value) {
     if (!value.is_structured()) return value.dump();
     std::string text;
-    print_elements(text, value, "", ", ", "", [&](const json& one) { text += on_one_line(one); });
+    print_elements(text, value, "", ", ", "", [&](const ordered_json& one) { text += on_one_line(one); });
     return text;
 }
 // What fits into a line stands on one.
-void print(std::string& text, const json& value, std::size_t indent) {
+void print(std::string& text, const ordered_json& value, std::size_t indent) {
     const std::string line = on_one_line(value), inside = "\n" + std::string(indent + 4, ' ');
     if (!value.is_structured() || indent + line.size() <= 110) {
         text += line;
         return;
     }
     print_elements(text, value, inside, "," + inside, "\n" + std::string(indent, ' '),
-                   [&](const json& one) { print(text, one, indent + 4); });
+                   [&](const ordered_json& one) { print(text, one, indent + 4); });
 }
 
 }  // namespace
@@ -230,7 +230,7 @@ std::string scene_schema() {
     schema.define("size", {{"type", "number"}, {"minimum", 0.001}, {"maximum", 100000}, {"description", "m"}});
     schema.define("shape", shape_schema());
     const auto& document = table<SceneDocument>;
-    json whole = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "scree scene"}};
+    ordered_json whole = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "scree scene"}};
     whole.update(schema.object<SceneDocument>(document.about));
     whole["$defs"] = schema.defs();
     std::string text;

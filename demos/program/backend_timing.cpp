@@ -16,8 +16,8 @@ namespace scree::demos {
 
 namespace {
 
-constexpr int rows = 10;  // a heap of rows^3 boxes
-static_assert(rows * rows * rows == heap_bodies);
+constexpr int heap_rows = 10;  // a heap of heap_rows^3 boxes
+static_assert(heap_rows * heap_rows * heap_rows == heap_bodies);
 constexpr int steps_to_warm = 4, steps_to_time = 6;
 
 // Layers of boxes, each shifted by half a box, so that most lie on four others, as in a pile.
@@ -25,7 +25,7 @@ Scene resting_heap() {
     Scene scene;
     scene.bodies.push_back({.name = "ground", .motion = Motion::fixed, .shape = Plane{}});
     for (int i = 0; i < heap_bodies; ++i) {
-        const int layer = i / (rows * rows), row = i / rows % rows, column = i % rows;
+        const int layer = i / (heap_rows * heap_rows), row = i / heap_rows % heap_rows, column = i % heap_rows;
         Body box{.name = "box", .shape = Box{}};
         const float shift = layer % 2 == 0 ? 0.0f : 0.5f;
         box.position = vec3(static_cast<float>(column) * 1.01f + shift, 0.4995f + 0.999f * static_cast<float>(layer),

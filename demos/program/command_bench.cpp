@@ -19,7 +19,7 @@ namespace scree::demos {
 
 namespace {
 
-struct Options {
+struct BenchCommandOptions {
     std::vector<std::string> names;
     std::vector<std::size_t> bodies = {1000, 4000, 16000};
     BenchOptions bench;
@@ -44,7 +44,7 @@ void print_spread(const std::vector<Measurement>& all) {
     }
 }
 
-std::vector<SceneOptions> scenes_of(const Options& options) {
+std::vector<SceneOptions> scenes_of(const BenchCommandOptions& options) {
     std::vector<SceneOptions> scenes;
     for (const std::string& name : options.names.empty() ? std::vector<std::string>{"avalanche"} : options.names) {
         SceneOptions scene;
@@ -61,7 +61,7 @@ std::vector<SceneOptions> scenes_of(const Options& options) {
     return scenes;
 }
 
-void print(const Options& options, const std::vector<Measurement>& all) {
+void print(const BenchCommandOptions& options, const std::vector<Measurement>& all) {
     const Measurement& first = all.front();
     const std::string settled = options.bench.settle > 0 ? fmt::format(" {:g} s of settling and", options.bench.settle) : "";
     fmt::print(
@@ -78,7 +78,7 @@ void write_csv(const std::string& file, const std::vector<Cells>& rows) {
     if (!file.empty() && file != "-") at_work([&] { host::write_atomically(file, csv(rows)); });
 }
 
-int bench_kinds(const Options& options, const Backend& machine) {
+int bench_kinds(const BenchCommandOptions& options, const Backend& machine) {
     const KindCosts measured =
         at_work([&] { return measure_kinds(options.names, options.pairs, options.bench.steps, machine, options.bench.quiet); });
     if (is_interrupted()) return interrupted;
@@ -89,7 +89,7 @@ int bench_kinds(const Options& options, const Backend& machine) {
     return done;
 }
 
-int bench(const Options& options) {
+int bench(const BenchCommandOptions& options) {
     if (options.pairs > 0) require_kinds(options.names);
     if (!options.bench.settled.empty() && options.bench.settle <= 0)
         throw UsageError("--settled: say with --settle for how many seconds");
@@ -117,7 +117,7 @@ int bench(const Options& options) {
 
 void add_bench(CLI::App& program, int& status) {
     CLI::App* command = program.add_subcommand("bench", "Measure what a step costs, stage by stage");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchCommandOptions>();
     command->add_option("names", options->names,
                         "Demos or scene files (default: avalanche); with --pairs, pair types such as hull-box (default: all).");
     command->add_option_function<std::string>(

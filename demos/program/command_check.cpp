@@ -18,7 +18,7 @@ namespace scree::demos {
 
 namespace {
 
-struct Options {
+struct CheckOptions {
     std::vector<std::string> names;
     MachineOptions machine;
     std::string report;
@@ -58,7 +58,7 @@ void note_beginning(const std::string& word) {
     if (found != word) say("scree: \"{}\" is {}\n", word, found);
 }
 
-int check(const Options& options) {
+int check(const CheckOptions& options) {
     const std::vector<const Demo*> chosen = select_demos(options.names);
     if (options.list) {
         if (!options.report.empty())
@@ -95,7 +95,7 @@ int check(const Options& options) {
 
 void add_check(CLI::App& program, int& status) {
     CLI::App* command = program.add_subcommand("check", "Run the stability suite: measured against promised");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckOptions>();
     command->add_option("names", options->names, "Demos and trials: names, prefixes or patterns. Default: all.");
     command->add_flag("--list", options->list, "List promises, limits and how each is measured; run nothing.");
     command->add_flag("--markdown", options->markdown, "With --list: as a Markdown table.");

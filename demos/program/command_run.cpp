@@ -24,7 +24,7 @@ namespace scree::demos {
 
 namespace {
 
-struct Options {
+struct RunOptions {
     SceneOptions scene;
     MachineOptions machine;
     PictureOptions pictures;
@@ -40,7 +40,7 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 }
 
 // What must be known before hours of work: that its result can be written.
-void require_writable(const Options& options) {
+void require_writable(const RunOptions& options) {
     if (options.pictures.wanted() && options.pictures.fps > static_cast<double>(options.scene.rate)) {
         throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
                                      options.scene.rate));
@@ -85,7 +85,7 @@ void hold_to_promise(const LoadedScene& subject, const World& world, std::option
 constexpr int steps_a_timed_one = 16;
 
 // False if the user wished to end.
-bool simulate(const Options& options, const LoadedScene& subject, World& world, Pictures* pictures, RunReport& report) {
+bool simulate(const RunOptions& options, const LoadedScene& subject, World& world, Pictures* pictures, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds);
     std::optional<Recorder> recorder;
     if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
@@ -123,14 +123,14 @@ void hold_to_soundness(bool played, World& world, RunReport& report) {
 }
 
 // A recording that was played to its end must end as it did.
-void hold_to_recording(const Options& options, RunReport& report) {
+void hold_to_recording(const RunOptions& options, RunReport& report) {
     if (!options.played || !options.played->end_hash || options.played->steps != report.steps) return;
     const std::uint64_t hash = *options.played->end_hash;
     report.rows.push_back(
         {"state hash at the end", hash_text(hash) + ", as recorded", hash_text(report.state_hash), hash == report.state_hash});
 }
 
-void conclude(const Options& options, const LoadedScene& subject, const RunReport& report) {
+void conclude(const RunOptions& options, const LoadedScene& subject, const RunReport& report) {
     if (!options.report.empty() && options.report != "-") host::write_atomically(options.report, json_of(report));
     if (options.report == "-") {
         fmt::print("{}", json_of(report));
@@ -176,7 +176,7 @@ void measure(World& world, RunReport& report) {
     report.state_hash = world.state_hash();
 }
 
-int work(const Options& options, const LoadedScene& subject, const Backend& machine, World& world, Pictures* pictures,
+int work(const RunOptions& options, const LoadedScene& subject, const Backend& machine, World& world, Pictures* pictures,
          RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
     if (!simulate(options, subject, world, pictures, report)) return end_early(world, pictures);
@@ -210,7 +210,7 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
         count == 1 ? "1 body starts" : fmt::format("{} bodies start", count), settings.max_speed, count == 1 ? "is" : "are");
 }
 
-int run(const Options& options) {
+int run(const RunOptions& options) {
     RunReport report;
     require_writable(options);
     LoadedScene subject = load_subject(options.scene);
@@ -254,7 +254,7 @@ SceneOptions with_input(const CLI::App& command, SceneOptions options, const Inp
     return options;
 }
 
-int run(const CLI::App& command, Options options) {
+int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command, options.report);
     if (!options.input.empty()) {
         options.played = load_input(options.input);
@@ -269,7 +269,7 @@ int run(const CLI::App& command, Options options) {
 
 void add_run(CLI::App& program, int& status) {
     CLI::App* command = program.add_subcommand("run", "Simulate a demo or a scene file headlessly");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RunOptions>();
     add_options(*command, options->scene);
     add_options(*command, options->machine);
     add_options(*command, options->pictures);

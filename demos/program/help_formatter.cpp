@@ -7,7 +7,7 @@ namespace scree::demos {
 
 namespace {
 
-constexpr std::size_t width = 100, column = 28;
+constexpr std::size_t help_width = 100, column = 28;
 
 // `name` and `text` side by side; a name that reaches into the column stands on a line of its own.
 std::string entry(const std::string& name, const std::string& text) {
@@ -22,7 +22,7 @@ std::string entry(const std::string& name, const std::string& text) {
     std::istringstream words(text);
     for (std::string word; words >> word;) {
         const bool first = line.size() == column;
-        if (!first && line.size() + 1 + word.size() > width) {
+        if (!first && line.size() + 1 + word.size() > help_width) {
             result += line + "\n";
             line = std::string(column, ' ') + word;
         } else {

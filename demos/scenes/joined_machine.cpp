@@ -11,7 +11,7 @@ namespace scree::demos {
 namespace {
 
 constexpr float thickness = 0.2f;  // m, half of the gears'
-constexpr float speed = 2;         // rad/s, of the motor
+constexpr float motor_speed = 2;   // rad/s, of the motor
 constexpr float stroke = 0.6f;     // m, radius of the crank
 
 // A hub on a hinge in the world, along z, and teeth welded to it; returns the hub.
@@ -55,7 +55,7 @@ DemoScene machine(const DemoOptions&) {
     const float small = 0.9f, large = 1.2f;  // pitch radii, as their teeth: 6 and 8
     const vec3 first(0, 2, 0), second(small + large, 2, 0);
     Hinge driven, idle;
-    driven.turn.motor = Motor{speed, 1e6f};
+    driven.turn.motor = Motor{motor_speed, 1e6f};
     idle.turn.friction = 50;
     const std::size_t motor = add_gear(scene, first, small, 6, 0, driven);
     const std::size_t wheel = add_gear(scene, second, large, 8, std::numbers::pi_v<float> / 8, idle);
@@ -73,7 +73,7 @@ DemoScene machine(const DemoOptions&) {
 
     const float seconds = 30;
     const Claim motor_turns = close_to(
-        "speed of the motor", speed, 0.01 * speed, "rad/s", "mean over the run",
+        "speed of the motor", motor_speed, 0.01 * motor_speed, "rad/s", "mean over the run",
         [=](const Trace& trace) { return turn_of(trace, motor) / (trace.moments.back().time - trace.moments.front().time); });
     const Claim ratio = close_to("turns of the wheel for one of the motor", -0.75, 0.0075, "", "6 teeth drive 8",
                                  [=](const Trace& trace) { return turn_of(trace, wheel) / turn_of(trace, motor); });

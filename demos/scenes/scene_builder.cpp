@@ -36,6 +36,15 @@ Body box_at(vec3 position, vec3 half_extents, vec4 orientation) {
     return body;
 }
 
+std::size_t add_body(Scene& scene, Shape shape, vec3 position, vec4 orientation) {
+    Body body;
+    body.shape = std::move(shape);
+    body.position = position;
+    body.orientation = orientation;
+    scene.bodies.push_back(body);
+    return scene.bodies.size() - 1;
+}
+
 void add_pit(Scene& scene, vec3 half, float thickness, float friction) {
     const float t = thickness / 2, h = half.y / 2;
     for (const float side : {-1.0f, 1.0f}) {

@@ -16,6 +16,9 @@ Body ground(float friction = 0.6f);  // the plane y = 0
 Body fixed_box(vec3 centre, vec3 half_extents, float friction = 0.6f, vec4 orientation = vec4(0, 0, 0, 1));
 Body box_at(vec3 position, vec3 half_extents, vec4 orientation = vec4(0, 0, 0, 1));
 
+// Adds a body of this shape and returns its index.
+std::size_t add_body(Scene& scene, Shape shape, vec3 position, vec4 orientation = vec4(0, 0, 0, 1));
+
 // Four fixed boxes around the floor between -half and half (x, z), from y = 0 up to `height`.
 void add_pit(Scene& scene, vec3 half, float thickness, float friction = 0.6f);
 

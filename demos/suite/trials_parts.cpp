@@ -13,14 +13,6 @@ namespace scree::demos {
 
 namespace {
 
-std::size_t add(Scene& scene, Shape shape, vec3 position) {
-    Body body;
-    body.shape = std::move(shape);
-    body.position = position;
-    scene.bodies.push_back(body);
-    return scene.bodies.size() - 1;
-}
-
 // A plate of 1.2 by 0.1 by 0.8 m on four legs, 0.8 m high; its origin is in the middle of the floor under it.
 Compound table() {
     Compound compound;
@@ -75,16 +67,16 @@ DemoScene compounds(const DemoOptions&) {
     scene.bodies.push_back(ground());
     Indices tables;
     for (const float x : {-3.0f, -1.5f, 0.0f}) {
-        tables.push_back(add(scene, table(), {x - 0.6f, 0, 0}));
+        tables.push_back(add_body(scene, table(), {x - 0.6f, 0, 0}));
         for (int k = 0; k < 3; ++k)
-            tables.push_back(add(scene, Box{vec3(0.2f)}, {x - 0.6f + 0.08f * x, 1 + 0.4f * static_cast<float>(k), 0}));
+            tables.push_back(add_body(scene, Box{vec3(0.2f)}, {x - 0.6f + 0.08f * x, 1 + 0.4f * static_cast<float>(k), 0}));
     }
     // On blocks of 1 m whose edge is at x = 2: the middle of a bar lies as far within as its centre of mass is beside it.
     std::vector<std::size_t> bars;
     for (const float beyond : {-0.02f, 0.02f}) {
         const float z = beyond < 0 ? -0.6f : 0.6f;
         scene.bodies.push_back(fixed_box({1.2f, 0.5f, z}, {0.8f, 0.5f, 0.4f}));
-        bars.push_back(add(scene, bar(), {2 + beyond - bar_centre, 1.1f, z}));
+        bars.push_back(add_body(scene, bar(), {2 + beyond - bar_centre, 1.1f, z}));
     }
     const vec3 low(-4.5f, 0, -1), high(3, 2, 1);
     Promise promise(all_stay("tables, and columns of three boxes on them", tables, 0.003),

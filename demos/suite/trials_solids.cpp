@@ -24,26 +24,17 @@ Hull prism(int sides, float radius, float half_height) {
     return hull;
 }
 
-std::size_t add(Scene& scene, Shape shape, vec3 position, vec4 orientation = vec4(0, 0, 0, 1)) {
-    Body body;
-    body.shape = std::move(shape);
-    body.position = position;
-    body.orientation = orientation;
-    scene.bodies.push_back(body);
-    return scene.bodies.size() - 1;
-}
-
 }  // namespace
 
 DemoScene solids(const DemoOptions&) {
     Scene scene;
     scene.bodies.push_back(ground());
     const vec4 lying = turned({1, 0, 0}, 90 * degrees);
-    const Indices standing{add(scene, Cylinder{0.3f, 0.4f}, {-2, 0.4f, 4}), add(scene, Cone{0.3f, 0.8f}, {-1, 0.2f, 4}),
-                           add(scene, prism(5, 0.4f, 0.3f), {0, 0.3f, 4}), add(scene, Cylinder{0.3f, 0.4f}, {1, 0.3f, 4}, lying)};
+    const Indices standing{add_body(scene, Cylinder{0.3f, 0.4f}, {-2, 0.4f, 4}), add_body(scene, Cone{0.3f, 0.8f}, {-1, 0.2f, 4}),
+                           add_body(scene, prism(5, 0.4f, 0.3f), {0, 0.3f, 4}), add_body(scene, Cylinder{0.3f, 0.4f}, {1, 0.3f, 4}, lying)};
     Indices column;
     for (int k = 0; k < 10; ++k)
-        column.push_back(add(scene, prism(6, 0.5f, 0.25f), {3, 0.25f + 0.5f * static_cast<float>(k), 4}));
+        column.push_back(add_body(scene, prism(6, 0.5f, 0.25f), {3, 0.25f + 0.5f * static_cast<float>(k), 4}));
     Body roller;
     roller.shape = Cylinder{0.4f, 0.5f};
     roller.orientation = lying;

@@ -18,13 +18,13 @@ namespace scree::demos {
 
 namespace {
 
-struct Options {
+struct CompareOptions {
     SceneOptions scene;
     MachineOptions machine;
     bool quiet = false;
 };
 
-int compare(const Options& options) {
+int compare(const CompareOptions& options) {
     const LoadedScene subject = load_subject(options.scene);
     const Backend machine = choose_machine(options.machine, Choice::a_device);
     const int steps = options.scene.step_count(1);
@@ -58,7 +58,7 @@ int compare(const Options& options) {
 void add_compare(CLI::App& program, int& status) {
     CLI::App* command =
         program.add_subcommand("compare", "Run CPU and GPU in lockstep: the common hash, or the first difference");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CompareOptions>();
     options->machine.backend = "vulkan";
     add_options(*command, options->scene);
     command->add_option("--device", options->machine.device, "Vulkan device, by index or part of its name (see scree devices).");

@@ -29,7 +29,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 constexpr double report_every = 0.5;  // s
 
-struct Options {
+struct ViewOptions {
     SceneOptions scene;
     MachineOptions machine;
     std::string size = "1280x720";
@@ -70,7 +70,7 @@ host::Camera camera_of(const OrbitCamera& eye) {
 // The window and what is in it.
 class Viewer {
 public:
-    Viewer(const Options& options, const host::Display& display, Backend machine);
+    Viewer(const ViewOptions& options, const host::Display& display, Backend machine);
     void run();
     void write_report();
     void write_recording();
@@ -81,7 +81,7 @@ private:
     void make_drawing();
     void draw();
 
-    const Options& options_;
+    const ViewOptions& options_;
     Backend machine_;
     Session session_;
     Interaction interaction_;
@@ -97,7 +97,7 @@ private:
     Clock::time_point started_ = Clock::now();
 };
 
-Viewer::Viewer(const Options& options, const host::Display& display, Backend machine)
+Viewer::Viewer(const ViewOptions& options, const host::Display& display, Backend machine)
     : options_(options),
       machine_(std::move(machine)),
       session_(options.scene, [this] { return machine_.make_runner(); }),
@@ -223,7 +223,7 @@ Extent extent_of(const std::string& word) {
     return extent;
 }
 
-std::unique_ptr<host::Display> open_display(const Options& options) {
+std::unique_ptr<host::Display> open_display(const ViewOptions& options) {
     try {
         return std::make_unique<host::Display>();
     } catch (const host::DeviceError& error) {
@@ -233,7 +233,7 @@ std::unique_ptr<host::Display> open_display(const Options& options) {
     }
 }
 
-int view(Options options) {
+int view(ViewOptions options) {
     options.extent = extent_of(options.size);
     require_writable_file("--record", options.record);
     require_writable_file("--report", options.report);
@@ -256,7 +256,7 @@ int view(Options options) {
 
 void add_view(CLI::App& program, int& status) {
     CLI::App* command = program.add_subcommand("view", "Open a demo or a scene file in a window");
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ViewOptions>();
     add_options(*command, options->scene);
     command->get_option("--steps")->description("Close the window after this many steps.");
     command->get_option("--seconds")->description("Close the window after this simulated time, s.");
