@@ -1,4 +1,4 @@
-// What a scene may say of its joints, and joints made where they are in the world.
+// Validation of joints, and joints from world coordinates.
 #include "compute/scene/joint_validation.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ using glm::dvec3;
 
 using fields::Direction;
 
-// What no range can say.
+// Rules beyond the ranges of the field table.
 struct Rules {
     template <class Struct>
     void operator()(const Examination&, const Struct&, Direction) const {}

@@ -1,4 +1,4 @@
-// What a scene may say of its vehicles.
+// Validation of vehicles.
 #include "compute/scene/vehicle_validation.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 static_assert(fields::field_of(&Vehicle::wheels).range.high == physics::MOST_WHEELS);
 constexpr float least_cosine = 0.99f;  // between two axles
 
-// Which vehicle has what, by its number.
+// Owner vehicle of each chassis or wheel.
 using Owners = std::map<std::size_t, std::size_t>;
 
 void take(const Examination& vehicle, Owners& owners, std::size_t index, std::size_t what, const std::string& key,
