@@ -1,4 +1,4 @@
-// The fields of a body: what it is, where it is, its material, and how it breaks.
+// Field tables of a body: shape, pose, material, fracture.
 #pragma once
 
 #include "compute/fields/field.h"
@@ -39,8 +39,8 @@ inline constexpr auto table<Fracture> = table_of(
         .written(),
     field("seed", &Fracture::seed, between(0, 4294967295.0), "", "Seed of the random numbers by which the cuts lie").written());
 
-// Limits of the ranges say what breaks beyond them: below a density of 1e-3 or a size of 1e-3 m an inverse inertia leaves the
-// range of a float, and at 1e6 m a float resolves 6 cm.
+// Limits of ranges: below a density of 1e-3 kg/m^3 or a size of 1e-3 m inverse inertias leave the range of a float, and
+// at 1e6 m a float resolves 6 cm.
 template <>
 inline constexpr auto table<Body> = table_of(
     "body", "A rigid body",  //

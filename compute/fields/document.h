@@ -1,4 +1,4 @@
-// The fields of a scene file as a whole: the scene and its camera.
+// Field tables of a scene file: scene and camera.
 #pragma once
 
 #include "compute/fields/body.h"

@@ -1,5 +1,5 @@
-// The fields of joints. A unit such as "N or N m" is that along an axis or about it; a field of axes, limits or a spring has the
-// unit "m" or "rad", which says what they are.
+// Field tables of joints. Of a unit such as "N or N m" the first is along an axis, the second about it; fields of axes,
+// limits or springs have the unit "m" or "rad", which selects it.
 #pragma once
 
 #include "compute/fields/field.h"
@@ -90,7 +90,7 @@ inline constexpr auto table<Joint> =
              field("break_torque", &Joint::break_torque, any_force, "N m", "Mean torque over a step above which the joint tears"),
              field("broken", &Joint::broken, "Whether it has torn already"));
 
-// Where a joint of a scene file is in the world as the bodies lie, instead of its anchors and frames.
+// A joint of a scene file given in world coordinates at the initial poses, instead of anchors and frames.
 struct JointPlacement {
     vec3 anchor{0};
     vec3 axis{1, 0, 0};

@@ -1,4 +1,4 @@
-// The fields of the settings. Options of the command line take their range and text from here.
+// Field table of the settings, from which command line options take range and text.
 #pragma once
 
 #include "compute/fields/field.h"

@@ -1,4 +1,4 @@
-// The fields of vehicles.
+// Field tables of vehicles.
 #pragma once
 
 #include "compute/fields/field.h"

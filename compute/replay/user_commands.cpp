@@ -1,4 +1,4 @@
-// Doing what a user does.
+// Performing user commands.
 #include "compute/replay/user_commands.h"
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Joints of a scene file: where they may be in the world instead of in their bodies, and names instead of indices.
+// Joints of a scene file: anchors in world coordinates, and bodies by name.
 #include "compute/scene_file/joints_json.h"
 
 #include "compute/fields/joint.h"
@@ -28,7 +28,7 @@ namespace {
 using namespace json_reading;
 using fields::JointPlacement;
 
-// Turns "anchor" and "axis" into anchors and frames.
+// Converts "anchor" and "axis" (world coordinates) to anchors and frames.
 void place_joint(const json& value, const Place& place, const Scene& scene, Joint& joint) {
     if (!value.contains("anchor")) {
         if (value.contains("axis")) refuse(place / "axis", "needs \"anchor\": where in the world the joint is");

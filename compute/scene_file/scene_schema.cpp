@@ -27,7 +27,7 @@ json number(double value) {
 json number(std::unsigned_integral auto value) {
     return value;
 }
-json number(float value) {  // as it is written, 0.6, and not as the double next to it
+json number(float value) {  // with the float's shortest digits, 0.6, not those of the double next to it
     char digits[64];
     const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     double wide = 0;
@@ -45,7 +45,7 @@ json reference(const std::string& name) {
     return {{"$ref", "#/$defs/" + name}};
 }
 
-// A side without a limit of its own says nothing.
+// Unlimited sides are omitted.
 void limit(json& made, const Range& range) {
     if (range.low > -static_cast<double>(unlimited)) made[range.above_low ? "exclusiveMinimum" : "minimum"] = number(range.low);
     if (range.high < static_cast<double>(unlimited)) made[range.below_high ? "exclusiveMaximum" : "maximum"] = number(range.high);
@@ -60,7 +60,7 @@ json array_of(const json& items, glm::length_t size) {
     return {{"type", "array"}, {"items", items}, {"minItems", size}, {"maxItems", size}};
 }
 
-// What must be of an object beyond its fields; null takes a key away.
+// Conditions on an object beyond its fields; null removes a key.
 template <class Struct>
 json conditions() {
     if constexpr (std::is_same_v<Struct, Fracture>)
@@ -75,7 +75,7 @@ json conditions() {
 
 class Schema {
 public:
-    // The schema of a struct, whose fields' own structs are defined in $defs.
+    // The schema of a struct; structs of its fields are defined in $defs.
     template <class Struct>
     json object(const char* about) {
         json required = json::array(), properties = json::object();
@@ -95,7 +95,7 @@ private:
     json defined() {
         constexpr auto& known = table<Struct>;
         if (!defs_.contains(known.name)) {
-            defs_[known.name] = nullptr;  // its place, before those of what it holds
+            defs_[known.name] = nullptr;  // reserves its position before nested definitions
             json made = object<Struct>(known.about);
             defs_[known.name] = std::move(made);
         }
@@ -191,7 +191,7 @@ private:
     json defs_ = json::object();
 };
 
-// An object or array: `before` it, `between` its elements, which `show` writes, and `after` it.
+// Prints an object or array: `before` it, `between` its elements, printed by `show`, and `after` it.
 template <class Show>
 void print_elements(std::string& text, const json& value, const std::string& before, const std::string& between,
                     const std::string& after, const Show& show) {
@@ -210,7 +210,7 @@ std::string on_one_line(const json& value) {
     print_elements(text, value, "", ", ", "", [&](const json& one) { text += on_one_line(one); });
     return text;
 }
-// What fits into a line stands on one.
+// Prints on one line what fits.
 void print(std::string& text, const json& value, std::size_t indent) {
     const std::string line = on_one_line(value), inside = "\n" + std::string(indent + 4, ' ');
     if (!value.is_structured() || indent + line.size() <= 110) {

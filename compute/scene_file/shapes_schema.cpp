@@ -36,7 +36,7 @@ ordered_json field_schema(const ShapeField<Owner, vec3>& field) {
     return schema;
 }
 
-// Of lists there is more to say than a range.
+// Shapes with lists, whose schema is more than ranges.
 template <class OfShape>
 constexpr bool has_lists = std::is_same_v<OfShape, Hull> || std::is_same_v<OfShape, Compound> || std::is_same_v<OfShape, Mesh> ||
                            std::is_same_v<OfShape, HeightField>;
