@@ -20,8 +20,7 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr std::size_t most_in_all =
-    10000;  // pieces of one body, those of pieces included: a scene of a few bodies fills no memory
+constexpr std::size_t most_in_all = 10000;  // fragments of one body on all levels, so that a small scene cannot exhaust memory
 
 // splitmix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
 class Random {

@@ -45,7 +45,7 @@ struct World::Impl {
     void begin_in_order();
     void keep_order();  // between steps
     void make_room_for_actions();
-    void make_room_for_lists();  // and the step shall be done again
+    void make_room_for_lists();  // and requests repetition of the step
     void require_body(std::size_t body) const;
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;

@@ -81,7 +81,7 @@ LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
     best.k = 0u;
     for (uint i = 0u; i < 3u; ++i) {
         for (uint j = 0u; j < 3u; ++j) {
-            // The axis is (1, 0, 0) x view.x.
+            // Axis: (1, 0, 0) x view.x.
             float squared = view.x.y * view.x.y + view.x.z * view.x.z;
             if (squared > 2.5e-5f) {
                 float own_reach = own.y * abs(view.x.z) + own.z * abs(view.x.y);

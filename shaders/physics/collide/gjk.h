@@ -84,7 +84,7 @@ LAW Simplex with_corner(Simplex s, vec3 p) {
     float aa = dot3(ea, ea), bb = dot3(eb, eb), cc = dot3(ec, ec);
     float ab = dot3(ea, eb), ac = dot3(ea, ec), bc = dot3(eb, ec);
     float pa = -dot3(p, ea), pb = -dot3(p, eb), pc = -dot3(p, ec);
-    // How far 0 lies beyond the side from p to the first, the way of the second.
+    // a_to_b: signed distance (scaled) of the origin from the edge p-a, towards b; and so on.
     float a_to_b = aa * pb - ab * pa, b_to_a = bb * pa - ab * pb;
     float a_to_c = aa * pc - ac * pa, c_to_a = cc * pa - ac * pc;
     float b_to_c = bb * pc - bc * pb, c_to_b = cc * pb - bc * pc;
