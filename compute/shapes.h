@@ -139,8 +139,7 @@ struct ShapeInfo<Box> {
 template <>
 struct ShapeInfo<Plane> {
     static constexpr const char* name = "plane";
-    static constexpr const char* about =
-        "infinite, solid behind the normal; only for \"fixed\" bodies, whose position and orientation it ignores";
+    static constexpr const char* about = "infinite, solid behind the normal; only for \"fixed\" bodies, whose pose it ignores";
     static constexpr std::tuple fields{
         ShapeField{"normal", &Plane::normal, direction_range, "", "any length but 0", false},
         ShapeField{"offset", &Plane::offset, position_range, " m", "m, along the normal from the origin", false}};

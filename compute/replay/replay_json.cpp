@@ -107,7 +107,7 @@ std::uint64_t hash_of(const json& value, const Place& place) {
 
 Turn turn_of(const json& value, const Place& place) {
     only(value, place, {"gravity", "substeps", "friction_factor", "least_restitution", "sleeping"});
-    if (value.empty()) refuse(place, "turns nothing");
+    if (value.empty()) refuse(place, "changes no setting");
     Turn turn;
     if (value.contains("gravity")) read(value["gravity"], place / "gravity", turn.gravity.emplace());
     if (value.contains("friction_factor"))

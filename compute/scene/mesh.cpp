@@ -128,7 +128,7 @@ MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given)
         else
             ++form.dropped;
     }
-    if (triangles.empty()) throw MeshError("/triangles", "none of them has an area");
+    if (triangles.empty()) throw MeshError("/triangles", "all of them are degenerate");
 
     const Edges edges = edges_of(triangles);
     for (const auto& [ends, edge] : edges) {
@@ -187,11 +187,11 @@ std::string oddities(const MeshForm& form) {
         text += (text.empty() ? "" : "; ") + std::to_string(count) + " " + (count == 1 ? one : many) + what;
     };
     say(form.dropped, "triangle", "triangles", " without area, or repeated, left out");
-    say(form.open, "open edge", "open edges", ": what rolls over one leaves the mesh");
+    say(form.open, "open edge", "open edges", ": bodies that roll over one leave the mesh");
     say(form.branching, "edge", "edges",
-        " where more than two triangles meet, or two that face opposite ways; bodies may catch on these edges");
+        " with more than two triangles, or two of opposite orientation; bodies may catch on these edges");
     say(crossing_triangles(form), "triangle", "triangles",
-        " that cut through another: what gets between their faces is pushed both ways");
+        " that cut through another: bodies between their faces are pushed both ways");
     return text;
 }
 

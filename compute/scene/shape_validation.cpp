@@ -88,7 +88,8 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
     for (std::size_t i = 0; i < compound.parts.size(); ++i) {
         Part& p = compound.parts[i];
         const Examination part = body.part("/shape/compound/parts/" + std::to_string(i));
-        if (std::holds_alternative<Plane>(p.shape)) part.refuse("/shape/plane", "a plane is infinite and no part of a body");
+        if (std::holds_alternative<Plane>(p.shape))
+            part.refuse("/shape/plane", "a plane is infinite and cannot be a part of a compound");
         std::visit([&](auto& one) { check_fields(part, one); }, p.shape);
         part.between("/position", p.position, within_shape_range.least, within_shape_range.most, " m");
         part.make_unit("/orientation", p.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");

@@ -20,7 +20,7 @@ Shift examine(const Examination& body, Body& b, CheckedHulls& hulls, std::vector
     fields::check_fields(body, b);
     const Shift shift = bring_to_centre(body, b, hulls, notes);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
-        body.refuse("/velocity", "a fixed body has no velocity; a body that moves whatever it meets is \"kinematic\"");
+        body.refuse("/velocity", "a fixed body has no velocity; use \"kinematic\" for a body that moves regardless of contacts");
     }
     const MassProperties properties = mass_properties(b.shape, b.density);
     const bool representable = std::isnormal(properties.mass) && std::isnormal(properties.inertia.x) &&

@@ -31,11 +31,11 @@ using fields::JointPlacement;
 // Converts "anchor" and "axis" (world coordinates) to anchors and frames.
 void place_joint(const json& value, const Place& place, const Scene& scene, Joint& joint) {
     if (!value.contains("anchor")) {
-        if (value.contains("axis")) refuse(place / "axis", "needs \"anchor\": where in the world the joint is");
+        if (value.contains("axis")) refuse(place / "axis", "needs \"anchor\": the joint's position in world coordinates");
         return;
     }
     for (const char* key : {"anchor_a", "anchor_b", "frame_a", "frame_b"})
-        if (value.contains(key)) refuse(place / key, "\"anchor\" and \"axis\" say it already; leave it or them out");
+        if (value.contains(key)) refuse(place / key, "is given by \"anchor\" and \"axis\" already; remove it or them");
     JointPlacement world;
     read_fields(value, place, world);
     try {

@@ -49,7 +49,7 @@ Viewpoint viewpoint_of(const json& value, const Place& place) {
         return view;
     }
     for (const char* key : {"eye", "target", "vertical_fov"}) {
-        if (value.contains(key)) refuse(place / key, "the path has its own, for each moment; leave it or the path out");
+        if (value.contains(key)) refuse(place / key, "each moment of the path has its own; remove it or the path");
     }
     const Place path = place / "path";
     if (view.path.empty()) refuse(path, "must be an array of at least one moment, is " + kind(value["path"]));

@@ -21,7 +21,7 @@ static void read(const json& value, const Place& place, std::vector<glm::uvec3>&
     triangles.resize(value.size());
     for (std::size_t i = 0; i < value.size(); ++i) {
         if (!value[i].is_array() || value[i].size() != 3)
-            refuse(place / i, "must be an array of 3 numbers of vertices, is " + kind(value[i]));
+            refuse(place / i, "must be an array of 3 vertex indices, is " + kind(value[i]));
         for (std::size_t k = 0; k < 3; ++k) read(value[i][k], place / i / k, triangles[i][static_cast<int>(k)]);
     }
 }

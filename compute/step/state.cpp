@@ -164,8 +164,7 @@ void State::grow() {
     const physics::Counts c = counted();
     const auto with_room = [](std::uint64_t need) {
         constexpr std::uint64_t most = 1u << 31;
-        if (need > most)
-            throw std::length_error("more than 2,147,483,648 pairs of bodies overlap: they must not all lie in one place");
+        if (need > most) throw std::length_error("more than 2,147,483,648 pairs of bodies overlap; spread them out");
         return static_cast<std::uint32_t>(std::min(need + need / 4, most));
     };
     if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_room(c.required_pairs);

@@ -52,7 +52,7 @@ physics::Grip record_of(std::size_t body, vec3 anchor, vec3 target, const GripSp
 
 World::Impl::Held& World::Impl::held(std::size_t grip) {
     if (grip < grips.size() && grips[grip]) return *grips[grip];
-    throw std::out_of_range("grip " + std::to_string(grip) + " does not hold anything");
+    throw std::out_of_range("grip " + std::to_string(grip) + " is not in use");
 }
 
 // Unused records are zeroed, so that equal grips give equal parameters.
