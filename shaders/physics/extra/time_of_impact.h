@@ -28,7 +28,7 @@ struct MotionPath {
     float sweep;  // bound on the surface speed by rotation about an axis perpendicular to the gap, m per step
     vec4 orientation;
     vec4 turn;        // difference of quaternions
-    vec3 axis;        // of the turn, unit
+    vec3 axis;        // of the rotation, unit
     float most;       // bound on the same for any direction of the gap, m per step
     PoseInBody part;  // pose in the body that moves
     uint of_part;     // 1: it is a part

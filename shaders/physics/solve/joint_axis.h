@@ -31,7 +31,8 @@ LAW float joint_push(float coordinate, uint axis, Parameters parameters) {
     return clamped(coordinate * (JOINT_RATE * parameters.inverse_h), -fastest, fastest);
 }
 
-// Whether a spring is soft enough to act explicitly, as its force at the start of the substep, which does not damp it.
+// Whether a spring is soft enough to act explicitly, as its force at the start of the substep, which takes no energy
+// out of its oscillation.
 LAW bool is_gentle(JointAxis axis, float inverse_effective_mass, Parameters parameters) {
     float h = parameters.h;
     return h * h * axis.stiffness * inverse_effective_mass < GENTLE_SPRING &&

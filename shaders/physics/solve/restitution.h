@@ -53,7 +53,8 @@ LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a
     return found;
 }
 
-// Velocity toward the surface (<= 0) after the impact: e times the impact velocity, less half a substep's acceleration.
+// Bias of the relax pass after an impact, minus the rebound velocity (<= 0): e times the impact velocity, plus half a
+// substep's relative acceleration along the normal.
 LAW float restitution_target(Constraint c, float impact_velocity, vec3 pull, Parameters parameters) {
     return smaller(c.restitution * impact_velocity + 0.5f * parameters.h * dot3(c.normal, pull), 0.0f);
 }
