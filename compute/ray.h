@@ -1,4 +1,4 @@
-// A ray, and the first surface that it meets: what lies under a pointer, what a sensor sees.
+// A ray, and its hit: for picking and sensors.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +13,9 @@ struct Ray {
 
 struct RayHit {
     std::size_t body = 0;
-    float distance = 0;   // m, along the ray
-    glm::vec3 point{0};   // m, on the body's surface
-    glm::vec3 normal{0};  // unit, out of the surface there
+    float distance = 0;   // from the ray's origin, m
+    glm::vec3 point{0};   // on the surface, m
+    glm::vec3 normal{0};  // unit, outward
 };
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// What all runners share: transfers are counted, so that tests can hold what an edit sends.
+// Common to all runners: counting uploaded bytes, so that tests can limit what an edit uploads.
 #include "compute/runner.h"
 
 #include "compute/step/table_ranges.h"

@@ -1,4 +1,5 @@
-// Runners: who walks the plan of a step. The plan (compute/step/plan.h) is the same for all; the choice lies outside the step.
+// Runners execute the plan of a step (compute/step/plan.h), which is the same for all: reference (CPU), device,
+// lockstep.
 #pragma once
 
 #include <cstdint>
@@ -19,40 +20,39 @@ class Runner {
 public:
     virtual ~Runner() = default;
     virtual std::string backend() const = 0;       // "cpu" or "vulkan"
-    virtual std::string device() const = 0;        // for people: threads, or the name of the Vulkan device
+    virtual std::string device() const = 0;        // for display: threads, or the Vulkan device
     virtual std::uint32_t group_size() const = 0;  // threads of a workgroup, a power of two up to 256
 
-    virtual const Threads& threads() const = 0;  // of the processor, for what is done between steps
+    virtual const Threads& threads() const = 0;  // of the host, for work between steps
 
-    virtual bool in_place() const = 0;  // works on the state's own tables, so all of them need memory
+    virtual bool in_place() const = 0;  // works on the state's own tables, which then need memory for all of them
 
-    // Takes over the tables: sizes and contents. Called once. The state outlives the runner.
+    // Takes over sizes and contents of the tables. Called once. The state outlives the runner.
     virtual void attach(State& state) = 0;
-    // Follows the attached state, whose tables have grown, or whose substeps or content have changed. What the runner's tables
-    // hold stays; records that are new are the caller's to upload.
+    // Adapts to the attached state after its tables have grown, or its substeps or features have changed. Contents of
+    // the runner's tables stay; new records are the caller's to upload.
     virtual void adapt() = 0;
-    // Runs one step with the state's parameters and actions. False: a list would have outgrown its buffer; the bodies are as
-    // before, and State::counts says what is needed.
+    // Runs one step with the state's parameters and actions. False: a list would have overflowed its buffer; the bodies
+    // are as before, and State::counts has the required sizes.
     virtual bool step() = 0;
-    // `count` steps one after the other, with the same parameters and no actions; adds one to `done` after each. False: the next
-    // is the first of which step() says so. A device has two of them at a time, and waits for no word from the host.
+    // Runs `count` steps with the same parameters and no actions; increments `done` after each. False: the next step is
+    // the first for which step() returns false. A device has two steps in flight and does not wait for the host.
     virtual bool steps(int count, std::uint64_t& done) {
         for (int i = 0; i < count; ++i, ++done)
             if (!step()) return false;
         return true;
     }
-    // Ranges of the attached state's tables, brought to the runner's tables and back, all in one transfer. The counts come back
-    // by themselves with every step, the parameters and actions go with it.
+    // Transfers ranges of the attached state's tables to and from the runner's, in one transfer. Counts come back with
+    // every step, parameters and actions go with it.
     void upload(const std::vector<TableRange>& ranges);
     void download(const std::vector<TableRange>& ranges);
-    std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }  // so far, in ranges
+    std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }  // so far, by upload()
 
-    // Whether the steps to come are timed stage by stage. At first none is: on a software device a mark between two stages of a
-    // small world takes longer than the stages. On the CPU it costs nothing, and all are.
+    // Whether later steps are timed stage by stage. Off at first on devices: on a software device a timestamp between
+    // two stages of a small world takes longer than the stages. On the CPU always on, at no cost.
     virtual void set_profiling(bool /* on */) {}
-    virtual StageTimes stage_times() const = 0;       // means over the timed steps since the stages changed: with the substeps,
-                                                      // or when a small world grew
-    virtual StageTimes last_stage_times() const = 0;  // of the last timed step alone
+    virtual StageTimes stage_times() const = 0;       // means over the timed steps since the plan last changed
+    virtual StageTimes last_stage_times() const = 0;  // of the last timed step
 
 private:
     virtual void send(const std::vector<TableRange>& ranges) = 0;
@@ -61,7 +61,7 @@ private:
     std::uint64_t uploaded_bytes_ = 0;
 };
 
-// On the CPU, in `threads` threads (0: one per core). No bit depends on how many.
+// The CPU runner with `threads` threads (0: one per core). No bit depends on their number.
 std::unique_ptr<Runner> make_reference_runner(int threads = 0);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// The ranges of the settings.
+// Validation of the settings.
 #include "compute/settings.h"
 
 #include <stdexcept>

@@ -1,4 +1,4 @@
-// Shapes as members of the list of shapes.
+// Lookups in the list of shapes.
 #include "compute/shapes.h"
 
 namespace scree {

@@ -1,9 +1,9 @@
-// The shapes that a body can have, and the one list of them: what a scene file calls each, its fields, their ranges and units.
+// The shapes of bodies, and the one list of them: name in scene files, fields, ranges and units.
 //
-// Validation, scene files, the check of their schema and messages follow from this list, and the order of SimpleShape is that of
-// the shape ids of a step. To add a convex shape: its struct, its place in SimpleShape and its ShapeInfo here; its id and its
-// laws in shaders/physics/collide/shapes.h; what the host measures of it in compute/scene/shape_geometry.cpp and ray_cast.cpp;
-// its normal in surface_normal.cpp; how it is drawn in demos/film/drawing.cpp. The compiler or a test tells what is missing.
+// Validation, scene files, their schema and messages follow from this list; the order of SimpleShape is that of the
+// shape ids of a step. To add a convex shape: its struct, its alternative in SimpleShape and its ShapeInfo here; id and
+// functions in shaders/physics/collide/shapes.h; host geometry in compute/scene/shape_geometry.cpp and ray_cast.cpp;
+// normals in surface_normal.cpp; drawing in demos/film/drawing.cpp. The compiler or a test reports what is missing.
 #pragma once
 
 #include <cstddef>
@@ -27,12 +27,12 @@ struct Sphere {
 };
 struct Capsule {               // along the body's y axis
     float radius = 0.3f;       // m
-    float half_height = 0.3f;  // m, from the centre to the centre of a cap; 0 is a sphere
+    float half_height = 0.3f;  // m, from the centre to the centre of a cap; 0: a sphere
 };
 struct Box {
     vec3 half_extents{0.5f};  // m
 };
-struct Plane {             // infinite, solid behind the normal; fixed bodies only, whose position and orientation it ignores
+struct Plane {             // infinite, solid behind the normal; fixed bodies only, whose pose it ignores
     vec3 normal{0, 1, 0};  // normalised when the scene is checked
     float offset = 0;      // m, along the normal from the origin
 };
@@ -40,7 +40,7 @@ struct Cylinder {              // along the body's y axis
     float radius = 0.3f;       // m
     float half_height = 0.3f;  // m
 };
-struct Cone {             // along the body's y axis, the apex up; its centre of mass is a quarter of its height above its base
+struct Cone {             // along y, apex up; the centre of mass is a quarter of the height above the base
     float radius = 0.3f;  // of the base, m
     float height = 0.6f;  // m
 };
@@ -49,35 +49,35 @@ struct Ellipsoid {
 };
 struct HullForm;                             // compute/scene/hull.h
 struct Hull {                                // the convex hull of points
-    std::vector<vec3> points;                // m, at least 4, not in a plane; inner and repeated ones do not matter
+    std::vector<vec3> points;                // m, at least 4, not coplanar; inner and repeated points are ignored
     std::shared_ptr<const HullForm> form{};  // made when the scene is checked
 };
-// The convex shapes and the plane. A shape's place here is its id in the step.
+// Convex shapes and the plane. The index of the alternative is the shape id in a step.
 using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Ellipsoid, Hull>;
 
 struct Part {  // of a compound
     SimpleShape shape = Box{};
-    vec3 position{0};              // of the shape's centre of mass in the body's frame, m; of a hull as of a body
+    vec3 position{0};  // of the shape's centre of mass in the body frame, m; of a hull its points' origin until checked
     vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
     float density = 0;             // kg/m^3; 0: the body's own
 };
-struct Compound {             // several shapes on one body, which moves as one
-    std::vector<Part> parts;  // at least one; no planes. Where two overlap, the mass of both counts
+struct Compound {             // several convex shapes on one rigid body
+    std::vector<Part> parts;  // at least one; no planes. The masses of overlapping parts add up
 };
 struct MeshForm;  // compute/scene/mesh.h
-// Triangles, solid behind their faces; for fixed and kinematic bodies. What comes from behind passes through.
+// A triangle mesh, one-sided: solid behind its faces; for fixed and kinematic bodies. Bodies from behind pass through.
 struct Mesh {
     std::vector<vec3> vertices;              // m, in the body's frame
-    std::vector<glm::uvec3> triangles;       // their corners, counter-clockwise seen from outside
-    std::string file{};                      // where they come from, for a scene file; may be empty
-    float scale = 1;                         // of what the file says; the vertices here have it already
+    std::vector<glm::uvec3> triangles;       // vertex indices, counter-clockwise seen from outside
+    std::string file{};                      // the mesh file, for scene files; may be empty
+    float scale = 1;                         // scale of the file; applied to `vertices` already
     std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
 };
-// Ground over a grid, solid below; for fixed and kinematic bodies. Its middle is the body's origin.
+// Terrain over a grid, solid below; for fixed and kinematic bodies. The grid is centred on the body's origin.
 struct HeightField {
-    std::uint32_t columns = 2, rows = 2;     // of the grid, along x and along z; at least 2 each
+    std::uint32_t columns = 2, rows = 2;     // grid points along x and along z; at least 2 each
     float spacing = 1;                       // m, between neighbours
-    std::vector<float> heights;              // m, along y: columns * rows of them, row by row
+    std::vector<float> heights;              // m, along y: columns * rows values, row by row
     std::shared_ptr<const MeshForm> form{};  // made when the scene is checked
 };
 
@@ -93,20 +93,20 @@ using Shape = ExtendedVariant<SimpleShape, Compound, Mesh, HeightField>::type;
 struct FieldRange {
     float least, most;
 };
-constexpr FieldRange size_range{1e-3f, 1e5f};  // m. Below, a body's inverse inertia leaves the range of a float
+constexpr FieldRange size_range{1e-3f, 1e5f};  // m. Below, inverse inertias leave the range of a float
 constexpr FieldRange size_or_none_range{0, 1e5f};
-constexpr FieldRange within_shape_range{-1e5f, 1e5f};  // m, of a place in a shape
+constexpr FieldRange within_shape_range{-1e5f, 1e5f};  // m, of points in a shape
 constexpr FieldRange position_range{-1e6f, 1e6f};      // m. A float resolves 6 cm there
-constexpr FieldRange direction_range{0, 0};            // of a vector that gets unit length when the scene is checked
+constexpr FieldRange direction_range{0, 0};            // marks vectors that are normalised when the scene is checked
 
 template <class Owner, class Value>
 struct ShapeField {
     const char* name;  // in scene files and messages
     Value Owner::*member;
-    FieldRange range;  // of each number of it
-    const char* unit;  // with a space before it, for messages
+    FieldRange range;  // of each component
+    const char* unit;  // with a leading space, for messages
     const char* about = "";
-    bool required = true;  // in a scene file; else its default is the struct's own
+    bool required = true;  // in a scene file; else defaults to the struct's value
 
     constexpr ShapeField(const char* called, Value Owner::*field, FieldRange within, const char* measured_in,
                          const char* meaning = "", bool always_said = true)
@@ -139,8 +139,7 @@ struct ShapeInfo<Box> {
 template <>
 struct ShapeInfo<Plane> {
     static constexpr const char* name = "plane";
-    static constexpr const char* about =
-        "infinite, solid behind the normal; only for \"fixed\" bodies, whose position and orientation it ignores";
+    static constexpr const char* about = "infinite, solid behind the normal; only for \"fixed\" bodies, whose pose it ignores";
     static constexpr std::tuple fields{
         ShapeField{"normal", &Plane::normal, direction_range, "", "any length but 0", false},
         ShapeField{"offset", &Plane::offset, position_range, " m", "m, along the normal from the origin", false}};
@@ -178,7 +177,7 @@ struct ShapeInfo<Compound> {
     static constexpr std::tuple fields{ShapeField{"parts", &Compound::parts, within_shape_range, " m"}};
 };
 template <>
-struct ShapeInfo<Mesh> {  // a scene file may name a file instead of the fields
+struct ShapeInfo<Mesh> {  // scene files may name a mesh file instead of the fields
     static constexpr const char* name = "mesh";
     static constexpr std::tuple fields{ShapeField{"vertices", &Mesh::vertices, within_shape_range, " m"},
                                        ShapeField{"triangles", &Mesh::triangles, {0, 4.294967e9f}, ""}};
@@ -197,7 +196,7 @@ template <class OfShape, class Function>
 void for_each_shape_field(Function&& f) {
     std::apply([&](const auto&... field) { (f(field), ...); }, ShapeInfo<std::remove_cvref_t<OfShape>>::fields);
 }
-// Calls f with a default shape of each kind, in the order of Shape; it returns true to go on.
+// Calls f with a default shape of each kind, in the order of Shape, while f returns true.
 template <std::size_t first = 0, class Function>
 bool for_each_shape(Function&& f) {
     if constexpr (first == std::variant_size_v<Shape>) {
@@ -208,7 +207,7 @@ bool for_each_shape(Function&& f) {
 }
 const char* shape_name(const Shape& shape);  // as in scene files
 
-// The shape if it is a single convex one, or a plane.
+// The shape if it is convex or a plane.
 std::optional<SimpleShape> simple_shape(const Shape& shape);
 Shape whole_shape(const SimpleShape& shape);
 

@@ -1,4 +1,4 @@
-// Sums in double precision over the bodies and contacts of a state.
+// Statistics in double precision over the bodies and contacts of a state.
 #include "compute/statistics.h"
 
 #include <xxhash.h>
@@ -54,7 +54,7 @@ void add_contacts(const State& state, Statistics& s) {
     double depth = 0;
     s.manifolds = state.counted().contacts;
     for (const std::uint32_t i : contacts_by_id(state)) {
-        // The points of a body that flew past its partner in the last step hang in the air.
+        // Contacts that ended within the last step by sliding off (contact_solver.h).
         if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;
         const physics::uint count = state.contacts[i].count;
         s.points += count;
@@ -116,7 +116,7 @@ Statistics statistics_of(const Scene& scene, const State& state) {
 
 std::uint64_t hash_of(const State& state) {
     constexpr std::size_t floats = 13;
-    const std::size_t bodies = state.body_count;  // parts are where their bodies are
+    const std::size_t bodies = state.body_count;  // parts follow from their bodies
     std::vector<float> values(floats * bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
         float* body = values.data() + floats * i;
@@ -128,7 +128,7 @@ std::uint64_t hash_of(const State& state) {
     }
     const std::uint64_t hash = XXH64(values.data(), values.size() * sizeof(float), 0);
     if (!state.has_fractures()) return hash;
-    std::vector<physics::uint> there;  // and who is there at all
+    std::vector<physics::uint> there;  // and which bodies exist
     for (std::size_t i = 0; i < bodies; ++i) there.push_back(state.properties[state.row_of(i)].motion);
     for (std::size_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
         there.push_back(state.properties[row].motion);

@@ -1,4 +1,4 @@
-// Cars put together.
+// Vehicle presets.
 #include "compute/vehicle_presets.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace scree {
 
 namespace {
 
-// Where a vehicle stands: its axes are x to the left, y up and z ahead.
+// A vehicle's pose: axes x left, y up, z ahead.
 struct Stand {
     vec3 position;
     vec4 turn;
@@ -21,7 +21,7 @@ struct Stand {
     vec3 along(vec3 direction) const { return physics::rotate(turn, direction); }
 };
 
-// A tyre about a hub with two spokes that stand out a little, so that it is seen to turn. Its axle is x.
+// A tyre around a hub with two spokes that protrude a little, so that rotation is visible. Its axle is x.
 Body wheel_of(float radius, float half_width, float density) {
     Body body;
     const Part tyre{Cylinder{radius, half_width}, vec3(0), vec4(0, 0, -std::sqrt(0.5f), std::sqrt(0.5f)), density};
@@ -31,7 +31,7 @@ Body wheel_of(float radius, float half_width, float density) {
 }
 
 struct Mount {
-    vec3 place;  // of the wheel's middle, in the vehicle's axes, m
+    vec3 place;  // wheel centre, vehicle axes, m
     JointKind kind;
     Wheel wheel;
 };
@@ -52,12 +52,12 @@ void mount(Scene& scene, Vehicle& vehicle, const Stand& stand, Body body, const 
 
 const char* const corners[] = {" front left", " front right", " rear left", " rear right"};
 
-// Held along and about all axes but its spring's and its own, and the steering's, which has a place.
+// All axes locked but the suspension spring, the axle and the steering axis.
 SixDof suspension_of(float load, float mass, const Car& car, bool steers) {
     const Axis locked{.locked = true};
     const float omega = 2 * std::numbers::pi_v<float> * car.hertz;
     Spring spring{.stiffness = omega * omega * mass, .damping = 2 * car.damping_ratio * omega * mass};
-    spring.rest = -load / spring.stiffness;  // so that it stands as it was built
+    spring.rest = -load / spring.stiffness;  // so that the initial pose is in equilibrium
     SixDof six{.x = locked, .y = {}, .z = locked, .twist = {}, .swing_y = locked, .swing_z = locked};
     six.y.spring = spring;
     six.y.limits = Limits{-0.16f * car.size, 0.11f * car.size};
@@ -93,7 +93,7 @@ std::size_t add_car(Scene& scene, const Car& car) {
         body.name = car.name + corners[k];
         body.friction = car.friction;
         body.tyre = car.tyre;
-        const float hold = mass * 0.25f * 9.81f * radius;  // N m, at which a wheel locks where friction is 1
+        const float hold = mass * 0.25f * 9.81f * radius;  // N m: locks a wheel at friction 1
         Wheel wheel{.radius = radius,
                     .drive = front ? 0.0f : 1.0f,
                     .brake = car.brake * hold * (front ? 1.1f : 0.6f),

@@ -1,4 +1,4 @@
-// Reference stages over bodies: loads, bounds, and the body halves of a substep.
+// Reference stages over bodies: forces, bounds, and the body stages of a substep.
 #include <algorithm>
 #include <atomic>
 #include <span>
@@ -45,7 +45,7 @@ bool moved_by_contacts(const State& state, std::size_t body) {
     return physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
 }
 
-// Those that contacts move.
+// Bodies that contacts move.
 std::vector<std::uint32_t> movable_bodies(const State& state) {
     std::vector<std::uint32_t> bodies;
     if (!physics::any_stirs(state.counted())) return bodies;
@@ -126,7 +126,7 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
     };
     const physics::uint sleep_steps = state.fixed().sleep_steps;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        // Copies, or the compiler must suspect that what is written below changes them, and computes twice.
+        // Copies: else the compiler assumes that the writes below alias them, and computes twice.
         const physics::BodyProperties properties = state.properties[i];
         const physics::Pose pose = state.poses[i];
         if (physics::is_absent(properties.motion)) {

@@ -22,7 +22,7 @@ std::span<const physics::CellEntry> bucket(const State& state, std::size_t b) {
     return entries(state, b == 0 ? 0 : state.cell_ends[b - 1], state.cell_ends[b]);
 }
 
-// physics::boxes_overlap without a branch: half of the neighbours do, and no processor foresees which.
+// physics::boxes_overlap without branches: half of the neighbours overlap, which no branch predictor foresees.
 bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
     using Four [[gnu::vector_size(16)]] = float;  // a bound and the integer behind it
     using Halves [[gnu::vector_size(16)]] = std::uint64_t;
@@ -35,7 +35,7 @@ bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
     return (both[0] & (both[1] | 0xFFFFFFFF00000000u)) == ~std::uint64_t{0};
 }
 
-// Calls visit(entries) for the bodies in a row of cells along x, whose buckets follow each other round the end of the grid.
+// Calls visit(entries) for the bodies in a row of cells along x, whose buckets may wrap round the end of the grid.
 template <typename Visit>
 void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cells, std::uint32_t level, const Visit& visit) {
     const std::uint32_t buckets = state.fixed().buckets;
@@ -61,7 +61,7 @@ bool still(const State& state, std::uint32_t body) {
     return (state.bounds[body].level & physics::INACTIVE) != 0;
 }
 
-// Pairs of bodies that do not stir are those that touched in the last step.
+// Pairs of inactive bodies are those of last step's contacts.
 template <typename Found>
 void for_each_carried_over(const State& state, std::uint32_t body, const Found& found) {
     if (!still(state, body)) return;
@@ -71,7 +71,7 @@ void for_each_carried_over(const State& state, std::uint32_t body, const Found& 
     }
 }
 
-// Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
+// Whether a joint disables collision between two bodies. Only bodies that joints move have a list of joints.
 bool kept_apart(const State& state, std::uint32_t body, std::uint32_t other) {
     if (state.properties[body].joints == physics::NONE) std::swap(body, other);
     for (std::uint32_t j = state.properties[body].joints; j != physics::NONE;) {
@@ -83,7 +83,7 @@ bool kept_apart(const State& state, std::uint32_t body, std::uint32_t other) {
     return false;
 }
 
-// Calls found(other) for each body whose pair with `body` the latter owns.
+// Calls found(other) for each partner of the pairs that `body` owns.
 template <typename Found>
 void for_each_partner(const State& state, std::uint32_t body, const Found& list) {
     const physics::Parameters& p = state.fixed();
@@ -112,7 +112,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
                 if (!(overlap(around, other) & ((other.level & ~(physics::INACTIVE | physics::MOVES)) == level))) continue;
                 if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
                 const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
-                if (cell.y != from.y || cell.z != from.z) continue;  // of another row whose buckets happen to be the same
+                if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
                 if (physics::can_touch(own, state.properties[other.body])) found(other.body);
             }
         };

@@ -1,4 +1,4 @@
-// Reference contact stages: slots of bodies, preparation, and the contact halves of a substep.
+// Reference contact stages: slots, preparation, and the contact stages of a substep.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -25,12 +25,12 @@ physics::VelocityPair velocities_of(const State& state, const physics::Constrain
     return {state.velocities[c.a], state.velocities[c.b]};
 }
 
-// Asked for only where a blow may be thrown back.
+// Read only where restitution is possible.
 vec3 pull(const State& state, const physics::Constraint& c) {
     return c.restitution > 0 ? physics::relative_acceleration(state.forces[c.a], state.forces[c.b]) : vec3(0);
 }
 
-// `told`: what A and B tell each other.
+// `told`: normal impulse, or quiet steps, for A and B (VelocityDelta).
 void hand_out(State& state, const physics::Constraint& c, const physics::VelocityPair& share, float carrying,
               std::array<float, 2> told = {0, 0}) {
     if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(share.a, carrying, told[1]);
@@ -46,7 +46,7 @@ void compact_contacts(State& state, const Threads& threads, std::uint32_t) {
         c.pair = static_cast<std::uint32_t>(i);
         c.slot_a = c.slot_b = physics::NONE;
         if (!state.reordered()) return;
-        // Until it is prepared, who owns it: sort_slots asks.
+        // Temporarily the owner's id, by which sort_slots orders; prepare_contacts overwrites it.
         const physics::Pair& pair = state.pairs[i];
         const bool is_a = state.pair_starts[pair.a] <= i && i < state.pair_starts[pair.a + 1];
         c.a = state.id_of(is_a ? pair.a : pair.b);
@@ -66,7 +66,7 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
     if (!physics::any_stirs(state.counted())) return;
     physics::Counts& counts = state.counted();
     threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
-        std::vector<std::uint32_t> solved;  // by one thread: all asking one counter for a place each took longer than the rest
+        std::vector<std::uint32_t> solved;  // one atomic add per thread: one per contact took longer than the rest
         solved.reserve(last - first);
         for (auto contact = static_cast<std::uint32_t>(first); contact < last; ++contact) {
             const physics::Pair& pair = state.pairs[state.constraints[contact].pair];
@@ -89,7 +89,8 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
         state.first_contacts[i] = state.contact_starts[state.pair_starts[i]];
         const std::uint32_t first = i == 0 ? 0 : state.slot_ends[i - 1];
         const std::uint32_t last = state.slot_ends[i];
-        // By the id of the contact's owner, then by contact, and joints behind them: so that the body's sum has one order.
+        // Order of a body's slots, which fixes the order of its sum: by the id of the contact's owner, then by contact;
+        // joints last.
         const auto key = [&](std::uint32_t side) {
             const bool of_joint = (side & physics::OF_JOINT) != 0;
             return std::pair(of_joint ? physics::NONE : state.constraints[side / 2].a, side);
@@ -133,7 +134,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
                                                  state.impulses_before[pair.previous], ta, tb);
         }
         const bool idle = physics::is_idle(c.slot_a, c.slot_b);
-        // Between two that sleep nothing is new.
+        // Unchanged between two inactive bodies.
         if (pair.previous != physics::NONE && !(idle && pair.pair_type == physics::PAIR_INACTIVE))
             prepared.contact.load = physics::load_since(state.contacts_before[pair.previous],
                                                         state.impulses_before[pair.previous], ta, c.slot_a, tb, c.slot_b);

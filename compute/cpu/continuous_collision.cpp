@@ -1,4 +1,4 @@
-// Reference stages of fast bodies: who meets whom on the way, and who is stopped where.
+// Reference stages of continuous collision: predicted impacts, times of impact, clamping.
 #include <atomic>
 
 #include "compute/cpu/stages.h"

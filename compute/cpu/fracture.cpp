@@ -1,4 +1,4 @@
-// Reference stages of bodies that break.
+// Reference stages of fracture.
 #include "shaders/physics/extra/fracture.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ namespace scree::reference {
 
 namespace {
 
-// Calls visit(contact, side) for each slot that a contact has of a body, in their order.
+// Calls visit(contact, side) for each slot that a contact has with a body, in order.
 template <typename Visit>
 void for_each_slot(const State& state, std::size_t body, const Visit& visit) {
     const auto first = state.slot_sides.begin() + (body == 0 ? 0 : state.slot_ends[body - 1]);

@@ -1,4 +1,4 @@
-// Reference joint stages: each block of joints as a sparse system of linear equations that is solved at once.
+// Reference joint stages: each block of joints as one sparse linear system, solved directly.
 #include "shaders/physics/solve/joint_block.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@ using physics::Joint;
 using physics::JointRow;
 using physics::NONE;
 
-// An end of a joint: the body's record in the block, and which way it is pushed.
+// An end of a joint: the body's record in the block, and the sign of the impulse.
 struct End {
     physics::uint block_body;
     bool is_b;
@@ -43,7 +43,7 @@ public:
         for (Joint& joint : joints_)
             if (!joint.broken) visit(joint);
     }
-    // The axes on which a joint acts at all.
+    // The axes that constrain.
     template <class Visit>
     static void for_each_axis(Joint& joint, const Visit& visit) {
         for (physics::uint k = 0; k < 6; ++k)
@@ -97,7 +97,7 @@ public:
         joints_[0].unsettled = others;
     }
 
-    // What whole bodies feel of `impulse(row)` of every row, handed to their slots.
+    // Writes the whole bodies' velocity changes by `impulse(row)` of every row to their slots.
     template <class Impulse>
     void gather(const Impulse& impulse) {
         for (Joint& record : members_) {
@@ -153,7 +153,7 @@ private:
     physics::VelocityPair speeds(const Joint& joint) const {
         return {speed(joint.a, joint.block_body_a), speed(joint.b, joint.block_body_b)};
     }
-    // In the biased pass with what the contacts have done, whose slots come before those of the blocks.
+    // In the biased pass with this pass's changes by contacts, whose slots come before those of joints.
     void take_velocities(bool biased) {
         for (Joint& record : members_) {
             const physics::uint body = record.block_body;
@@ -177,7 +177,7 @@ private:
         }
     }
 
-    // The entry of row n of a joint and a row of another, of that response.
+    // The matrix entry of row n of a joint and the row of a response of another joint.
     static float entry(const Joint& left, physics::uint n, const Joint& right, const physics::RowResponse& to) {
         const JointRow& row = left.rows[n];
         return physics::row_entry(row.direction, row.angular_a, row.angular_b, n, to, shared(left, right));
@@ -297,7 +297,7 @@ bool may_move(const State& state, std::uint32_t body) {
 template <class Work>
 void for_each_block(State& state, const Threads& threads, const Work& work) {
     if (state.counted().overflow) return;
-    // A block is as much work as many contacts: all threads take part although there are few.
+    // Fine-grained parts: a block is as much work as many contacts, so all threads share even few blocks.
     const std::size_t blocks = state.fixed().joint_blocks;
     const std::size_t parts = threads.count() == 1 ? 1 : 128;
     threads.for_each(parts, [&](std::size_t part) {

@@ -1,4 +1,4 @@
-// Reference narrowphase: pairs sorted by kind, each kind collided by its law.
+// Reference narrowphase: pairs binned by type, one collision function each.
 #include <algorithm>
 #include <array>
 
@@ -34,7 +34,7 @@ using ConvexLaw = physics::ManifoldBuffer (*)(physics::BodyProperties, physics::
 constexpr std::array<ConvexLaw, 5> laws_of_convex{physics::collide_plane_convex, physics::collide_convex, physics::collide_convex,
                                                   physics::collide_sphere_triangle, physics::collide_convex_triangle};
 
-// The simpler shape first.
+// The shape of the lower id first.
 physics::ManifoldBuffer touch_of(std::uint32_t pair_type, const physics::BodyProperties& ta, const physics::Pose& pa,
                                  const physics::BodyProperties& tb, const physics::Pose& pb, float margin, const State& state) {
     if (pair_type < laws.size()) return laws[pair_type](ta, pa, tb, pb, margin);

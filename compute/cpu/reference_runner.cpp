@@ -1,4 +1,4 @@
-// Walks the plan on the CPU.
+// The reference runner: runs the plan on the CPU.
 #include "compute/cpu/reference_runner.h"
 
 #include <chrono>

@@ -23,11 +23,11 @@ public:
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
 
-    // A step whose every stage is followed by a look at the state; stops, returning false, when the look says so.
+    // A step with a callback after every stage; ends early, returning false, when the callback returns false.
     bool step(const std::function<bool(const Stage&, std::size_t index)>& look);
 
 private:
-    // In place: what is in the state is where it is needed.
+    // In place: no transfers.
     void send(const std::vector<TableRange>&) override {}
     void receive(const std::vector<TableRange>&) override {}
 

@@ -1,4 +1,4 @@
-// Reference scans: the standard algorithms, in place of three device stages each.
+// Reference scans: standard algorithms, in place of three device stages each.
 #include <algorithm>
 #include <numeric>
 
@@ -9,7 +9,7 @@ namespace scree::reference {
 
 namespace {
 
-// Exclusive, in place, with the total behind the last item.
+// Exclusive prefix sum, in place, with the total behind the last item.
 void scan_in_place(std::vector<physics::uint>& list, std::size_t items) {
     list[items] = 0;
     std::exclusive_scan(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(items) + 1, list.begin(), 0u);

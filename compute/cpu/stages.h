@@ -1,4 +1,5 @@
-// The stages as plain loops on the CPU: the independent text that the shaders are checked against. One function a stage.
+// The stages as plain CPU loops, one function each: the independent implementation that the shaders are checked
+// against.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +9,7 @@
 
 namespace scree::reference {
 
-// How the stages of a substep see a state that work on several items at once (compute/cpu/simd/simd_stages.h).
+// A state as seen by the SIMD stages of a substep (compute/cpu/simd/simd_stages.h).
 struct WideTables;
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
 
@@ -33,14 +34,14 @@ SCREE_STAGE(match_pairs);
 // narrowphase.cpp
 SCREE_STAGE(count_pair_types);
 SCREE_STAGE(fill_pair_types);
-SCREE_STAGE(collide);  // pass: the kind of pairs
+SCREE_STAGE(collide);  // pass: pair type
 SCREE_STAGE(collide_persistent);
 SCREE_STAGE(collide_inactive);
 
 // waking.cpp
 SCREE_STAGE(wake_touched);
 SCREE_STAGE(wake_unsupported);
-SCREE_STAGE(propagate_wake);  // pass: how deep those wake who shake in this round
+SCREE_STAGE(propagate_wake);  // pass: the depth of this round
 
 // contacts.cpp
 SCREE_STAGE(compact_contacts);
@@ -49,7 +50,7 @@ SCREE_STAGE(fill_slots);
 SCREE_STAGE(sort_slots);
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
-SCREE_STAGE(relax_contacts);  // pass: 1 in the step's last substep, 2 in its first, 4 if what contacts carry is added up
+SCREE_STAGE(relax_contacts);  // pass: 1 in the last substep, 2 in the first, 4 if contact impulses are summed
 
 // joints.cpp
 SCREE_STAGE(wake_joined);
@@ -57,7 +58,7 @@ SCREE_STAGE(count_joint_slots);
 SCREE_STAGE(fill_joint_slots);
 SCREE_STAGE(prepare_joints);
 SCREE_STAGE(solve_joints);
-SCREE_STAGE(relax_joints);  // pass: whether it is the step's last
+SCREE_STAGE(relax_joints);  // pass: 1 in the last substep
 
 // vehicles.cpp
 SCREE_STAGE(drive_vehicles);
@@ -65,7 +66,7 @@ SCREE_STAGE(drive_vehicles);
 // continuous_collision.cpp
 SCREE_STAGE(predict_impacts);
 SCREE_STAGE(cull_speculative);
-SCREE_STAGE(find_impacts);  // pass: the round
+SCREE_STAGE(find_impacts);  // pass: round
 SCREE_STAGE(clamp_to_impact);
 
 // fracture.cpp
@@ -73,7 +74,7 @@ SCREE_STAGE(find_broken);
 SCREE_STAGE(return_excess_impulse);
 SCREE_STAGE(break_bodies);
 
-// scans.cpp: block sums are the devices' own affair; here the total is known in the spine, the offsets in the last stage.
+// scans.cpp: block sums exist on devices only; here the spine computes the total, the last stage the offsets.
 SCREE_STAGE(scan_nothing);
 SCREE_STAGE(scan_pairs_spine);
 SCREE_STAGE(scan_contacts_spine);

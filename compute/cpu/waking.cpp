@@ -1,4 +1,4 @@
-// Reference stages that wake sleepers.
+// Reference stages of waking.
 #include <algorithm>
 #include <atomic>
 
@@ -32,7 +32,7 @@ bool wakes(State& state, const physics::Pair& pair, std::uint32_t sleeper, std::
                           touched ? state.contacts_before[pair.previous].load : 0, state.properties[sleeper], state.fixed());
 }
 
-// Whether the pairs that `owner` found tell of a contact with `other`.
+// Whether `owner` owns a pair with `other` that has contact points.
 bool owner_touches(const State& state, std::uint32_t owner, std::uint32_t other) {
     for (std::size_t i = state.pair_starts[owner]; i < state.pair_starts[owner + 1]; ++i) {
         const physics::Pair& pair = state.pairs[i];

@@ -1,4 +1,4 @@
-// Walks the plan on a Vulkan device.
+// Device runner: executes the plan on a Vulkan device.
 #include "compute/device/device_runner.h"
 
 #include <tbb/parallel_for.h>
@@ -15,8 +15,8 @@ namespace scree {
 
 namespace {
 
-// A software device runs every group of a dispatch to its end, whether its threads have items or not: smaller ones waste less in
-// a small world, and share it out among the cores.
+// Software devices run whole workgroups even if threads have no items: smaller groups waste less in small worlds, and
+// distribute them over cores.
 std::uint32_t threads_of_a_group(const host::Device& device) {
     return device.report().is_processor ? 64 : 128;
 }
@@ -28,11 +28,12 @@ std::size_t buffer_of(Table table) {
 constexpr std::array read_while_changing{Table::poses,    Table::velocities, Table::masses, Table::forces,
                                          Table::impulses, Table::slots};  // shaders/stages/lib/read_coherent.glsl
 
-static_assert(host::tables_of_a_step.storage == buffer_count - 1);  // all but the parameters
+static_assert(host::tables_of_a_step.storage == buffer_count - 1);  // without the parameters
 static_assert(host::tables_of_a_step.texels == buffer_count);
 static_assert(host::tables_of_a_step.changing_texels == read_while_changing.size());
 
-// The parameters are a uniform block; with `texels` every buffer can be read as texels too (shaders/stages/lib/read.glsl).
+// The parameters are a uniform block; with `texels` every buffer can be read as texels too
+// (shaders/stages/lib/read.glsl).
 std::vector<host::Access> accesses(bool texels) {
     std::vector<host::Access> all(buffer_count);
     all[buffer_of(Table::parameters)].uniform = true;
@@ -88,7 +89,7 @@ host::Reach DeviceRunner::reach_needed() const {
     const bool bindable = std::all_of(buffers_.begin(), buffers_.end(), [&](const host::Buffer& buffer) {
         return buffer.bytes() <= device_->report().largest_binding;
     });
-    // The parameters are none of the storage buffers.
+    // Without the parameters, which are no storage buffer.
     return bindable && buffer_count - 1 <= device_->limits().maxPerStageDescriptorStorageBuffers ? host::Reach::bound
                                                                                                  : host::Reach::far;
 }
@@ -114,7 +115,7 @@ void DeviceRunner::make_plan(host::Reach reach) {
         if (!back) back = host::Buffer(device_, "counts_back", sizeof(physics::Counts), host::BufferUse::readback);
 }
 
-// shaders/stages/lib/fused.glsl says why.
+// See shaders/stages/lib/fused.glsl.
 bool DeviceRunner::is_one_subgroup() const {
     return device_->report().is_processor && device_->report().subgroup > 0;
 }
@@ -130,7 +131,7 @@ std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const 
 void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
     const std::string variant =
         std::string(layout_->reach() == host::Reach::far ? ".bda" : "") + (layout_->has_texels() ? ".texels" : "");
-    // Drivers take up to a tenth of a second for each, on one core.
+    // In parallel: drivers take up to a tenth of a second per pipeline on one core.
     std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
     for (const Stage& stage : stages)
         if (!pipelines_.contains({stage.name, stage.features}) &&
@@ -145,7 +146,7 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
     for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->features}, std::move(*pipeline));
 }
 
-// A world that has grown may be small no more.
+// A grown world may no longer be small.
 void DeviceRunner::fuse() {
     std::vector<Stage> recorded;
     joint_rounds_ = joint_rounds_at_once(state_->joints, state_->fixed().joint_blocks);
@@ -283,7 +284,7 @@ bool DeviceRunner::steps(int count, std::uint64_t& done) {
         const std::size_t parity = submitted == waited + 2 ? parity_ ^ 1 : parity_;
         under_way[parity]->wait();
         if (finished(parity)) continue;
-        // The step behind it has found the overflow and left everything as it was.
+        // The next step has seen the overflow and changed nothing.
         for (std::optional<host::Submission>& step : under_way) step.reset();
         parity_ = parity;
         return false;

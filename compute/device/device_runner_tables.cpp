@@ -1,4 +1,4 @@
-// Where the tables are on the device, and how they travel between it and a state.
+// Device runner: buffers of the tables and transfers.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace scree {
 namespace {
 
 std::string what_would_fit(const State& state, const host::DeviceReport& device) {
-    // A body brings its parts and the pieces that it may break into: all have rows.
+    // A body adds rows for its parts and fragments.
     const auto pieces = static_cast<std::size_t>(
         std::count_if(state.properties.begin(), state.properties.begin() + state.body_count,
                       [](const physics::BodyProperties& t) { return t.motion == physics::MOTION_PENDING; }));
@@ -29,20 +29,20 @@ std::string what_would_fit(const State& state, const host::DeviceReport& device)
     return "All tables of the " + std::to_string(state.body_count - pieces) + " bodies" + with + text;
 }
 
-// What a table holds from one step to the next, or until a step that was cut short is repeated.
+// Whether a table's contents last to the next step, or to the repetition of an aborted one.
 bool lasts(Table table) {
     const std::vector<Table>& lasting = lasting_tables();
     return std::any_of(lasting.begin(), lasting.end(), [&](Table one) { return one == table || other_parity(one) == table; });
 }
 
-// The same of some table in a buffer.
+// The same for any table of a buffer.
 bool lasts(std::size_t buffer) {
     for (std::size_t i = 0; i < table_count; ++i)
         if (table_infos()[i].buffer == buffer && lasts(static_cast<Table>(i))) return true;
     return false;
 }
 
-// Of the tables in one buffer.
+// Copies the layout of the tables in one buffer.
 void take_offsets(TableOffsets& offsets, const TableOffsets& wanted, std::size_t buffer) {
     offsets.bytes[buffer] = wanted.bytes[buffer];
     for (std::size_t i = 0; i < table_count; ++i) {
@@ -52,7 +52,7 @@ void take_offsets(TableOffsets& offsets, const TableOffsets& wanted, std::size_t
     }
 }
 
-// Records that a table gets beyond those it needs: half as many again of what edits add one by one. Lists have room of their own
+// Spare records of a table: half as many again for those that edits extend one by one. Lists have their own reserve
 // (State::grow).
 std::size_t room_behind(const State& state, BufferLength length) {
     switch (length) {
@@ -90,7 +90,7 @@ void DeviceRunner::make_buffers() {
     tell_offsets(offsets_, state_->fixed());
 }
 
-// Where an edit has made a table longer, others may follow: with room for them, unless there is none. What lasts goes along.
+// Reallocates a buffer for a table that an edit extended, with spare room if memory allows, keeping lasting contents.
 void DeviceRunner::make_buffer(std::size_t index) {
     const TableOffsets were = offsets_;
     host::Buffer before = std::move(buffers_[index]);
@@ -98,7 +98,7 @@ void DeviceRunner::make_buffer(std::size_t index) {
     const TableOffsets exact = table_offsets(*state_),
                        roomy = table_offsets(*state_, [&](BufferLength length) { return room_behind(*state_, length); });
     const bool with_room = before && roomy.bytes[index] <= device_->report().largest_binding;
-    if (!keeps) before = {};  // its memory first, then the new one's
+    if (!keeps) before = {};  // freed before the new one is allocated
     const auto make = [&](const TableOffsets& wanted) {
         buffers_[index] = host::Buffer(device_, buffer_infos()[index].name, wanted.bytes[index]);
         take_offsets(offsets_, wanted, index);
@@ -129,8 +129,7 @@ void DeviceRunner::move_lasting(const host::Buffer& before, const TableOffsets& 
 
 void DeviceRunner::upload_all() {
     parity_ = 0;
-    // Also what will last under its other name. Before the first step, and for tables that were never brought back, zeros are
-    // right.
+    // Also tables that last under their other name. Tables never downloaded, and all before the first step, are zero.
     std::set<Table> lasting;
     for (const Table table : lasting_tables()) lasting.insert({table, other_parity(table)});
     TableRanges all;

@@ -1,4 +1,4 @@
-// Walks both runners stage by stage.
+// Lockstep of two runners, stage by stage.
 #include "compute/device/lockstep.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string words_of(const std::byte* cpu, const std::byte* device, std::size_t 
     return text.str();
 }
 
-// The first record of the table in which the device differs from the state, into the result.
+// Compares a table; writes the first difference to the result.
 bool table_equal(const State& state, const DeviceRunner& device, const Compared& compared, LockstepResult& result) {
     const TableInfo& info = table_infos()[static_cast<std::size_t>(compared.table)];
     const auto expected = state.raw(compared.table).first(state.live(compared.length) * info.record_bytes);
@@ -49,7 +49,7 @@ bool table_equal(const State& state, const DeviceRunner& device, const Compared&
 struct Lockstep::Impl {
     DeviceRunner there;
     ReferenceRunner here;
-    State image, state;  // of the device; of the CPU. Both have the same parameters, so the same group size
+    State image, state;  // of the device; of the CPU. Equal parameters, hence equal group size
     LockstepResult result;
 
     Impl(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
@@ -68,14 +68,14 @@ struct Lockstep::Impl {
     bool compare(const Stage& stage, std::size_t index) {
         there.run_stage(index);
         result.stage = stage.name;
-        // After an overflow nobody writes anything but the counts.
+        // After an overflow only counts are written.
         return std::all_of(stage.compared.begin(), stage.compared.end(), [&](const Compared& compared) {
             return (state.counted().overflow != 0 && compared.table != Table::counts) ||
                    table_equal(state, there, compared, result);
         });
     }
 
-    // False when a buffer had to grow first.
+    // False if a buffer had to grow first.
     bool attempt(bool redo) {
         state.fixed().redo = image.fixed().redo = redo;
         there.begin_step();

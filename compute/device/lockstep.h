@@ -1,4 +1,4 @@
-// The CPU and a device walk the same plan side by side; after every stage what it wrote is compared bit by bit.
+// Lockstep: the CPU and a device execute the same plan; after every stage the tables it wrote are compared bit by bit.
 #pragma once
 
 #include <cstdint>
@@ -19,24 +19,24 @@ class DeviceRunner;  // compute/device/device_runner.h
 
 struct LockstepResult {
     bool equal = true;
-    int step = 0;             // whole steps walked and found equal
-    std::string stage;        // the first that differs
-    std::string buffer;       // what it wrote there
+    int step = 0;             // number of equal steps
+    std::string stage;        // the first stage that differs
+    std::string buffer;       // the table that differs
     std::size_t element = 0;  // the first record that differs
-    std::string detail;       // byte of the record, and both values
+    std::string detail;       // byte of the record and both values
     std::uint64_t hash = 0;   // of the common state at the end
 };
 
-// The two side by side, for who wants to look between steps.
+// Stepping both, for tests that edit between steps.
 class Lockstep {
 public:
-    // Throws as World does.
+    // Throws like World.
     Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads);
     ~Lockstep();
-    bool step();  // false: something differs, and result() says what
-    // The same edit of both, between steps; the device is sent what the editor says.
+    bool step();  // false: a difference, described by result()
+    // The same edit of both, between steps; the device receives the ranges that the editor returns.
     void edit(const std::function<TableRanges(const StateEditor&)>& needed, const std::function<TableRanges(StateEditor&)>& make);
-    // Any other change to the tables of both: the device gives all that lasts, and is attached anew.
+    // Any other change to both; the device downloads all lasting tables and is attached anew.
     void change(const std::function<void(State&)>& make);
     const LockstepResult& result() const;
     DeviceRunner& device();
@@ -46,7 +46,7 @@ private:
     std::unique_ptr<Impl> interior_;
 };
 
-// Walks `steps` steps, or until something differs or `progress` (told the steps done) says false. Throws as World does.
+// Runs `steps` steps, until a difference or until `progress` (argument: steps done) returns false. Throws like World.
 LockstepResult compare_in_lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device,
                                    int threads, int steps, const std::function<bool(int)>& progress = {});
 

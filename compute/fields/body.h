@@ -1,4 +1,4 @@
-// The fields of a body: what it is, where it is, its material, and how it breaks.
+// Field tables of a body: shape, pose, material, fracture.
 #pragma once
 
 #include "compute/fields/field.h"
@@ -14,38 +14,37 @@ inline constexpr auto words<Cutting> = std::array{"voronoi", "boxes", "splinters
 template <>
 inline constexpr auto table<Tyre> = table_of(
     "tyre",
-    "Friction with slip, of a sphere, capsule or cylinder, or of a compound's parts that are; the body's friction is that at the "
-    "best slip",
+    "Tyre friction, which depends on slip, of spheres, capsules and cylinders, also as parts; the body's friction is that at "
+    "the best slip",
     field("best_slip", &Tyre::best_slip, between(0.01, 0.9), "",
-          "Slip at which it holds best; sideways the tangent of the slip angle")
+          "Slip of greatest friction; sideways the tangent of the slip angle")
         .written(),
-    field("sliding", &Tyre::sliding, between(0, 1), "", "Part of the friction that is left when it slides").written());
+    field("sliding", &Tyre::sliding, between(0, 1), "", "Friction when sliding, relative to the greatest").written());
 
 template <>
 inline constexpr auto table<Fracture> = table_of(
-    "fracture",
-    "What breaks a dynamic body, and into what; its pieces replace it in the step in which one contact has carried more than the "
-    "threshold",
+    "fracture", "Fracture of a dynamic body: its pieces replace it in the step in which one contact exceeds the threshold",
     field("impulse", &Fracture::impulse, above(0), "N s",
           "Threshold of the normal impulse of one contact in a step and the one before; a load of F at rest counts 2 F / rate"),
     field("momentum", &Fracture::momentum, above(0), "N s",
-          "Threshold of the momentum of the body itself as the step begins, when something stops a tenth of it"),
+          "Threshold of the body's momentum as the step begins, if a contact takes a tenth of it"),
     field("cutting", &Fracture::cutting,
-          "Into cells about points, a box into boxes, or right through the thinnest extent, finer towards the middle")
+          "Voronoi cells, boxes (of a box), or Voronoi cells across the thinnest extent, finer towards the middle")
         .written(),
     field("pieces", &Fracture::pieces, between(2, 256), "", "Number of pieces").written(),
     field("depth", &Fracture::depth, between(1, 4), "",
-          "How many times over: 2, and the pieces break in their turn; pieces to the power of depth at most 10000")
+          "Levels: with 2, pieces break in turn; pieces to the power of depth at most 10000")
         .written(),
-    field("seed", &Fracture::seed, between(0, 4294967295.0), "", "Seed of the random numbers by which the cuts lie").written());
+    field("seed", &Fracture::seed, between(0, 4294967295.0), "", "Random seed of the cuts").written());
 
-// Limits of the ranges say what breaks beyond them: below a density of 1e-3 or a size of 1e-3 m an inverse inertia leaves the
-// range of a float, and at 1e6 m a float resolves 6 cm.
+// Limits of ranges: below a density of 1e-3 kg/m^3 or a size of 1e-3 m inverse inertias leave the range of a float, and
+// at 1e6 m a float resolves 6 cm.
 template <>
 inline constexpr auto table<Body> = table_of(
     "body", "A rigid body",  //
     field("name", &Body::name, "Name for messages, and for joints and vehicles to refer to"),
-    field("motion", &Body::motion, "Moved by forces and contacts, never moved, or moved with its velocity whatever it meets"),
+    field("motion", &Body::motion,
+          "Moved by forces and contacts, never moved, or moved with its velocity regardless of contacts"),
     field("shape", &Body::shape).required(),
     field("position", &Body::position, within(1e6), "m",
           "Position of the centre of mass; of a hull, compound, mesh or height field, of the origin of its points or parts")
@@ -64,8 +63,7 @@ inline constexpr auto table<Body> = table_of(
     field("linear_damping", &Body::linear_damping, between(0, 1e4), "1/s", "Rate at which its velocity decays"),
     field("angular_damping", &Body::angular_damping, between(0, 1e4), "1/s", "Rate at which its angular velocity decays"),
     field("gravity_scale", &Body::gravity_scale, within(1e3), "", "Factor on gravity"),
-    field("tyre", &Body::tyre,
-          "Friction with slip, of a sphere, capsule or cylinder, or of a compound's parts that are; left out: plain friction"),
-    field("fracture", &Body::fracture, "What breaks a dynamic body, and into what; left out: it never breaks"));
+    field("tyre", &Body::tyre, "Tyre friction of spheres, capsules and cylinders, also as parts; left out: Coulomb friction"),
+    field("fracture", &Body::fracture, "Fracture of a dynamic body; left out: unbreakable"));
 
 }  // namespace scree::fields

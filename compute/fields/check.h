@@ -1,4 +1,4 @@
-// Validation by the field table: every number finite and in its range, quaternions of unit length.
+// Validation by the field table: numbers finite and in range, quaternions normalised.
 #pragma once
 
 #include <cmath>
@@ -16,7 +16,7 @@
 
 namespace scree::fields {
 
-// Of the axis that a field speaks of: it decides between the two units of "m or rad".
+// Kind of axis of a field, which selects between the two units of "m or rad".
 enum class Direction { either, along, about };
 
 constexpr std::string_view unit_of(std::string_view unit, Direction direction) {
@@ -39,13 +39,13 @@ inline constexpr bool is_list<std::vector<Type>> = true;
 template <class Type>
 concept Number = std::is_same_v<Type, float> ||(std::is_integral_v<Type> && !std::is_same_v<Type, bool>);
 
-// Nothing beyond the table.
+// No rules beyond the table.
 struct NoRules {
     template <class... Anything>
     void operator()(const Anything&...) const {}
 };
 
-// Divides by the length in double precision. What has unit length already, to rounding, stays: checking twice changes no bit.
+// Normalises in double precision. Vectors of unit length, to rounding, stay: checking twice changes no bit.
 template <class At, class Vector>
 void make_unit(const At& at, Vector& v, const char* meaning) {
     double squared = 0;
@@ -61,7 +61,7 @@ void make_unit(const At& at, Vector& v, const char* meaning) {
 template <class At, class Struct, class Rules = NoRules>
 void check_fields(const At& at, Struct& checked, const Rules& rules = {}, Direction direction = Direction::either);
 
-// One field. `at`: the place of the struct, which knows `at / key`, `at / index` and refuse(at, reason).
+// Checks one field. `at`: the place of the struct, with `at / key`, `at / index` and refuse(at, reason).
 template <class At, class Struct, class Owner, class Member, class Rules = NoRules>
 void check_field(const At& at, Struct& checked, const Field<Owner, Member>& field, const Rules& rules = {},
                  Direction direction = Direction::either) {
@@ -101,7 +101,7 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
     }
 }
 
-// All fields of a struct, and then its rules, which say what no range can.
+// Checks all fields of a struct, then its rules beyond ranges.
 template <class At, class Struct, class Rules>
 void check_fields(const At& at, Struct& checked, const Rules& rules, Direction direction) {
     for_each_field<Struct>([&](const auto& field) { check_field(at, checked, field, rules, direction); });

@@ -1,6 +1,6 @@
-// The field table of a struct: for each member its key, range, unit and meaning. Reading and writing JSON, the JSON Schema,
-// validation and the ranges of command line options follow from it. A new scalar property is its member, with its default, and
-// one line in a table.
+// Field tables: key, range, unit and meaning of each member of a struct. JSON reading and writing, the JSON Schema,
+// validation and the ranges of command line options follow from them. A new scalar property needs its member with a
+// default and one line in a table.
 #pragma once
 
 #include <array>
@@ -14,15 +14,15 @@ namespace scree::fields {
 constexpr double largest = std::numeric_limits<float>::max();
 constexpr double no_limit = std::numeric_limits<double>::infinity();
 
-// What a number may be, or each component of a vector, or the size of a list. Without more: any finite number. A member may
-// always have its default, which may lie outside: 0 for "none", say.
+// Range of a number, of each component of a vector, or of the size of a list. By default any finite number. A member's
+// default is always allowed, even outside: 0 for "none", say.
 struct Range {
     double low = -largest, high = largest;
-    bool above_low = false, below_high = false;  // the limit itself is excluded
+    bool above_low = false, below_high = false;  // exclusive limits
 
     template <class Number>
     constexpr bool holds(Number value) const {
-        // A float is compared with the float nearest to the limit: 0.9f lies below 0.9.
+        // Compared as float with the limit rounded to float: 0.9f is below 0.9.
         using Limit = std::conditional_t<std::is_same_v<Number, float>, float, double>;
         const auto v = static_cast<Limit>(value), least = static_cast<Limit>(low), most = static_cast<Limit>(high);
         return (above_low ? v > least : v >= least) && (below_high ? v < most : v <= most);
@@ -45,20 +45,20 @@ constexpr Range from_to_below(double low, double high) {
 }
 
 enum class Presence {
-    optional,  // left out when it has its default
-    written,   // may be left out, and is always written
-    required,  // in a file, and always written
+    optional,  // omitted when it has its default
+    written,   // may be omitted in a file; always written
+    required,  // required in a file; always written
 };
 
-// What a std::size_t is the index of; a scene file may say its name instead.
+// What a std::size_t index refers to; scene files may use the name instead.
 enum class Refers { to_nothing, to_body, to_joint };
 
 template <class Struct, class Member>
 struct Field {
-    const char* key;  // "": the member is a struct whose keys stand among those of this one
+    const char* key;  // "": an embedded struct, whose keys are among those of this one
     Member Struct::*member;
     Range range{};
-    const char* unit = "";  // of a list: what its elements are. "m or rad": along an axis, or about it
+    const char* unit = "";  // of a list the noun for its elements. "m or rad": along or about an axis
     const char* about = "";
     Presence presence = Presence::optional;
     Refers refers = Refers::to_nothing;
@@ -100,7 +100,7 @@ constexpr Table<Fields...> table_of(const char* name, const char* about, Fields.
     return {name, about, {fields...}};
 }
 
-// Specialised for each struct that has fields, for each enum (its words), and for each variant (the keys of its alternatives).
+// Specialised for each struct with fields, each enum (its words), and each variant (keys of its alternatives).
 template <class Struct>
 inline constexpr std::nullptr_t table = nullptr;
 template <class Enum>

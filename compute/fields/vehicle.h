@@ -1,4 +1,4 @@
-// The fields of vehicles.
+// Field tables of vehicles.
 #pragma once
 
 #include "compute/fields/field.h"
@@ -11,9 +11,9 @@ constexpr Range any_speed = between(0.01, 1e3);
 
 template <>
 inline constexpr auto table<Controls> =
-    table_of("controls", "What the driver does",
+    table_of("controls", "Driver's controls",
              field("throttle", &Controls::throttle, within(1), "", "Throttle; below 0 backwards").written(),
-             field("brake", &Controls::brake, between(0, 1), "", "Brake; a wheel that is braked is not driven").written(),
+             field("brake", &Controls::brake, between(0, 1), "", "Brake; a braked wheel is not driven").written(),
              field("steer", &Controls::steer, within(1), "", "Steering; 1: to the left").written(),
              field("hand_brake", &Controls::hand_brake, between(0, 1), "", "Hand brake").written());
 
@@ -27,12 +27,10 @@ inline constexpr auto table<Wheel> = table_of(
         .index_of(Refers::to_joint)
         .required(),
     field("radius", &Wheel::radius, between(1e-3, 1e3), "m", "Radius").written(),
-    field("drive", &Wheel::drive, between(0, 1e6), "",
-          "Its share of the engine; the shares of all wheels are brought to a sum of 1")
-        .written(),
-    field("brake", &Wheel::brake, any_torque, "N m", "Torque of the brake, fully trodden").written(),
+    field("drive", &Wheel::drive, between(0, 1e6), "", "Share of the engine; shares are normalised to a sum of 1").written(),
+    field("brake", &Wheel::brake, any_torque, "N m", "Torque of the brake at full pedal").written(),
     field("hand_brake", &Wheel::hand_brake, any_torque, "N m", "Torque of the hand brake").written(),
-    field("skid", &Wheel::skid, within(1), "", "What steering to the left adds to its throttle").written(),
+    field("skid", &Wheel::skid, within(1), "", "Skid steering: throttle added when steering to the left").written(),
     field("steers", &Wheel::steers, "Whether it is steered; the joint's swing_y must have limits, both 0"));
 
 template <>
@@ -42,22 +40,22 @@ inline constexpr auto table<Engine> = table_of(
     field("power", &Engine::power, between(0, 1e12), "W", "Power; above power / torque the torque falls as 1 / speed").written(),
     field("top_speed", &Engine::top_speed, any_speed, "m/s", "Greatest speed").written(),
     field("back_speed", &Engine::reverse_speed, any_speed, "m/s", "Greatest speed backwards").written(),
-    field("drag", &Engine::drag, any_torque, "N m", "Torque of all driven wheels against the motion without throttle").written());
+    field("drag", &Engine::drag, any_torque, "N m", "Engine drag of all driven wheels without throttle").written());
 
 template <>
 inline constexpr auto table<Steering> = table_of(
-    "steering", "How the steered wheels turn",
+    "steering", "Steering of the steered wheels",
     field("angle", &Steering::angle, between(0.01, 1.2), "rad", "Angle at full lock of a wheel in the middle").written(),
     field("time", &Steering::time, between(0.01, 100), "s", "Time from straight ahead to full lock").written(),
-    field("lateral", &Steering::lateral, between(0.1, 1e4), "m/s^2", "Greatest lateral acceleration that a curve may ask for")
+    field("lateral", &Steering::lateral, between(0.1, 1e4), "m/s^2", "Greatest lateral acceleration; limits curvature at speed")
         .written());
 
 template <>
-inline constexpr auto table<WayPoint> =
-    table_of("way_point", "A point to drive past",  //
-             field("position", &WayPoint::position, within(1e6), "m", "Where it is").required(),
-             field("speed", &WayPoint::speed, between(0.1, 1e3), "m/s", "Speed there; on the way to the next it changes evenly")
-                 .written());
+inline constexpr auto table<WayPoint> = table_of("way_point", "A way point",  //
+                                                 field("position", &WayPoint::position, within(1e6), "m", "Position").required(),
+                                                 field("speed", &WayPoint::speed, between(0.1, 1e3), "m/s",
+                                                       "Target speed, interpolated linearly to the next way point")
+                                                     .written());
 
 template <>
 inline constexpr auto table<Vehicle> = table_of(
@@ -66,11 +64,10 @@ inline constexpr auto table<Vehicle> = table_of(
     field("chassis", &Vehicle::chassis, "A dynamic body's index or name").index_of(Refers::to_body).required(),
     field("wheels", &Vehicle::wheels, between(1, 8), "wheels", "Its wheels").required(),
     field("engine", &Vehicle::engine, "Its engine").written(),  //
-    field("steering", &Vehicle::steering, "Its steering").written(),
-    field("controls", &Vehicle::controls, "What the driver does at first"),
-    field("route", &Vehicle::route, at_least(2), "points", "Route that it follows by itself, from the first point to the last"),
-    field("loops", &Vehicle::loops, "Behind the last way point it goes on to the first"),
-    field("by_route", &Vehicle::by_route, "Whether the route drives it, if there is one"),
-    field("next", &Vehicle::next, "Number of the way point that it drives to"));
+    field("steering", &Vehicle::steering, "Its steering").written(), field("controls", &Vehicle::controls, "Initial controls"),
+    field("route", &Vehicle::route, at_least(2), "points", "Route to follow, from the first point to the last"),
+    field("loops", &Vehicle::loops, "Whether the route is closed"),
+    field("by_route", &Vehicle::by_route, "Whether the vehicle follows its route, if any"),
+    field("next", &Vehicle::next, "Index of the next way point"));
 
 }  // namespace scree::fields

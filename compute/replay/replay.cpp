@@ -1,4 +1,4 @@
-// Doing again what a user did, and holding a run to its recording.
+// Replaying a recording, and checking a run against it.
 #include "compute/replay/replay.h"
 
 #include <algorithm>

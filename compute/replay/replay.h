@@ -1,14 +1,14 @@
-// A user's input as a file: what was simulated, and what was done to it before which step. It leads to the same state on every
-// processor, bit by bit.
+// Recordings of user input: what was simulated, and which command was issued before which step. Replay gives the same
+// state on every processor, bit for bit.
 //
 //     {"scree_input": 1,
-//      "scene": "wall",                    what it was called: a demo of the program, or a scene file
-//      "bodies": 0, "seed": 1,             of a demo (bodies 0: its own number)
-//      "rate": 60, "substeps": 8, "sleeping": true,   as it began
+//      "scene": "wall",                    demo or scene file
+//      "bodies": 0, "seed": 1,             of a demo (bodies 0: its default)
+//      "rate": 60, "substeps": 8, "sleeping": true,   initial settings
 //      "start_hash": "0123456789abcdef",   of the state before the first step; optional
 //      "steps": 600,                       of the whole recording
 //      "end_hash": "0123456789abcdef",     of the state after them; optional
-//      "acts": [                           in the order in which they happen; "step": how many steps were done before
+//      "acts": [                           in order; "step": number of steps done before the command
 //       {"step": 3, "grab": {"grip": 0, "body": 17, "anchor": [0, 0.5, 0], "target": [1, 2, 3]}},
 //       {"step": 4, "drag": {"grip": 0, "target": [1, 2.5, 3]}},
 //       {"step": 9, "release": {"grip": 0}},
@@ -22,8 +22,9 @@
 //       {"step": 50, "drive": {"vehicle": 0, "throttle": 1, "brake": 0, "steer": -0.5, "hand_brake": 0}},
 //       {"step": 90, "righten": {"vehicle": 0}}
 //     ]}
-// Anchors are in the body's frame, "add" takes a body and "join" a joint as a scene file does (bodies by their
-// index, places in their frames), "turn" any of its keys, "drive" holds until the next one. SI units.
+//
+// Anchors are in body frames; "add" takes a body and "join" a joint as in a scene file (bodies by index, anchors in
+// body frames), "turn" (settings) any of its keys; "drive" lasts until the next one. SI units.
 #pragma once
 
 #include <cstdint>
@@ -45,21 +46,22 @@ struct Input {
     bool sleeping = true;
     std::optional<std::uint64_t> start_hash, end_hash;
     std::uint64_t steps = 0;
-    std::vector<TimedAct> acts;  // by step
+    std::vector<TimedAct> acts;  // ascending by step
 };
 
 std::string json_of(const Input& input);
 
-// Throws SceneError with the JSON pointer of what is wrong, or line and column of what is no JSON.
+// Throws SceneError with the JSON pointer of an invalid value, or line and column of a syntax error.
 Input input_from_json(std::string_view text);
 
-// Doing it again, in a world of the same scene with the same settings:
+// Replay, in a world of the same scene and settings:
 //     require_start(input, world);
 //     for (perform_due(input, world); world.steps() < input.steps; perform_due(input, world)) world.step();
-// Throws SceneError, at /start_hash, for a world that does not begin in the state that was recorded; says nothing to one that has
-// begun.
+//
+// Throws SceneError, at /start_hash, if the world's initial state differs from the recorded one. No check once the
+// world has stepped.
 void require_start(const Input& input, const World& world);
-// What was done when so many steps were done. Throws SceneError, at the act, when it does not fit the world.
+// Performs the commands due at the world's step count. Throws SceneError, at the command, if it does not fit the world.
 void perform_due(const Input& input, World& world);
 
 }  // namespace scree::replay

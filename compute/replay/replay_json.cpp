@@ -1,4 +1,4 @@
-// Input as JSON text: one act a line, every float so that it reads back to the same bits.
+// Recordings as JSON: one command per line, floats that read back bit-identically.
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -27,7 +27,7 @@ std::string text_of(float value) {
     if (value == 0) return std::signbit(value) ? "-0.0" : "0";
     char digits[64];
     char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
-    // Readers go through a double; should that round twice to a neighbour, write all digits.
+    // Readers convert via double; if that rounds twice to a neighbour, write all digits.
     double wide = 0;
     std::from_chars(digits, end, wide);
     if (static_cast<float>(wide) != value) end = std::to_chars(digits, digits + sizeof digits, static_cast<double>(value)).ptr;
@@ -107,7 +107,7 @@ std::uint64_t hash_of(const json& value, const Place& place) {
 
 Turn turn_of(const json& value, const Place& place) {
     only(value, place, {"gravity", "substeps", "friction_factor", "least_restitution", "sleeping"});
-    if (value.empty()) refuse(place, "turns nothing");
+    if (value.empty()) refuse(place, "changes no setting");
     Turn turn;
     if (value.contains("gravity")) read(value["gravity"], place / "gravity", turn.gravity.emplace());
     if (value.contains("friction_factor"))
@@ -124,7 +124,7 @@ Turn turn_of(const json& value, const Place& place) {
     return turn;
 }
 
-// The body, checked as a scene's are, but with its place in this file.
+// A body, validated as a scene's, with errors at its place in this file.
 Body added_body(const json& value, const Place& place) {
     const Body body = body_of(value, place);
     try {

@@ -1,4 +1,4 @@
-// Doing what a user does.
+// Performing user commands.
 #include "compute/replay/user_commands.h"
 
 #include <stdexcept>
@@ -15,8 +15,7 @@ struct Performer {
         const std::size_t grip = world.grip(act.body, act.anchor, act.target);
         if (grip == act.grip) return;
         world.release(grip);
-        throw std::invalid_argument("the lowest grip that is free is " + std::to_string(grip) + ", not " +
-                                    std::to_string(act.grip));
+        throw std::invalid_argument("the lowest free grip is " + std::to_string(grip) + ", not " + std::to_string(act.grip));
     }
     void operator()(const Drag& act) const { world.move_grip(act.grip, act.target); }
     void operator()(const Release& act) const { world.release(act.grip); }

@@ -1,4 +1,4 @@
-// What a user does to a running world, as data: it can be done at once, written down, and done again.
+// User commands on a running world, as data: performed, recorded, replayed.
 #pragma once
 
 #include <cstddef>
@@ -11,8 +11,8 @@
 
 namespace scree::replay {
 
-struct Grab {              // takes hold of a body; see World::grip
-    std::size_t grip = 0;  // the lowest that is free, 0 to most_grips - 1
+struct Grab {              // see World::grip
+    std::size_t grip = 0;  // the lowest free one, 0 to most_grips - 1
     std::size_t body = 0;
     vec3 anchor{0};  // body frame, m
     vec3 target{0};  // m
@@ -33,7 +33,7 @@ struct Join {
 struct Unjoin {  // see World::remove_joint
     std::size_t joint = 0;
 };
-struct Push {  // for one step
+struct Push {  // a force for one step
     std::size_t body = 0;
     vec3 force{0};  // N
 };
@@ -42,14 +42,14 @@ struct Explode {
     float radius = 1;  // m
     float speed = 0;   // m/s
 };
-struct Drive {  // until told otherwise; see World::drive
+struct Drive {  // until the next one; see World::drive
     std::size_t vehicle = 0;
     Controls controls;
 };
-struct Righten {  // puts it on its wheels
+struct Righten {  // see World::reset_upright
     std::size_t vehicle = 0;
 };
-struct Turn {  // the dials; what is empty stays
+struct Turn {  // settings; empty ones stay
     std::optional<vec3> gravity;
     std::optional<int> substeps;
     std::optional<float> friction_factor;
@@ -60,11 +60,11 @@ struct Turn {  // the dials; what is empty stays
 using UserCommand = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin, Drive, Righten>;
 
 struct TimedAct {
-    std::uint64_t step = 0;  // steps done before it
+    std::uint64_t step = 0;  // number of steps done before it
     UserCommand act;
 };
 
-// Throws what World throws, and std::invalid_argument for a grip that is not the lowest free one.
+// Performs a command. Throws what World throws, and std::invalid_argument for a grip that is not the lowest free one.
 void perform(const UserCommand& act, World& world);
 
 }  // namespace scree::replay

@@ -1,4 +1,4 @@
-// The mass of a compound: its parts' masses, centres and inertias, summed in double precision.
+// Mass of a compound: masses, centres and inertias of its parts, summed in double precision.
 #include "compute/scene/compound.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ WholeMass mass_of(const Compound& compound, float density) {
         const dmat3 turn = glm::mat3_cast(turn_of(compound.parts[i]));
         dmat3 own(0);
         for (int k = 0; k < 3; ++k) own[k][k] = parts[i].inertia[k];
-        // The parallel axis theorem (Steiner): m (|r|^2 1 - r r^T) more.
+        // Parallel axis theorem (Steiner): plus m (|r|^2 1 - r r^T).
         const dvec3 r = dvec3(compound.parts[i].position) - whole.centre;
         whole.inertia += turn * own * glm::transpose(turn) +
                          static_cast<double>(parts[i].mass) * (glm::dot(r, r) * dmat3(1) - glm::outerProduct(r, r));

@@ -1,4 +1,4 @@
-// The mass of several shapes on one body.
+// Mass properties of compounds.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -10,14 +10,14 @@ namespace scree {
 
 struct WholeMass {
     double mass = 0;        // kg
-    glm::dvec3 centre{0};   // of mass, in the frame of the parts, m
-    glm::dmat3 inertia{0};  // about it, along that frame's axes, kg m^2
+    glm::dvec3 centre{0};   // centre of mass, in the frame of the parts, m
+    glm::dmat3 inertia{0};  // about the centre of mass, axes of that frame, kg m^2
 };
-// Of parts that may overlap: the mass of each counts. `density` is that of the parts that have none of their own.
+// Masses of overlapping parts add up. `density` (kg/m^3): for parts without a density of their own.
 WholeMass mass_of(const Compound& compound, float density);
 
-// Moves the parts so that their centre of mass is the origin and their principal axes of inertia its axes, and says where that
-// frame was: its origin (m) and its turn in the frame before. What lies so already, to rounding, stays.
+// Moves the parts so that their centre of mass is the origin and their principal axes of inertia are the axes. Returns
+// the new frame in the old one: origin (m) and rotation. Parts already so, to rounding, stay bit-identical.
 struct Recentred {
     glm::dvec3 centre{0};
     glm::dquat axes{1, 0, 0, 0};

@@ -1,4 +1,4 @@
-// Planes that touch a shape in many directions.
+// Supporting planes of a convex shape in many directions.
 #include "compute/scene/convex_planes.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 using glm::dvec3;
 
-// The corners of an icosahedron whose triangles are parted in four, once or twice: 42 directions, or 162.
+// Vertices of an icosahedron subdivided once or twice: 42 directions, or 162.
 std::vector<dvec3> directions(int rounds) {
     const double g = std::numbers::phi;
     std::vector<dvec3> corners = {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
@@ -25,7 +25,7 @@ std::vector<dvec3> directions(int rounds) {
         double shortest = 2;
         for (std::size_t i = 0; i < count; ++i)
             for (std::size_t k = i + 1; k < count; ++k) {
-                // Edges of a round differ by an eighth; what is not an edge is longer by half.
+                // Edges of a level differ by an eighth; other distances are longer by half.
                 if (glm::length(corners[i] - corners[k]) > 1.2 * edge) continue;
                 corners.push_back(glm::normalize(corners[i] + corners[k]));
                 shortest = std::min(shortest, glm::length(corners[i] - corners.back()));
@@ -55,7 +55,7 @@ void TouchingPlanes::touch_around(double slope) {
     constexpr int sides = 24;
     for (int k = 0; k < sides; ++k) {
         const double angle = 2 * std::numbers::pi * k / sides;
-        // As floats: the last bits of sines and cosines differ between C libraries.
+        // Rounded to float: the last bits of sine and cosine differ between C libraries.
         touch({static_cast<float>(std::cos(angle)), slope, static_cast<float>(std::sin(angle))});
     }
 }

@@ -1,4 +1,4 @@
-// Planes that touch a shape in many directions, so that it can be cut as the inside of them.
+// Supporting planes of a convex shape in many directions: a polytope around the shape, for cutting.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -14,12 +14,11 @@ public:
 
     void touch(glm::dvec3 direction);
     void touch_along_axes();
-    void touch_around(double slope);  // the y axis: what rises by `slope` for each metre outward
-    // In 42 directions, or 162 where it shall be `fine`; each divided by the stretch, as normals are of what is a ball before it
-    // is stretched.
+    void touch_around(double slope);  // planes around the y axis; slope: y over horizontal component of the normal
+    // In 42 directions, or 162 if `fine`; each divided by the stretch, which gives the normals of a stretched ball.
     void touch_all_over(bool fine, glm::dvec3 stretch = glm::dvec3(1));
 
-    std::vector<glm::dvec4> planes;  // xyz: outward, unit; w: distance from the centre, m
+    std::vector<glm::dvec4> planes;  // xyz: outward unit normal; w: distance from the centre, m
 
 private:
     const Shape& shape_;

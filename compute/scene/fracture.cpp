@@ -1,4 +1,4 @@
-// Cutting bodies: boxes halved over and over, any shape into the Voronoi cells of points in it (voro++, Rycroft, Chaos 19, 2009).
+// Cutting bodies: boxes by halving, other shapes into Voronoi cells (voro++, Rycroft, Chaos 19, 2009).
 #include "compute/scene/fracture.h"
 
 #include <algorithm>
@@ -20,10 +20,9 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr std::size_t most_in_all =
-    10000;  // pieces of one body, those of pieces included: a scene of a few bodies fills no memory
+constexpr std::size_t most_in_all = 10000;  // fragments of one body on all levels, so that a small scene cannot exhaust memory
 
-// The mixing of splitmix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
+// splitmix64 (Steele, Lea and Flood, Fast splittable pseudorandom number generators, OOPSLA 2014).
 class Random {
 public:
     explicit Random(std::uint64_t seed) : state_(seed * 0x9E3779B97F4A7C15u) {}
@@ -39,7 +38,7 @@ private:
     std::uint64_t state_;
 };
 
-// ---- boxes into boxes: the largest is cut across its longest side, until there are enough
+// ---- boxes: the largest is halved across its longest side until there are enough
 std::vector<Body> halved(const Box& box, const Fracture& fracture) {
     struct Part {
         dvec3 centre, half;
@@ -72,8 +71,8 @@ std::vector<Body> halved(const Box& box, const Fracture& fracture) {
 
 // ---- Voronoi cells
 struct Region {
-    std::vector<glm::dvec4> planes;  // outward, unit; w: distance from the centre
-    dvec3 half;                      // of the box around it
+    std::vector<glm::dvec4> planes;  // outward unit normal; w: distance from the centre, m
+    dvec3 half;                      // half extents of its box, m
 
     bool holds(dvec3 point) const {
         return std::all_of(planes.begin(), planes.end(),
@@ -114,8 +113,8 @@ std::vector<Cell> cells_of(const Region& region, const std::vector<dvec3>& point
     return cells;
 }
 
-// Points in the region; fewer where next to nothing of the box around it is in it. They move to the middle of their cells twice
-// (Lloyd, 1982): cells of raw random points are slivers.
+// Random points in the region; fewer if the region fills next to nothing of its box. Two Lloyd iterations (1982): cells
+// of raw random points are slivers.
 std::vector<dvec3> scattered(const Region& region, std::size_t count, Random& random) {
     std::vector<dvec3> points;
     for (std::size_t tries = 0; points.size() < count && tries < 10'000 * count; ++tries) {
@@ -131,7 +130,7 @@ std::vector<dvec3> scattered(const Region& region, std::size_t count, Random& ra
     return points;
 }
 
-// Points on rings about the middle of the body, in the plane across its thinnest extent.
+// Points on rings around the centre, in the plane perpendicular to the thinnest extent.
 std::vector<dvec3> ringed(const Region& region, std::size_t count, Random& random) {
     const dvec3 half = region.half;
     const int thin = half.x < half.y ? (half.x < half.z ? 0 : 2) : (half.y < half.z ? 1 : 2);
@@ -139,7 +138,7 @@ std::vector<dvec3> ringed(const Region& region, std::size_t count, Random& rando
     std::vector<dvec3> points;
     for (std::size_t tries = 0; points.size() < count && tries < 1000 * count; ++tries) {
         const double part = (static_cast<double>(tries % count) + random.between(0.2, 0.8)) / static_cast<double>(count);
-        // A direction by rejection: sines and cosines differ between C libraries.
+        // A direction by rejection sampling: sine and cosine differ between C libraries.
         const double x = random.between(-1, 1), y = random.between(-1, 1), length = std::sqrt(x * x + y * y);
         if (length > 1 || length < 0.1) continue;
         dvec3 point(0);
@@ -150,14 +149,14 @@ std::vector<dvec3> ringed(const Region& region, std::size_t count, Random& rando
     return points;
 }
 
-// What the pieces come to together, at the densities that they have.
+// Sums over the fragments, at their densities.
 struct Together {
     double mass = 0;
     dvec3 centre{0};
-    dmat3 spread{0};  // integral of x x^T over the mass, by the mass, about the origin
-    dmat3 places{0};  // the part of it that the pieces' centres alone make
+    dmat3 spread{0};  // second moments: integral of x x^T over the mass, per mass, about the origin
+    dmat3 places{0};  // the part of it due to the fragments' centres
 };
-// The integrals of x^2, y^2 and z^2 over the mass, from the moments of inertia.
+// Integrals of x^2, y^2 and z^2 over the mass, from the moments of inertia.
 dvec3 squares_of(dvec3 inertia) {
     return dvec3(inertia.y + inertia.z - inertia.x, inertia.x + inertia.z - inertia.y, inertia.x + inertia.y - inertia.z) * 0.5;
 }
@@ -189,8 +188,8 @@ double trace(const dmat3& matrix) {
     return matrix[0][0] + matrix[1][1] + matrix[2][2];
 }
 
-// The small symmetric E with E P + P E = R for a symmetric P, but for what P leaves no lever for: (1 + E) stretches what is
-// spread as P by R.
+// The small symmetric E with E P + P E = R for a symmetric P, except along directions in which P vanishes: (1 + E)
+// changes second moments P by R.
 dmat3 stretch(const dmat3& p, const dmat3& r) {
     const dmat3 axes = principal_axes(p), p_there = glm::transpose(axes) * p * axes;
     dmat3 e = glm::transpose(axes) * r * axes;
@@ -202,8 +201,8 @@ dmat3 stretch(const dmat3& p, const dmat3& r) {
     return axes * e * glm::transpose(axes);
 }
 
-// Moves the pieces by what rounding, and faces made one, have left between their inertia and the whole's: a few parts in ten
-// thousand of their size.
+// Moves the fragments so that their inertia matches the body's exactly: corrects for rounding and merged faces, a few
+// parts in ten thousand of their size.
 void settle(std::vector<Body>& pieces, const MassProperties& whole) {
     const dmat3 wanted = spread_of(whole);
     for (int round = 0; round < 8; ++round) {
@@ -216,7 +215,7 @@ void settle(std::vector<Body>& pieces, const MassProperties& whole) {
     }
 }
 
-// The cells as bodies, as they are simulated: corners are floats, faces that are nearly one are one.
+// The cells as checked bodies: float vertices, nearly coplanar faces merged.
 std::vector<Body> bodies_of(const std::vector<Cell>& cells) {
     Scene scene;
     for (const Cell& cell : cells) {
@@ -227,7 +226,7 @@ std::vector<Body> bodies_of(const std::vector<Cell>& cells) {
     return checked(std::move(scene)).bodies;
 }
 
-// Stretches and moves the cells until together they have the inertia of the whole.
+// Stretches and moves the cells until their total inertia is the body's.
 std::vector<Body> fitted(std::vector<Cell> cells, const MassProperties& whole) {
     const dmat3 wanted = spread_of(whole);
     std::vector<Body> best;
@@ -253,7 +252,7 @@ std::vector<Body> fitted(std::vector<Cell> cells, const MassProperties& whole) {
 }
 
 std::vector<Body> voronoi(const Shape& shape, const Fracture& fracture) {
-    // A piece has at most 64 corners: few pieces of a fine ball would have more.
+    // A fragment has at most 64 vertices; few fragments of a finely approximated ball would have more.
     Region region{planes_of(shape, fracture.pieces >= 12), dvec3(0)};
     for (int axis = 0; axis < 3; ++axis)
         for (const double sign : {-1.0, 1.0}) {
@@ -261,7 +260,7 @@ std::vector<Body> voronoi(const Shape& shape, const Fracture& fracture) {
             direction[axis] = sign;
             region.half[axis] = std::max(region.half[axis], reach_along(shape, direction));
         }
-    // Some points make cells too flat for a hull; others are tried.
+    // Retries with other points if a cell is too flat for a hull.
     for (std::uint64_t attempt = 0;; ++attempt) {
         Random random(fracture.seed + (attempt << 32));
         const bool across = fracture.cutting == Cutting::splinters;
@@ -301,7 +300,7 @@ std::vector<double> key_of(const Shape& shape, const Fracture& f) {
     return key;
 }
 
-// What no range can say (compute/fields/body.h).
+// Rules beyond the ranges of the field table (compute/fields/body.h).
 void require_sense(const Shape& shape, const Fracture& f) {
     const bool by_impulse = f.impulse > 0 && std::isfinite(f.impulse), by_momentum = f.momentum > 0 && std::isfinite(f.momentum);
     if (by_impulse == by_momentum)

@@ -1,8 +1,8 @@
-// How a body comes apart: its pieces, cut when a scene is made.
+// Fracture: cutting a body into fragments when the scene is checked.
 //
-// The pieces' masses add up to the body's, their centre of mass is its own, and so is their inertia together, to a few parts in a
-// million: pieces that move as parts of a rigid body have its momentum. A round body is cut as a polytope around it, which is
-// then stretched by a percent or so until its moments of inertia are those of the body.
+// The fragments' masses, centres of mass and inertias sum to the body's, to a few parts in a million: fragments moving
+// as parts of the rigid body have its momentum. A round body is cut as a polytope around it, which is then stretched by
+// a percent or so until its moments of inertia match.
 #pragma once
 
 #include <map>
@@ -14,34 +14,34 @@
 
 namespace scree {
 
-// Pieces of a body, which equal bodies share.
+// The fragments of a body; shared by equal bodies.
 struct Cut {
-    // As bodies of a checked scene in the frame of the body: position and orientation from its centre, the density that of a body
-    // of density 1 kg/m^3. A piece that may break in its turn has its cut.
+    // Bodies of a checked scene in the body's frame: position (m) and orientation from its centre, density relative to
+    // the body's. A fragment that may break in turn has its own cut.
     std::vector<Body> pieces;
-    std::size_t all = 0;  // pieces, and pieces of pieces
+    std::size_t all = 0;  // fragments, and those of fragments
 };
 
-// A body that cannot be cut as it says; what() says why, and `key` of which of the fracture's members it comes.
+// A body that cannot be cut; what() gives the reason, `key` the member of Fracture.
 struct FractureError : std::runtime_error {
     FractureError(const char* member, const std::string& reason) : std::runtime_error(reason), key(member) {}
     const char* key;
 };
 
-// Cuts that were made, by shape and fracture.
+// Cache of cuts by shape and fracture.
 class Cuts {
 public:
-    // Of a checked body. Throws FractureError.
+    // The cut of a checked body's shape. Throws FractureError.
     std::shared_ptr<const Cut> of(const Shape& shape, const Fracture& fracture);
 
 private:
     std::map<std::vector<double>, std::shared_ptr<const Cut>> made_;
 };
 
-// Adds the pieces of all bodies that may break and have none yet, the pieces' pieces included. Throws SceneError.
+// Appends the fragments, on all levels, of all breakable bodies that have none yet. Throws SceneError.
 void add_pieces(Scene& scene);
 
-// The body as one of its own, whatever it was a piece of or had as pieces.
+// The body without relations to fragments or to the body it is a fragment of.
 Body on_its_own(Body body);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Runs qhull, and orders and measures what it finds.
+// Convex hulls by qhull, with ordered faces and mass properties.
 #include "compute/scene/hull.h"
 
 extern "C" {
@@ -20,11 +20,11 @@ namespace {
 using glm::dmat3;
 using glm::dvec3;
 
-// Of its greatest length: thinner, and single precision cannot tell its faces.
+// Relative to the longest extent: thinner hulls have faces that single precision cannot distinguish.
 constexpr double flattest = 1e-3;
 constexpr double thinnest = 1e-3;  // m, as for other shapes
 constexpr double longest = 1e5;    // m, likewise
-// Of its size: faces as close to one plane are one, so that a face of rounded corners does not fall into slivers.
+// Relative to the size: faces this close to coplanar are merged, so that rounding makes no slivers.
 constexpr const char* merging = "C-0.0001";
 
 template <class Measure>
@@ -40,7 +40,7 @@ double farthest(const std::vector<dvec3>& points, const Measure& measure, dvec3&
     return most;
 }
 
-// Refuses what has no inside.
+// Throws for points without volume.
 void require_inside(const std::vector<dvec3>& points) {
     dvec3 a{0}, b{0}, c{0}, d{0};
     farthest(
@@ -62,11 +62,11 @@ void require_inside(const std::vector<dvec3>& points) {
 }
 
 struct Found {
-    std::vector<std::uint32_t> corners;  // points, in any order
+    std::vector<std::uint32_t> corners;  // indices of points, in any order
     dvec3 normal;
 };
 
-// qhull's state and its memory. Its C interface: the C++ one of the 2020 release does not compile as C++20.
+// RAII for qhull's state. The C interface: the C++ one of the 2020 release does not compile as C++20.
 class Qhull {
 public:
     Qhull() : messages_(std::tmpfile()) { qh_zero(&qh_, messages_); }
@@ -117,7 +117,7 @@ void sort_around(HullForm::Face& face, const std::vector<dvec3>& vertices) {
     std::sort(face.corners.begin(), face.corners.end(), [&](auto x, auto y) { return angle(x) < angle(y); });
 }
 
-// Volume, centre and second moments, summed over the tetrahedra between the origin and each triangle of a face.
+// Volume, centre and second moments, summed over tetrahedra from the origin to each triangle of a face.
 void measure(HullForm& form) {
     dvec3 first(0);
     dmat3 second(0);
@@ -164,7 +164,7 @@ HullForm hull_form(std::span<const glm::vec3> given) {
     HullForm form;
     auto used = used_by();
     if (used.size() > physics::MOST_CORNERS) {
-        // qhull takes the farthest points first; it stops after the four of the first simplex and so many more.
+        // qhull adds the farthest points first; it stops after the four of the initial simplex and that many more.
         form.simplified = true;
         found = faces_between(points, std::string(merging) + " TA" + std::to_string(physics::MOST_CORNERS - 4));
         used = used_by();
@@ -186,8 +186,8 @@ HullForm hull_form(std::span<const glm::vec3> given) {
     return form;
 }
 
-// Jacobi's rotations (Golub and Van Loan, Matrix Computations, 8.5), each by the smaller angle: the axes stay near where they
-// were.
+// Jacobi eigenvalue rotations (Golub and Van Loan, Matrix Computations, 8.5), each by the smaller angle, so that axes
+// stay near the given ones.
 glm::dmat3 principal_axes(const glm::dmat3& inertia) {
     dmat3 a = inertia, axes(1);
     const double scale = a[0][0] + a[1][1] + a[2][2];

@@ -1,4 +1,4 @@
-// Clips the cells of a cube around a hull by the regions in which each of its corners reaches farthest.
+// Clips the cells of a cube map by the normal cones of a hull's vertices.
 #include "compute/scene/hull_cells.h"
 
 #include <algorithm>
@@ -12,14 +12,14 @@ namespace {
 using glm::dvec2;
 using glm::dvec3;
 
-// Tangent of the angle beyond a cell to which its list of vertices reaches: that of edges that lie flat (collide_convex.h).
+// Tangent of the angle beyond a cell that its vertices cover: that of edges counted as flat (collide_convex.h).
 constexpr double beyond_cell = 0.0315;
-// Of the hull's reach: what a float's rounding may turn about which of two corners is farther.
+// Relative to the hull's radius: float rounding in comparing two vertices.
 constexpr double rounding = 1e-5;
-// Corners from which on cells pay, and from which on small ones do.
+// Vertex counts from which coarse cells pay off, and fine ones.
 constexpr std::size_t some_corners = 9, many_corners = 20;
 
-// The directions of one side of the cube: (ahead, u, v), ahead = 1 or -1, along the axes from `axis` on.
+// The directions of one cube side: (ahead, u, v), ahead = 1 or -1, along the axes from `axis` on.
 struct Side {
     int axis;
     double ahead;
@@ -30,7 +30,7 @@ struct Side {
         d[(axis + 2) % 3] = uv.y;
         return d;
     }
-    // A sum over (u, v, 1) that is the product of the direction and v.
+    // Coefficients over (u, v, 1) whose sum is the dot product of the direction and v.
     dvec3 product(const dvec3& v) const { return {v[(axis + 1) % 3], v[(axis + 2) % 3], ahead * v[axis]}; }
 };
 
@@ -39,7 +39,7 @@ double at(const dvec3& line, dvec2 uv) {
 }
 
 using Polygon = std::vector<dvec2>;
-// What of a convex polygon lies where the line is at most 0.
+// The part of a convex polygon where the line is at most 0.
 void clip(Polygon& polygon, const dvec3& line, Polygon& clipped) {
     clipped.clear();
     for (std::size_t i = 0; i < polygon.size(); ++i) {
@@ -51,7 +51,7 @@ void clip(Polygon& polygon, const dvec3& line, Polygon& clipped) {
     polygon.swap(clipped);
 }
 
-// The cell from `low` on, and around it all directions that lie near it.
+// The cell from `low` on, enlarged to all directions near it.
 Polygon around(const Side& side, dvec2 low, double width) {
     const dvec2 high = low + dvec2(width);
     const dvec2 farthest = glm::max(glm::abs(low), glm::abs(high));
@@ -96,7 +96,7 @@ HullCells hull_cells(const HullForm& form) {
             HullCells::Cell& made = result.cells.emplace_back(HullCells::Cell{physics::uvec4(0), physics::uvec4(0)});
 
             const Polygon wider = around(side, low, width);
-            // A vertex reaches farthest where it reaches farther than its neighbours.
+            // A vertex supports a direction where it reaches farther than its neighbours.
             near.clear();
             for (std::size_t i = 0; i < form.vertices.size(); ++i) {
                 part = wider;

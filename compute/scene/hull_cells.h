@@ -1,4 +1,4 @@
-// Which corners and faces of a hull matter in which directions: the cells of shaders/physics/collide/shape_data.h.
+// Cube map of a hull: candidate vertices and faces per direction cell (shaders/physics/collide/shape_data.h).
 #pragma once
 
 #include <vector>
@@ -10,13 +10,13 @@ namespace scree {
 
 struct HullCells {
     struct Cell {
-        physics::uvec4 vertices, faces;  // as the table holds them
+        physics::uvec4 vertices, faces;  // as in the table of hulls
     };
-    physics::uint across = 0;  // 0: too few corners for cells to pay
-    std::vector<Cell> cells;   // as cell_of() numbers them
+    physics::uint across = 0;  // cells along a cube edge; 0: too few vertices to pay off
+    std::vector<Cell> cells;   // indexed by cell_of()
 };
-// Of every direction in a cell the vertices that reach farthest to within rounding are listed, and the faces that look that way
-// most.
+// Each cell lists, for all its directions, the support vertices to within rounding and the faces nearest to the
+// direction.
 HullCells hull_cells(const HullForm& form);
 
 }  // namespace scree

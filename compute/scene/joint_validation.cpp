@@ -1,4 +1,4 @@
-// What a scene may say of its joints, and joints made where they are in the world.
+// Validation of joints, and joints from world coordinates.
 #include "compute/scene/joint_validation.h"
 
 #include <cmath>
@@ -19,7 +19,7 @@ using glm::dvec3;
 
 using fields::Direction;
 
-// What no range can say.
+// Rules beyond the ranges of the field table.
 struct Rules {
     template <class Struct>
     void operator()(const Examination&, const Struct&, Direction) const {}
@@ -38,7 +38,7 @@ struct Rules {
         if (axis.locked && (axis.limits || axis.spring || axis.motor || axis.friction != 0))
             refuse(at, "a locked axis has no limits, spring, motor or friction; leave them out, or \"locked\"");
         if ((axis.spring ? 1 : 0) + (axis.motor ? 1 : 0) + (axis.friction != 0 ? 1 : 0) > 1)
-            refuse(at, "an axis has a spring, a motor or friction, one of them; a spring's damping resists too");
+            refuse(at, "an axis has at most one of spring, motor and friction; a spring's damping resists motion too");
     }
 
 private:
@@ -57,7 +57,7 @@ void examine(const Examination& joint, Joint& j, const Scene& scene) {
     if (j.a == j.b && j.a != the_world)
         joint.refuse("/b", "body " + std::to_string(j.a) + " is joined to itself; name another, or leave it out for the world");
     if (!moves(j.a) && !moves(j.b))
-        joint.refuse("", "joins two things that never move; at least one of a and b must be a dynamic body");
+        joint.refuse("", "joins two bodies that never move; at least one of a and b must be a dynamic body");
     fields::check_fields(joint, j, Rules());
 }
 

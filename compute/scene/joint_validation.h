@@ -1,4 +1,4 @@
-// The joints of a scene under examination (compute/scene.h).
+// Validation of joints (compute/scene.h).
 #pragma once
 
 #include <glm/glm.hpp>
@@ -8,13 +8,13 @@
 
 namespace scree {
 
-// Makes frames unit quaternions. Throws SceneError, naming the joint, for a body that is missing, a joint of a body with itself
-// or between two that never move, an axis or frame without length, limits reversed, and what is not finite or out of range.
+// Normalises frames. Throws SceneError, naming the joint, for a missing body, a joint of a body with itself or between
+// two bodies that never move, an axis or frame of length 0, reversed limits, and values not finite or out of range.
 void check_joints(Scene& scene);
-// One joint, as if it were the scene's at that index.
+// One joint, as the scene's at that index.
 void check_joint(const Scene& scene, Joint& joint, std::size_t index);
 
-// A body's own frame has moved: its origin to `centre`, its axes along `axes` (in the old frame). Anchors stay where they are.
+// Keeps anchors in place after a body's frame has moved: its origin to `centre` (m), its axes along `axes` (old frame).
 void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, const glm::dquat& axes);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// How the triangles of a mesh are cleaned and told of their neighbours.
+// Cleaning a mesh and computing contact limits from neighbouring triangles.
 #include "compute/scene/mesh.h"
 
 #include <algorithm>
@@ -16,11 +16,11 @@ using glm::dvec3;
 using glm::uvec3;
 using glm::vec3;
 
-// Of the mesh's size: vertices that lie nearer to each other are one. What programs write as one place differs by rounding.
+// Relative to the mesh's size: closer vertices are welded. Programs write equal positions with rounding errors.
 constexpr double same_place = 1e-7;
-// Of a triangle's longest edge: less high, and its normal is rounding.
+// Relative to a triangle's longest edge: flatter, and its normal is rounding.
 constexpr double least_height = 1e-5;
-// Sine of half a degree: what bends less is flat, and does not trip.
+// Sine of half a degree: smaller bends count as flat.
 constexpr double flat_bend = 0.0087;
 
 double size_of(std::span<const vec3> vertices) {
@@ -32,8 +32,7 @@ double size_of(std::span<const vec3> vertices) {
     return vertices.empty() ? 0 : glm::length(upper - lower);
 }
 
-// For each vertex the first one at the same place. Places are told apart by a grid; a neighbour beyond a cell's side is looked
-// for there too.
+// For each vertex the first one at the same position, by a spatial hash; neighbouring cells are searched too.
 std::vector<std::uint32_t> welded(std::span<const vec3> vertices, double tolerance) {
     using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
     std::map<Cell, std::vector<std::uint32_t>> cells;
@@ -78,7 +77,7 @@ uvec3 rotated_to_least(uvec3 t) {
 }
 
 struct Edge {
-    std::vector<std::uint32_t> along, against;  // triangles that run through it from the lesser to the greater vertex; back
+    std::vector<std::uint32_t> along, against;  // triangles that traverse it from the lower to the higher vertex index, and back
 };
 using Edges = std::map<std::pair<std::uint32_t, std::uint32_t>, Edge>;
 
@@ -94,7 +93,7 @@ Edges edges_of(const std::vector<uvec3>& triangles) {
     return edges;
 }
 
-// The neighbour over an edge, if there is exactly one and it faces the same way.
+// The neighbour across an edge, if there is exactly one and it has the same orientation.
 const std::uint32_t* neighbour(const Edge& edge, bool along) {
     if (edge.along.size() != 1 || edge.against.size() != 1) return nullptr;
     return along ? edge.against.data() : edge.along.data();
@@ -129,7 +128,7 @@ MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given)
         else
             ++form.dropped;
     }
-    if (triangles.empty()) throw MeshError("/triangles", "none of them has an area");
+    if (triangles.empty()) throw MeshError("/triangles", "all of them are degenerate");
 
     const Edges edges = edges_of(triangles);
     for (const auto& [ends, edge] : edges) {
@@ -188,11 +187,11 @@ std::string oddities(const MeshForm& form) {
         text += (text.empty() ? "" : "; ") + std::to_string(count) + " " + (count == 1 ? one : many) + what;
     };
     say(form.dropped, "triangle", "triangles", " without area, or repeated, left out");
-    say(form.open, "open edge", "open edges", ": what rolls over one leaves the mesh");
+    say(form.open, "open edge", "open edges", ": bodies that roll over one leave the mesh");
     say(form.branching, "edge", "edges",
-        " where more than two triangles meet, or two that face opposite ways; bodies may catch on these edges");
+        " with more than two triangles, or two of opposite orientation; bodies may catch on these edges");
     say(crossing_triangles(form), "triangle", "triangles",
-        " that cut through another: what gets between their faces is pushed both ways");
+        " that cut through another: bodies between their faces are pushed both ways");
     return text;
 }
 

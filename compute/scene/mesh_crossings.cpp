@@ -1,4 +1,4 @@
-// Which triangles of a mesh cut through others.
+// Self-intersections of a mesh.
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
@@ -23,7 +23,7 @@ bool share_a_corner(const Triangle& a, const Triangle& b, double within) {
     return false;
 }
 
-// Whether an edge goes through a triangle's inside, not merely to its plane or its rim.
+// Whether an edge passes through a triangle's interior, not merely touching its plane or rim.
 bool pierces(dvec3 from, dvec3 to, const Triangle& t, double within) {
     const dvec3 normal(t.normal), base = corner(t, 0);
     const double above = glm::dot(normal, from - base), below = glm::dot(normal, to - base);
@@ -46,7 +46,7 @@ bool cross(const Triangle& a, const Triangle& b, double within) {
 
 }  // namespace
 
-// Along x in the order of their lower ends, so that only those are compared that lie beside each other.
+// Sweep along x: only triangles that overlap in x are compared.
 std::size_t crossing_triangles(const MeshForm& form) {
     const std::vector<Triangle>& all = form.triangles;
     const double within = 1e-6 * static_cast<double>(form.reach);

@@ -1,4 +1,4 @@
-// A ray against each kind of shape, in double precision where squares of distances meet.
+// Ray casts against each kind of shape, in double precision where squared distances cancel.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -23,7 +23,7 @@ std::optional<double> to_sphere(dvec3 from, dvec3 along, dvec3 centre, double ra
     return -b - std::sqrt(root);
 }
 
-// Along y, from -half_height to half_height: the cylinder's wall, or a cap.
+// Capsule along y: cylinder wall, or a cap.
 std::optional<double> to_capsule(dvec3 from, dvec3 along, double radius, double half_height) {
     const dvec3 nearest_on_axis(0, std::clamp(from.y, -half_height, half_height), 0);
     if (glm::length(from - nearest_on_axis) <= radius) return std::nullopt;
@@ -56,7 +56,7 @@ std::optional<double> to_box(dvec3 from, dvec3 along, dvec3 half) {
     return enter;
 }
 
-// Into a body that is the inside of its faces' planes.
+// Convex polyhedron as an intersection of half spaces.
 std::optional<double> to_planes(dvec3 from, dvec3 along, const std::vector<HullForm::Face>& faces) {
     double enter = 0, leave = std::numeric_limits<double>::infinity();
     for (const HullForm::Face& face : faces) {
@@ -72,7 +72,7 @@ std::optional<double> to_planes(dvec3 from, dvec3 along, const std::vector<HullF
     return enter;
 }
 
-// Along y between two heights, of a radius that changes evenly from `below` to `above`: a cylinder, or a cone.
+// Frustum along y between two heights, radius from `below` to `above`: a cylinder, or a cone.
 std::optional<double> to_frustum(dvec3 from, dvec3 along, double low, double high, double below, double above) {
     const double slope = (above - below) / (high - low), at_zero = below - slope * low;
     const auto radius = [&](double y) { return at_zero + slope * y; };
@@ -107,7 +107,7 @@ std::optional<double> to_triangles(dvec3 from, dvec3 along, const MeshForm* form
     for (const MeshForm::Triangle& triangle : form->triangles) {
         const dvec3 normal(triangle.normal), a = dvec3(triangle.middle) + dvec3(triangle.corners[0]);
         const double towards = glm::dot(normal, along);
-        if (towards > -1e-12) continue;  // from behind it is not there
+        if (towards > -1e-12) continue;  // back faces are ignored
         const double at = glm::dot(normal, a - from) / towards;
         if (at <= 0 || (best && at >= *best)) continue;
         const dvec3 point = from + along * at;
@@ -122,7 +122,7 @@ std::optional<double> to_triangles(dvec3 from, dvec3 along, const MeshForm* form
     return best;
 }
 
-// A ray in the frame of a shape's body.
+// A ray in the body's frame.
 struct LocalRay {
     dvec3 from, along;
 };
@@ -142,7 +142,7 @@ std::optional<double> meet(const Cylinder& c, const LocalRay& ray) {
 std::optional<double> meet(const Cone& c, const LocalRay& ray) {
     return to_frustum(ray.from, ray.along, -0.25 * c.height, 0.75 * c.height, static_cast<double>(c.radius), 0);
 }
-// In units of its radii it is a ball.
+// In units of its radii an ellipsoid is a ball.
 std::optional<double> meet(const Ellipsoid& e, const LocalRay& ray) {
     const dvec3 along = ray.along / dvec3(e.radii);
     const double scale = glm::length(along);

@@ -1,4 +1,4 @@
-// What the host measures of every shape, shape by shape: size, reach, extents, mass and inertia, and planes around it.
+// Geometry of every shape: size, support, extents, mass and inertia, bounding planes.
 #include "compute/scene/shape_geometry.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ static_assert(has_id<physics::SHAPE_SPHERE, Sphere> && has_id<physics::SHAPE_CAP
               has_id<physics::SHAPE_ELLIPSOID, Ellipsoid> && has_id<physics::SHAPE_HULL, Hull> &&
               std::variant_size_v<SimpleShape> == physics::SHAPE_TRIANGLE);
 
-// Of a solid of revolution about the y axis.
+// Solid of revolution about the y axis.
 MassProperties mass_about_y(double mass, double across, double along) {
     return {static_cast<float>(mass), vec3(dvec3(across, along, across))};
 }
@@ -72,8 +72,8 @@ vec3 extents(const Capsule& c) {
 float radius(const Capsule& c) {
     return c.radius + c.half_height;
 }
-// A cylinder and two half spheres; a half sphere's centre of mass lies 3/8 r above its base, so about the capsule's centre it has
-// (2/5) m r^2 + m (h^2 + (3/4) h r) across and (2/5) m r^2 along, with h the half height.
+// A cylinder and two half spheres; a half sphere's centre of mass is 3/8 r above its base, so about the capsule's
+// centre it has (2/5) m r^2 + m (h^2 + (3/4) h r) across and (2/5) m r^2 along, with h the half height.
 MassProperties mass(const Capsule& c, double density) {
     const double r = c.radius, h = c.half_height, r2 = r * r;
     const double wall = density * std::numbers::pi * r2 * 2 * h;
@@ -237,7 +237,7 @@ float radius(const HeightField& f) {
     return f.form ? f.form->reach : 1;
 }
 
-// What planes and surfaces do not have, and compounds only in their parts.
+// Shapes with support functions: neither planes and surfaces, nor compounds as a whole.
 template <class OfShape>
 constexpr bool is_convex = std::is_constructible_v<SimpleShape, OfShape> && !std::is_same_v<OfShape, Plane>;
 template <class OfShape>
@@ -287,7 +287,7 @@ std::vector<dvec4> planes_of(const Shape& shape, bool fine) {
             if constexpr (is_convex<std::remove_cvref_t<decltype(one)>>)
                 add_planes(one, planes, fine);
             else
-                planes.touch_all_over(fine);  // at its centre: nothing is inside
+                planes.touch_all_over(fine);  // at its centre: an empty interior
         },
         shape);
     return std::move(planes.planes);

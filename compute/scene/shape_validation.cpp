@@ -1,4 +1,4 @@
-// What the shape of a body may say: the ranges of its fields, and that hulls, compounds and meshes can be made of it.
+// Validation of shapes: ranges of their fields, and that hulls, compounds and meshes can be made.
 #include "compute/scene/shape_validation.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ void refuse_value(const Examination& body, const std::string& key, const std::ve
     for (std::size_t k = 0; k < values.size(); ++k) refuse_value(body, key + "/" + std::to_string(k), values[k], field);
 }
 
-// Numbers, places and directions by the list of shapes; whole numbers and parts are for those who know what they mean.
+// Floats, points and directions by the list of shapes; integers and parts are checked by their shapes.
 template <class OfShape>
 void check_fields(const Examination& body, OfShape& shape) {
     for_each_shape_field<OfShape>([&](const auto& field) {
@@ -54,7 +54,7 @@ void check_fields(const Examination& body, OfShape& shape) {
     });
 }
 
-// To where its origin and its axes are, in its own frame.
+// Moves a frame to an origin and axes given in that frame.
 void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes) {
     const glm::dquat turn(orientation.w, orientation.x, orientation.y, orientation.z);
     position = vec3(dvec3(position) + turn * centre);
@@ -88,7 +88,8 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
     for (std::size_t i = 0; i < compound.parts.size(); ++i) {
         Part& p = compound.parts[i];
         const Examination part = body.part("/shape/compound/parts/" + std::to_string(i));
-        if (std::holds_alternative<Plane>(p.shape)) part.refuse("/shape/plane", "a plane is infinite and no part of a body");
+        if (std::holds_alternative<Plane>(p.shape))
+            part.refuse("/shape/plane", "a plane is infinite and cannot be a part of a compound");
         std::visit([&](auto& one) { check_fields(part, one); }, p.shape);
         part.between("/position", p.position, within_shape_range.least, within_shape_range.most, " m");
         part.make_unit("/orientation", p.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
@@ -135,7 +136,7 @@ void check_mesh(const Examination& body, Body& b, std::vector<std::string>* note
 
 }  // namespace
 
-// What lies about its centre and along its axes already, to rounding, stays: checking twice changes no bit.
+// Hulls already centred along principal axes, to rounding, stay: checking twice changes no bit.
 const CheckedHulls::Made& CheckedHulls::of(const std::vector<vec3>& points) {
     std::vector<float> key(points.size() * 3);
     std::memcpy(key.data(), points.data(), key.size() * sizeof(float));
@@ -146,7 +147,7 @@ const CheckedHulls::Made& CheckedHulls::of(const std::vector<vec3>& points) {
         one.hull.points = points;
         HullForm form = hull_form(points);
         one.simplified = form.simplified;
-        // Moved points are rounded, and faces that were one may be two: until nothing is left to move.
+        // Moved points are rounded, and merged faces may split: repeated until nothing moves.
         for (int round = 0; round < 8; ++round) {
             const glm::dmat3 axes = principal_axes(form.inertia);
             if (!form.simplified && axes == glm::dmat3(1) && glm::length(form.centre) <= 1e-5 * std::cbrt(form.volume)) break;

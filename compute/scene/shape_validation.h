@@ -1,4 +1,4 @@
-// What the shape of a body may say, and the body's frame brought to the shape's centre of mass.
+// Validation of shapes, and moving a body's frame to the shape's centre of mass.
 #pragma once
 
 #include <glm/gtc/quaternion.hpp>
@@ -13,10 +13,10 @@
 
 namespace scree {
 
-// Hulls of a scene by their points: equal ones are made once.
+// Cache of a scene's hulls by their points.
 struct CheckedHulls {
     struct Made {
-        Hull hull;  // about its centre of mass, along its principal axes
+        Hull hull;  // about its centre of mass, principal axes
         glm::dvec3 centre{0};
         glm::dquat axes{1, 0, 0, 0};
         bool simplified = false;
@@ -26,11 +26,12 @@ struct CheckedHulls {
     const Made& of(const std::vector<vec3>& points);
 };
 
-using Shift = std::optional<Recentred>;  // of the body's frame: to where its origin, along what its axes
+using Shift = std::optional<Recentred>;  // displacement of the body's frame: new origin and axes in the old frame
 
-// Ranges and directions of a convex shape or a plane, before position and orientation are looked at.
+// Checks ranges and directions of a convex shape or plane; before position and orientation are checked.
 void check_shape(const Examination& body, Shape& shape, Motion motion);
-// After position and orientation: what has its own centre moves them. Hulls, meshes and height fields get their forms.
+// Moves the body's frame to the shape's centre of mass, after position and orientation are checked. Makes the forms of
+// hulls, meshes and height fields.
 Shift bring_to_centre(const Examination& body, Body& b, CheckedHulls& hulls, std::vector<std::string>* notes);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Normals of each kind of shape, in double precision.
+// Surface normals of each kind of shape, in double precision.
 #include "compute/scene/surface_normal.h"
 
 #include <algorithm>
@@ -16,16 +16,16 @@ namespace {
 
 using glm::dvec3;
 
-// A point on a surface and the ray that met it there, in the frame of the shape's body.
+// A hit and the ray's direction, body frame.
 struct Met {
     dvec3 point, along;
 };
 
-// Of the faces that the ray can meet, the one that the point is farthest out of.
+// Of the faces towards the ray, the one in front of which the point is farthest.
 class Face {
 public:
     explicit Face(const Met& met) : met_(met) {}
-    void offer(dvec3 normal, double distance) {  // unit; of the face's plane from the origin
+    void offer(dvec3 normal, double distance) {  // unit normal; distance of the face's plane from the origin
         const double above = glm::dot(normal, met_.point) - distance;
         if (glm::dot(normal, met_.along) >= 0 || above <= above_) return;
         above_ = above;
@@ -75,7 +75,7 @@ dvec3 normal_of(const Cone& cone, const Met& met) {
     face.offer(wall, wall.y * 0.75 * height);
     return face.normal();
 }
-// The gradient of x^2/a^2 + y^2/b^2 + z^2/c^2.
+// Gradient of x^2/a^2 + y^2/b^2 + z^2/c^2.
 dvec3 normal_of(const Ellipsoid& ellipsoid, const Met& met) {
     const dvec3 radii(ellipsoid.radii);
     return glm::normalize(met.point / (radii * radii));
@@ -86,7 +86,7 @@ dvec3 normal_of(const Hull& hull, const Met& met) {
     return best.normal();
 }
 
-// Of the triangle that the point is nearest to, seen along the ray.
+// Normal of the triangle nearest to the point along the ray.
 dvec3 normal_of(const MeshForm& form, const Met& met) {
     double nearest = std::numeric_limits<double>::infinity();
     dvec3 found(0, 1, 0);
@@ -111,7 +111,7 @@ dvec3 normal_of(const Mesh& mesh, const Met& met) {
 dvec3 normal_of(const HeightField& field, const Met& met) {
     return normal_of(*field.form, met);
 }
-// Both have no frame of their own: see surface_normal.
+// Handled by surface_normal() itself.
 dvec3 normal_of(const Plane&, const Met&) = delete;
 dvec3 normal_of(const Compound&, const Met&) = delete;
 

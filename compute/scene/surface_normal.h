@@ -1,4 +1,4 @@
-// Which way a shape's surface faces where a ray has met it.
+// Surface normal at a ray's hit.
 #pragma once
 
 #include "compute/ray.h"
@@ -6,8 +6,8 @@
 
 namespace scree {
 
-// Unit, out of the surface of a checked shape at a pose; `point` is where the ray meets it (ray_distance), m. On an edge, of a
-// face that the ray can meet.
+// Outward unit normal of a checked shape at a pose; `point`: the hit of the ray (ray_distance), m. On an edge, the
+// normal of a face that the ray can hit.
 vec3 surface_normal(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray, vec3 point);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// What a scene may say: ranges, unit vectors, and the mass of each shape.
+// Validation of a scene: ranges, unit vectors, shapes, joints, vehicles and fragments.
 #include "compute/scene.h"
 
 #include <cmath>
@@ -20,7 +20,7 @@ Shift examine(const Examination& body, Body& b, CheckedHulls& hulls, std::vector
     fields::check_fields(body, b);
     const Shift shift = bring_to_centre(body, b, hulls, notes);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
-        body.refuse("/velocity", "a fixed body has no velocity; a body that moves whatever it meets is \"kinematic\"");
+        body.refuse("/velocity", "a fixed body has no velocity; use \"kinematic\" for a body that moves regardless of contacts");
     }
     const MassProperties properties = mass_properties(b.shape, b.density);
     const bool representable = std::isnormal(properties.mass) && std::isnormal(properties.inertia.x) &&
@@ -42,7 +42,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
     CheckedHulls hulls;
     fields::check_field(Examination(), scene, fields::field_of(&Scene::gravity));
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        if (scene.bodies[i].piece_of != no_body) continue;  // of a scene that was checked before
+        if (scene.bodies[i].piece_of != no_body) continue;  // fragments of a scene checked before
         const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], hulls, notes);
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }

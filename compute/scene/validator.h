@@ -1,4 +1,4 @@
-// What is wrong with a part of a scene, said with its place and its name.
+// Validation errors with JSON pointer and name.
 #pragma once
 
 #include <cstddef>
@@ -11,17 +11,17 @@
 
 namespace scree {
 
-// A place in a scene under examination: a body, joint or vehicle with its name, or a part of one. Texts are made only when there
-// is something to say. It refers to the name that it is given, and a part to what it is a part of.
+// A value being validated: a body, joint or vehicle with its name, or a member of one. Texts are built only for errors.
+// Holds references to the name and to its parent.
 class Examination {
 public:
-    // `kind`: body, joint or vehicle; `list`: the scene's list of them.
+    // `list`: the scene's array; `kind`: body, joint or vehicle.
     Examination(const char* list, const char* kind, std::size_t index, const std::string& name)
         : list_(list), kind_(kind), index_(index), name_(&name) {}
     // The scene itself.
     Examination() = default;
 
-    // A part of it: keys are then those of the part.
+    // A member; its own keys follow.
     Examination operator/(const char* key) const { return {*this, key, 0}; }
     Examination operator/(std::size_t index) const { return {*this, nullptr, index}; }
     Examination part(std::string inside) const {

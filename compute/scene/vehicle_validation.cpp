@@ -1,4 +1,4 @@
-// What a scene may say of its vehicles.
+// Validation of vehicles.
 #include "compute/scene/vehicle_validation.h"
 
 #include <cmath>
@@ -17,7 +17,7 @@ namespace {
 static_assert(fields::field_of(&Vehicle::wheels).range.high == physics::MOST_WHEELS);
 constexpr float least_cosine = 0.99f;  // between two axles
 
-// Which vehicle has what, by its number.
+// Owner vehicle of each chassis or wheel.
 using Owners = std::map<std::size_t, std::size_t>;
 
 void take(const Examination& vehicle, Owners& owners, std::size_t index, std::size_t what, const std::string& key,
@@ -37,15 +37,17 @@ void examine_joint(const Examination& vehicle, const std::string& key, const Whe
     if (joint.a != chassis)
         vehicle.refuse(key + "/joint", named + " does not begin at the chassis: its a must be body " + std::to_string(chassis));
     if (joint.b == the_world || scene.bodies[joint.b].motion != Motion::dynamic)
-        vehicle.refuse(key + "/joint", named + " holds no wheel: its b must be a dynamic body");
+        vehicle.refuse(key + "/joint", named + " has no wheel: its b must be a dynamic body");
     const auto* hinge = std::get_if<Hinge>(&joint.kind);
     const auto* six = std::get_if<SixDof>(&joint.kind);
     if (!hinge && !six) vehicle.refuse(key + "/joint", named + " must be a hinge or have six degrees, for a wheel to turn on it");
     const Axis& turn = hinge ? hinge->turn : six->twist;
-    if (turn.locked || turn.limits) vehicle.refuse(key + "/joint", named + " lets the wheel not turn: its twist must be free");
+    if (turn.locked || turn.limits)
+        vehicle.refuse(key + "/joint", named + " prevents rotation of the wheel: its twist must be free");
     const bool steerable = six && six->swing_y.limits && six->swing_y.limits->lower == six->swing_y.limits->upper;
     if (wheel.steers && !steerable)
-        vehicle.refuse(key + "/steers", named + " cannot be steered: it must have six degrees, and its swing_y limits, both 0");
+        vehicle.refuse(key + "/steers",
+                       named + " cannot be steered: it must be a six_degrees joint whose swing_y has limits, both 0");
 }
 
 void examine_wheels(const Examination& vehicle, std::size_t index, const Vehicle& v, const Scene& scene, Owners& wheels) {
@@ -56,7 +58,7 @@ void examine_wheels(const Examination& vehicle, std::size_t index, const Vehicle
         take(vehicle, wheels, index, scene.joints[wheel.joint].b, key + "/joint",
              "body " + std::to_string(scene.joints[wheel.joint].b) + " is a wheel");
         if (glm::dot(axle_of(scene.joints[v.wheels[0].joint]), axle_of(scene.joints[wheel.joint])) < least_cosine)
-            vehicle.refuse(key + "/joint", "its axle does not point the way of the first wheel's: all point to the left");
+            vehicle.refuse(key + "/joint", "its axle is not parallel to the first wheel's: all axles point to the left");
     }
 }
 

@@ -1,4 +1,4 @@
-// Reading the fields of a struct from JSON, by its table.
+// Reading a struct from JSON by its field table.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@
 
 namespace scree::json_reading {
 
-// What an index of the file may be given by: the first of each name.
+// Indices by name, the first of each name.
 using Numbers = std::map<std::string, std::size_t>;
 struct NamedThings {
     Numbers bodies, joints;
@@ -30,10 +30,10 @@ Numbers numbers_of(const Things& things) {
     return numbers;
 }
 
-// A body or joint, by index or name. `or_world`: it may be left out for the world, or be called "world".
+// Index of a body or joint, given by index or name. `or_world`: may be omitted for the world, or be "world".
 std::size_t index_of(const json& value, const Place& place, fields::Refers refers, bool or_world, const NamedThings& named);
 
-// The keys of a struct, those of embedded ones among them.
+// The keys of a struct, with those of embedded structs.
 template <fields::HasTable Struct>
 const Names& keys_of() {
     static const Names keys = [] {
@@ -54,7 +54,7 @@ void read_value(const json& value, const Place& place, Value& out, const char* u
 template <fields::HasTable Struct>
 void read_fields(const json& object, const Place& place, Struct& out, const NamedThings& named = {});
 
-// What the object says of one field.
+// Reads one field.
 template <class Struct, class Member>
 void read_field(const json& object, const Place& place, const fields::Field<Struct, Member>& field, Struct& out,
                 const NamedThings& named) {
@@ -78,7 +78,7 @@ void read_field(const json& object, const Place& place, const fields::Field<Stru
     read_value(*found, place / field.key, member, field.unit, named);
 }
 
-// What an object of known keys says; other keys in it do not matter here.
+// Reads all fields of an object whose keys are known; ignores other keys.
 template <fields::HasTable Struct>
 void read_fields(const json& object, const Place& place, Struct& out, const NamedThings& named) {
     fields::for_each_field<Struct>([&](const auto& field) { read_field(object, place, field, out, named); });

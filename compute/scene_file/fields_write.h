@@ -1,4 +1,4 @@
-// Writing the fields of a struct as JSON, by its table: members that have their default are left out.
+// Writing a struct as JSON by its field table; members with their default are omitted.
 #pragma once
 
 #include <bit>
@@ -14,7 +14,7 @@
 
 namespace scree {
 
-// Whether a member has its default, to the last bit: -0 is not 0.
+// Whether a member has its default, bit for bit: -0 is not 0.
 template <class Value>
 bool is_default(const Value& value, const Value& by_default) {
     if constexpr (std::is_same_v<Value, float>) {
@@ -33,7 +33,7 @@ bool is_default(const Value& value, const Value& by_default) {
             [&](const auto& field) { all = all && is_default(value.*field.member, by_default.*field.member); });
         return all;
     } else if constexpr (requires { value.valueless_by_exception(); }) {
-        return false;  // the kind of a joint and the shape of a body
+        return false;  // the kind of a joint and the shape of a body are always written
     } else {
         return value == by_default;
     }
@@ -42,7 +42,7 @@ bool is_default(const Value& value, const Value& by_default) {
 template <class Value>
 void write_value(Text& text, const Value& value);
 
-// `between`: what stands before the next member.
+// `between`: the separator before the next member.
 template <fields::HasTable Struct>
 void write_fields(Text& text, const Struct& from, const char*& between) {
     [[maybe_unused]] static const Struct by_default;

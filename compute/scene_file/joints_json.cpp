@@ -1,4 +1,4 @@
-// Joints of a scene file: where they may be in the world instead of in their bodies, and names instead of indices.
+// Joints of a scene file: anchors in world coordinates, and bodies by name.
 #include "compute/scene_file/joints_json.h"
 
 #include "compute/fields/joint.h"
@@ -28,14 +28,14 @@ namespace {
 using namespace json_reading;
 using fields::JointPlacement;
 
-// Turns "anchor" and "axis" into anchors and frames.
+// Converts "anchor" and "axis" (world coordinates) to anchors and frames.
 void place_joint(const json& value, const Place& place, const Scene& scene, Joint& joint) {
     if (!value.contains("anchor")) {
-        if (value.contains("axis")) refuse(place / "axis", "needs \"anchor\": where in the world the joint is");
+        if (value.contains("axis")) refuse(place / "axis", "needs \"anchor\": the joint's position in world coordinates");
         return;
     }
     for (const char* key : {"anchor_a", "anchor_b", "frame_a", "frame_b"})
-        if (value.contains(key)) refuse(place / key, "\"anchor\" and \"axis\" say it already; leave it or them out");
+        if (value.contains(key)) refuse(place / key, "is given by \"anchor\" and \"axis\" already; remove it or them");
     JointPlacement world;
     read_fields(value, place, world);
     try {

@@ -9,10 +9,10 @@
 
 namespace scree {
 
-// The value of "joints", once all bodies are there; throws SceneError with the JSON pointer of what is wrong.
+// Reads the value of "joints" after all bodies are read; throws SceneError with the JSON pointer of the error.
 void read_joints(const nlohmann::json& value, const json_reading::NamedThings& named, Scene& scene);
-// One joint that says where it is in its bodies' frames (not by "anchor"), and its bodies by their index; not checked yet.
+// A joint given in its bodies' frames (not by "anchor"), with bodies by index; not validated.
 Joint joint_of(const nlohmann::json& value, const json_reading::Place& place);
-std::string joint_to_json(const Joint& joint);  // an object on one line
+std::string joint_to_json(const Joint& joint);  // a JSON object on one line
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Reading JSON that people write: places, kinds and messages.
+// Reading hand-written JSON: places, kinds and messages.
 #include "compute/scene_file/json_reading.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@ namespace scree::json_reading {
 
 namespace {
 
-// Levenshtein's distance: how many letters must change, come or go.
+// Levenshtein distance: number of letters to change, insert or delete.
 std::size_t distance(const std::string& a, const std::string& b) {
     std::vector<std::size_t> row(b.size() + 1);
     for (std::size_t j = 0; j < row.size(); ++j) row[j] = j;
@@ -70,7 +70,7 @@ std::string kind(const json& value) {
 void read(const json& value, const Place& place, float& out) {
     if (!value.is_number()) refuse(place, "must be a number, is " + kind(value));
     const double wide = value.get<double>();
-    // Up to half a step above the largest float, values still round to it.
+    // Values up to half an ULP above the largest float still round to it.
     if (!(std::abs(wide) < 0x1.ffffffp127)) {
         refuse(place, "must be at most 3.4e38, what a 32-bit float holds; is " + value.dump());
     }

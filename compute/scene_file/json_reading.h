@@ -1,4 +1,4 @@
-// Reading JSON that people write: every mistake with its place, and unknown words with the nearest that is known.
+// Reading hand-written JSON: every error with its JSON pointer, unknown words with the nearest known one.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ namespace scree::json_reading {
 using nlohmann::json;
 using Names = std::vector<std::string>;
 
-// A place in the document; it becomes text only when something is wrong there.
+// A value's place in the document; converted to a JSON pointer only for errors.
 struct Place {
     const Place* parent;
     const char* key;
@@ -30,17 +30,17 @@ struct Place {
     Place operator/(std::size_t child) const { return {this, nullptr, child}; }
 };
 
-// All of these throw SceneError with the JSON pointer of the place.
+// All of these throw SceneError with the value's JSON pointer.
 [[noreturn]] void refuse(const Place& place, const std::string& reason);
-void only(const json& object, const Place& place, const Names& known);  // an object with no other keys
+void only(const json& object, const Place& place, const Names& known);  // requires an object without other keys
 void read(const json& value, const Place& place, bool& out);
 void read(const json& value, const Place& place, float& out);  // finite
 void read(const json& value, const Place& place, std::string& out);
 void read(const json& value, const Place& place, std::size_t& out);
 void read(const json& value, const Place& place, std::uint32_t& out);
-// Where a word is among those that are known. `what`: of what, for messages.
+// Index of a known word; `what` names the kind of word in messages.
 std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place);
-Body body_of(const json& value, const Place& place);  // of a scene
+Body body_of(const json& value, const Place& place);  // as in a scene file
 
 template <glm::length_t size>
 void read(const json& value, const Place& place, glm::vec<size, float>& out);
@@ -62,7 +62,7 @@ std::string listed(const Names& names);
 std::string unknown(const char* what, const std::string& name, const Names& known);
 std::string escaped(std::string key);  // of a JSON pointer, RFC 6901
 
-// What the parser could not read, in words for a person, with line and column.
+// Reports a syntax error with line and column.
 [[noreturn]] void refuse_syntax(std::string_view text, const json::parse_error& error);
 [[noreturn]] void refuse_number(std::string_view text, const json::out_of_range& error);
 

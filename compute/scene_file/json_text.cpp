@@ -15,7 +15,7 @@ Text& Text::operator<<(float value) {
     char digits[64];
     char* end = std::to_chars(digits, digits + sizeof digits - 1, value).ptr;
     *end = '\0';
-    // Readers go through a double; should that round twice to a neighbour, write all digits of the float instead.
+    // Readers convert via double; if that rounds twice to a neighbour, write all digits of the float instead.
     double wide = 0;
     std::from_chars(digits, end, wide);
     if (static_cast<float>(wide) != value) end = std::to_chars(digits, digits + sizeof digits, static_cast<double>(value)).ptr;

@@ -1,4 +1,4 @@
-// JSON text that grows, with the shortest digits that read back to the same float.
+// JSON text output, with the shortest digits that read back to the same float.
 #pragma once
 
 #include <cstddef>
@@ -18,7 +18,7 @@ public:
         text_ += plain;
         return *this;
     }
-    Text& operator<<(float value);  // finite (SceneError otherwise): JSON has no other
+    Text& operator<<(float value);  // throws SceneError if not finite, which JSON cannot express
     Text& operator<<(std::uint32_t value) { return *this << std::string_view(std::to_string(value)); }
     template <glm::length_t size, class Number>
     Text& operator<<(const glm::vec<size, Number>& v) {

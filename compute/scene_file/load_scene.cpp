@@ -1,4 +1,4 @@
-// Reading a scene file and what it names.
+// Loading a scene file with its meshes.
 #include "compute/scene_file/load_scene.h"
 
 #include "host/files/mesh_file.h"

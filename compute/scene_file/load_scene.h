@@ -1,4 +1,4 @@
-// A scene from a file, with the meshes that it names.
+// Loading a scene file with the meshes that it names.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace scree {
 
-// Reads a scene file, and the mesh files that it names, which lie beside it. Throws SceneError as scene_from_json does, for a
-// mesh that cannot be read too, and std::runtime_error naming the file when the scene's own cannot be read.
+// Reads a scene file and the mesh files that it names, relative to it. Throws SceneError like scene_from_json, also for
+// a mesh that cannot be read, and std::runtime_error naming the file if the scene file cannot be read.
 SceneDocument load_scene(const std::filesystem::path& path, std::size_t most_bodies = static_cast<std::size_t>(-1));
 
 }  // namespace scree

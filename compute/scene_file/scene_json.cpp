@@ -1,4 +1,5 @@
-// Reading a scene from JSON text: body by body as the parser meets them, so that a large file never becomes a large tree.
+// Reading a scene from JSON, streaming: bodies are converted as the parser meets them, so a large file builds no large
+// tree.
 #include "compute/scene_file/scene_json.h"
 
 #include <algorithm>
@@ -48,7 +49,7 @@ Viewpoint viewpoint_of(const json& value, const Place& place) {
         return view;
     }
     for (const char* key : {"eye", "target", "vertical_fov"}) {
-        if (value.contains(key)) refuse(place / key, "the path has its own, for each moment; leave it or the path out");
+        if (value.contains(key)) refuse(place / key, "each moment of the path has its own; remove it or the path");
     }
     const Place path = place / "path";
     if (view.path.empty()) refuse(path, "must be an array of at least one moment, is " + kind(value["path"]));
@@ -63,7 +64,7 @@ Viewpoint viewpoint_of(const json& value, const Place& place) {
     return view;
 }
 
-// Listens to the parser: takes each element of /bodies as soon as it is whole, and lets go of its tree.
+// Parser callback: takes each element of /bodies as soon as it is complete, and frees its tree.
 class Listener {
 public:
     Listener(Scene& scene, std::size_t most_bodies) : scene_(scene), most_bodies_(most_bodies) {}
@@ -96,7 +97,7 @@ private:
 
     Scene& scene_;
     std::size_t most_bodies_;
-    std::vector<Names> keys_;  // of the objects that are open
+    std::vector<Names> keys_;  // keys of the open objects
     std::string top_key_;
     const Place root_{nullptr, nullptr, 0};
     const Place bodies_ = root_ / "bodies";

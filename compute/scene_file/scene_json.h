@@ -1,4 +1,4 @@
-// Scenes as JSON text: read with the exact place of every mistake, written so that every float reads back to the same bits.
+// Scenes as JSON: errors have the exact place, floats read back bit-identically.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace scree {
 
-// Where a camera that moves is at a moment.
+// A key frame of the camera path.
 struct ViewKey {
     float time = 0;           // s
     vec3 eye{0};              // m
@@ -19,29 +19,29 @@ struct ViewKey {
     float vertical_fov = 45;  // degrees
 };
 
-// Where a scene is best seen from. The simulation never looks at it.
+// The camera suggested for a scene; the simulation does not use it.
 struct Viewpoint {
-    vec3 eye{0};                // m; with a path its first eye, and so on
+    vec3 eye{0};                // m; with a path that of its first key, likewise below
     vec3 target{0};             // m
     float vertical_fov = 45;    // degrees
-    bool orthographic = false;  // parallel rays; what lies as far as the target is as large as without
-    std::vector<ViewKey> path;  // in the order of time; empty: the camera stands still
+    bool orthographic = false;  // parallel projection, with the same scale at the target's distance
+    std::vector<ViewKey> path;  // ascending in time; empty: a fixed camera
 };
 
 struct SceneDocument {
-    Scene scene;  // as written; World checks it
+    Scene scene;  // not validated; World does that
     std::optional<Viewpoint> viewpoint;
 };
 
-// Reads the text of a scene file (the format: scene_schema(), of compute/scene_file/scene_schema.h). Throws SceneError: with the
-// JSON pointer of what is wrong with a value, or with line and column when it is no JSON. Refuses more than `most_bodies` bodies
-// before they fill the memory.
+// Reads a scene file's text (format: scene_schema()). Throws SceneError with the JSON pointer of an invalid value, or
+// line and column of a syntax error. Rejects more than `most_bodies` bodies before they fill memory.
 SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies = static_cast<std::size_t>(-1));
 
-// One body a line. Keys that have their default value are left out. Finite values only (SceneError otherwise): JSON has no other.
+// Writes a scene, one body per line, without keys that have their default. Throws SceneError for values that are not
+// finite, which JSON cannot express.
 std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint = {});
 
-// One body of it, as an object on one line.
+// One body as a JSON object on one line.
 std::string body_to_json(const Body& body);
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// Writing a scene as JSON text, one body a line, with the shortest digits that read back to the same float.
+// Writing a scene as JSON, one body per line, with the shortest digits that read back to the same float.
 #include <string_view>
 
 #include "compute/fields/document.h"
@@ -19,14 +19,14 @@ std::string text_of_fields(const Value& value) {
     return text.take();
 }
 
-// One a line.
+// One element per line.
 template <class Things>
 void write_list(Text& text, const char* key, const Things& things) {
     const char* between = "\n  ";
     text << " \"" << key << "\": [";
     for (const auto& one : things) {
         if constexpr (requires { one.piece_of; }) {
-            if (one.piece_of != no_body) continue;  // made when the scene is checked
+            if (one.piece_of != no_body) continue;  // fragments are made when the scene is checked
         }
         text << between;
         write_value(text, one);

@@ -27,7 +27,7 @@ ordered_json number(double value) {
 ordered_json number(std::unsigned_integral auto value) {
     return value;
 }
-ordered_json number(float value) {  // as it is written, 0.6, and not as the double next to it
+ordered_json number(float value) {  // with the float's shortest digits, 0.6, not those of the double next to it
     char digits[64];
     const char* end = std::to_chars(digits, digits + sizeof digits, value).ptr;
     double wide = 0;
@@ -45,7 +45,7 @@ ordered_json reference(const std::string& name) {
     return {{"$ref", "#/$defs/" + name}};
 }
 
-// A side without a limit of its own says nothing.
+// Unlimited sides are omitted.
 void limit(ordered_json& made, const Range& range) {
     if (range.low > -static_cast<double>(unlimited)) made[range.above_low ? "exclusiveMinimum" : "minimum"] = number(range.low);
     if (range.high < static_cast<double>(unlimited)) made[range.below_high ? "exclusiveMaximum" : "maximum"] = number(range.high);
@@ -60,7 +60,7 @@ ordered_json array_of(const ordered_json& items, glm::length_t size) {
     return {{"type", "array"}, {"items", items}, {"minItems", size}, {"maxItems", size}};
 }
 
-// What must be of an object beyond its fields; null takes a key away.
+// Conditions on an object beyond its fields; null removes a key.
 template <class Struct>
 ordered_json conditions() {
     if constexpr (std::is_same_v<Struct, Fracture>)
@@ -75,7 +75,7 @@ ordered_json conditions() {
 
 class Schema {
 public:
-    // The schema of a struct, whose fields' own structs are defined in $defs.
+    // The schema of a struct; structs of its fields are defined in $defs.
     template <class Struct>
     ordered_json object(const char* about) {
         ordered_json required = ordered_json::array(), properties = ordered_json::object();
@@ -95,7 +95,7 @@ private:
     ordered_json defined() {
         constexpr auto& known = table<Struct>;
         if (!defs_.contains(known.name)) {
-            defs_[known.name] = nullptr;  // its place, before those of what it holds
+            defs_[known.name] = nullptr;  // reserves its position before nested definitions
             ordered_json made = object<Struct>(known.about);
             defs_[known.name] = std::move(made);
         }
@@ -191,7 +191,7 @@ private:
     ordered_json defs_ = ordered_json::object();
 };
 
-// An object or array: `before` it, `between` its elements, which `show` writes, and `after` it.
+// Prints an object or array: `before` it, `between` its elements, printed by `show`, and `after` it.
 template <class Show>
 void print_elements(std::string& text, const ordered_json& value, const std::string& before, const std::string& between,
                     const std::string& after, const Show& show) {
@@ -210,7 +210,7 @@ std::string on_one_line(const ordered_json& value) {
     print_elements(text, value, "", ", ", "", [&](const ordered_json& one) { text += on_one_line(one); });
     return text;
 }
-// What fits into a line stands on one.
+// Prints on one line what fits.
 void print(std::string& text, const ordered_json& value, std::size_t indent) {
     const std::string line = on_one_line(value), inside = "\n" + std::string(indent + 4, ' ');
     if (!value.is_structured() || indent + line.size() <= 110) {

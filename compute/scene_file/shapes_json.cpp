@@ -21,7 +21,7 @@ static void read(const json& value, const Place& place, std::vector<glm::uvec3>&
     triangles.resize(value.size());
     for (std::size_t i = 0; i < value.size(); ++i) {
         if (!value[i].is_array() || value[i].size() != 3)
-            refuse(place / i, "must be an array of 3 numbers of vertices, is " + kind(value[i]));
+            refuse(place / i, "must be an array of 3 vertex indices, is " + kind(value[i]));
         for (std::size_t k = 0; k < 3; ++k) read(value[i][k], place / i / k, triangles[i][static_cast<int>(k)]);
     }
 }
@@ -40,7 +40,7 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
         const Place here = place / i;
         only(value[i], here, {"shape", "position", "orientation", "density"});
         Part& part = parts.emplace_back();
-        // Refused before its own parts are read: a file may nest compounds deeper than the stack reaches.
+        // Rejected before its parts are read: nested compounds could overflow the stack.
         if (const auto nested = value[i].find("shape"); nested != value[i].end() && nested->contains("compound"))
             refuse(here / "shape", not_a_part);
         Shape shape;
@@ -54,7 +54,7 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
     }
 }
 
-// The vertices and triangles themselves, or the file that has them.
+// Vertices and triangles, or the name of a mesh file.
 static void read_mesh(const json& sizes, const Place& inside, Mesh& mesh) {
     only(sizes, inside, {"file", "scale"});
     required(sizes, inside, "file", mesh.file);

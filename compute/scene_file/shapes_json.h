@@ -13,7 +13,7 @@ namespace json_reading {
 void read(const json& value, const Place& place, Shape& out);
 }
 void write_shape(Text& text, const Shape& shape);
-// "shape" of the schema's $defs; it refers to "number", "vector" and "size" there.
+// The definition "shape" of the schema's $defs; it refers to "number", "vector" and "size" there.
 nlohmann::ordered_json shape_schema();
 
 }  // namespace scree

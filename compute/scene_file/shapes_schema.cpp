@@ -36,7 +36,7 @@ ordered_json field_schema(const ShapeField<Owner, vec3>& field) {
     return schema;
 }
 
-// Of lists there is more to say than a range.
+// Shapes with lists, whose schema is more than ranges.
 template <class OfShape>
 constexpr bool has_lists = std::is_same_v<OfShape, Hull> || std::is_same_v<OfShape, Compound> || std::is_same_v<OfShape, Mesh> ||
                            std::is_same_v<OfShape, HeightField>;
@@ -63,7 +63,7 @@ ordered_json schemas_with_lists() {
         {
             "required": ["hull"],
             "additionalProperties": false,
-            "description": "the convex hull of the points; the body's position is where their origin lies",
+            "description": "the convex hull of the points; the body's position is the origin of the points",
             "properties": {
                 "hull": {
                     "type": "object",
@@ -79,7 +79,7 @@ ordered_json schemas_with_lists() {
                                 "minItems": 3,
                                 "maxItems": 3
                             },
-                            "description": "m, not in one plane; inner and repeated points do not matter. More than 64 corners are simplified"
+                            "description": "m, not coplanar; inner and repeated points are ignored. Hulls of more than 64 vertices are simplified"
                         }
                     }
                 }
@@ -88,7 +88,7 @@ ordered_json schemas_with_lists() {
         {
             "required": ["compound"],
             "additionalProperties": false,
-            "description": "several convex shapes on one body; the body's position is where their origin lies. Where two overlap, the mass of both counts",
+            "description": "several convex shapes on one body; the body's position is the origin of the parts. Masses of overlapping parts add up",
             "properties": {
                 "compound": {
                     "type": "object",

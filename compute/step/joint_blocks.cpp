@@ -1,4 +1,4 @@
-// Blocks of joints, their order of elimination (minimum degree), and their records.
+// Blocks of joints, their elimination order (minimum degree), and their records.
 #include "compute/step/joint_blocks.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@ namespace {
 
 using Indices = std::vector<std::uint32_t>;
 
-// Which joints hang together through bodies that move.
+// Graph of joints that share dynamic bodies.
 class Graph {
 public:
     Graph(const Scene& scene, const std::vector<physics::BodyProperties>& properties)
@@ -32,7 +32,7 @@ public:
         return found;
     }
 
-    // All joints that hang together with one, the nearest first.
+    // All joints connected with one, by breadth-first search.
     Indices reached_from(std::uint32_t start) const {
         Indices order{start};
         std::set<std::uint32_t> seen{start};
@@ -58,7 +58,7 @@ struct Eliminated {
     std::set<std::uint32_t> fill_in;
 };
 
-// The order in which each joint touches the fewest that are left; empty if one touches too many.
+// Minimum degree order; empty if a joint has too many neighbours or the block is too large.
 std::vector<Eliminated> elimination_of(const Graph& graph, const Indices& joints) {
     if (joints.size() > most_joints_of_block) return {};
     const std::set<std::uint32_t> inside(joints.begin(), joints.end());
@@ -84,7 +84,7 @@ std::vector<Eliminated> elimination_of(const Graph& graph, const Indices& joints
     return order;
 }
 
-// Of joints in the order in which they were reached; halves of what is too much for one block.
+// Cuts joints, given in breadth-first order, in halves until each fits a block.
 void cut(const Graph& graph, const Indices& joints, std::vector<std::vector<Eliminated>>& blocks) {
     std::vector<Eliminated> order = elimination_of(graph, joints);
     if (!order.empty()) {
@@ -101,7 +101,7 @@ std::vector<std::vector<Eliminated>> blocks_of(const Scene& scene, const Graph& 
     std::vector<bool> done(scene.joints.size());
     for (std::uint32_t j = 0; j < scene.joints.size(); ++j) {
         if (done[j]) continue;
-        // From the far end, so that halves of a chain are its halves.
+        // From an end, so that a chain is cut into halves.
         const Indices whole = graph.reached_from(graph.reached_from(j).back());
         for (const std::uint32_t joint : whole) done[joint] = true;
         cut(graph, whole, blocks);
@@ -242,7 +242,7 @@ JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties
         if (record.block_body != physics::NONE) ++blocks[record.block_body];
     for (physics::Joint& record : tables.records)
         if (record.block_body != physics::NONE) record.blocks = blocks[record.block_body];
-    // Each body's list, in the order of the scene.
+    // Each body's joint list, in the order of the scene.
     for (std::size_t j = scene.joints.size(); j-- > 0;) {
         physics::Joint& record = tables.records[tables.record_of[j]];
         const auto list = [&](physics::uint body, physics::uint& next) {

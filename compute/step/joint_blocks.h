@@ -1,4 +1,4 @@
-// The joints of a scene as the step needs them: cut into blocks, and each block in an order of elimination.
+// Joint blocks: a scene's joints partitioned into blocks, each in elimination order.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,21 @@
 
 namespace scree {
 
-// All joints that hang together through bodies that move are one block, which the step solves exactly; a block of more than
-// this many, or one so entangled that eliminating a joint would change more than MOST_LINKS others, is cut in two, and the parts
-// share their bodies as contacts do. One thread works on a block, so more would keep the others waiting.
+// All joints connected through dynamic bodies form one block, which the step solves directly. A block of more joints
+// than this, or one whose elimination of a joint would fill in more than MAX_FILL_IN others, is cut in two; the parts
+// share bodies like contacts (mass splitting). One thread works on a block, so larger ones would keep the others
+// waiting.
 constexpr std::size_t most_joints_of_block = 128;
 
 struct JointTables {
     std::vector<physics::Joint> records;
-    std::vector<std::uint32_t> record_of;  // of each joint of the scene
+    std::vector<std::uint32_t> record_of;  // record index by joint of the scene
     physics::uint blocks = 0;
 };
-// Of a checked scene; says in the properties where each body's list of joints begins.
+// The records of a checked scene; sets the head of each body's joint list in `properties`.
 JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties);
 
-// The axes of a record, for a kind of joint: along x, y, z, twist, swing about y, about z.
+// The six axes of a joint kind: x, y, z, twist, swing_y, swing_z.
 struct JointAxes {
     Axis axes[6];
     physics::uint flags = 0;  // JOINT_RADIAL, JOINT_CONE

@@ -1,4 +1,4 @@
-// Orders bodies along a Morton curve, and moves them in the tables.
+// Sorting bodies along a Morton curve, and moving them in the tables.
 #include "compute/step/memory_order.h"
 
 #include <tbb/parallel_sort.h>
@@ -15,10 +15,10 @@ namespace scree {
 namespace {
 
 bool may_move(const Body& body) {
-    return body.piece_of == no_body;  // the body that it is a piece of knows its row
+    return body.piece_of == no_body;  // fragments stay: their body refers to their rows
 }
 
-// Every third bit, from 21.
+// Spreads 21 bits to every third bit.
 std::uint64_t spread_out(std::uint64_t x) {
     x &= 0x1FFFFF;
     x = (x | x << 32) & 0x1F00000000FFFF;
@@ -28,7 +28,7 @@ std::uint64_t spread_out(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249;
 }
 
-// Morton 1966: the bits of three coordinates in turn. Cells beyond two million from the origin share the last one.
+// Morton code (1966): interleaved bits of three coordinates. Cells beyond two million from the origin are clamped.
 std::uint64_t place_on_curve(vec3 position, float inverse_cell) {
     constexpr double middle = 1 << 20;
     std::uint64_t place = 0;
@@ -73,7 +73,7 @@ double stride_in_space(const Scene& scene, const State& state, const std::vector
     for (std::size_t k = 1; k < ids.size(); ++k) {
         const vec3 apart = state.poses[state.row_of(ids[k])].position - state.poses[state.row_of(ids[k - 1])].position;
         const double distance = glm::length(glm::dvec3(apart));
-        sum += distance < most ? distance : most;  // of what is not finite, too
+        sum += distance < most ? distance : most;  // also for values that are not finite
     }
     return sum / static_cast<double>(ids.size() - 1);
 }
@@ -111,12 +111,12 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     }
     // Allocate first, for the strong exception guarantee.
     std::vector<std::uint32_t> by_id = rows;
-    // One for every table: new memory takes longer than what is done to it.
+    // One scratch buffer for all tables: allocation takes longer than the permutation.
     std::vector<std::byte> scratch(n * sizeof(physics::BodyProperties));
     const auto follow = [&](physics::uint& row) {
         if (row < n) row = to[row];
     };
-    // Contacts are listed by the row of their owner, and its own in the order of ids.
+    // Contacts are grouped by the row of their owner, within an owner in the order of ids.
     std::vector<physics::uint> first_in_rows;
     const bool with_contacts = contacts.size() >= counted().contacts && first_contacts.size() > all;
     if (with_contacts) {
@@ -136,7 +136,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
         });
     }
     const auto take = [&](auto& table) {
-        if (table.size() < all) return;  // it is not here
+        if (table.size() < all) return;  // the table is only on the device
         constexpr std::size_t bytes = sizeof table[0];
         static_assert(bytes <= sizeof(physics::BodyProperties));
         threads.for_each(n, [&](std::size_t row) { std::memcpy(&scratch[row * bytes], &table[from[row]], bytes); });

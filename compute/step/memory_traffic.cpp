@@ -1,4 +1,4 @@
-// Adds up the tables that each stage is declared to read and write.
+// Sums the declared reads and writes of every stage.
 #include "compute/step/memory_traffic.h"
 
 #include <algorithm>
@@ -14,9 +14,9 @@ namespace scree {
 
 namespace {
 
-constexpr double line = 32;  // bytes that come at once at least: a sector of a GPU's cache, half a line of a processor's
+constexpr double line = 32;  // least bytes per access: a sector of a GPU's cache, half a line of a processor's
 
-// How many of each there were in the last step.
+// Counts of the last step.
 struct Step {
     std::size_t bodies = 0, movers = 0, buckets = 0, blocks = 0, pair_types = 0, pairs = 0, contacts = 0, solver_contacts = 0,
                 slots = 0, joints = 0, vehicles = 0;
@@ -52,7 +52,7 @@ struct Step {
     void count_hulls(const State& state) {
         std::vector<std::set<physics::uint>> places(physics::PAIR_TYPES);
         const bool listed =
-            state.counted().overflow == 0;  // else the table of pairs holds notes (shaders/stages/lib/partner_cache.glsl)
+            state.counted().overflow == 0;  // else pairs holds the partner cache (shaders/stages/lib/partner_cache.glsl)
         const std::size_t looked = listed && state.features().convex ? pairs : 0;
         for (std::size_t i = 0; i < looked; ++i)
             for (const physics::uint body : {state.pairs[i].a, state.pairs[i].b})

@@ -1,6 +1,6 @@
-// What a step must move through memory at least, stage by stage: every record that a stage looks at, and every record it writes,
-// once. Fields of a wide record count as the line of memory they lie in. What is read again (a body by each of its contacts, a
-// cell by each of its neighbours) is taken to come from a cache, so a stage may move more than this, and none moves less.
+// Least memory traffic of a step, per stage: every record that a stage reads or writes, once. Fields of a wide record
+// count as the cache line they are in. Repeated reads (a body by each of its contacts, a cell by each neighbour) are
+// assumed to hit a cache, so a stage may move more than this, never less.
 #pragma once
 
 #include <string>
@@ -12,11 +12,11 @@ namespace scree {
 
 struct Traffic {
     std::string stage;
-    double read = 0, written = 0;  // bytes in a step; of all dispatches of that name
+    double read = 0, written = 0;  // bytes per step, of all dispatches of that name
 };
 
-// Of the stages in the order of the plan, for a step with as many pairs and contacts as the last one had. `state` holds what
-// World::state() brings back.
+// Traffic of all stages in plan order, with the numbers of pairs and contacts of the last step. `state`: as
+// World::state() returns it.
 std::vector<Traffic> traffic_of(const State& state);
 
 }  // namespace scree

@@ -41,7 +41,7 @@ const Access* written_by(const StageDeclaration& stage, Table table) {
     return found == stage.writes.end() ? nullptr : &*found;
 }
 
-// Parts of a table that several stages write beside each other, after the last of them.
+// Tables that several stages write in parts are compared after the last of them.
 void set_compared(std::vector<Stage>& stages) {
     for (std::size_t i = 0; i < stages.size(); ++i) {
         for (const Access& access : stages[i].writes) {
@@ -61,7 +61,7 @@ std::vector<Table> tables_read_before_written(const std::vector<Stage>& stages) 
     };
     for (const Stage& stage : stages) {
         for (const Access& access : stage.reads) {
-            // What a stage adds up in several passes it begins by itself.
+            // A stage that accumulates over several passes initialises the table itself.
             const Access* own = written_by(stage, access.table);
             if (own && own->manner == Manner::unfinished) continue;
             if (!has(written, access.table) && !has(lasting, access.table)) lasting.push_back(access.table);
@@ -77,13 +77,13 @@ std::vector<Table> tables_read_before_written(const std::vector<Stage>& stages) 
 std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     const bool convex = features.convex || features.triangles;
     Order s{{}, feature_bits(features)};
-    // what pushes the bodies, where they will be
+    // forces and actions, world bounds
     s.add("begin_step");
     s.add("apply_actions");
     if (features.vehicles) s.add("drive_vehicles");
     if (features.moving_parts) s.add("pose_parts");
     s.add("compute_bounds");
-    // broadphase: who is near whom
+    // broadphase: pairs
     s.add_scan("cells");
     s.add("fill_cells");
     s.add("sort_cells");
@@ -91,7 +91,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add_scan("pairs");
     s.add("fill_pairs");
     s.add("match_pairs");
-    // narrowphase: who touches whom, and where
+    // narrowphase: manifolds
     s.add("count_pair_types");
     s.add_scan("pair_types");
     s.add("fill_pair_types");
@@ -99,15 +99,15 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
         if (has_pair_type(features, pair_type)) s.add(name_of_pair_type(pair_type), pair_type);
     s.add(convex ? "predict_impacts_convex" : "predict_impacts");
     s.add("cull_speculative");
-    // contacts: who touches
+    // compaction of contacts
     s.add_scan("contacts");
     s.add("compact_contacts");
-    // whom this wakes
+    // waking
     s.add("wake_touched");
     s.add("wake_unsupported");
     for (std::uint32_t wakes = 0; features.joints && wakes < 2; ++wakes) s.add("wake_joined", wakes);
     for (std::uint32_t depth = physics::DEEPEST; depth > 1; --depth) s.add("propagate_wake", depth);
-    // what the contacts inherit
+    // slots, warm starting
     s.add("count_slots");
     if (features.joints) s.add("count_joint_slots");
     s.add_scan("slots");
@@ -116,7 +116,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add("sort_slots");
     s.add("prepare_contacts");
     if (features.joints) s.add("prepare_joints");
-    // the solver
+    // solver
     for (int substep = 1; substep <= substeps; ++substep) {
         const std::uint32_t first = substep == 1, last = substep == substeps;
         s.add("begin_substep", first);
@@ -127,12 +127,12 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
         if (features.joints) s.add("relax_joints", last);
     }
     s.add("end_step");
-    // what is fast stops before it passes through something
+    // continuous collision
     for (std::uint32_t round = 0; round < physics::CCD_ROUNDS; ++round)
         s.add(convex ? "find_impacts_convex" : "find_impacts", round);
     s.add("clamp_to_impact");
     if (features.moving_parts) s.add("pose_parts");
-    // what was struck too hard comes apart
+    // fracture
     for (const char* stage : {"find_broken", "return_excess_impulse", "break_bodies"})
         if (features.breaking) s.add(stage);
     set_barriers(s.stages);
@@ -141,7 +141,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
 }
 
 void set_barriers(std::vector<Stage>& stages) {
-    std::size_t first = 0;  // since the last barrier
+    std::size_t first = 0;  // first stage since the last barrier
     for (std::size_t i = 0; i < stages.size(); ++i) {
         const auto begin = stages.begin() + static_cast<std::ptrdiff_t>(first),
                    here = stages.begin() + static_cast<std::ptrdiff_t>(i);

@@ -1,4 +1,4 @@
-// The step: its stages and their order, on one screen. Runners walk this list, and nothing else repeats it.
+// The plan of a step: its stages in order. Runners execute this list; nothing else repeats it.
 #pragma once
 
 #include <cstdint>
@@ -9,30 +9,30 @@
 
 namespace scree {
 
-// What two runners that have done a stage hold alike.
+// A table that must be equal on two runners after a stage, for lockstep.
 struct Compared {
     Table table;
     BufferLength length;
 };
 
 struct Stage : StageDeclaration {
-    std::uint32_t pass = 0;      // told to the stage; for DispatchDomain::pair_type which pair type
-    std::uint32_t features = 0;  // of its features, those that the scene has
-    bool barrier_after = true;   // and other stages may follow
+    std::uint32_t pass = 0;      // argument of the stage; for DispatchDomain::pair_type the pair type
+    std::uint32_t features = 0;  // the stage's tested features that the scene has
+    bool barrier_after = true;   // a barrier follows
     std::vector<Compared> compared = {};
 };
 
-// The stages of one step. What a scene has nothing of is left out, because it takes seconds to compile on a processor or time in
-// every step.
+// The stages of one step, without those for features that the scene lacks, which would cost compile time and time per
+// step.
 std::vector<Stage> plan(int substeps, const SceneFeatures& features);
 
-// Puts a barrier behind every stage that one of the next cannot do without, and behind the last. What is compared stays.
+// Sets the barriers that conflicting stages need, and one after the last stage. `compared` is unchanged.
 void set_barriers(std::vector<Stage>& stages);
 
-// What must still be there when the next step begins: tables that some stage reads before one has written them anew.
+// Tables that last from step to step: some stage reads them before one has written them.
 const std::vector<Table>& lasting_tables();
 
-// contacts <-> contacts_before and so on: they change places after every step.
+// contacts <-> contacts_before and so on, which are swapped after every step.
 Table other_parity(Table table);
 
 }  // namespace scree

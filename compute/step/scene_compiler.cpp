@@ -1,4 +1,4 @@
-// How the tables begin: parameters from settings, properties from shapes and materials, room for a first guess of contacts.
+// Initial tables: parameters from settings, properties from shapes and materials, capacities from a first guess.
 #include "compute/step/scene_compiler.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace scree {
 
 namespace {
 
-// Levels of the grid with fewer bodies than this are cheaper to look through than to look up.
+// Grid levels with fewer bodies than this are cheaper to scan as a list than to look up.
 constexpr std::size_t few_bodies = 24;
 constexpr std::size_t most_large = 64;
 
@@ -25,7 +25,8 @@ float width_of(const physics::BodyProperties& properties) {
     return physics::widest(properties.shape, properties.size);
 }
 
-// The finest cells hold the body at the tenth percentile of size: most bodies then lie on the first levels, few of them per cell.
+// The finest cells fit the body at the tenth percentile of size: most bodies are then on the first levels, few per
+// cell.
 float cell_width(const std::vector<physics::BodyProperties>& properties, float speculative) {
     std::vector<float> widths;
     for (const physics::BodyProperties& body : properties)
@@ -39,7 +40,7 @@ float cell_width(const std::vector<physics::BodyProperties>& properties, float s
     return 1.25f * (*tenth + 2 * speculative);
 }
 
-// Bodies of sizes so rare that a level of the grid is not worth it join the planes in the list of large ones.
+// Bodies on grid levels with too few bodies join the planes in the list of large bodies.
 void mark_large(std::vector<physics::BodyProperties>& properties, float cell) {
     std::array<std::size_t, physics::LEVELS> population{};
     const auto level = [&](const physics::BodyProperties& body) { return physics::level_of(width_of(body), 1 / cell); };
@@ -64,7 +65,7 @@ physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& s
     p.dt = 1 / settings.rate;
     p.h = p.dt / static_cast<float>(settings.substeps);
     p.inverse_h = 1 / p.h;
-    // Soft constraint coefficients, Catto, Soft Constraints, GDC 2011.
+    // Soft constraint coefficients (Catto, Soft Constraints, GDC 2011).
     const float omega = 2 * std::numbers::pi_v<float> * settings.contact_hertz * p.inverse_h;
     const float a1 = 2 * settings.contact_damping_ratio + p.h * omega;
     const float a2 = p.h * omega * a1;

@@ -1,4 +1,4 @@
-// What a scene becomes in the tables of a state: parameters, bodies and the rows of their parts, shapes, joints, vehicles.
+// Compiles a scene into the tables of a state: parameters, bodies, parts, shapes, joints, vehicles.
 #pragma once
 
 #include <cstdint>
@@ -12,24 +12,24 @@ namespace scree {
 
 // Parameters::sleep_steps.
 physics::uint sleep_steps_of(const Settings& settings);
-// The parameters with gravity and settings as given, and the rest as they are.
+// The parameters with new gravity and settings; the others unchanged.
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings);
 
 class SceneCompiler {
 public:
     explicit SceneCompiler(State& state) : state_(state) {}
 
-    // The tables of a checked scene before its first step, into a state that has none.
+    // The initial tables of a checked scene, in an empty state.
     void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size);
 
     // shape_records.cpp
     physics::BodyProperties properties_of(const Body& body,
-                                          std::uint32_t index);  // its shapes go into the tables of their pair_types
+                                          std::uint32_t index);  // appends its shape data to the tables
     static physics::Pose start_of(const Body& body);
     static physics::Velocity start_velocity_of(const Body& body);
     static float start_strain_of(const Body& body, const physics::BodyProperties& properties);
-    void append_parts(const Body& body, std::uint32_t owner);  // their properties, behind all others, and where they lie in it
-    void place(std::uint32_t part);                            // where its body is
+    void append_parts(const Body& body, std::uint32_t owner);  // appends properties and poses of its parts
+    void place(std::uint32_t part);                            // sets a part's pose from its body's
 
 private:
     physics::BodyProperties form_of(const SimpleShape& shape);

@@ -1,4 +1,4 @@
-// What bodies become in the tables: shapes, materials and masses, hulls and triangles, and the rows of parts.
+// Records of bodies: shapes, materials and masses, hulls and triangles, and the rows of parts.
 #include <algorithm>
 #include <bit>
 #include <optional>
@@ -20,7 +20,7 @@ namespace scree {
 
 namespace {
 
-// Shape and size.
+// Properties with shape id and size.
 physics::BodyProperties simple_form(const SimpleShape& shape) {
     physics::BodyProperties made{};
     made.shape = static_cast<physics::uint>(shape.index());
@@ -32,7 +32,7 @@ physics::uvec4 record_of(vec3 v, float w) {
     return {std::bit_cast<physics::uint>(v.x), std::bit_cast<physics::uint>(v.y), std::bit_cast<physics::uint>(v.z),
             std::bit_cast<physics::uint>(w)};
 }
-// In the form of shaders/physics/collide/triangle.h.
+// In the layout of shaders/physics/collide/triangle.h.
 std::vector<physics::uvec4> triangle_records(const MeshForm::Triangle& triangle) {
     float way = glm::length(triangle.corners[0]);
     for (const vec3& corner : triangle.corners) way = std::min(way, glm::length(corner));
@@ -44,7 +44,7 @@ std::vector<physics::uvec4> triangle_records(const MeshForm::Triangle& triangle)
     for (const vec3& limit : triangle.limits) records.push_back(record_of(limit, 0));
     return records;
 }
-// In the form of shaders/physics/collide/shape_data.h.
+// In the layout of shaders/physics/collide/shape_data.h.
 std::vector<physics::uvec4> hull_records(const Hull& hull) {
     const HullForm& form = *hull.form;
     const HullCells cells = hull_cells(form);
@@ -70,7 +70,7 @@ std::vector<physics::uvec4> hull_records(const Hull& hull) {
     return records;
 }
 
-// Of a body that only its parts touch, as SHAPE_NONE has it.
+// Size of a body of which only parts collide, as for SHAPE_NONE.
 vec3 size_of_whole(const Shape& shape) {
     if (const MeshForm* form = mesh_form_of(shape)) return {1e30f, form->reach, 0};
     vec3 size(1e30f, 0, 0);
@@ -92,14 +92,14 @@ physics::Velocity SceneCompiler::start_velocity_of(const Body& body) {
     const bool moves = body.motion != Motion::fixed && body.piece_of == no_body;
     return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
 }
-// Of a body that breaks by its momentum.
+// Initial strain: the momentum of a body that breaks by momentum.
 float SceneCompiler::start_strain_of(const Body& body, const physics::BodyProperties& properties) {
     const bool by_momentum = body.fracture && body.fracture->momentum > 0 && body.piece_of == no_body;
     return by_momentum ? glm::length(body.velocity) / properties.inverse_mass : 0;
 }
 
-// Where the hull's records begin. Equal hulls made one by one are looked for only while the table is small: a long search for
-// each of ten thousand different ones would take minutes.
+// Index of the hull's records. Equal hulls with separate forms are searched for only while the table is small: a linear
+// search for each of ten thousand different ones would take minutes.
 physics::uint SceneCompiler::place_of(const Hull& hull) {
     constexpr std::size_t small_table = 65536;
     const auto [known, fresh] = state_.shape_places.hulls.try_emplace(hull.form);
@@ -134,7 +134,7 @@ physics::uint SceneCompiler::place_of(const Fracture& fracture) {
     return static_cast<physics::uint>(state_.fractures.size() - 1);
 }
 
-// Counted from 1; 0: none.
+// Index plus 1; 0: none.
 physics::uint SceneCompiler::place_of(const std::optional<Tyre>& tyre) {
     if (!tyre) return 0;
     const auto [known, fresh] = state_.shape_places.tyres.try_emplace({tyre->best_slip, tyre->sliding},

@@ -1,4 +1,4 @@
-// Times of stages.
+// Timing of stages.
 #include "compute/step/stage_clock.h"
 
 #include <algorithm>

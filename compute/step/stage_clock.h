@@ -1,4 +1,4 @@
-// Adds up the time of stages by name, and tells the mean per step.
+// Timing of stages: sums by name, means per step.
 #pragma once
 
 #include <cstdint>
@@ -14,13 +14,13 @@ public:
     StageClock() = default;
     explicit StageClock(const std::vector<Stage>& plan);
     void begin_step();
-    void add(std::size_t stage, double seconds);  // by index in the plan
+    void add(std::size_t stage, double seconds);  // stage: index in the plan
     void end_step() { ++steps_; }
     StageTimes means() const;
-    StageTimes last() const;  // of the last step alone
+    StageTimes last() const;  // of the last step
 
 private:
-    std::vector<std::size_t> row_of_;  // stages of the same name share a row
+    std::vector<std::size_t> row_of_;  // stages of one name share a row
     std::vector<std::string> names_;
     std::vector<double> seconds_, last_seconds_;
     std::uint64_t steps_ = 0;

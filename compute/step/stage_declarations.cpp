@@ -1,4 +1,4 @@
-// The stages, in the order of the plan.
+// The stages, in plan order.
 #include "compute/step/stage_declarations.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ Access some_only(Access access) { return with(access, Manner::some_only); }
 Access as_long_as(BufferLength length, Access access) { access.as_long_as = length; return access; }
 // clang-format on
 
-// By pair_type, PAIR_*.
+// By pair type, PAIR_*.
 constexpr std::array<const char*, physics::PAIR_TYPES> pair_type_names{
     "collide_sphere_sphere",   "collide_sphere_capsule",  "collide_sphere_box",    "collide_sphere_plane",
     "collide_capsule_capsule", "collide_capsule_box",     "collide_capsule_plane", "collide_box_box",
@@ -45,8 +45,8 @@ struct Scan {
     Table from, to;
     Amount items;
     Function spine, offsets;
-    bool counts_items = false;  // how many there are is in the table of counts
-    bool tells_total = false;   // and so is the total
+    bool counts_items = false;  // the number of items is in the table of counts
+    bool tells_total = false;  // and so is the total
     std::optional<BufferLength> length = {};
 };
 void declare_scan(std::vector<StageDeclaration>& all, const Scan& scan) {
@@ -63,7 +63,7 @@ void declare_scan(std::vector<StageDeclaration>& all, const Scan& scan) {
     all.insert(all.end(), {sums, spine, offsets});
 }
 
-// The same for scenes that have convex shapes: another shader, which reads them.
+// The variant for scenes with convex shapes, whose shader reads the table of hulls.
 void declare_convex(std::vector<StageDeclaration>& all) {
     all.push_back(all.back());
     all.back().name += "_convex";
@@ -79,7 +79,8 @@ void declare_broadphase(std::vector<StageDeclaration>& all) {
     all.push_back({"sort_cells", DispatchDomain::buckets, sort_cells,
         {{cell_ends, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}, {properties}},
         {as_long_as(BufferLength::entries, {cell_entries, A::bodies})}});
-    // The first partners of each body are cached in the memory of the table of pairs (shaders/stages/lib/partner_cache.glsl): few seek again.
+    // Partners are cached in the memory of the table of pairs (shaders/stages/lib/partner_cache.glsl): few bodies
+    // search again.
     all.push_back({"count_pairs", DispatchDomain::bodies, count_pairs,
         {{counts}, {bounds, A::bodies, 1}, {properties, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
          {first_contacts}, {contacts_before}},
@@ -115,7 +116,7 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
     all.push_back({pair_type_names[physics::PAIR_INACTIVE], DispatchDomain::pair_type, collide_inactive,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
         {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
-    // Few pairs are fast: most are looked at no further.
+    // Few pairs are fast: most return early.
     all.push_back({"predict_impacts", DispatchDomain::ccd_pairs, predict_impacts,
         {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifolds}},
         {{point_counts}, {bounds}}});
@@ -130,7 +131,8 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     all.push_back({"compact_contacts", DispatchDomain::pairs, compact_contacts,
         {{counts}, {point_counts, A::pairs}, {contact_starts, A::pairs}, {pairs}, {pair_starts}, {ids}},
         {unfinished({constraints, A::contacts, 1})}, physics::FEATURE_REORDERED});
-    // Those who wake others read of a rest what waking does not change, and of the counts what they do not write.
+    // Waking stages read only those bits of the sleep states that waking does not change, and counts that they do not
+    // write.
     all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
         {in_parts({counts}), {constraints, A::stirred, 1}, {pairs, A::stirred}, {manifolds, A::stirred}, {point_counts}, {properties}, {poses, A::stirred_bodies},
          {velocities, A::stirred_bodies}, by_atomics({sleep_states, A::stirred_bodies}), {contacts_before}, {impulses_before}},
@@ -167,7 +169,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}});
 }
 
-// Contacts and joints have slots of their own. Before the bias is out, joints read those that contacts have just written.
+// Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
 void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
@@ -251,7 +253,8 @@ bool clash(const std::vector<Access>& some, const std::vector<Access>& others) {
         });
     });
 }
-// Validation tells hazards by buffers: other tables in the same one wait as well where one is read and one is written.
+// Validation layers detect hazards per buffer: other tables in the same buffer count too where one is read and one
+// written.
 bool clash_in_a_buffer(const std::vector<Access>& reads, const std::vector<Access>& writes) {
     return std::any_of(reads.begin(), reads.end(), [&](const Access& a) {
         return std::any_of(writes.begin(), writes.end(),

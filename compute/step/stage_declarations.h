@@ -1,8 +1,8 @@
-// Every stage of a step, declared once: what it runs over, the function that does it on the CPU, and the tables that it reads and
-// writes. The shader has the name of the stage. The plan (compute/step/plan.h) says in which order stages run; from both follow
-// barriers, what lockstep compares, what lasts from step to step (uploaded, never poisoned) and memory traffic.
+// Stage declarations: domain, CPU function, and the tables each stage reads and writes; the shader has the stage's
+// name. The plan (compute/step/plan.h) sets the order; barriers, lockstep's comparison, lasting tables (uploaded, never
+// poisoned) and memory traffic follow from both.
 //
-// tests/house/vulkan/declared_accesses.cpp holds each declaration against the compiled shader.
+// tests/house/vulkan/declared_accesses.cpp checks each declaration against the compiled shader.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace scree {
 
-// What a stage runs over, one thread an item. From pairs to flights the device alone knows how many there are: these are indirect
+// Domain of a stage: one thread per item. Counts from `pairs` on are known to the device alone: these are indirect
 // dispatches, which read the table of counts.
 enum class DispatchDomain {
     one_group,
@@ -38,9 +38,9 @@ enum class DispatchDomain {
 };
 bool is_indirect(DispatchDomain domain);
 
-// How many records of a table a stage touches: what memory traffic adds up (compute/step/memory_traffic.h).
+// Number of records of a table that a stage accesses, for memory traffic (compute/step/memory_traffic.h).
 enum class Amount {
-    few,  // one, or those of rare bodies or rare scenes: not added up
+    few,  // one, or those of rare bodies or scenes: not counted
     actions,
     bodies,
     movers,  // bodies that are dynamic and awake
@@ -52,8 +52,8 @@ enum class Amount {
     solver_contacts,
     breakable,  // solver_contacts, if some body may break, else none
     slots,
-    binned,         // pairs of the stage's pair_type
-    binned_bodies,  // their bodies, at most all
+    binned,         // pairs of the stage's pair type
+    binned_bodies,  // their bodies
     binned_hulls,   // records of their hulls, each once
     joints,
     vehicles,
@@ -63,39 +63,39 @@ enum class Amount {
     stirred_bodies,  // bodies if some sleeps, else none
 };
 
-// What may happen to a table beside the stage, and what becomes of it.
+// How an access may overlap with other stages, and who may use the result.
 enum class Manner {
-    alone,       // whoever else writes the table, or reads what is written, waits for a barrier
-    in_parts,    // as alone, but for a stage that says the same: it touches other records, or other fields
-    by_atomics,  // likewise: the order of the atomics does not matter, nor what is read between them
-    unordered,   // likewise: each takes a place by an atomic, and a later stage sorts; until then runners differ
-    unfinished,  // as alone; what is there is of no use to other runners: sums of a scan, notes, records not whole yet
-    some_only,   // as alone; other records must still be there from the step before
+    alone,       // other writers, and readers of what is written, wait for a barrier
+    in_parts,    // as alone, except with another in_parts access: it touches other records or fields
+    by_atomics,  // likewise, by atomics whose order does not matter
+    unordered,   // likewise, appended by atomics and sorted by a later stage; until then runners differ
+    unfinished,  // as alone; not comparable between runners: scan sums, caches, incomplete records
+    some_only,   // as alone; other records keep their values from the step before
 };
 
 struct Access {
     Table table;
     Amount amount = Amount::few;
-    int lines = 0;  // of the record that hold the fields in question; 0: the whole record
+    int lines = 0;  // cache lines of the record that hold the fields used; 0: the whole record
     Manner manner = Manner::alone;
-    std::optional<BufferLength> as_long_as = {};  // what is written, if it is not what the table ends up with
+    std::optional<BufferLength> as_long_as = {};  // length that is written, if it differs from the table's
 };
 
 struct StageDeclaration {
-    std::string name;  // of the shader, and of the time measured
+    std::string name;  // also of the shader and in timings
     DispatchDomain domain = DispatchDomain::one_group;
-    void (*reference)(State&, const Threads&, std::uint32_t pass) = nullptr;  // none for one that is several in turn
-    std::vector<Access> reads, writes;                                        // all but the parameters, which nobody writes
-    std::uint32_t tested_features = 0;  // the FEATURE_* that its shader tells apart (shaders/stages/lib/features.glsl)
+    void (*reference)(State&, const Threads&, std::uint32_t pass) = nullptr;  // null for fused stages
+    std::vector<Access> reads, writes;                                        // without the parameters, which no stage writes
+    std::uint32_t tested_features = 0;  // FEATURE_* by which its shader is specialised (shaders/stages/lib/features.glsl)
 };
 
 const std::vector<StageDeclaration>& stage_declarations();
 // Throws std::logic_error for a name that is not declared.
 const StageDeclaration& stage_declaration(const std::string& name);
-// Of the stage for pairs of a pair_type (PAIR_*).
+// Name of the collide stage of a pair type (PAIR_*).
 const char* name_of_pair_type(std::uint32_t pair_type);
 
-// Whether what one stage does is not sure to be right if the other runs at the same time.
+// Whether two stages need a barrier between them.
 bool conflict(const StageDeclaration& before, const StageDeclaration& after);
 
 }  // namespace scree

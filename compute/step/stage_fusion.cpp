@@ -1,4 +1,4 @@
-// Finds runs of stages that one workgroup can do.
+// Finding runs of stages that one workgroup can do.
 #include "compute/step/stage_fusion.h"
 
 #include <algorithm>
@@ -11,8 +11,8 @@ namespace scree {
 
 namespace {
 
-// A dispatch costs lavapipe 7 us, and a fused stage one core has to do alone: a step of 155 boxes with 238 contacts takes 2.0 ms
-// with fused stages and 2.3 ms without, one with 552 contacts 3.7 and 4.0 on two cores that others kept busy, too.
+// A dispatch costs lavapipe 7 us, but a fused stage runs on one core: a step of 155 boxes with 238 contacts takes 2.0
+// ms fused and 2.3 ms unfused, one with 552 contacts 3.7 and 4.0, on two cores that were also busy otherwise.
 constexpr std::uint32_t most_contacts = 320;
 constexpr std::uint32_t most_items = 2048;
 
@@ -20,20 +20,22 @@ bool is_small(const physics::Parameters& p) {
     return p.contact_capacity <= most_contacts && std::max({p.pair_capacity, p.bodies, p.buckets}) <= most_items;
 }
 
-// Lavapipe ends a shader's loops after 65,535 rounds in all, without a word, and one of its vectors goes through everything here.
+// lavapipe silently ends a shader's loops after 65,535 rounds in all, and one vector of its threads runs through
+// everything here.
 constexpr std::uint32_t most_rounds = 60000;
-// Both passes over a contact: eight sweeps over four points in each, and a few loops over the points. 160 were seen.
+// Loop rounds of both passes over a contact: eight sweeps over four points each, and a few loops over the points. 160
+// were measured.
 constexpr std::uint32_t contact_rounds = 200;
 
-// So many substeps one dispatch does. Bodies gather their slots one by one, twice a substep.
+// Substeps per dispatch. Bodies gather their slots one by one, twice a substep.
 std::uint32_t substeps_at_once(const physics::Parameters& p, std::uint32_t threads) {
     const std::uint32_t rounds = (p.contact_capacity / threads + 1) * contact_rounds + 4 * p.contact_capacity + 2 * p.bodies;
     return std::max(1u, most_rounds / rounds);
 }
 
-// And a block of joints (shaders/stages/lib/joints.glsl) through what is left when its bodies have some thousand contacts.
+// Loop rounds left for a joint block (shaders/stages/lib/joints.glsl) if its bodies have some thousand contacts.
 constexpr std::uint32_t most_joint_rounds = 50000;
-// A loop over the axes of a joint, with the round of the loop over the joints that it is in.
+// Rounds of a loop over the axes of a joint, with that of the enclosing loop over joints.
 constexpr std::uint32_t axis_rounds = 7;
 
 using Names = std::vector<std::string>;
@@ -52,7 +54,7 @@ Names joined(Names names, const Names& more) {
     return names;
 }
 
-// Longer runs before those that they contain.
+// Longer runs precede those that they contain.
 const std::vector<Run>& runs() {
     static const std::vector<Run> all = {
         {"scan_cells", scan("cells")},
@@ -72,14 +74,14 @@ bool begins_at(const Run& run, const std::vector<Stage>& plan, std::size_t first
                       [](const std::string& name, const Stage& stage) { return name == stage.name; });
 }
 
-// How often in succession.
+// Number of consecutive repetitions of a run.
 std::uint32_t times_at(const Run& run, const std::vector<Stage>& plan, std::size_t first) {
     std::uint32_t times = 0;
     while (begins_at(run, plan, first + times * run.parts.size())) ++times;
     return times;
 }
 
-// `part` of `whole` substeps, from the one after `before` on: shaders/stages/substeps.comp.
+// push.pass of shaders/stages/substeps.comp: `part` of `whole` substeps, after `before`.
 std::uint32_t pass_of(std::uint32_t before, std::uint32_t part, std::uint32_t whole) {
     return before | part << 8 | whole << 16;
 }
@@ -120,8 +122,8 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
 }
 
 std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std::uint32_t blocks) {
-    // The most links that a joint has at each place of its block, from its first and from its last joint: the blocks of one of a
-    // processor's vectors go through their joints side by side.
+    // Greatest fill-in at each position in a block, from its first and from its last joint: one vector of threads steps
+    // through several blocks in parallel.
     std::vector<std::uint32_t> from_first, from_last;
     std::uint32_t members = 0;
     for (std::uint32_t b = 0; b < blocks; ++b) {

@@ -1,4 +1,4 @@
-// Which stages of the plan a device runs as one, in a small world: there a dispatch costs more than its work.
+// Stage fusion: stages that a device runs as one in a small world, where a dispatch costs more than its work.
 #pragma once
 
 #include <cstdint>
@@ -10,19 +10,18 @@
 
 namespace scree {
 
-// The plan as it is recorded, with fused stages of so many `threads`. A fused stage is one workgroup that does the work of
-// several stages in turn; it bears the name of a shader of its own and has no reference. What it leaves in the tables is what
-// they would leave, but for what only they read.
+// The plan with fused stages of `threads` threads. A fused stage is one workgroup that runs several stages in turn; it
+// has a shader of its own and no CPU function, and leaves the tables as its stages would, except for those only they
+// read.
 std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Parameters& parameters, std::uint32_t threads);
 
-// Lavapipe ends a shader's loops after 65,535 rounds in all, without a word. So many rounds of a block of joints (JOINT_ROUNDS at
-// most, at least 1) one dispatch may do: all, but where hundreds of joints hang together or entangle.
+// Rounds of a joint block (1 to JOINT_ROUNDS) that one dispatch may run: all, unless hundreds of joints are connected.
+// lavapipe silently ends a shader's loops after 65,535 rounds in all.
 std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std::uint32_t blocks);
-// A stage as the dispatches that do it, one after the other: of solve_joints and relax_joints as many as that asks for, of others
-// one.
+// The dispatches of a stage: several for solve_joints and relax_joints if rounds are limited, one for others.
 std::vector<Stage> dispatches_of(const Stage& stage, std::uint32_t joint_rounds);
 
-// The stages of the plan that a stage so called does: for one that is not fused, itself.
+// The stages that a stage of that name runs: itself, if it is not fused.
 std::vector<std::string> parts_of(const std::string& name);
 
 }  // namespace scree

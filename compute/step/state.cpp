@@ -1,4 +1,4 @@
-// How long the tables are, where they are, and how they grow.
+// Lengths, memory and growth of the tables.
 #include "compute/step/state.h"
 
 #include <algorithm>
@@ -42,7 +42,7 @@ std::size_t State::allocated(BufferLength length) const {
         case BufferLength::one:
             return 1;
         case BufferLength::bodies:
-        case BufferLength::entries:  // of bodies that are there
+        case BufferLength::entries:  // at least one
             return std::max(1u, p.bodies);
         case BufferLength::bodies_and_end:
             return p.bodies + 1;
@@ -56,7 +56,7 @@ std::size_t State::allocated(BufferLength length) const {
             return pair_types;
         case BufferLength::candidates:
             return p.pair_capacity;
-        case BufferLength::scan_blocks:  // of the longest list that is scanned
+        case BufferLength::scan_blocks:  // for the longest scanned list
             return std::max({pair_types, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2;
         case BufferLength::contacts:
             return p.contact_capacity;
@@ -101,7 +101,7 @@ std::size_t State::live(BufferLength length) const {
             return c.contacts;
         case BufferLength::slots:
             return fixed().bodies ? slot_ends[fixed().bodies - 1] : 0;
-        case BufferLength::candidates:  // dead when the pairs are in order
+        case BufferLength::candidates:  // unused once pairs are sorted
         case BufferLength::scan_blocks:
             return 0;
         default:
@@ -145,7 +145,7 @@ void State::make(Table table) {
 }
 
 void State::allocate() {
-    const std::size_t numbered = ids.size();  // rows
+    const std::size_t numbered = ids.size();  // number of rows
     using enum Table;
     for (const Table table :
          {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints, vehicles, ids})
@@ -164,8 +164,7 @@ void State::grow() {
     const physics::Counts c = counted();
     const auto with_room = [](std::uint64_t need) {
         constexpr std::uint64_t most = 1u << 31;
-        if (need > most)
-            throw std::length_error("more than 2,147,483,648 pairs of bodies overlap: they must not all lie in one place");
+        if (need > most) throw std::length_error("more than 2,147,483,648 pairs of bodies overlap; spread them out");
         return static_cast<std::uint32_t>(std::min(need + need / 4, most));
     };
     if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_room(c.required_pairs);

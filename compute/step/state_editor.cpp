@@ -1,4 +1,4 @@
-// Edits of a running world's tables. Of joints, blocks and lists are made anew; what lasts of the others stays.
+// Edits of a running world's tables. Joint blocks and lists are rebuilt; other lasting data stays.
 #include "compute/step/state_editor.h"
 
 #include <algorithm>
@@ -21,13 +21,13 @@ physics::Impulse scaled(physics::Impulse impulse, float factor) {
     return impulse;
 }
 
-// Of records that are told in their order.
+// Adds a record to runs, which are ascending.
 void add_to_run(TableRanges& runs, Table table, std::size_t record) {
     if (runs.empty() || runs.back().first + runs.back().count != record) runs.push_back({table, record, 0});
     ++runs.back().count;
 }
 
-// Runs of records that are not what they were.
+// Runs of records that differ.
 template <typename Record>
 TableRanges differing(Table table, const std::vector<Record>& before, const std::vector<Record>& now) {
     TableRanges runs;
@@ -38,7 +38,7 @@ TableRanges differing(Table table, const std::vector<Record>& before, const std:
     return runs;
 }
 
-// Tables to which bodies add what completes them.
+// Tables with shape data of bodies.
 constexpr std::array shape_tables{Table::hulls, Table::parts, Table::fractures, Table::pieces, Table::tyres};
 using ShapeLengths = std::array<std::size_t, shape_tables.size()>;  // records
 
@@ -57,7 +57,7 @@ TableRanges shapes_added(const State& state, const ShapeLengths& before) {
     return added;
 }
 
-// A row before those of parts that no body is in yet.
+// A spare row between bodies and parts.
 physics::BodyProperties spare_row(std::uint32_t row) {
     physics::BodyProperties spare{};
     spare.motion = physics::MOTION_PENDING;
@@ -103,7 +103,7 @@ bool StateEditor::has_room_for_a_body() const {
     return state_.body_count < p.first_part || p.first_part == p.bodies;
 }
 
-// The rows of parts, which move, and contacts, which know them by their rows.
+// Rows of parts, which move, and contacts, which refer to rows.
 TableRanges StateEditor::needed_to_add() const {
     if (has_room_for_a_body()) return {};
     const physics::Parameters& p = state_.fixed();
@@ -115,7 +115,7 @@ TableRanges StateEditor::needed_to_add() const {
     return needed;
 }
 
-// Rows that no body is in yet, between those of bodies and those of parts, which move up.
+// Inserts spare rows between bodies and parts, which move up.
 TableRanges StateEditor::make_room_for_bodies() {
     physics::Parameters& p = state_.fixed();
     const std::uint32_t first = p.first_part, count = std::max(16u, first / 2);
@@ -127,7 +127,7 @@ TableRanges StateEditor::make_room_for_bodies() {
     insert(state_.sleep_states, 0u);
     insert(state_.strains, 0.0f);
     insert(state_.masses, physics::Mass{});
-    // They have no contacts: where these begin, they end.
+    // Spare rows have no contacts: an empty range.
     insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
     TableRanges changed;
     for (std::size_t i = 0; i < state_.live(BufferLength::contacts); ++i) {
@@ -147,7 +147,7 @@ TableRanges StateEditor::make_room_for_bodies() {
     return changed;
 }
 
-// What a step finds in rows behind those that were there: parts are where their bodies are, and nobody has contacts yet.
+// Initial lasting data of new rows: parts follow their bodies, and there are no contacts.
 TableRanges StateEditor::rows_added(std::uint32_t first, std::uint32_t count) {
     if (count == 0) return {};
     for (std::uint32_t row = first; row < first + count; ++row) state_.first_contacts[row + 1] = state_.counted().contacts;
@@ -167,7 +167,7 @@ TableRanges StateEditor::add(const Body& body) {
     state_.append_row(row);
     ++state_.body_count;
     if (row == p.first_part) ++p.first_part;
-    state_.properties.resize(std::max(rows_before, row + 1));  // a table of no bodies has a record all the same
+    state_.properties.resize(std::max(rows_before, row + 1));  // an empty table has a record all the same
     state_.properties[row] = compiler.properties_of(body, row);
     compiler.append_parts(body, row);
     p.bodies = static_cast<std::uint32_t>(state_.properties.size());
@@ -193,7 +193,7 @@ TableRanges StateEditor::add(const Body& body) {
 TableRanges StateEditor::needed_to_rejoin() const {
     TableRanges needed = joint_ranges(state_);
     append(needed, vehicle_ranges(state_));
-    if (state_.has_fractures()) needed.push_back({Table::properties, 0, state_.fixed().bodies});  // who is there
+    if (state_.has_fractures()) needed.push_back({Table::properties, 0, state_.fixed().bodies});  // which bodies exist
     return needed;
 }
 
@@ -225,7 +225,7 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
     for (std::size_t j = 0; j < std::min(before.size(), state_.joint_records.size()); ++j) {
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         const physics::Joint& was = before[j];
-        std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with the impulses that the next step begins with
+        std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with their warm start
         now.active_set = was.active_set;
         now.broken = was.broken;
         now.force = was.force;

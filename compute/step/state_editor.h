@@ -1,4 +1,4 @@
-// What changes in the tables of a state between two steps: dials, bodies, joints.
+// Edits of a state between steps: settings, bodies, joints.
 #pragma once
 
 #include <cstddef>
@@ -10,21 +10,21 @@
 
 namespace scree {
 
-// Of tables that lie on a runner, only what an edit needs must be here, and only what it changed must be sent: before, the caller
-// downloads the ranges that needed_to_... names; behind, it lets the runner adapt, and uploads the ranges that are returned.
+// For tables on a runner, only data that an edit needs is downloaded, and only changes are uploaded: the caller first
+// downloads the ranges of needed_to_...(), and after the edit lets the runner adapt and uploads the returned ranges.
 class StateEditor {
 public:
     explicit StateEditor(State& state) : state_(state) {}
 
-    // What may change between steps, into the parameters (grips, which depend on the substeps, are the caller's to make anew).
-    // Impulses that last are those of a substep; those of the last step are brought to the new length of one.
+    // Changes gravity and settings in the parameters (the caller updates grips, which depend on substeps). Accumulated
+    // impulses are those of a substep; they are scaled to the new substep length.
     TableRanges needed_to_tune(const Settings& settings) const;
     TableRanges tune(vec3 gravity, const Settings& settings);
-    // One more body, the last, into a row before those of parts. When the rows there are used up, the parts move, and leave room
-    // for half as many bodies again.
+    // Appends a body, in a row before those of parts. When rows run out, parts move up, leaving room for half as many
+    // bodies again.
     TableRanges needed_to_add() const;
     TableRanges add(const Body& body);
-    // The joints are the scene's: those that were here, but for the one at `without`, and then others.
+    // Replaces the joints by the scene's: the present ones without `without`, then new ones.
     TableRanges needed_to_rejoin() const;
     TableRanges rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
 

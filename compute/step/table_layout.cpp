@@ -1,4 +1,4 @@
-// Puts the tables that share a buffer one after the other.
+// Layout of tables that share a buffer, one after the other.
 #include "compute/step/table_layout.h"
 
 #include <algorithm>
@@ -7,10 +7,11 @@ namespace scree {
 
 namespace {
 
-// A canvas binds single tables of a shared buffer: no device asks for more (Vulkan 1.3, minStorageBufferOffsetAlignment).
+// Offset alignment for canvases that bind single tables: no device requires more (Vulkan 1.3,
+// minStorageBufferOffsetAlignment).
 constexpr std::size_t alignment = 256;
 
-// The table in whose memory this one lies.
+// The table whose memory this one aliases.
 Table first_owner(Table table) {
     switch (table) {
 #define SCREE_SHARE(later, earlier) \

@@ -1,4 +1,4 @@
-// Which ranges of the tables say what.
+// Ranges of the tables by purpose.
 #include "compute/step/table_ranges.h"
 
 namespace scree {
@@ -38,7 +38,7 @@ TableRanges contact_ranges(const State& state) {
     TableRanges ranges;
     for (const Table table : {Table::contacts, Table::impulses, Table::constraints}) ranges.push_back(live_range(state, table));
     if (state.reordered()) ranges.push_back(live_range(state, Table::first_contacts));  // contacts_by_id
-    if (state.features().convex) ranges.push_back(live_range(state, Table::pairs));     // whose hulls traffic_of counts
+    if (state.features().convex) ranges.push_back(live_range(state, Table::pairs));     // traffic_of() counts their hulls
     return ranges;
 }
 

@@ -1,4 +1,4 @@
-// The loops of threads.h on oneTBB.
+// Parallel loops on oneTBB.
 #include "compute/step/threads.h"
 
 #include <tbb/blocked_range.h>
@@ -17,7 +17,7 @@ struct Threads::Arena {
                 std::max(static_cast<std::size_t>(threads),
                          tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism))),
           arena(threads) {}
-    tbb::global_control limit;  // else more threads than cores would silently be as many as cores
+    tbb::global_control limit;  // else TBB would silently limit the threads to the number of cores
     tbb::task_arena arena;
 };
 

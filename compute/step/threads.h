@@ -1,4 +1,4 @@
-// Loops whose items do not depend on each other, on one thread or many, one item at a time or several: the bits are the same.
+// Parallel loops over independent items, on one or many threads, scalar or in SIMD lanes: bit-identical.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ public:
     explicit Threads(int count, int lanes = most_lanes);  // 0: one per core
     ~Threads();
     int count() const { return count_; }
-    // Items that a loop may do at once in the lanes of the processor's vectors, if it and the processor can.
+    // Greatest number of SIMD lanes that a loop may use.
     int lanes() const { return lanes_; }
 
     // Calls body(i) for every i below n.
@@ -23,7 +23,7 @@ public:
             for (std::size_t i = first; i < last; ++i) body(i);
         });
     }
-    // Calls range(first, last) for parts of [0, n) that make up the whole.
+    // Calls range(first, last) for a partition of [0, n).
     template <typename Range>
     void for_ranges(std::size_t n, const Range& range) const {
         if (count_ == 1 || n < 2 * grain)
@@ -31,11 +31,11 @@ public:
         else
             share_out(n, range);
     }
-    // Calls work() once; what algorithms of oneTBB do in it, they do on these threads. Not for a count of 1, which has none.
+    // Calls work() once; oneTBB algorithms in it run on these threads. Not for a count of 1, which has none.
     void run(const std::function<void()>& work) const;
 
 private:
-    static constexpr std::size_t grain = 64;  // items worth the hand-over to another thread
+    static constexpr std::size_t grain = 64;  // least items per task
     void share_out(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const;
 
     struct Arena;

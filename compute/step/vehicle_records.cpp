@@ -1,4 +1,4 @@
-// The records of vehicles: where their wheels are, what each of them gets of the engine, and their routes.
+// Vehicle records: wheel positions, engine shares, routes.
 #include "compute/step/vehicle_records.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ physics::VehicleDynamics handling_of(const Vehicle& vehicle, const Scene& scene,
     return made;
 }
 
-// Where the wheels are, from the middle of the axis that the vehicle turns about: that of the wheels that are not steered.
+// Wheel positions, relative to the middle of the unsteered axle, about which the vehicle turns.
 void place_wheels(physics::Vehicle& made, const Vehicle& vehicle, const Scene& scene) {
     const std::size_t n = vehicle.wheels.size();
     float aside = 0, axis = 0, all = 0, fixed = 0;
@@ -52,7 +52,7 @@ void place_wheels(physics::Vehicle& made, const Vehicle& vehicle, const Scene& s
         widest = std::max(widest, std::abs(wheel.aside));
         if (vehicle.wheels[k].steers) base += std::abs(wheel.ahead), ++steered;
     }
-    // What turns like a tank turns about one of its sides at full lock.
+    // A skid-steered vehicle turns about one of its sides at full lock.
     made.dynamics.tightest = steered > 0 ? std::tan(vehicle.steering.angle) * steered / std::max(base, 0.01f) : 1 / widest;
     made.dynamics.turning = made.dynamics.tightest / vehicle.steering.time;
 }

@@ -1,4 +1,4 @@
-// The vehicles of a scene as the step needs them.
+// Vehicle records of a scene.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@
 
 namespace scree {
 
-// Of a checked scene, in its order. `joint_records`: of each joint of the scene. Routes are added to the way points.
+// The vehicles of a checked scene, in order. `joint_records`: record index by joint. Appends routes to `way_points`.
 std::vector<physics::Vehicle> vehicle_records(const Scene& scene, const std::vector<std::uint32_t>& joint_records,
                                               std::vector<physics::WayPoint>& way_points);
 
-vec3 axle_of(const Joint& joint);  // x axis of its frame in A: unit, to the left
+vec3 axle_of(const Joint& joint);  // x axis of its frame in A: unit, points left
 
 }  // namespace scree

@@ -1,4 +1,4 @@
-// What a user does to a world while it runs: takes hold of bodies, turns its dials, adds bodies.
+// World: editing while it runs: grips, explosions, settings, new bodies.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -32,7 +32,7 @@ void check(const GripSpring& s) {
     demand(s.spin_damping >= 0 && s.spin_damping <= 100, "grip: spin_damping must be between 0 and 100 1/s");
 }
 
-// The coefficients of Catto, Soft Constraints, GDC 2011; see shaders/physics/extra/grab_spring.h.
+// Soft constraint coefficients (Catto, Soft Constraints, GDC 2011); see shaders/physics/extra/grab_spring.h.
 physics::Grip record_of(std::size_t body, vec3 anchor, vec3 target, const GripSpring& spring, float h) {
     const float omega = 2 * std::numbers::pi_v<float> * spring.hertz;
     const float a1 = 2 * spring.damping_ratio + h * omega;
@@ -52,17 +52,17 @@ physics::Grip record_of(std::size_t body, vec3 anchor, vec3 target, const GripSp
 
 World::Impl::Held& World::Impl::held(std::size_t grip) {
     if (grip < grips.size() && grips[grip]) return *grips[grip];
-    throw std::out_of_range("grip " + std::to_string(grip) + " does not hold anything");
+    throw std::out_of_range("grip " + std::to_string(grip) + " is not in use");
 }
 
-// Records that are not in use are zero, so that the same holds leave the same parameters.
+// Unused records are zeroed, so that equal grips give equal parameters.
 void World::Impl::take_up_grips() {
     physics::Parameters& parameters = state.fixed();
     parameters.held = 0;
     for (physics::Grip& record : parameters.grips) record = {};
     for (const std::optional<Held>& grip : grips) {
         if (!grip) continue;
-        action_on(grip->body, vec3(0), vec3(0));  // wakes it
+        action_on(grip->body, vec3(0), vec3(0));  // wakes the body
         parameters.grips[parameters.held++] =
             record_of(state.row_of(grip->body), grip->anchor, grip->target, grip->spring, parameters.h);
     }

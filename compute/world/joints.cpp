@@ -1,4 +1,4 @@
-// The joints of a world: what they carry, and what drives them.
+// World: joints, their state and motors.
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -14,7 +14,7 @@ namespace scree {
 
 namespace {
 
-// The axis of a joint that says itself what happens along or about it; null for the others.
+// The axis of a joint kind that has explicit axes; else null.
 Axis* axis_of(JointKind& kind, JointAxis axis) {
     if (auto* hinge = std::get_if<Hinge>(&kind)) return axis == JointAxis::twist ? &hinge->turn : nullptr;
     if (auto* slider = std::get_if<Slider>(&kind)) return axis == JointAxis::x ? &slider->slide : nullptr;
@@ -55,7 +55,7 @@ JointState World::Impl::joint_state(std::size_t i) const {
     return found;
 }
 
-// Into the scene, so that a snapshot has it, and to where the world is.
+// Changes the scene, so that snapshots have it, and the runner's joint.
 void World::Impl::set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change) {
     require_joint(index);
     Joint& joint = scene.joints[index];
@@ -155,7 +155,7 @@ void World::remove_joint(std::size_t index) {
 }
 
 Joint World::joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis) const {
-    Scene two;  // the bodies' places are all that counts
+    Scene two;  // only poses matter
     const auto placed = [&](std::size_t index) {
         if (index == the_world) return the_world;
         const BodyState now = body(index);

@@ -1,4 +1,4 @@
-// When the bodies of a world are put into another order in memory.
+// World: when to reorder bodies in memory.
 #include <utility>
 
 #include "compute/step/memory_order.h"
@@ -10,11 +10,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// With fewer everything lies in a cache. A settled pile on two cores, sorted against as it fell: the solver's passes over 10,000
-// boxes take 0.77 of the time on the CPU and 0.82 to 0.85 on lavapipe, those over 100,000 0.8 on the CPU.
+// With fewer all tables fit into a cache. A settled pile on two cores, reordered against as created: solver passes over
+// 10,000 boxes take 0.77 of the time on the CPU and 0.82 to 0.85 on lavapipe, those over 100,000 0.8 on the CPU.
 constexpr std::size_t fewest_bodies = 4096;
 constexpr double share_of_time = 0.02;
-constexpr double worth_it = 1.25;  // bodies next to each other in memory are so much farther apart than they might be
+constexpr double worth_it = 1.25;  // reorder if neighbours in memory are farther apart by this factor than after sorting
 
 double seconds_since(Clock::time_point then) {
     return std::chrono::duration<double>(Clock::now() - then).count();

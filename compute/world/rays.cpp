@@ -1,4 +1,4 @@
-// Rays into a world: against the shapes of all bodies that are there, where they are now.
+// World: ray casts against all bodies at their present poses.
 #include <cmath>
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-// The vehicles of a world: what they are told, how they fare, and how they are put back on their wheels.
+// World: vehicles, their controls, state, and resetting them upright.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -11,7 +11,7 @@
 namespace scree {
 
 namespace {
-constexpr float lift_of_a_righted_vehicle = 0.5f;  // m: with less, what it lies on is in its wheels' way
+constexpr float lift_of_a_righted_vehicle = 0.5f;  // m; with less, the wheels would overlap what it lies on
 }
 
 void World::Impl::require_vehicle(std::size_t vehicle) const {
@@ -29,7 +29,7 @@ void World::Impl::tell(std::size_t vehicle, const Controls& controls, bool by_ro
     told.hand_brake = controls.hand_brake;
     told.by_route = by_route;
     runner->upload({range});
-    action_on(scene.vehicles[vehicle].chassis, vec3(0), vec3(0));  // wakes it, and all that is joined to it
+    action_on(scene.vehicles[vehicle].chassis, vec3(0), vec3(0));  // wakes the vehicle through its joints
 }
 
 void World::Impl::require_no_wheel(std::size_t joint) const {
@@ -103,7 +103,7 @@ std::vector<VehicleState> World::vehicles() const {
     return all;
 }
 
-// The wheels lie about the chassis as they did when the scene began.
+// Wheels get their initial poses relative to the chassis.
 void World::reset_upright(std::size_t vehicle) {
     Impl& in = *interior_;
     in.require_vehicle(vehicle);
@@ -116,7 +116,7 @@ void World::reset_upright(std::size_t vehicle) {
     const vec4 now = physics::compose(before.orientation, frame);
     vec3 left = physics::rotate(now, vec3(1, 0, 0)), ahead = physics::rotate(now, vec3(0, 0, 1));
     ahead -= up * glm::dot(ahead, up);
-    // What stands on its nose or tail has no heading of its own but that of its left side.
+    // A vehicle on its nose or tail has no heading but that of its left side.
     if (glm::length(ahead) < 0.1f) ahead = glm::cross(left - up * glm::dot(left, up), up);
     ahead = glm::length(ahead) > 1e-3f ? glm::normalize(ahead) : physics::tangent(up);
     left = glm::normalize(glm::cross(up, ahead));

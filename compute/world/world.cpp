@@ -1,4 +1,4 @@
-// The world: walks steps, grows tables, and turns what the user asks into actions.
+// World: stepping, growing tables, user actions.
 #include "compute/world.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace scree {
 
 namespace {
 
-// Sums that a step can calculate with: no mass is so small that this much pushes it beyond what a float holds.
+// Clamped so that no impulse over a mass leaves the range of a float.
 physics::Action bounded(physics::Action action) {
     constexpr float most = 1e15f;
     for (vec3* push : {&action.force, &action.torque, &action.impulse, &action.angular_impulse})
@@ -25,7 +25,7 @@ physics::Action bounded(physics::Action action) {
     return action;
 }
 
-// The turning force of a push at an offset from the centre. In double precision: a float's products end at 1e38.
+// Moment of a force at an offset from the centre. In double precision: products of floats overflow at 1e38.
 vec3 moment(vec3 offset, vec3 push) {
     const glm::dvec3 turn = glm::cross(glm::dvec3(offset), glm::dvec3(push));
     constexpr double most = std::numeric_limits<float>::max();
@@ -69,7 +69,7 @@ void World::Impl::make_room_for_lists() {
     ++growths;
     state.fixed().redo = 1;
     runner->adapt();
-    runner->upload({{Table::counts, 0, 1}});  // which say no more that a list was too long
+    runner->upload({{Table::counts, 0, 1}});  // clears the overflow
 }
 
 void World::Impl::step() {
@@ -117,7 +117,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::step(int count) {
-    constexpr int most_alone = 64;  // the bodies' order in memory is looked after between them
+    constexpr int most_alone = 64;  // between them the memory order is checked
     while (count > 0) {
         interior_->step();
         --count;
@@ -216,7 +216,7 @@ Scene World::snapshot() const {
         joint_there[i] = joints.size();
         Joint& joint = joints.emplace_back(scene.joints[i]);
         joint.broken = interior_->joint_state(i).broken;
-        // Renumbers the body; true if it is there no more.
+        // Renumbers the body; true if it does not exist.
         const auto gone = [&](std::size_t& body) {
             if (body == the_world) return false;
             body = place_there[body];

@@ -1,4 +1,4 @@
-// What a world is made of.
+// World's implementation.
 #pragma once
 
 #include <array>
@@ -28,48 +28,48 @@ struct World::Impl {
     Settings settings;
     std::unique_ptr<Runner> runner;
     State state;
-    std::map<std::size_t, physics::Action> actions;  // for the next step, by body
+    std::map<std::size_t, physics::Action> actions;  // for the next step, by index of the body
     std::array<std::optional<Held>, most_grips> grips;
     std::uint64_t steps = 0;
     std::uint64_t growths = 0;
-    bool reorder_now = false;  // asked for
+    bool reorder_now = false;  // requested by reorder()
     std::uint64_t reorderings = 0;
-    double seconds_to_look = 0;  // after the bodies' order in memory, the last time
+    double seconds_to_look = 0;  // duration of the last check of the memory order
     std::optional<std::chrono::steady_clock::time_point> looked;
-    bool broken = false;  // left true by a step that ended in an exception: the tables may be half grown
+    bool broken = false;  // left true by a step that threw: tables may be half grown
 
     Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r);
     void step();
-    int steps_alone(int count);  // up to so many in which the user asks for nothing; 0 while a grip is held
-    bool keeps_order() const;    // of the bodies in memory
+    int steps_alone(int count);  // up to `count` steps without actions; 0 while a grip is held. Returns their number
+    bool keeps_order() const;    // whether bodies are reordered in memory
     void begin_in_order();
-    void keep_order();  // between two steps
+    void keep_order();  // between steps
     void make_room_for_actions();
-    void make_room_for_lists();  // and the step shall be done again
+    void make_room_for_lists();  // and requests repetition of the step
     void require_body(std::size_t body) const;
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;
-    // What of the tables the host is to have as it is on the runner now.
+    // Downloads these ranges of the tables.
     void bring(TableRanges (*ranges)(const State&)) const { runner->download(ranges(state)); }
 
     // joints.cpp
     void require_joint(std::size_t joint) const;  // throws std::out_of_range
     JointState joint_state(std::size_t i) const;
-    void rejoin(std::optional<std::size_t> without = std::nullopt);  // the joints are the scene's
-    void wake(const Joint& joint);                                   // its bodies, in the next step
+    void rejoin(std::optional<std::size_t> without = std::nullopt);  // rebuilds the joint records from the scene
+    void wake(const Joint& joint);                                   // wakes its bodies in the next step
     void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
 
     // vehicles.cpp
     void require_vehicle(std::size_t vehicle) const;  // throws std::out_of_range
-    void require_no_wheel(std::size_t joint) const;   // throws std::invalid_argument if a vehicle has a wheel on it
+    void require_no_wheel(std::size_t joint) const;   // throws std::invalid_argument for a wheel's joint
     void tell(std::size_t vehicle, const Controls& controls, bool by_route);
     VehicleState vehicle_state(std::size_t index) const;
-    // As they are now, into a snapshot whose bodies and joints are those that are there (no_body: gone).
+    // Adds the present vehicles to a snapshot; indices map bodies and joints into it (no_body: gone).
     void keep_vehicles(Scene& snapshot, const std::vector<std::size_t>& bodies, const std::vector<std::size_t>& joints) const;
 
     // editing.cpp
     Held& held(std::size_t grip);  // throws std::out_of_range
-    void take_up_grips();          // into the parameters of the coming step
+    void take_up_grips();          // writes the grips to the parameters of the next step
     void retune(const Settings& changed);
 };
 

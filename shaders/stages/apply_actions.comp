@@ -1,4 +1,5 @@
-// Adds what the user asks: impulses to velocities (once, also when the step is done again), forces to loads. It wakes the body.
+// Applies user actions and wakes their bodies: impulses to velocities (once, also if the step is repeated), forces to
+// accelerations.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

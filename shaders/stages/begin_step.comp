@@ -1,4 +1,4 @@
-// Empties the lists of a step, gives every body its gravity, and wakes all if the user says so.
+// Resets the counts of a step, sets every body's gravity, and wakes all bodies on request.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -16,7 +16,7 @@ void main() {
         forces.at[i] = gravity_forces(READ(properties, i), PARAMETERS);
         if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = 0u;
     }
-    // Rows one by one, by different threads: a software device goes through what a single thread does for every vector of them.
+    // Rows by different threads: a software device repeats what a single thread does for every vector of threads.
     Counts empty = emptied(COUNTS, PARAMETERS);
     if (i < PAIR_TYPES + 1u) COUNTS.pair_type_first[i] = 0u;
     if (i < WORKS) COUNTS.arguments[i] = empty_work(i, PARAMETERS);

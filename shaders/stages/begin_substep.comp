@@ -1,4 +1,4 @@
-// Makes the bodies ready for a substep; push.pass 1 in the step's first.
+// Begins a substep for each body: warm start, gravity, forces. push.pass: 1 in the first substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

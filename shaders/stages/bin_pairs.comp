@@ -1,4 +1,4 @@
-// count_pair_types, scan_pair_types and fill_pair_types in one.
+// Fused: count_pair_types, scan_pair_types and fill_pair_types.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Puts the pieces of bodies that break into their places.
+// Fracture: activates the fragments of bodies that break, with their poses and velocities.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

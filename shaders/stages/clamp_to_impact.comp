@@ -1,4 +1,4 @@
-// Puts the fast bodies that must stop back to where they do.
+// Continuous collision: clamps fast bodies to their time of impact.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -12,12 +12,12 @@
 // variants: collide_hull_hull -DKIND=11 -DCOLLIDE=collide_convex -DWITH_HULLS -DONLY_HULLS
 // variants: collide_sphere_triangle -DKIND=12 -DCOLLIDE=collide_sphere_triangle -DWITH_HULLS
 // variants: collide_convex_triangle -DKIND=13 -DCOLLIDE=collide_convex_triangle -DWITH_HULLS
-// Finds where the pairs of one kind touch.
+// Narrowphase: the manifolds of all pairs of one pair type.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #if KIND == 9 || KIND == 10 || KIND == 13
-#define MAY_BE_SMOOTH  // either of the bodies
+#define MAY_BE_SMOOTH  // either may be an ellipsoid (rolling_contact.h)
 #endif
 
 #if KIND == 0
@@ -70,7 +70,7 @@ void main() {
         pb = pose_ahead(pb, vb, ahead);
     }
 #endif
-    // The law wants the simpler shape first.
+    // Collision functions expect the shape of the lower id first.
     bool swap = ta.shape > tb.shape;
     BodyProperties first_traits = swap ? tb : ta;
     BodyProperties second_traits = swap ? ta : tb;

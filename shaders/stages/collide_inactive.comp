@@ -1,4 +1,4 @@
-// Carries over the manifolds of pairs that do not stir.
+// Narrowphase: manifolds of inactive pairs, unchanged.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

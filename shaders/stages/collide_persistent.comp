@@ -1,4 +1,4 @@
-// Measures the separations of contacts that are kept.
+// Narrowphase: persistent manifolds with updated separations.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Gives every touching pair its contact, which moves nobody yet.
+// Compacts pairs with contact points into contacts, which have no slots yet.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -12,7 +12,7 @@ void main() {
     constraints.at[contact].slot_a = NONE;
     constraints.at[contact].slot_b = NONE;
     if (!REORDERED) return;
-    // Until it is prepared, who owns it: sort_slots asks.
+    // Temporarily the owner's id, by which sort_slots orders; prepare_contacts overwrites it.
     Pair pair = READ(pairs, i);
     bool is_a = READ_WORD(pair_starts, pair.a) <= i && i < READ_WORD(pair_starts, pair.a + 1u);
     constraints.at[contact].a = id_of(is_a ? pair.a : pair.b);

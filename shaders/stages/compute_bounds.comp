@@ -1,5 +1,4 @@
-// Each body's bounds over the coming step, its cell, whether it stirs, its inertia in the world, where it starts, and whether it
-// will be fast.
+// Broadphase: swept AABB and grid cell of each body, whether it is active or will be fast, and its world inertia.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,7 +7,7 @@
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// Most bodies have nothing new to say, and an atomic that all ask for is slow.
+// Skips the atomic where the bits are set already: most bodies add nothing, and a contended atomic is slow.
 #define note(mask, bits)                                     \
     {                                                        \
         if ((mask & (bits)) != (bits)) atomicOr(mask, bits); \

@@ -1,4 +1,4 @@
-// Counts one slot for each body of each block of joints that can be moved; joints of bodies that are no more tear.
+// Counts a slot for each movable body of each joint block; breaks the joints of bodies that no longer exist.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Counts the kinds of pairs in each span of pairs.
+// Counts pair types in each block of 16 pairs.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

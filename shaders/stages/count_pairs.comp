@@ -1,4 +1,4 @@
-// Counts the pairs that each body owns.
+// Broadphase: counts the pairs that each body owns.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Counts the contacts of each body that can be moved.
+// Counts the contacts of each movable body.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

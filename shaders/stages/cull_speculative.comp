@@ -1,4 +1,5 @@
-// Drops the doubtful contacts of bodies that nothing strikes in this step: those will keep the course that was foreseen.
+// Continuous collision: drops the doubtful speculative contacts of bodies that nothing strikes in this step, which will
+// therefore follow their predicted sweep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Drives each vehicle: its driver, its steering, and the motors of its wheels. Once, also when the step is done again.
+// Drives each vehicle: route following, steering, and wheel motors. Once, also if the step is repeated.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

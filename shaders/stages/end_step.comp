@@ -1,5 +1,5 @@
-// Gathers the last relaxation, says who has come to rest, and notes who has been fast and left the bounds that were searched for
-// its neighbours; the step is done.
+// Ends a step: applies the last relax pass, updates sleep, and limits the sweep of fast bodies to the bounds in which
+// the broadphase searched.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,7 +8,7 @@
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it sums
+// after the declarations of the tables
 #include "shaders/stages/lib/gather.glsl"
 
 void main() {

@@ -1,4 +1,4 @@
-// Puts each body into its bucket, in any order.
+// Broadphase: puts each body into its bucket, in any order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

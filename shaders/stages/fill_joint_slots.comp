@@ -1,4 +1,4 @@
-// Gives each block of joints a slot with each of its bodies that can be moved.
+// Assigns each joint block a slot with each of its movable bodies.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

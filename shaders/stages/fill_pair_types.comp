@@ -1,4 +1,4 @@
-// Lists the pairs kind by kind, in their order, and says how many of each there are.
+// Lists the pairs by type, stably, and writes the dispatches of the narrowphase.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

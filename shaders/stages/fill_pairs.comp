@@ -1,4 +1,4 @@
-// Lists the bodies whose pairs each body owns, in the order in which it finds them.
+// Broadphase: lists the partners of each body's pairs, in the order of the search.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,5 @@
-// Gives each contact a slot with each of its bodies that can be moved, and lists those that have one, in any order.
+// Assigns each contact a slot with each of its movable bodies, and lists the contacts that the solver processes, in any
+// order.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Says which bodies break in this step, and what part of their impulses their contacts keep.
+// Fracture: marks bodies that break in this step, and the part of their contacts' impulses that stays.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

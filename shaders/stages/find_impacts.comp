@@ -1,7 +1,7 @@
 // variants: find_impacts -DWITHOUT_CONVEX
 // variants: find_impacts_convex -DWITH_CONVEX
-// Finds where the fast bodies must be stopped so that no pair passes through each other. push.pass is the round: in the first the
-// ways are whole, in later ones those end that the round before has stopped, lest whoever follows runs into them.
+// Continuous collision: times of impact of fast bodies. push.pass is the round: in the first, sweeps are whole; in
+// later ones they end where the previous round clamped them, so that followers do not run into a clamped body.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

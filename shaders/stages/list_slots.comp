@@ -1,4 +1,4 @@
-// count_slots, scan_slots, fill_slots and sort_slots in one.
+// Fused: count_slots, scan_slots, fill_slots and sort_slots.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

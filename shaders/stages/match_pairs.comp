@@ -1,5 +1,4 @@
-// Puts each body's pairs in the order of the other body's id, finds their contacts in the last step and says which kernel they
-// need.
+// Sorts each body's pairs by the other body's id, matches them with last step's contacts, and chooses their pair types.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -7,7 +6,7 @@
 #include "shaders/physics/solve/persistence.h"
 #include "shaders/stages/lib/ids.glsl"
 
-// The contacts that a body owned are in the order of the other body's id.
+// Binary search: contacts of an owner are sorted by the other body's id.
 uint contact_before(uint owner, uint other) {
     uint id = id_of(other);
     uint low = READ_WORD(first_contacts, owner);
@@ -35,7 +34,7 @@ void main() {
     for (uint k = place; k < last; ++k)
         if (id_of(READ(candidates, k).other) < id) ++place;
     Pair pair = Pair(own < id ? candidate.owner : candidate.other, own < id ? candidate.other : candidate.owner, 0u, NONE);
-    // Bodies change level with their speed, and then the other one owns the pair.
+    // The owner differs from last step's if a body's grid level changed.
     pair.previous = contact_before(pair.a, pair.b);
     if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);
     if ((READ(bounds, pair.a).level & READ(bounds, pair.b).level & INACTIVE) != 0u) {

@@ -1,4 +1,4 @@
-// Gathers the biased pass and moves the bodies by a substep.
+// Applies the biased pass to each body and integrates its pose by a substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

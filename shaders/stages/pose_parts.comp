@@ -1,4 +1,4 @@
-// Puts the parts of bodies that move where their bodies are, and gives them their velocities.
+// Poses and velocities of the parts of moving compounds, from their bodies.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,7 +1,7 @@
 // variants: predict_impacts -DWITHOUT_CONVEX
 // variants: predict_impacts_convex -DWITH_CONVEX
-// Looks ahead for the contacts of fast pairs: which will strike their bodies, and which are doubtful because the two pass each
-// other or touch elsewhere.
+// Continuous collision: predicts for the speculative contacts of fast pairs which will be impacts, and which are
+// doubtful because the two pass each other or meet elsewhere.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

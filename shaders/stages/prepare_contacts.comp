@@ -1,4 +1,4 @@
-// Makes each contact ready for the step: geometry, masses, and the impulses it inherits.
+// Contact preparation: constraints, inherited impulses, and the first warm start.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

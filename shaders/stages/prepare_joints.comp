@@ -1,11 +1,11 @@
-// Warm starts of the step's first substep.
+// Joint warm starts of the first substep.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it works on
+// after the declarations of the tables
 #include "shaders/stages/lib/joints.glsl"
 
 void main() {

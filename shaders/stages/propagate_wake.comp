@@ -1,4 +1,5 @@
-// Passes on how deep bodies shake others from those who do so exactly push.pass deep; no later round changes these any more.
+// Sleep: propagates the depth of shaking by one contact, from bodies that shake exactly push.pass deep; later rounds do
+// not change these.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// The pass without bias over all contacts that move somebody at once.
+// The relax pass over all solver contacts in parallel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

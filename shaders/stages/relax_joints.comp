@@ -1,15 +1,16 @@
-// The pass without bias over all blocks of joints at once; it also hands out the next substep's warm start, or after the last one
-// (the first bit of push.pass) what the bodies of a block tell each other of their rest, and says what each joint carried and
-// whether it tears.
+// The relax pass over all joint blocks in parallel. It also writes the next substep's warm start, or in the last
+// substep (first bit of push.pass) the least quiet steps of the block; it sums the joints' loads and breaks overloaded
+// joints.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it works on
+// after the declarations of the tables
 #include "shaders/stages/lib/joints.glsl"
 
+// Adds the substep's impulses to the joint's load; in the last substep, breaks it past its limits.
 void take_stock(uint j) {
     JointLoad load = JointLoad(joints.at[j].force + force_impulse(j), joints.at[j].max_force,
                                joints.at[j].torque + torque_impulse(j), joints.at[j].max_torque);
@@ -27,7 +28,7 @@ void take_stock(uint j) {
     joints.at[j].torque = load.torque;
 }
 
-// The least quiet of all that the block joins.
+// The least quiet steps of all bodies of the block.
 float told_by_block() {
     float told = FOREVER;
     for (uint j = block_first; j < block_joints; ++j) {

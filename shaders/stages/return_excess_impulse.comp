@@ -1,4 +1,4 @@
-// Gives back what bodies that break could not bear: to them, and to those that they touch.
+// Fracture: returns the impulses that breaking bodies could not bear, to both bodies of each contact.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

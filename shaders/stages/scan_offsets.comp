@@ -3,7 +3,7 @@
 // variants: scan_pair_types_offsets VARIANT=2
 // variants: scan_contacts_offsets VARIANT=3
 // variants: scan_slots_offsets VARIANT=4
-// Writes the sum of all items before each, and behind the last item the total.
+// Prefix sum, third stage: exclusive offsets, and the total behind the last item.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -3,7 +3,7 @@
 // variants: scan_pair_types_spine VARIANT=2
 // variants: scan_contacts_spine VARIANT=3
 // variants: scan_slots_spine VARIANT=4
-// Scans the sums of the blocks, by one workgroup, and says what the total means for the rest of the step.
+// Prefix sum, second stage: one workgroup scans the block sums; the total sets the dispatches that depend on it.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -21,6 +21,6 @@ void main() {
         total += partial[gl_WorkGroupSize.x - 1u];
         barrier();
     }
-    barrier();  // the total may change what the others count to
+    barrier();  // scan_total() changes the counts that other threads read
     if (gl_LocalInvocationID.x == 0u) scan_total(total);
 }

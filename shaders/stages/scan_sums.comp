@@ -3,7 +3,7 @@
 // variants: scan_pair_types_sums VARIANT=2
 // variants: scan_contacts_sums VARIANT=3
 // variants: scan_slots_sums VARIANT=4
-// Adds up each block of a list that is scanned.
+// Prefix sum, first stage: the sum of each block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -2,7 +2,7 @@
 // variants: scan_pairs VARIANT=1
 // variants: scan_contacts VARIANT=3
 // variants: scan_slots VARIANT=4
-// A short list's scan in one.
+// Fused: the prefix sum of a short list.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// The biased pass over all contacts that move somebody at once.
+// The biased pass over all solver contacts in parallel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

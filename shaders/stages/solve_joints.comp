@@ -1,14 +1,14 @@
-// The biased pass over all blocks of joints at once.
+// The biased pass over all joint blocks in parallel.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it works on
+// after the declarations of the tables
 #include "shaders/stages/lib/joints.glsl"
 
-// What the pass has come to, for the joints and their bodies.
+// Commits the impulses and writes the bodies' velocity changes.
 void end_pass() {
     begin_shares();
     for (uint j = block_first; j < block_joints; ++j) {

@@ -1,4 +1,4 @@
-// Sorts the bodies of each bucket by id and copies their bounds beside them.
+// Broadphase: sorts the bodies of each bucket by id and copies their bounds.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

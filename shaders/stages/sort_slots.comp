@@ -1,4 +1,4 @@
-// Sorts each body's slots, so that its sum has one order; and says where the contacts it owns begin.
+// Sorts each body's slots, which fixes the order of its sum, and writes where the contacts it owns begin.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,5 +1,5 @@
-// Some of a step's substeps, as push.pass says: how many went before, how many these are, how many there are in all. In each
-// begin_substep, solve_contacts, move_bodies and relax_contacts in turn.
+// Fused substeps: begin_substep, solve_contacts, move_bodies and relax_contacts in turn. push.pass: substeps done
+// before, substeps of this dispatch, substeps of the step, 8, 8 and 16 bits.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

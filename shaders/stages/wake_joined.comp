@@ -1,5 +1,5 @@
-// Wakes the sleepers of a block of joints one of whose bodies is restless: looks (push.pass 0), then wakes (1), because blocks
-// share bodies.
+// Wakes the sleepers of a joint block one of whose bodies is restless: finds such blocks (push.pass 0), then wakes (1),
+// because blocks share bodies.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

@@ -1,4 +1,4 @@
-// Wakes sleepers that something restless touches or whose load has changed, and shakes all who meet at speed.
+// Wakes sleepers that a restless body touches or whose contact load has changed; impacts shake bodies behind.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 

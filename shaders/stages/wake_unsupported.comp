@@ -1,4 +1,4 @@
-// Wakes sleepers whose contact with a body that stirs is there no more.
+// Wakes sleepers that have lost a contact with an active body.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -7,7 +7,7 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/stages/lib/ids.glsl"
 
-// Pairs of an owner are in the order of the other body's id.
+// Binary search: pairs of an owner are sorted by the other body's id.
 bool owner_touches(uint owner, uint other) {
     uint id = id_of(other);
     uint low = READ_WORD(pair_starts, owner);

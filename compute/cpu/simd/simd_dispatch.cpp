@@ -1,4 +1,4 @@
-// The widest stages that this processor has, and the tables of a state as they see them.
+// Selects the widest SIMD stages of this processor, and views a state's tables as words.
 #include "compute/cpu/simd/simd_stages.h"
 
 #include "compute/step/state.h"

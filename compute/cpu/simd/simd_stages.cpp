@@ -1,11 +1,10 @@
-// The laws of the solver for SCREE_LANES contacts at once. The build compiles this file once for each kind of vectors
-// (compute/CMakeLists.txt), and compute/cpu/simd/simd_dispatch.cpp picks the widest that the processor has.
+// The solver for SCREE_LANES contacts at once. The build compiles this file once per vector width
+// (compute/CMakeLists.txt); compute/cpu/simd/simd_dispatch.cpp picks the widest that the processor has.
 #include "compute/cpu/simd/simd_stages.h"
 
-// Says what the words of the laws mean, so before them.
+// Defines the types of the laws, so before them.
 #include "compute/cpu/simd/simd_types.h"
 
-// The laws.
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
 #undef float
@@ -22,7 +21,7 @@ SCREE_INLINE Words lane_numbers() {
     for (int lane = 0; lane < lanes; ++lane) numbers[lane] = static_cast<std::uint32_t>(lane);
     return numbers;
 }
-// The next items; lanes beyond the end have the last one.
+// The next items; lanes beyond the end repeat the last one.
 SCREE_INLINE Uint listed(const std::uint32_t* items, std::size_t first, std::size_t last) {
     Words found;
     if (last - first >= lanes) {
@@ -39,10 +38,10 @@ SCREE_INLINE Bool living(std::size_t first, std::size_t last) {
     return Uint(lane_numbers()) < Uint(static_cast<std::uint32_t>(last - first < lanes ? last - first : lanes));
 }
 
-// A group of contacts: which, and what the solver knows of them and their bodies.
+// A group of contacts, one per lane, with solver data and bodies.
 struct Group {
     Indices contacts;
-    Bool live;  // not those beyond the end, which see the last contact again
+    Bool live;  // false in lanes beyond the end
     Constraint c;
     Impulse impulse;
     Indices a, b;
@@ -108,14 +107,14 @@ SCREE_INLINE Float told_by(const std::uint32_t* told, const Indices& bodies) {
     return uintBitsToFloat(words);
 }
 
-// physics::shared_for, which asks for a load only where there is a blow.
+// physics::impact_mass, reading forces only if a lane has an impact.
 SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const Indices& bodies, const Parameters& p) {
     const Mass mass = gather<Mass>(tables.masses, bodies);
     if (none(is_impact(impulse) > 0.0f)) return split_mass(mass, impulse, p);
     return impact_mass(impulse, mass, gather<BodyForces>(tables.forces, bodies), p);
 }
 
-// What the contacts carry in this substep, added to what they carried in those before.
+// Adds this substep's normal impulses to the contacts' sums over the step.
 SCREE_INLINE void feel(const WideTables& tables, const Group& group, const Impulse& impulse, std::size_t items) {
     const Float carried = normal_impulse(impulse);
     for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
@@ -148,7 +147,7 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
     }
 }
 
-// What the contacts did to each body: the sums over its slots, in their order. A slot is eight floats, added side by side.
+// Sums each body's slots in their order. A slot is eight floats, added as one vector.
 SCREE_INLINE VelocityDelta sums_of_slots(const WideTables& tables, const Indices& bodies) {
     using Eight [[gnu::vector_size(32)]] = float;
     std::uint32_t sums[8 * SCREE_LANES];

@@ -1,5 +1,4 @@
-// The first warm start and the four stages of a substep, for several contacts or bodies at once in the lanes of the processor's
-// vectors.
+// SIMD versions of the first warm start and of the four stages of a substep: one contact or body per lane.
 #pragma once
 
 #include <cstddef>
@@ -7,9 +6,9 @@
 
 namespace scree::reference {
 
-// Tables of a State as words.
+// Tables of a State as 32-bit words.
 struct WideTables {
-    const std::uint32_t* items;  // contacts or bodies that the stage works on
+    const std::uint32_t* items;  // indices of the contacts or bodies to process
     const std::uint32_t* parameters;
     const std::uint32_t* properties;
     const std::uint32_t* constraints;
@@ -20,25 +19,25 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
-    const std::uint32_t* told = nullptr;  // a float per body: what it tells of its rest; null but in the last pass
-    float* carried = nullptr;             // where bodies may break: of each contact, N s
-    std::uint32_t steps = 0;              // Counts::steps in the first substep, whose crowds drift
+    const std::uint32_t* told = nullptr;  // quiet steps of each body, as floats; null but in the last pass
+    float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
+    std::uint32_t steps = 0;              // Counts::steps in the first substep, for the hysteresis of mass splitting
     bool first = false;
 };
 
-// The stages for the items [first, last); the bits are those of the plain loops in contacts.cpp and bodies.cpp.
+// The stages for items [first, last), bit-identical to the plain loops in contacts.cpp and bodies.cpp.
 struct WideStages {
-    void (*hand_out)(const WideTables&, std::size_t first, std::size_t last);  // the end of prepare_contacts
+    void (*hand_out)(const WideTables&, std::size_t first, std::size_t last);  // first warm start (prepare_contacts)
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);
     void (*move)(const WideTables&, std::size_t first, std::size_t last);
     void (*relax)(const WideTables&, std::size_t first, std::size_t last);
 };
 
-// Those of this processor with at most `most` lanes; null where there are none.
+// The SIMD stages of this processor with at most `most` lanes; null if there are none.
 const WideStages* wide_stages(int most);
 
-// compute/cpu/simd/simd_stages.cpp compiled for the vectors that every processor has, for AVX2, and for AVX-512.
+// compute/cpu/simd/simd_stages.cpp compiled for baseline vectors, AVX2, and AVX-512.
 extern const WideStages wide_stages_4, wide_stages_8, wide_stages_16;
 
 }  // namespace scree::reference

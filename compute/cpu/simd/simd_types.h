@@ -1,13 +1,12 @@
-// What float, uint, bool, vec3 and vec4 mean where the laws are compiled for SCREE_LANES contacts at once: vectors of the
-// processor, with one lane for each contact.
+// SIMD types in which the solver is compiled for SCREE_LANES contacts at once: one contact per lane.
 //
-// Every lane does what the laws do for one contact alone, in the same order, and + - * of a lane are rounded as those of a float:
-// so the bits are the same. The words of a record stay in their order, so a record of lanes is the transpose of as many records,
-// and gather() and scatter() know no record by name.
+// Every lane does what scalar code does for one contact, in the same order, and + - * round in a lane as in a float: so
+// the bits are the same. The words of a record stay in order, so a record of lanes is the transpose of as many records,
+// and gather() and scatter() need not know any record.
 //
-// Files that include this are compiled for processors that not everyone has. Nothing of them may be shared with other
-// files, or a linker might choose the copy that does not run here: so all functions are inlined by force, the namespace is
-// their own, and the standard library stays outside.
+// Files that include this are compiled for processors that not everyone has. No function of them may be shared with
+// other files, or the linker might choose the copy that does not run here: so all functions are force-inlined, the
+// namespace is separate, and the standard library is not included.
 #pragma once
 
 #include <stddef.h>
@@ -30,10 +29,10 @@ LAWS_BEGIN
 inline constexpr int lanes = SCREE_LANES;
 using Floats [[gnu::vector_size(4 * SCREE_LANES)]] = float;
 using Words [[gnu::vector_size(4 * SCREE_LANES)]] = uint32_t;
-using AnyWords [[gnu::vector_size(4 * SCREE_LANES), gnu::may_alias]] = uint32_t;  // of whatever type they are
+using AnyWords [[gnu::vector_size(4 * SCREE_LANES), gnu::may_alias]] = uint32_t;  // may alias any type
 using Masks [[gnu::vector_size(4 * SCREE_LANES)]] = int32_t;
 
-// The same in every lane.
+// Broadcast.
 template <typename Vector, typename Item>
 SCREE_INLINE constexpr Vector all(Item x) {
 #if SCREE_LANES == 4
@@ -209,7 +208,7 @@ SCREE_INLINE Quad quarter(Words words, int which) {
 #define SCREE_OF_B 16
 #endif
 
-// Within every four lanes rows become columns; twice is once forth and once back.
+// Transposes 4x4 blocks of lanes; an involution.
 SCREE_INLINE Block transposed(Block b) {
     const Words ab_low = SCREE_PICK(b.words[0], b.words[1], 0, SCREE_OF_B, 1, SCREE_OF_B + 1);
     const Words ab_high = SCREE_PICK(b.words[0], b.words[1], 2, SCREE_OF_B + 2, 3, SCREE_OF_B + 3);
@@ -221,12 +220,12 @@ SCREE_INLINE Block transposed(Block b) {
              SCREE_PICK(ab_high, cd_high, 2, 3, SCREE_OF_B + 2, SCREE_OF_B + 3)}};
 }
 
-// Which record of a table each lane has.
+// The record index of each lane.
 inline constexpr uint32_t nowhere = 0xFFFFFFFFu;
 struct Indices {
     uint32_t of[SCREE_LANES];
     SCREE_INLINE explicit Indices(Uint indices) { __builtin_memcpy(of, &indices, sizeof of); }
-    // Nowhere in the other lanes.
+    // `nowhere` in the lanes not in `those`.
     SCREE_INLINE Indices only(Bool those) const {
         Words words;
         __builtin_memcpy(&words, of, sizeof of);
@@ -250,7 +249,7 @@ SCREE_INLINE Record gather(const uint32_t* table, const Indices& indices) {
     return record;
 }
 
-// A lane that is nowhere writes nothing.
+// Lanes with index `nowhere` write nothing.
 template <typename Record>
 SCREE_INLINE void scatter(uint32_t* table, const Indices& indices, const Record& record) {
     constexpr int blocks = sizeof(Record) / sizeof(Block);
@@ -270,7 +269,7 @@ SCREE_INLINE void scatter(uint32_t* table, const Indices& indices, const Record&
     }
 }
 
-// One record for every lane.
+// Broadcasts one record.
 template <typename Record>
 SCREE_INLINE void broadcast(const uint32_t* words, Record& record) {
     AnyWords* const out = reinterpret_cast<AnyWords*>(&record);
@@ -279,6 +278,6 @@ SCREE_INLINE void broadcast(const uint32_t* words, Record& record) {
 
 LAWS_END
 
-// From here on the words of the laws are lanes; compute/cpu/simd/simd_stages.cpp says when they are plain again.
+// From here on the types of the laws are lanes; compute/cpu/simd/simd_stages.cpp ends that.
 #define float Float
 #define bool Bool

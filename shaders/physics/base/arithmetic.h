@@ -1,19 +1,19 @@
-// Arithmetic whose every bit is the same on every processor: only + - *, comparisons and integer operations.
+// Bit-exact arithmetic on every processor: only + - *, comparisons and integer operations.
 //
-// Vulkan rounds + - * correctly, but allows division 2.5 ULP and inverse square root 2 ULP; so those are made here from an
-// integer seed and three Newton steps (relative error 1.5e-7, measured against double over the whole range).
+// Vulkan rounds + - * correctly, but allows 2.5 ULP for division and 2 ULP for the inverse square root; both are built
+// here from an integer seed and three Newton steps (relative error 1.5e-7, measured against double over the whole
+// range).
 #ifndef SCREE_PHYSICS_ARITHMETIC_H
 #define SCREE_PHYSICS_ARITHMETIC_H
 
 #include "shaders/physics/base/dialect.h"
 
-// Literal zeros take part in no sum and no product: Mesa folds a * 0.0 and a + 0.0 and with it loses the sign of a zero,
-// NoContraction or not. So a sum begins with its first term, and what is to be 0 or more is made so by a select that never yields
-// -0.
+// No literal zeros in sums and products: Mesa folds a * 0.0 and a + 0.0, which loses the sign of a zero, NoContraction
+// or not. A sum begins with its first term, and a value is made non-negative by a select that never yields -0.
 
 LAWS_BEGIN
 
-// 1/x for 2^-125 < |x| < 2^125. Below that the result grows to infinity, so a caller excludes 0.
+// 1/x for 2^-125 < |x| < 2^125. Below, the result grows to infinity: callers exclude 0.
 LAW float reciprocal(float x) {
     float y = uintBitsToFloat(0x7EF311C7u - floatBitsToUint(x));
     y = y * (2.0f - x * y);
@@ -32,12 +32,12 @@ LAW float inverse_square_root(float x) {
     return y;
 }
 
-// sqrt(x); 0 below 1e-30, where the square of anything the step measures (m, m/s) has vanished.
+// sqrt(x); 0 below 1e-30, where the squares of lengths and speeds (m, m/s) have vanished.
 LAW float square_root(float x) {
     return choose(x > 1.0e-30f, x * inverse_square_root(x), 0.0f);
 }
 
-// Explicit selects, because min and max differ between processors on NaN and on -0.
+// Explicit selects: min and max differ between processors for NaN and -0.
 LAW float smaller(float a, float b) {
     return choose(a < b, a, b);
 }
@@ -47,7 +47,7 @@ LAW float larger(float a, float b) {
 LAW float clamped(float x, float low, float high) {
     return choose(x < low, low, choose(x > high, high, x));
 }
-// x, and +0 for all that is not positive.
+// max(x, +0), never -0.
 LAW float positive(float x) {
     return choose(x > 0.0f, x, 0.0f);
 }
@@ -58,7 +58,7 @@ LAW vec3 larger3(vec3 a, vec3 b) {
     return vec3(larger(a.x, b.x), larger(a.y, b.y), larger(a.z, b.z));
 }
 
-// Sums are written out once, so that their order is the same everywhere.
+// Sums are written out, so their order is the same everywhere.
 LAW float dot3(vec3 a, vec3 b) {
     return (a.x * b.x + a.y * b.y) + a.z * b.z;
 }
@@ -78,15 +78,15 @@ LAW vec3 unit3(vec3 a, vec3 otherwise) {
     return choose(squared > 1.0e-24f, a * inverse_square_root(squared), otherwise);
 }
 
-// A unit vector perpendicular to the unit vector n, without a jump where n is one of the axes' diagonals
-// (Duff et al., Building an Orthonormal Basis, Revisited, JCGT 2017). The second tangent is cross3(n, tangent(n)).
+// A unit vector perpendicular to the unit vector n, continuous but for n.z = 0 (Duff et al., Building an Orthonormal
+// Basis, Revisited, JCGT 2017). The second tangent is cross3(n, tangent(n)).
 LAW vec3 tangent(vec3 n) {
     float s = choose(n.z < 0.0f, -1.0f, 1.0f);
     float a = -reciprocal(s + n.z);
     return vec3(1.0f + s * n.x * n.x * a, s * (n.x * n.y * a), -s * n.x);
 }
 
-// v, or as much of it as is that long.
+// v, scaled down to the length `longest` if it is longer.
 LAW vec3 shortened(vec3 v, float longest) {
     float squared = dot3(v, v);
     return choose(squared > longest * longest, v * (longest * inverse_square_root(squared)), v);
@@ -95,13 +95,13 @@ LAW vec3 xyz(vec4 v) {
     return vec3(v.x, v.y, v.z);
 }
 
-// v turned by the unit quaternion q: v + 2w (q x v) + 2 q x (q x v).
+// v rotated by the unit quaternion q: v + 2w (q x v) + 2 q x (q x v).
 LAW vec3 rotate(vec4 q, vec3 v) {
     vec3 u = vec3(q.x, q.y, q.z);
     vec3 t = cross3(u, v) * 2.0f;
     return v + t * q.w + cross3(u, t);
 }
-// The body's y axis in the world. Written out, because products with a literal zero are not the same everywhere (above).
+// The body's y axis in world axes, written out because products with a literal zero differ between devices (above).
 LAW vec3 upright(vec4 q) {
     return vec3(2.0f * (q.x * q.y - q.w * q.z), 1.0f - 2.0f * (q.x * q.x + q.z * q.z), 2.0f * (q.y * q.z + q.w * q.x));
 }
@@ -111,7 +111,7 @@ LAW vec4 conjugate(vec4 q) {
 LAW vec3 rotate_back(vec4 q, vec3 v) {
     return rotate(conjugate(q), v);
 }
-// The turn q after the turn p.
+// Quaternion product q p: the rotation q after p.
 LAW vec4 compose(vec4 q, vec4 p) {
     return vec4(q.w * p.x + q.x * p.w + q.y * p.z - q.z * p.y, q.w * p.y - q.x * p.z + q.y * p.w + q.z * p.x,
                 q.w * p.z + q.x * p.y - q.y * p.x + q.z * p.w, q.w * p.w - q.x * p.x - q.y * p.y - q.z * p.z);
@@ -121,7 +121,7 @@ LAW vec4 unit_quaternion(vec4 q) {
     return q * inverse_square_root(squared);
 }
 
-// The columns of the rotation matrix of q: the body's axes in the world.
+// The columns of the rotation matrix of q: the body's axes in world axes.
 struct Axes {
     vec3 x;
     float pad_x;
@@ -144,7 +144,7 @@ LAW Axes axes_of(vec4 q) {
     return axes;
 }
 
-// A velocity too small to move anything is zero: denormals cost a hundredfold on some processors and vanish on others.
+// Flushes components below 1e-18 to zero: denormals cost a hundredfold on some processors and vanish on others.
 LAW vec3 flush_tiny(vec3 v) {
     return vec3(choose(abs(v.x) < 1.0e-18f, 0.0f, v.x), choose(abs(v.y) < 1.0e-18f, 0.0f, v.y),
                 choose(abs(v.z) < 1.0e-18f, 0.0f, v.z));

@@ -1,18 +1,19 @@
-// The common subset of GLSL and C++ in which shaders/physics is written: glm gives C++ the words of GLSL, and for the laws of the
-// solver (contact_solver.h and what it includes) compute/cpu/simd/simd_types.h gives it words that mean several contacts at once.
+// The common subset of GLSL and C++ in which shaders/physics is written. In C++ glm provides GLSL's types; for the
+// solver (contact_solver.h and its includes) compute/cpu/simd/simd_types.h provides types that hold several contacts,
+// one per lane.
 //
-// Rules (a test holds them): literals end in f or u; no two constants meet (GLSL compilers reckon with them in double precision);
-// no `/`, sqrt, dot, normalize, mix, fma, min, max on floats (arithmetic.h has ours); a vec3 member is followed by a scalar; no
-// arrays of vec3; quaternions are vec4 (x, y, z, w); no swizzles; functions take values and return values.
+// Rules (tested): literals end in f or u; no operation on two constants (GLSL compilers fold them in double precision);
+// no `/`, sqrt, dot, normalize, mix, fma, min, max on floats (use arithmetic.h); a vec3 member is followed by a scalar;
+// no arrays of vec3; quaternions are vec4 (x, y, z, w); no swizzles; functions take values and return values.
 //
-// In the laws of the solver a float, uint or bool may so be one of each of several contacts, which go the same way through the
-// text. So they say choose(condition, a, b) for what some contacts take and others do not, and branch on none(condition) alone,
-// where a part of the text is for no contact; an int is the same for all of them.
+// In the solver a float, uint or bool may therefore hold one value per lane, and all lanes take the same path. Code
+// selects with choose(condition, a, b), and branches only on none(condition), to skip what no lane needs. An int is the
+// same in all lanes.
 #ifndef SCREE_PHYSICS_DIALECT_H
 #define SCREE_PHYSICS_DIALECT_H
 
 #if defined(SCREE_LANES)
-// the includer has said what the words mean
+// types and functions come from the includer (simd_types.h)
 #elif defined(__cplusplus)
 #include <glm/glm.hpp>
 

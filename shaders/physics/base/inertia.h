@@ -1,4 +1,4 @@
-// The inverse inertia of a body in the world, and what it makes of a moment.
+// The world inverse inertia tensor, and its product with a vector.
 #ifndef SCREE_PHYSICS_INERTIA_H
 #define SCREE_PHYSICS_INERTIA_H
 
@@ -21,6 +21,7 @@ LAW Mass tensor_in_world(Axes axes, vec3 i) {
     tensor.split = 1.0f;
     return tensor;
 }
+// I^-1 v for the inverse inertia in `tensor`.
 LAW vec3 turned_by(Mass tensor, vec3 v) {
     return vec3((tensor.xx * v.x + tensor.xy * v.y) + tensor.xz * v.z, (tensor.xy * v.x + tensor.yy * v.y) + tensor.yz * v.z,
                 (tensor.xz * v.x + tensor.yz * v.y) + tensor.zz * v.z);

@@ -1,4 +1,5 @@
-// The records of a step, in memory alike for the CPU and for std430: what a body is, and what a contact is.
+// The records of a step, laid out alike on the CPU and by std430: bodies, contacts, joints, vehicles, parameters,
+// counts.
 #ifndef SCREE_PHYSICS_RECORDS_H
 #define SCREE_PHYSICS_RECORDS_H
 
@@ -10,14 +11,14 @@ LAWS_BEGIN
 CONSTANT uint MOTION_DYNAMIC = 0u;
 CONSTANT uint MOTION_FIXED = 1u;
 CONSTANT uint MOTION_KINEMATIC = 2u;
-CONSTANT uint MOTION_PENDING = 3u;  // a piece of a body that is still whole: it is nowhere
-CONSTANT uint MOTION_BROKEN = 4u;   // its pieces are there in its place
-// With one of these: a part of a body that moves so, a row of its own that the solver never moves (compound.h).
+CONSTANT uint MOTION_PENDING = 3u;  // an inactive fragment of a body that is still whole
+CONSTANT uint MOTION_BROKEN = 4u;   // replaced by its fragments
+// Flag, combined with the motion of the owner: the row is a part, which the solver never moves (compound.h).
 CONSTANT uint MOTION_OF_PART = 8u;
 
 CONSTANT uint NONE = 0xFFFFFFFFu;
 
-// ---- bodies, written when the scene is described; when one breaks, its motion and that of its pieces change
+// ---- bodies: constant, but for the motion of a body that breaks and of its fragments
 struct BodyProperties {
     vec3 size;  // see SHAPE_*, m
     uint shape;
@@ -30,37 +31,38 @@ struct BodyProperties {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;       // 1: kept out of the grid, in the short list of large bodies
-    uint owner;       // the body that this row is a part of; itself for a body
-    uint fracture;    // in the table of fractures; NONE: it does not break
-    uint joints;      // where the list of its joints begins; NONE: it has none
-    uint shape_data;  // the record that completes its shape (shape_data.h: hull_of, tyre_of)
+    uint large;       // 1: not in the grid but in the list of large bodies
+    uint owner;       // row of the body that this part belongs to; itself for a body
+    uint fracture;    // index into the table of fractures; NONE: unbreakable
+    uint joints;      // head of its list of joints; NONE: no joints
+    uint shape_data;  // index of the shape's record (shape_data.h: hull_of, tyre_of)
 };
-// Where a part lies in its body, or a piece in the body that breaks into it.
+// Pose of a part, or of a fragment, in its body.
 struct PoseInBody {
-    vec3 position;  // from the body's centre of mass, along its axes, m
+    vec3 position;  // from the body's centre of mass, body axes, m
     float pad0;
-    vec4 orientation;  // unit quaternion, from the part's axes to the body's
+    vec4 orientation;  // unit quaternion, part to body
 };
-// How a body breaks (fracture.h).
+// Fracture of a body (fracture.h).
 struct Fracturing {
-    float threshold;   // N s
-    uint of_momentum;  // 1: the body's own; 0: an impulse
-    uint first_row;    // of its pieces, which follow each other
-    uint count;        // of its pieces
-    uint first_pose;   // in the table of pieces, where equal bodies have the same
+    float threshold;   // of an impulse or momentum, N s
+    uint of_momentum;  // 1: threshold of the body's momentum; 0: of a contact's impulse
+    uint first_row;    // row of its first fragment; all are contiguous
+    uint count;        // of its fragments
+    uint first_pose;   // of its fragments, in the table of pieces; shared by equal bodies
     uint pad0, pad1, pad2;
 };
-// Rubber on a wheel (tyre.h).
+// Tyre friction (tyre.h).
 struct Tyre {
-    float best_slip;  // at which it holds best
-    float sliding;    // part of the friction that is left when it slides
+    float best_slip;  // slip of greatest friction
+    float sliding;    // friction at slip 1, relative to the greatest
     float pad0, pad1;
 };
 
 // ---- bodies, state
-// Positions use compensated summation (Kahan 1965): a substep moves a body by so little that rounding, always to the same side,
-// would otherwise change its speed by 1e-4, and the angular momentum with it. The low-order term is stored in the vec3 padding.
+// Positions use compensated summation (Kahan 1965): a substep moves a body by so little that rounding, always to the
+// same side, would change its speed by 1e-4, and with it the angular momentum. The low-order term is stored in the vec3
+// padding.
 struct Pose {
     vec3 position;     // of the centre of mass, m
     float low_x;       // m
@@ -73,21 +75,21 @@ struct Velocity {
     float low_z;   // of the position, m
 };
 
-// What a body's velocity does not remember: the inertia of its present orientation, and what pushes it in this step.
+// World inverse inertia at the present orientation, and the accelerations of this step.
 struct Mass {
     float xx, xy, xz, yy;  // world inverse inertia tensor, symmetric, 1/(kg m^2)
     float yz, zz;
     float inverse_mass;  // 1/kg
-    float split;  // of the mass lent to a contact: a part of 1/split. In the table: how crowded the body is (mass_splitting.h)
+    float split;         // split factor s: a contact solves with 1/s; in the table packed (mass_splitting.h)
 };
 struct BodyForces {
-    vec3 acceleration;  // gravity and forces, m/s^2, over the whole step
-    float kept;  // part of their impulses that the body's contacts keep in this step: less than 1 if it breaks (fracture.h)
+    vec3 acceleration;          // gravity and forces, m/s^2, constant over the step
+    float kept;                 // part of its contacts' impulses that it keeps: < 1 if it breaks (fracture.h)
     vec3 angular_acceleration;  // rad/s^2
-    float impacts;              // contacts that struck the body in this substep and throw it back
+    float impacts;              // contacts in an impact with restitution in this substep
 };
 
-// What the user asks of one body for one step; at most one record a body (the host adds up).
+// User action on a body in one step; at most one record per body (the host sums).
 CONSTANT uint ACTION_SETS_VELOCITY = 1u;
 struct Action {
     uint body;
@@ -107,25 +109,25 @@ struct Action {
     float pad7;
 };
 
-// A body held at a point and drawn to a place by a damped spring (grab_spring.h), for as long as the user holds it.
-CONSTANT uint MOST_GRIPS = 4u;  // at once
+// A damped spring from an anchor on a body to a target, while the user holds the body (grab_spring.h).
+CONSTANT uint MOST_GRIPS = 4u;  // springs in use at most
 struct Grip {
-    vec3 anchor;  // where it is held, from the centre, in the body's frame, m
+    vec3 anchor;  // body frame, from the centre of mass, m
     uint body;
-    vec3 target;      // where that point shall be, m
+    vec3 target;      // target of the anchor, world, m
     float bias_rate;  // soft constraint, 1/s (Catto 2011)
     float mass_scale;
-    float most;       // m/s in a substep: the greatest push, as a change of the centre's velocity
-    float spin_kept;  // part of the spin that a substep leaves
+    float most;       // greatest change of the centre's velocity per substep, m/s
+    float spin_kept;  // part of the angular velocity that remains after a substep
     float pad0;
 };
 
-// ---- what touches
-// Up to four points in which two bodies touch or are about to.
+// ---- manifolds
+// Contact manifold of up to four points, speculative ones included.
 struct Manifold {
     vec3 normal;     // unit, world, from A to B
     uint features;   // four 8-bit feature ids, point k in bits 8k to 8k + 7
-    vec4 points[4];  // xyz: from A's centre to the point midway between the surfaces, world axes, m; w: separation, m, < 0 inside
+    vec4 points[4];  // xyz: from A's centre to the point midway between the surfaces, world, m; w: separation, m
 };
 struct ManifoldBuffer {
     Manifold manifold;
@@ -133,221 +135,220 @@ struct ManifoldBuffer {
     uint pad0, pad1, pad2;
 };
 
-// ---- fast bodies
-struct Sweep {      // of a body through the step
+// ---- continuous collision
+struct Sweep {      // motion of a body through the step
     vec3 position;  // at the start, m
     float pad0;
     vec4 orientation;  // at the start
-    uint stops[2];     // bits of the fraction of the step at which it is stopped; NO_HIT for a body that is not. Rounds of search
-                       // read one of them and write the other
-    uint struck;       // 1: something will strike it in this step and change its course
+    uint stops[2];     // float bits of the fraction of the step at which it is clamped, or NO_HIT; CCD rounds alternate
+    uint struck;       // 1: predicted to be struck in this step
     uint pad1;
 };
 
-// ---- who is near whom
-struct Bounds {   // of a body over the coming step, with its margin
+// ---- broadphase
+struct Bounds {   // swept AABB of a body over the step, with its margin
     vec3 lower;   // m
-    uint level;   // of the grid; cells of level l are cell * 2^l wide; with INACTIVE (grid.h)
+    uint level;   // grid level, whose cells are cell * 2^l wide; with INACTIVE (grid.h)
     vec3 upper;   // m
-    uint bucket;  // of its centre's cell; the last one for a large body
+    uint bucket;  // hash bucket of its centre's cell; the last one for a large body
     Sweep sweep;
 };
-struct CellEntry {  // the same, in the order of buckets, then of bodies
+struct CellEntry {  // a body's bounds, sorted by bucket, then by body
     vec3 lower;     // m
     uint body;
     vec3 upper;  // m
     uint level;
 };
 struct Candidate {
-    uint owner;  // the body that found the pair
+    uint owner;  // the body whose search found the pair
     uint other;
 };
 struct Pair {
     uint a, b;       // rows of bodies or parts, the lower id first
     uint pair_type;  // PAIR_*
-    uint previous;   // its contact in the last step, or NONE
+    uint previous;   // its contact in the last step, NONE: new
 };
 
-// ---- contacts: what lasts from step to step
+// ---- contacts: persistent state
 struct Contact {
-    uint a, b;      // rows of bodies or parts, the lower id first. All that follows speaks of the bodies that parts belong to
-    uint count;     // points, 1 to 4
-    uint features;  // as in Manifold
-    vec3 normal;    // unit, world, from A to B, when the contact was made
-    uint age;       // steps since it was made
-    vec3 center_offset;  // centre of B minus centre of A when it was made, m
-    float load;          // normal impulse of a substep when both bodies were last awake, N s
-    vec4 points[4];      // as in Manifold, when it was made
-    vec4 orientation_a;  // orientation of A when it was made
-    vec4 orientation_b;  // orientation of B when it was made
+    uint a, b;           // rows of bodies or parts, the lower id first; all else refers to the bodies that own them
+    uint count;          // points, 1 to 4
+    uint features;       // as in Manifold
+    vec3 normal;         // unit, world, from A to B, when the contact was made
+    uint age;            // steps since the contact was made
+    vec3 center_offset;  // centre of B minus centre of A when made, m
+    float load;          // normal impulse in a substep when both bodies were last awake, N s
+    vec4 points[4];      // as in Manifold, when made
+    vec4 orientation_a;  // of A when made
+    vec4 orientation_b;  // of B when made
 };
 struct Impulse {
-    vec4 normal;           // per point, of one substep, N s, >= 0
+    vec4 normal;           // accumulated, per point, of one substep, N s, >= 0
     vec4 separation;       // per point, m
-    vec4 impact_velocity;  // per point: normal velocity of an impact to be thrown back, m/s, < 0; else 0
+    vec4 impact_velocity;  // per point: normal velocity of an impact with restitution, m/s, < 0; else 0
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
     vec3 rolling;          // world, on B, N m s
-    float slide_distance;  // way of B along A's surface in this step, m
-    vec3 center_offset;    // centre of B minus centre of A now, m: where both bodies feel the same point
-    float normal_sum;      // the sum of `normal` as the substep began, N s
+    float slide_distance;  // slide of B along A's surface in this step, m
+    vec3 center_offset;    // centre of B minus centre of A at present, m: both bodies feel an impulse at one point
+    float normal_sum;      // sum of `normal` as the substep began, N s
 };
 
-// ---- contacts: what the solver needs in this step
-// Which body a contact's points stay with while both move through the substeps of a step.
+// ---- contacts: solver data of this step
+// The body to which a contact's points are fixed while both move through the substeps of a step.
 CONSTANT uint ANCHOR_A = 0u;
 CONSTANT uint ANCHOR_B = 1u;
-CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the one point lies between two round bodies wherever they go
+CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the single point of two round bodies follows both
 
 struct Constraint {
-    uint a, b;            // bodies, never parts
-    uint slot_a, slot_b;  // where their velocity changes go; NONE for a body that contacts do not move
-    vec3 normal;          // unit, world, from A to B
-    float friction;       // Coulomb coefficient of the pair
-    vec4 arms[4];  // xyz: from the anchor's centre to the point, m (ANCHOR_ROUND: from A's centre to the centre of A's curvature)
-    vec3 centre;   // of the friction patch, as the arms, m (ANCHOR_ROUND: of B's curvature, from B's centre)
-    float twist_arm;           // lever arm of twisting friction, m: mean distance of the points from the patch's centre
+    uint a, b;                 // rows of bodies, never of parts
+    uint slot_a, slot_b;       // slots of their VelocityDelta; NONE for a body that contacts do not move
+    vec3 normal;               // unit, world, from A to B
+    float friction;            // Coulomb coefficient of the pair
+    vec4 arms[4];              // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature)
+    vec3 centre;               // of the friction patch, m (ANCHOR_ROUND: from B's centre to its centre of curvature)
+    float twist_arm;           // of torsional friction, m: mean distance of the points from the patch's centre
     float rolling_resistance;  // of the pair, m
     float restitution;         // of the pair
     uint count;                // points
     uint anchor;               // ANCHOR_*
-    float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m; else radius_a: slip at which a tyre holds best, m/s; 0: no tyre
-    uint pair;                 // whose manifold it is
-    float slide_limit;         // way after which the points have left the body that they slide over, m
+    float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m; else radius_a: a tyre's slip speed, m/s, or 0
+    uint pair;                 // index of the pair
+    float slide_limit;         // slide after which the points have left the body they slide over, m
 };
-struct VelocityDelta {  // what one contact did to one body; a body sums its slots in order
+struct VelocityDelta {  // velocity change of one body by one contact; summed in the order of slots
     vec3 linear;        // m/s
-    float is_active;    // 1: the contact pushes, or will in the next substep; it counts in the split
+    float is_active;    // 1: active in this substep or the next, counts in mass splitting
     vec3 angular;       // rad/s
-    float told;         // the normal impulse, N s; in the last pass what the other body tells of its rest (sleep.h), steps
+    float told;         // normal impulse, N s; in the last pass the other body's quiet steps (sleep.h)
 };
 
 // ---- joints
-// What a joint may do along or about one of its six axes: along x, y and z of its frame in A, then the twist about x, and the
-// swing about y and z. A place is how far B is from A there.
+// A joint has six axes: translation along x, y and z of its frame in A, the twist about x, and the swing about y and z.
+// An axis's coordinate is the position of B relative to A along or about it.
 CONSTANT uint AXIS_LOCKED = 1u;
 CONSTANT uint AXIS_LIMITED = 2u;
-CONSTANT uint AXIS_MOTOR = 4u;   // driven to a speed; friction is a motor of speed 0
-CONSTANT uint AXIS_SPRING = 8u;  // drawn to a place, or damped
+CONSTANT uint AXIS_MOTOR = 4u;   // velocity motor; friction is a motor of speed 0
+CONSTANT uint AXIS_SPRING = 8u;  // spring, damper or both
 struct JointAxis {
     uint mode;           // AXIS_*
-    float lower, upper;  // of the place, m or rad
+    float lower, upper;  // limits of the coordinate, m or rad
     float stiffness;     // N/m or N m/rad
     float damping;       // N s/m or N m s/rad
-    float rest;          // the spring's place, m or rad
-    float speed;         // of a motor, m/s or rad/s
-    float most;          // of a motor or spring, N or N m
+    float rest;          // the spring's equilibrium coordinate, m or rad
+    float speed;         // target of a motor, m/s or rad/s
+    float most;          // force limit of a motor or spring, N or N m
 };
-// An axis in the pass at hand, and its impulses, which last.
+// A joint's Jacobian row in this pass, and its accumulated impulses.
 struct JointRow {
-    vec3 direction;    // along or about which B is pushed and A pushed back, world, unit
+    vec3 direction;    // unit, world; a positive impulse acts along or about it on B
     float coordinate;  // m or rad
-    vec3 angular_a;    // what turns A: lever x direction, m, or the direction itself
-    float drift;       // what the place's second derivative adds to its speed until the middle of the substep, m/s or rad/s
+    vec3 angular_a;    // angular part for A: lever arm x direction, m, or the direction itself
+    float drift;       // second derivative of the coordinate times half a substep, m/s or rad/s
     vec3 angular_b;
-    float inverse_effective_mass;  // speed that an impulse of 1 brings about in the lent bodies, 1/kg or 1/(kg m^2)
+    float inverse_effective_mass;  // of the split bodies, 1/kg or 1/(kg m^2)
     float motor_impulse,
-        limit_impulse;   // impulses of a substep: of lock, motor or spring; of the limit (> 0: of the lower), N s or N m s
+        limit_impulse;   // of a substep: of lock, motor or spring; of the limit (> 0: the lower), N s or N m s
     float motor_change;  // in this pass
     float limit_change;
 };
 
-CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's, and its place is their distance
-CONSTANT uint JOINT_CONE = 2u;      // axis y of the swing is the one that B has swung about, and its place the whole swing
-CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies may touch
-CONSTANT uint JOINT_SPINS = 8u;  // B spins about its x axis: with its swing's axes as they are at rest, swinging would stop that
-// Each axis has four bits of Joint.pins.
-CONSTANT uint MOTOR_AT_MIN = 1u;  // the drive pushes as hard as it may, down
-CONSTANT uint MOTOR_AT_MAX = 2u;  // and up
-CONSTANT uint LIMIT_LOWER = 4u;   // the lower limit acts
+CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's; its coordinate is their distance
+CONSTANT uint JOINT_CONE = 2u;      // swing axis y is the one B has swung about, with the whole swing as coordinate
+CONSTANT uint JOINT_COLLIDES = 4u;  // the two bodies collide with each other
+CONSTANT uint JOINT_SPINS = 8u;     // B spins about its x axis, so swing axes exclude its twist
+// The active set: each axis has four bits of Joint.active_set.
+CONSTANT uint MOTOR_AT_MIN = 1u;  // the motor is at its limit, negative
+CONSTANT uint MOTOR_AT_MAX = 2u;  // positive
+CONSTANT uint LIMIT_LOWER = 4u;   // the lower limit is active
 CONSTANT uint LIMIT_UPPER = 8u;
 
-// A record holds the i-th joint of a block of joints and the i-th body of it; there are as many as the more numerous has. Joints
-// are in the order in which they are eliminated (compute/step/joint_blocks.h).
+// Record i of a block holds its i-th joint and its i-th body; there are as many records as the larger number. Joints
+// are in elimination order (compute/step/joint_blocks.h).
 struct Joint {
     uint a, b;                        // bodies; NONE: the world
-    uint block_body_a, block_body_b;  // records where the block has them; NONE for what is not dynamic
+    uint block_body_a, block_body_b;  // records of the block that hold them; NONE: not dynamic
     vec3 anchor_a;                    // in A's frame, m
     uint flags;                       // JOINT_*
     vec3 anchor_b;
-    uint next_a;   // joint of body A after this one in its list; NONE: the last
-    vec4 frame_a;  // from the joint's axes to A's
+    uint next_a;   // next joint in body A's list; NONE: last
+    vec4 frame_a;  // joint frame in A's frame
     vec4 frame_b;
     JointAxis axes[6];
     float break_force, break_torque;  // N, N m
     uint next_b;
-    uint fill_in;        // how many
-    uint fill_in_of[8];  // joints of the block behind this one that its elimination changes, in rising order (MOST_LINKS)
+    uint fill_in;        // number of entries in fill_in_of
+    uint fill_in_of[8];  // later joints of the block whose equations its elimination changes, ascending
     // ---- of the block, in its first record
     uint block_joints, block_bodies;
-    uint first_of_block;  // in record i: where the i-th block begins
-    uint restless;        // 1: a body of it is, in this step
+    uint first_of_block;  // in record i: first record of the i-th block
+    uint restless;        // 1: one of its bodies is restless in this step
     // ---- state
     uint active_set;   // per axis
-    uint broken;       // 1: it has torn
-    uint solved_axes;  // bit per axis that is in the pass's system of equations
-    uint unsettled;    // of the block, in its first record. 1: in the last round of the pass bounds turned out to act otherwise
-    vec3 force;        // on B, N: sums of impulses within a step, their mean at its end
+    uint broken;       // 1: the joint has broken
+    uint solved_axes;  // bit per axis that is an unknown of the pass's equations
+    uint unsettled;    // of the block, in its first record. 1: the active set changed in the last round
+    vec3 force;        // on B: sum of impulses in a step, N s; then the mean, N
     float max_force;
-    vec3 torque;  // N m
+    vec3 torque;  // as force, N m
     float max_torque;
     // ---- the body of this record
     uint block_body;  // NONE: none
     uint slot;
     float normal_sum;          // N s
-    uint blocks;               // that have the body
-    Mass mass;                 // lent
-    Velocity velocity;         // lent
-    Velocity velocity_before;  // as each round of the pass begins
+    uint blocks;               // number of blocks that share the body
+    Mass mass;                 // split
+    Velocity velocity;         // of the split body
+    Velocity velocity_before;  // as a round of the pass begins
     // ---- the pass's equations
     JointRow rows[6];
-    float solution[8];    // 6 are in use
-    float diagonal[36];   // 6 rows of 6
-    float coupling[288];  // per link, 6 rows of the later joint by 6 of this one
+    float solution[8];    // 6 in use
+    float diagonal[36];   // 6 x 6
+    float coupling[288];  // per fill-in entry, 6 rows of the later joint x 6 of this one
 };
 CONSTANT uint MAX_FILL_IN = 8u;
-CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slots' sides: of the block's body in this record
+CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slot sides: the side is the block's body in this record
 
 // ---- vehicles (vehicle.h)
 struct VehicleWheel {
-    uint joint;  // its record
+    uint joint;  // record of its joint
     uint body;
     float radius;      // m
-    float ahead;       // of the axis that it turns about when the vehicle turns, m; 0 for a wheel that is not steered
-    float aside;       // of the vehicle's middle, to the left, m
-    float torque;      // N m, at full throttle
-    float power;       // W, at full throttle
-    float drag;        // N m, without throttle
+    float ahead;       // distance ahead of the turning axis, m; 0 for a wheel that is not steered
+    float aside;       // offset to the left of the vehicle's centre line, m
+    float torque;      // engine torque at full throttle, N m
+    float power;       // engine power at full throttle, W
+    float drag;        // engine drag without throttle, N m
     float brake;       // N m
     float hand_brake;  // N m
-    float skid;        // part of the steering that is added to its throttle, -1 to 1
-    uint steers;       // 1: its joint is turned
+    float skid;        // skid steering: part of the steering added to its throttle, -1 to 1
+    uint steers;       // 1: steered by its joint
 };
 // A point of a route.
 struct WayPoint {
     vec3 position;  // m
-    float speed;    // there, m/s
+    float speed;    // target speed, m/s
 };
-// How a vehicle is driven: all of it but its wheels.
+// A vehicle without its wheels: dynamics, controls and the route's state.
 struct VehicleDynamics {
     uint chassis;
     uint wheels;
-    uint route;           // where its route begins in the table of way points
-    uint points;          // of the route; 0: it has none
-    vec4 frame;           // from its axes (x to the left, y up, z ahead) to those of the chassis
+    uint route;           // first way point of its route in the table of way points
+    uint points;          // way points of the route; 0: no route
+    vec4 frame;           // vehicle axes (x left, y up, z ahead) to chassis frame
     float top_speed;      // m/s
-    float reverse_speed;  // m/s, backwards
-    float tightest;       // curvature of the curve at full lock, 1/m
-    float turning;        // greatest change of that, 1/(m s)
-    float lateral;        // m/s^2, the most that a curve may need at the present speed
-    uint loops;           // 1: the route begins again behind its last point
-    float speed;          // state: ahead, m/s
-    float curvature;      // state: of the curve that its wheels are steered to, 1/m, > 0: to the left
-    // What it is told.
+    float reverse_speed;  // top speed backwards, m/s
+    float tightest;       // curvature at full lock, 1/m
+    float turning;        // greatest rate of change of curvature, 1/(m s)
+    float lateral;        // greatest lateral acceleration, limits curvature at speed, m/s^2
+    uint loops;           // 1: the route is closed
+    float speed;          // state: forward speed, m/s
+    float curvature;      // state: curvature steered at present, 1/m, > 0: left
+    // User controls.
     float throttle, brake, steer, hand_brake;  // as in scree::Controls
-    uint by_route;                             // 1: the driver follows the route
-    uint next;                                 // state: way point that it drives to; `points`: it has arrived
-    uint passed;                               // state: way points so far
+    uint by_route;                             // 1: follow the route
+    uint next;                                 // state: next way point; `points`: arrived
+    uint passed;                               // state: way points passed so far
     uint pad0;
 };
 CONSTANT uint MOST_WHEELS = 8u;
@@ -357,7 +358,7 @@ struct Vehicle {
 };
 
 // ---- the step itself
-struct Parameters {  // the same for every thread of a step
+struct Parameters {  // uniform over a step
     vec3 gravity;    // m/s^2
     float dt;        // of a step, s
     float h;         // of a substep, s
@@ -366,7 +367,7 @@ struct Parameters {  // the same for every thread of a step
     float mass_scale;
     float impulse_scale;
     float push_speed;             // m/s
-    float inverse_relaxation;     // 1 / 1.5
+    float inverse_relaxation;     // 1 / omega of the over-relaxed Jacobi iteration, 1 / 1.5
     float speculative;            // m
     float restitution_threshold;  // m/s
     float max_speed;              // m/s
@@ -374,23 +375,23 @@ struct Parameters {  // the same for every thread of a step
     float cell;                   // width of the grid's finest cells, m
     float inverse_cell;
     uint bodies;   // rows of the bodies' tables, parts included
-    uint buckets;  // of the grid, a power of two; one more holds the large bodies
+    uint buckets;  // hash buckets of the grid, a power of two; one more holds the large bodies
     uint pair_capacity;
     uint contact_capacity;
     uint group_size;          // threads of a workgroup, a power of two
-    uint group_shift;         // its logarithm
-    uint actions;             // records in the list, for the coming step
-    uint redo;                // 1: the step is done again after a buffer grew; impulses have been applied already
-    uint wake_all;            // 1: all sleepers wake as the step begins
-    uint sleep_steps;         // quiet steps after which a body sleeps; sleep.h's NO_SLEEP
-    float sleep_speed;        // m/s, slower is quiet
-    float friction_factor;    // on the friction of every pair
-    float least_restitution;  // of every pair
-    uint held;                // grips in use
-    uint first_part;          // from this row on, rows are parts of bodies
+    uint group_shift;         // log2(group_size)
+    uint actions;             // records in the list of actions
+    uint redo;                // 1: repetition of a step after a buffer grew; impulses are already applied
+    uint wake_all;            // 1: all bodies wake as the step begins
+    uint sleep_steps;         // quiet steps after which a body sleeps, or NO_SLEEP (sleep.h)
+    float sleep_speed;        // bodies slower than this are quiet, m/s
+    float friction_factor;    // scales the friction of every pair
+    float least_restitution;  // of any pair
+    uint held;                // grab springs in use
+    uint first_part;          // first row of parts
     uint joint_blocks;
     uint vehicles;
-    // Where each of the tables begins that share a buffer, in words and in quads of it (shaders/stages/lib/tables.h).
+    // Offsets of the tables that share a buffer, in words or quads (shaders/stages/lib/tables.h).
     uint cell_ends_offset;
     uint pair_starts_offset;
     uint slot_ends_offset;
@@ -416,23 +417,23 @@ struct Parameters {  // the same for every thread of a step
     Grip grips[4];  // MOST_GRIPS
 };
 
-// What there may be in a scene; a device leaves out the rest.
+// Features of a scene; shaders are specialised to leave out the others.
 CONSTANT uint FEATURE_BOUNCES = 1u;  // restitution
-CONSTANT uint FEATURE_ROLLS = 2u;    // resistance to rolling
-CONSTANT uint FEATURE_ROUND = 4u;    // round bodies
+CONSTANT uint FEATURE_ROLLS = 2u;    // rolling resistance
+CONSTANT uint FEATURE_ROUND = 4u;    // spheres and capsules
 CONSTANT uint FEATURE_TYRES = 8u;
-CONSTANT uint FEATURE_PARTS = 16u;      // bodies of several parts that move
-CONSTANT uint FEATURE_REORDERED = 32u;  // bodies whose rows are in another order than their ids
+CONSTANT uint FEATURE_PARTS = 16u;      // moving compounds
+CONSTANT uint FEATURE_REORDERED = 32u;  // rows in an order other than that of ids
 CONSTANT uint FEATURE_JOINTS = 64u;
-CONSTANT uint FEATURE_BREAKING = 128u;  // bodies that may break
+CONSTANT uint FEATURE_BREAKING = 128u;  // breakable bodies
 
-CONSTANT uint PAIR_TYPES = 16u;  // of pairs: fourteen of shapes, those whose contact is kept, and those at rest
-CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread sorts by kind
+CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
+CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type
 CONSTANT uint PAIR_BLOCK_SHIFT = 4u;
-CONSTANT uint SCAN_ITEMS = 8u;  // items that one thread of a scan adds up
+CONSTANT uint SCAN_ITEMS = 8u;  // items per thread of a scan
 CONSTANT uint SCAN_SHIFT = 3u;
 
-// Work that the device counts itself: rows of Counts.arguments.
+// Indirect dispatches: rows of Counts.arguments.
 CONSTANT uint WORK_PAIRS = 0u;
 CONSTANT uint WORK_PAIR_BLOCKS = 1u;
 CONSTANT uint WORK_PAIR_TYPE_SCAN_BLOCKS = 2u;
@@ -441,30 +442,30 @@ CONSTANT uint WORK_CONTACTS = 4u;
 CONSTANT uint WORK_PAIR_TYPE = 5u;  // and the PAIR_TYPES - 1 rows after it
 CONSTANT uint WORK_SOLVER_CONTACTS = 21u;
 CONSTANT uint WORK_WAKE = 22u;
-CONSTANT uint WORK_CCD_PAIRS = 23u;  // all pairs if some body is fast, else none
+CONSTANT uint WORK_CCD_PAIRS = 23u;  // all pairs if some body is fast, else 0
 CONSTANT uint WORKS = 24u;
 CONSTANT uint OVERFLOW_PAIRS = 1u;
 CONSTANT uint OVERFLOW_CONTACTS = 2u;
 
-struct Counts {  // what the device counts in a step
+struct Counts {  // counted on the device in a step
     uint pairs, contacts;
-    uint levels;    // bit l: some body is on level l of the grid
-    uint overflow;  // OVERFLOW_*; while not 0 no stage changes the bodies
+    uint levels;    // bit l: some body is on grid level l
+    uint overflow;  // OVERFLOW_*; stages leave the bodies unchanged while it is not 0
     uint required_pairs, required_contacts;
-    uint steps;                // whole steps done
-    uint pairs_coarse;         // pairs in units of 256, each body's rounded up: it does not wrap where their number does
-    uint levels_stirring;      // bit l: some body that stirs is on level l
-    uint large_stirring;       // 1: some large body stirs
+    uint steps;                // completed steps
+    uint pairs_coarse;         // pairs / 256, rounded up per body: detects overflow of the 32-bit count
+    uint levels_stirring;      // bit l: some active body is on level l
+    uint large_stirring;       // 1: some large body is active
     uint sleepers;             // 1: some body is asleep as the step begins
-    uint solver_contacts;      // contacts that move somebody: those of the solver
-    uint pair_type_first[20];  // pairs of kind k are [pair_type_first[k], pair_type_first[k + 1]) of pairs_by_type
-    uint fast;                 // 1: some body will be fast in this step
-    uint broken;               // bodies that break in this step
+    uint solver_contacts;      // contacts that the solver processes, with at least one movable body
+    uint pair_type_first[20];  // pairs of type k are [pair_type_first[k], pair_type_first[k + 1]) of pairs_by_type
+    uint fast;                 // 1: some body is predicted to be fast (sweep.h)
+    uint broken;               // number of bodies that break in this step
     uint pad0, pad1;
     uvec4 arguments[24];  // per WORK_*: workgroups x, y, z, and threads
 };
 
-// Not there at present: it touches nothing and is seen nowhere, only its row is kept.
+// A pending fragment or a broken body: it has a row, but neither collides nor is drawn.
 LAW bool is_absent(uint motion) {
     return motion == MOTION_PENDING || motion == MOTION_BROKEN;
 }

@@ -1,7 +1,8 @@
-// What follows from a count: how many workgroups run, and whether the lists have room.
+// Indirect dispatch sizes from counts, and overflow of the list buffers.
 //
-// A list that would outgrow its buffer is known from its count alone, before anything is written. Then everything after it does
-// nothing, the bodies stay as they were, and the host grows the buffer and runs the step again: no contact is ever dropped.
+// A list that would outgrow its buffer is known from its count, before anything is written. All later stages then do
+// nothing, the bodies stay as they were, and the host grows the buffer and repeats the step: no contact is ever
+// dropped.
 #ifndef SCREE_PHYSICS_WORK_COUNTS_H
 #define SCREE_PHYSICS_WORK_COUNTS_H
 
@@ -9,10 +10,11 @@
 
 LAWS_BEGIN
 
+// Workgroups of a dispatch (x, y, z) and its threads.
 LAW uvec4 work_for(uint threads, Parameters parameters) {
     return uvec4((threads + parameters.group_size - 1u) >> parameters.group_shift, 1u, 1u, threads);
 }
-// Workgroups of a scan over `items` and the total behind them.
+// The same for a scan over `items` and the total behind them.
 LAW uvec4 scan_work_for(uint items, Parameters parameters) {
     uint block = parameters.group_size << SCAN_SHIFT;
     return uvec4((items + block) >> (parameters.group_shift + SCAN_SHIFT), 1u, 1u, items + 1u);
@@ -21,8 +23,9 @@ LAW uint pair_blocks_of(uint pairs) {
     return (pairs + PAIR_BLOCK - 1u) >> PAIR_BLOCK_SHIFT;
 }
 
+// The dispatches that follow from the number of pairs.
 LAW Counts with_pairs(Counts counts, uint total, Parameters parameters) {
-    bool uncountable = counts.pairs_coarse > 0x800000u + parameters.bodies;  // 2^31 pairs; the host refuses to grow that far
+    bool uncountable = counts.pairs_coarse > 0x800000u + parameters.bodies;  // 2^31 pairs: an error on the host
     if (total > parameters.pair_capacity || uncountable) {
         counts.overflow = counts.overflow | OVERFLOW_PAIRS;
         counts.required_pairs = uncountable ? 0xFFFFFFFFu : total;
@@ -36,6 +39,7 @@ LAW Counts with_pairs(Counts counts, uint total, Parameters parameters) {
     return counts;
 }
 
+// The dispatch of one pair type, whose pairs are [first, last).
 LAW Counts with_kinds(Counts counts, uint pair_type, uint first, uint last, Parameters parameters) {
     counts.pair_type_first[pair_type] = first;
     counts.pair_type_first[pair_type + 1u] = last;
@@ -43,6 +47,7 @@ LAW Counts with_kinds(Counts counts, uint pair_type, uint first, uint last, Para
     return counts;
 }
 
+// The dispatches that follow from the number of contacts.
 LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
     if (total > parameters.contact_capacity) {
         counts.overflow = counts.overflow | OVERFLOW_CONTACTS;
@@ -56,7 +61,7 @@ LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
     return counts;
 }
 
-// At the start of a step, and with overflow still set: nothing to do for anyone. A scan has its total to say.
+// No work, at the start of a step and after an overflow. Scans still write their total.
 LAW uvec4 empty_work(uint row, Parameters parameters) {
     return row == WORK_PAIR_TYPE_SCAN_BLOCKS || row == WORK_PAIR_SCAN_BLOCKS ? scan_work_for(0u, parameters)
                                                                              : work_for(0u, parameters);
@@ -77,7 +82,7 @@ LAW Counts emptied(Counts counts, Parameters parameters) {
     return counts;
 }
 
-// Whether any body may move in this step: if not, nobody wakes and no contact is solved.
+// Whether any body may move in this step: if not, no body wakes and no contact is solved.
 LAW bool any_stirs(Counts counts) {
     return counts.levels_stirring != 0u || counts.large_stirring != 0u;
 }

@@ -1,4 +1,5 @@
-// Where two boxes touch: fifteen separating axes, then face against face or edge against edge.
+// Contact manifold of two boxes: SAT over fifteen axes (Gottschalk, Lin, Manocha 1996), then face clipping or an edge
+// pair.
 #ifndef SCREE_PHYSICS_COLLIDE_BOX_BOX_H
 #define SCREE_PHYSICS_COLLIDE_BOX_BOX_H
 
@@ -8,7 +9,7 @@
 
 LAWS_BEGIN
 
-// One box seen from another one's frame: x, y, z are its axes there, d is its centre (m).
+// A box in another one's frame: its axes x, y, z and its centre d (m).
 struct BoxView {
     vec3 x;
     float pad_x;
@@ -33,7 +34,7 @@ LAW BoxView view_of(Pose from, Pose to) {
     view.pad_d = 0.0f;
     return view;
 }
-// The first box as the second one sees it.
+// The first box in the frame of the second.
 LAW BoxView reversed(BoxView view) {
     BoxView back = view;
     back.x = vec3(view.x.x, view.y.x, view.z.x);
@@ -42,7 +43,7 @@ LAW BoxView reversed(BoxView view) {
     back.d = -vec3(dot3(view.d, view.x), dot3(view.d, view.y), dot3(view.d, view.z));
     return back;
 }
-// The view with the seeing frame's coordinates in another order.
+// The view with the frame's coordinates rotated cyclically.
 LAW BoxView from_turned(BoxView view, uint k) {
     view.x = turned(view.x, k);
     view.y = turned(view.y, k);
@@ -50,7 +51,7 @@ LAW BoxView from_turned(BoxView view, uint k) {
     view.d = turned(view.d, k);
     return view;
 }
-// The view with the seen box's axes in another order.
+// The view with the viewed box's axes rotated cyclically.
 LAW BoxView of_turned(BoxView view, uint k) {
     vec3 x = k == 0u ? view.x : (k == 1u ? view.y : view.z);
     vec3 y = k == 0u ? view.y : (k == 1u ? view.z : view.x);
@@ -61,26 +62,26 @@ LAW BoxView of_turned(BoxView view, uint k) {
     return view;
 }
 
-// The separations (m) along the seeing box's three face normals.
+// Separations (m) along the face normals of the box whose frame it is.
 LAW vec3 face_separations(BoxView view, vec3 own, vec3 other) {
     vec3 reach = absolute3(view.x) * other.x + absolute3(view.y) * other.y + absolute3(view.z) * other.z;
     return absolute3(view.d) - own - reach;
 }
 
-// The best of the nine axes across two edges: edge i of A and edge j of B; k = 3i + j.
+// The best of the nine edge-edge axes: edge i of A and edge j of B; k = 3i + j.
 struct EdgeAxis {
     float separation;  // m
     uint k;
 };
 
-// Edges closer to parallel than 0.005 rad have no axis; the faces' normals are as good there.
+// Edges closer to parallel than 0.005 rad are skipped; face normals are as good there.
 LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
     EdgeAxis best;
     best.separation = -1.0e30f;
     best.k = 0u;
     for (uint i = 0u; i < 3u; ++i) {
         for (uint j = 0u; j < 3u; ++j) {
-            // The axis is (1, 0, 0) x view.x.
+            // Axis: (1, 0, 0) x view.x.
             float squared = view.x.y * view.x.y + view.x.z * view.x.z;
             if (squared > 2.5e-5f) {
                 float own_reach = own.y * abs(view.x.z) + own.z * abs(view.x.y);
@@ -101,8 +102,8 @@ LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
     return best;
 }
 
-// One point, between the nearest points of the two edges. Where the edges of two boxes that are apart end before they meet, the
-// way between their ends is the normal: along the axis they would seem nearer than they are.
+// Edge contact: one point between the nearest points of the edges. If the edges of disjoint boxes end before they
+// cross, the normal is the vector between their ends: along the axis they would seem nearer than they are.
 LAW ManifoldBuffer manifold_of_edges(Pose pose_a, BoxView view, vec3 own, vec3 other, EdgeAxis axis, float margin) {
     uint i = axis.k >= 6u ? 2u : (axis.k >= 3u ? 1u : 0u);
     uint j = axis.k - 3u * i;
@@ -114,7 +115,7 @@ LAW ManifoldBuffer manifold_of_edges(Pose pose_a, BoxView view, vec3 own, vec3 o
     if (view.d.z * view.x.y - view.d.y * view.x.z < 0.0f) scale = -scale;
     vec3 normal = vec3(0.0f, -view.x.z * scale, view.x.y * scale);
 
-    // The edges that face each other, from A's centre: middles and directions (1, 0, 0) and view.x.
+    // The two edges from A's centre: middles, and directions (1, 0, 0) and view.x.
     vec3 on_a = vec3(0.0f, normal.y < 0.0f ? -own.y : own.y, normal.z < 0.0f ? -own.z : own.z);
     vec3 on_b = view.d + view.y * (dot3(normal, view.y) < 0.0f ? other.y : -other.y) +
                 view.z * (dot3(normal, view.z) < 0.0f ? other.z : -other.z);
@@ -141,9 +142,9 @@ LAW ManifoldBuffer manifold_of_edges(Pose pose_a, BoxView view, vec3 own, vec3 o
     return with_point(manifold_along(world_normal), point, separation, 64u + axis.k, margin);
 }
 
-// The face `face` of the seeing box (the reference, at `pose`) against the face of the other that looks back at it. Points are
-// from the reference's centre; the normal points away from it. A feature is one of overlay_corner(). Where no part of the other
-// face lies above this one and the touch must hold nevertheless, the face's point nearest to the deepest corner stands in.
+// Face contact: reference face `face` of the box at `pose` against the incident face of the other. Points from the
+// reference's centre; the normal points away from it; features as of overlay_corner(). If the clipped patch is empty
+// but the contact `must_hold`, the reference face's point nearest to the deepest corner replaces it.
 LAW ManifoldBuffer manifold_of_faces(Pose pose, BoxView view, vec3 own, vec3 other, uint face, float slop, float margin,
                                      bool must_hold) {
     view = from_turned(view, face);
@@ -155,7 +156,7 @@ LAW ManifoldBuffer manifold_of_faces(Pose pose, BoxView view, vec3 own, vec3 oth
     vec3 centre = view.d + view.x * (view.x.x * outward > 0.0f ? -other.x : other.x);
     vec3 e = view.y * other.y;
     vec3 f = view.z * other.z;
-    // Heights are counted from the reference face, outwards.
+    // Heights are measured from the reference face, outwards.
     centre.x = centre.x * outward - own.x;
     e.x = e.x * outward;
     f.x = f.x * outward;
@@ -180,7 +181,7 @@ LAW ManifoldBuffer manifold_of_faces(Pose pose, BoxView view, vec3 own, vec3 oth
     return touch;
 }
 
-// A face of A is preferred, then one of B, then an edge against an edge: what resting boxes do must not hop between them.
+// Faces of A are preferred to those of B, and both to edges, so that resting contacts do not alternate.
 LAW ManifoldBuffer collide_box_box(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     BoxView b_from_a = view_of(pose_a, pose_b);
     BoxView a_from_b = reversed(b_from_a);
@@ -215,7 +216,7 @@ LAW ManifoldBuffer collide_box_box(BodyProperties a, Pose pose_a, BodyProperties
         touch = manifold_of_faces(reference, view, own, other, face, slop, margin, best_face < 0.0f && !edge_serves);
         if (of_b) touch = flipped(touch, pose_a.position - pose_b.position);
     }
-    // Where the faces do not lie above each other as deep as their planes say, an edge that is no worse serves.
+    // If the clipped patch is not as deep as the face planes say, use an edge axis that is no worse.
     if (edge_serves && deepest_of(touch) > best_face + slop) {
         ManifoldBuffer by_edges = manifold_of_edges(pose_a, b_from_a, a.size, b.size, edge, margin);
         if (by_edges.count > 0u) touch = by_edges;

@@ -1,4 +1,4 @@
-// Where a box touches a plane.
+// Contact manifold of a box and a plane.
 #ifndef SCREE_PHYSICS_COLLIDE_BOX_PLANE_H
 #define SCREE_PHYSICS_COLLIDE_BOX_PLANE_H
 
@@ -6,7 +6,7 @@
 
 LAWS_BEGIN
 
-// The corners of the face that looks at the plane; it holds the deepest one. A feature is a corner of the box: its three signs.
+// The corners of the face towards the plane, which include the deepest. Features are box corners, coded by three signs.
 LAW ManifoldBuffer collide_box_plane(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 normal = rotate_back(pose_a.orientation, b.size);
     float height = -dot3(b.size, pose_b.position - pose_a.position);

@@ -1,4 +1,4 @@
-// Where a capsule touches a box.
+// Contact manifold of a capsule and a box.
 #ifndef SCREE_PHYSICS_COLLIDE_CAPSULE_BOX_H
 #define SCREE_PHYSICS_COLLIDE_CAPSULE_BOX_H
 
@@ -7,8 +7,8 @@
 
 LAWS_BEGIN
 
-// Where on the segment (-1 to 1 along half_axis about centre, in the box's frame) it is nearest to the box: the squared distance
-// is convex, and its slope is linear between the six places where the segment crosses a face's plane.
+// The point of the segment (-1 to 1 along half_axis about centre, box frame) nearest to the box: the squared distance
+// is convex, and its slope is piecewise linear between the six crossings of face planes.
 LAW float slope_of_distance(vec3 centre, vec3 half_axis, vec3 extents, float t) {
     vec3 at = centre + half_axis * t;
     return dot3(half_axis, at - larger3(-extents, smaller3(at, extents)));
@@ -40,7 +40,7 @@ LAW float nearest_on_segment(vec3 centre, vec3 half_axis, vec3 extents) {
     return rise > 1.0e-30f ? clamped(low - (high - low) * (slope_low * reciprocal(rise)), low, high) : low;
 }
 
-// The stretch of the segment whose coordinate lies within the extent.
+// The interval of the segment whose coordinate lies within the extent.
 struct Stretch {
     float low, high;
 };
@@ -57,8 +57,8 @@ LAW Stretch clipped(Stretch stretch, float centre, float run, float extent) {
     return stretch;
 }
 
-// How the segment leaves the box: the unit normal out of the box (its frame), the gap along it (m), where the box ends along it,
-// and where on the segment.
+// The separating axis of segment and box: outward unit normal (box frame), gap along it (m), the box's support along
+// it, and the parameter on the segment.
 struct Exit {
     vec3 normal;
     float gap;
@@ -66,7 +66,8 @@ struct Exit {
     float t;
 };
 
-// The segment is in the box: the axis of least penetration, a face's normal if no edge is better by more than the slop.
+// The segment intersects the box: the axis of least penetration, a face normal unless an edge axis is better by the
+// slop.
 LAW Exit exit_of_sunk_segment(vec3 centre, vec3 half_axis, vec3 extents) {
     vec3 gaps = absolute3(centre) - absolute3(half_axis) - extents;
     uint face = largest_of(gaps);
@@ -119,9 +120,9 @@ LAW Exit exit_of_segment(vec3 centre, vec3 half_axis, vec3 extents, float radius
     return way;
 }
 
-// The stretch of the segment that lies along the box: over the face, if the normal is nearly the face's (1.1 degrees), or along
-// an edge, if they part sideways by less than a tenth of the radius. Empty (low > high) otherwise. Where the normal leans, the
-// nearest point lies a little beside the face or edge; the slack is for it.
+// The interval in which the segment lies along the box: over the face, if the normal is within 1.1 degrees of the
+// face's, or along an edge, if they diverge by less than a tenth of the radius. Empty (low > high) otherwise. The slack
+// allows for the nearest point beside the face or edge where the normal is oblique.
 LAW Stretch stretch_along_box(vec3 normal, vec3 centre, vec3 half_axis, vec3 extents, float radius, float gap) {
     Stretch stretch;
     stretch.low = -1.0f;

@@ -1,4 +1,4 @@
-// Where two capsules touch.
+// Contact manifold of two capsules.
 #ifndef SCREE_PHYSICS_COLLIDE_CAPSULE_CAPSULE_H
 #define SCREE_PHYSICS_COLLIDE_CAPSULE_CAPSULE_H
 
@@ -6,9 +6,9 @@
 
 LAWS_BEGIN
 
-// One point between the nearest points of the axes (Ericson, Real-Time Collision Detection, 5.1.9). Two, at the ends of the
-// stretch that the capsules share, where they are so nearly parallel that the axes part sideways by less than a tenth of the
-// radii there (which misjudges the gap by at most 1/200 of them). Axes that cross part along their common perpendicular.
+// One point between the nearest points of the axes (Ericson, Real-Time Collision Detection, 5.1.9). Two, at the ends of
+// the common interval, for nearly parallel axes that diverge there by less than a tenth of the radii (gap error at most
+// 1/200 of them). Crossing axes separate along their common perpendicular.
 LAW ManifoldBuffer collide_capsule_capsule(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 d = pose_b.position - pose_a.position;
     vec3 u = upright(pose_a.orientation);

@@ -1,4 +1,4 @@
-// Where a capsule touches a plane.
+// Contact manifold of a capsule and a plane.
 #ifndef SCREE_PHYSICS_COLLIDE_CAPSULE_PLANE_H
 #define SCREE_PHYSICS_COLLIDE_CAPSULE_PLANE_H
 
@@ -6,7 +6,7 @@
 
 LAWS_BEGIN
 
-// One point below each end that is near enough.
+// One point per end that is within the margin.
 LAW ManifoldBuffer collide_capsule_plane(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 half_axis = upright(pose_a.orientation) * a.size.y;
     float height = -dot3(b.size, pose_b.position - pose_a.position);

@@ -1,5 +1,4 @@
-// Where two convex bodies touch, of which at least one is a cylinder, a cone or a hull: face against face, edge or corner, else
-// edge against edge.
+// Contact manifold of two convex bodies in general: face clipping, else edge against edge.
 #ifndef SCREE_PHYSICS_COLLIDE_CONVEX_H
 #define SCREE_PHYSICS_COLLIDE_CONVEX_H
 
@@ -8,13 +7,13 @@
 
 LAWS_BEGIN
 
-// Of the thinner body's half width: by so much an edge must be better than a face, so that what rests does not hop between them.
+// An edge axis must beat a face by this part of the smaller min_half_width, so that resting contacts do not alternate.
 CONSTANT float FACE_PREFERENCE = 0.01f;
-// Sine of the angle to which an edge, or a side's line, counts as lying flat (1.7 degrees), squared; and its cosine, squared.
+// Squared sine of the angle (1.7 degrees) up to which an edge, or a line of a side, counts as parallel; squared cosine.
 CONSTANT float LIES_ALONG_SQUARED = 0.0009f;
 CONSTANT float RUNS_ALONG_SQUARED = 0.9991f;
 
-// The face, line or point of a body that is not a polyhedron.
+// The supporting feature of a shape that is not a polyhedron.
 LAW Feature side_facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     if (solid.shape == SHAPE_SPHERE || (solid.shape == SHAPE_CAPSULE && solid.size.y <= 0.0f))
         return point_at(solid.axes.y * solid.size.y);
@@ -39,7 +38,7 @@ LAW Feature side_facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     return line_between(first, second);
 }
 
-// The face or line of a body that looks most in a (unit) direction. A polyhedron's has the corner in it that reaches farthest.
+// The face or line whose normal is nearest to a (unit) direction; a polyhedron's holds the support vertex.
 LAW Feature facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     if (solid.shape != SHAPE_HULL && solid.shape != SHAPE_BOX) return side_facing(solid, direction, hulls);
     vec3 corner = support_of(solid, direction, hulls);
@@ -78,7 +77,7 @@ LAW vec3 corner_at(ConvexShape solid, uint k, Hulls hulls) {
     return in_world(solid.axes, local);
 }
 
-// The edge or the point that reaches farthest in a (unit) direction.
+// The edge or vertex that supports a (unit) direction.
 LAW Feature edge_facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     vec3 end = support_of(solid, direction, hulls);
     if (solid.shape == SHAPE_HULL || solid.shape == SHAPE_BOX) {
@@ -107,7 +106,7 @@ LAW Feature edge_facing(ConvexShape solid, vec3 direction, Hulls hulls) {
     return point_at(end);
 }
 
-// One point, or two along edges that lie along each other; the normal is the axis between them. Points from A's centre.
+// Edge contact: one point, or two for parallel edges; the normal is the separating axis. Points from A's centre.
 LAW ManifoldBuffer manifold_of_lines(ConvexShape a, ConvexShape b, vec3 d, Separation s, float margin, Hulls hulls) {
     Feature on_a = point_at(d);
     Feature on_b = on_a;
@@ -123,7 +122,7 @@ LAW ManifoldBuffer manifold_of_lines(ConvexShape a, ConvexShape b, vec3 d, Separ
     ManifoldBuffer touch = manifold_along(s.normal);
     bool lines = on_a.points == 2u && on_b.points == 2u && aa > least && bb > least;
     if (lines && ab * ab > RUNS_ALONG_SQUARED * (aa * bb)) {
-        // Where the two run beside each other, as parts of A's.
+        // The common interval, as parameters on A's edge.
         float per = reciprocal(aa);
         float from = dot3(r, run_a) * per, to = from + ab * per;
         float low = larger(smaller(from, to), 0.0f), high = smaller(larger(from, to), 1.0f);
@@ -154,7 +153,8 @@ LAW ManifoldBuffer manifold_of_lines(ConvexShape a, ConvexShape b, vec3 d, Separ
     return with_point(touch, (at_a + at_b) * 0.5f, s.distance, 48u, margin);
 }
 
-// The face `face` of the first against what of the other looks back at it. Points from the first's centre.
+// Face contact: reference face `face` of `own` against the incident feature of `other`. Points from the centre of
+// `own`.
 LAW ManifoldBuffer manifold_of_face(ConvexShape own, ConvexShape other, vec3 d, uint face, float slop, float margin,
                                     Hulls hulls) {
     vec4 plane = plane_of(own, face, hulls);
@@ -193,13 +193,13 @@ LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties
         }
         ManifoldBuffer touch = manifold_of_face(own, other, between, face, slop, margin, hulls);
         if (of_b) touch = flipped(touch, -d);
-        // Where they do not lie over each other as deep as the face's plane says, an edge serves.
+        // If the clipped patch is not as deep as the face's plane says, use the edges.
         if (touch.count > 0u && deepest_of(touch) <= by_face + slop) return touch;
     }
     return manifold_of_lines(a, b, d, s, margin, hulls);
 }
 
-// The plane first. All corners of a polyhedron count, whichever face looks down.
+// The plane first. All vertices of a polyhedron count, not only those of the face towards the plane.
 LAW ManifoldBuffer collide_plane_convex(BodyProperties tp, Pose plane, BodyProperties tb, Pose pose, float margin, Hulls hulls) {
     ConvexShape b = convex_shape_of(tb, pose.orientation, hulls);
     vec3 normal = tp.size;
@@ -208,7 +208,7 @@ LAW ManifoldBuffer collide_plane_convex(BodyProperties tp, Pose plane, BodyPrope
     float ceiling = smaller(margin, (height + dot3(normal, lowest)) + 0.25f * b.scale);
     Feature down = facing(b, -normal, hulls);
     ReferencePlane reference = reference_plane_of(normal, -height, b.axes.x, lowest);
-    if (down.points > 2u && (b.shape == SHAPE_CYLINDER || b.shape == SHAPE_CONE)) {  // nothing clips the rim: four serve
+    if (down.points > 2u && (b.shape == SHAPE_CYLINDER || b.shape == SHAPE_CONE)) {  // an unclipped rim: four suffice
         down.points = 4u;
         down.stride = 4u;
     }

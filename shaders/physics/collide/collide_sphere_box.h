@@ -1,4 +1,4 @@
-// Where a sphere touches a box.
+// Contact manifold of a sphere and a box.
 #ifndef SCREE_PHYSICS_COLLIDE_SPHERE_BOX_H
 #define SCREE_PHYSICS_COLLIDE_SPHERE_BOX_H
 
@@ -6,13 +6,13 @@
 
 LAWS_BEGIN
 
-// A centre inside the box leaves through the nearest face: of equally near ones y, then x, then z.
+// A centre inside the box is pushed out through the nearest face: of equals y, then x, then z.
 LAW ManifoldBuffer collide_sphere_box(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
     vec3 centre = rotate_back(pose_b.orientation, pose_a.position - pose_b.position);
     vec3 excess = centre - larger3(-b.size, smaller3(centre, b.size));
     float gap = length3(excess);
     vec3 outward = vec3(0.0f, centre.y < 0.0f ? -1.0f : 1.0f, 0.0f);
-    // Closer to the surface than the rounding of its coordinates the excess has no direction left.
+    // At a distance within the rounding of its coordinates the excess has no direction.
     if (gap > 1.0e-5f * a.size.x) {
         outward = unit3(excess, outward);
     } else {

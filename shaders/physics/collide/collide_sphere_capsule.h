@@ -1,4 +1,4 @@
-// Where a sphere touches a capsule.
+// Contact manifold of a sphere and a capsule.
 #ifndef SCREE_PHYSICS_COLLIDE_SPHERE_CAPSULE_H
 #define SCREE_PHYSICS_COLLIDE_SPHERE_CAPSULE_H
 

@@ -1,4 +1,4 @@
-// Where a sphere touches a plane.
+// Contact manifold of a sphere and a plane.
 #ifndef SCREE_PHYSICS_COLLIDE_SPHERE_PLANE_H
 #define SCREE_PHYSICS_COLLIDE_SPHERE_PLANE_H
 

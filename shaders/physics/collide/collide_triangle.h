@@ -1,4 +1,5 @@
-// Where spheres and other convex bodies touch a triangle of a mesh, which is solid behind its face and knows its neighbours.
+// Contact manifolds of spheres and other convex bodies with a mesh triangle, which is solid behind its face and stores
+// its neighbours' normals.
 #ifndef SCREE_PHYSICS_COLLIDE_TRIANGLE_H
 #define SCREE_PHYSICS_COLLIDE_TRIANGLE_H
 
@@ -7,12 +8,12 @@
 
 LAWS_BEGIN
 
-// Of a body's least half width: so much deeper than it truly overlaps a triangle it may lie under the triangle's plane, where a
-// seam has turned the contact to the face. Less, and what presses into a seam is held by nothing; more, and a box that leans on a
-// step is lifted onto it.
+// At a seam whose contact is turned to the face normal, the depth below the face's plane may exceed the true
+// penetration by this part of min_half_width. With less, a body pressed into a seam has no contact; with more, a box
+// that leans on a step is lifted onto it.
 CONSTANT float UNDER_SEAM = 0.05f;
 
-// The sphere first. By the point of the triangle that is nearest to its centre.
+// The sphere first. By the point of the triangle nearest to the centre.
 LAW ManifoldBuffer collide_sphere_triangle(BodyProperties ta, Pose pose_a, BodyProperties tb, Pose pose_b, float margin,
                                            Hulls hulls) {
     ConvexShape triangle = convex_shape_of(tb, pose_b.orientation, hulls);
@@ -37,8 +38,8 @@ LAW ManifoldBuffer collide_sphere_triangle(BodyProperties ta, Pose pose_a, BodyP
     return manifold_of_balls(-normal, distance_to, radius, 0.0f, margin);
 }
 
-// Any other convex body first. Face on face, edge or corner, else edge on edge, as between convex bodies; but a normal that the
-// triangle's edges refuse is turned to its face, and holds what lies over that.
+// Any other convex body first. As collide_convex, but a normal that the triangle's edges do not allow is replaced by
+// the face normal, with the patch over the face.
 LAW ManifoldBuffer collide_convex_triangle(BodyProperties ta, Pose pose_a, BodyProperties tb, Pose pose_b, float margin,
                                            Hulls hulls) {
     ConvexShape own = convex_shape_of(tb, pose_b.orientation, hulls), other = convex_shape_of(ta, pose_a.orientation, hulls);

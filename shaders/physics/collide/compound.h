@@ -1,8 +1,8 @@
-// Bodies made of parts: a part is a row of its own that touches, and lies where its body carries it.
+// Compounds: a part is a collider with a row of its own, posed by its body.
 //
-// Whatever touches is a row: a body of one convex shape, a part of a compound, a triangle of a mesh. Pairs, and the contacts of
-// the last step, are known by their rows, so several contacts of two bodies each find what they were. All that moves, sleeps and
-// wakes is a body: what touches a part touches its owner, and is counted from the owner's centre.
+// Every collider is a row: a body of one convex shape, a part of a compound, a triangle of a mesh. Pairs and persistent
+// contacts are identified by rows, so several contacts of two bodies match across steps. Motion, sleep and waking
+// belong to bodies: contacts of a part act on its owner, relative to the owner's centre.
 #ifndef SCREE_PHYSICS_COMPOUND_H
 #define SCREE_PHYSICS_COMPOUND_H
 
@@ -14,7 +14,7 @@ LAWS_BEGIN
 LAW bool is_part(BodyProperties properties) {
     return (properties.motion & MOTION_OF_PART) != 0u;
 }
-// How the body moves that a row belongs to.
+// The motion of the body that a row belongs to.
 LAW uint motion_of(BodyProperties properties) {
     return properties.motion & 3u;
 }
@@ -34,7 +34,7 @@ LAW Velocity velocity_of_part(PoseInBody part, Pose owner, Velocity velocity) {
     return own;
 }
 
-// How far a part's way in a step bends away from its velocity, m: its body turns.
+// How far a part's path in a step deviates from its velocity, m, because its body rotates.
 LAW float bend_of_way(PoseInBody part, Velocity velocity, Parameters parameters) {
     float turn_squared = dot3(velocity.angular, velocity.angular) * (parameters.dt * parameters.dt);
     return 0.5f * turn_squared * length3(part.position);

@@ -1,4 +1,4 @@
-// What all convex shapes can be asked alike: how far they reach in a direction, and what faces they have.
+// Convex shapes in general: support points, faces, and the features used by clipping.
 #ifndef SCREE_PHYSICS_CONVEX_SUPPORT_H
 #define SCREE_PHYSICS_CONVEX_SUPPORT_H
 
@@ -7,20 +7,20 @@
 
 LAWS_BEGIN
 
-// A body as a convex core and a radius around it (of spheres and capsules; else 0). Directions and points are along the world's
-// axes, from the body's centre.
+// A convex core with a radius around it (spheres and capsules; else 0). Directions and points in world axes, from the
+// body's centre.
 struct ConvexShape {
     Axes axes;
     vec3 size;      // as in BodyProperties
     uint shape;     // SHAPE_*, but no plane
-    HullHead head;  // of a hull its own; of a box its corners and faces; of others the faces that are flat
-    uint hull;      // its place in the table
+    HullHead head;  // of a hull its own; of a box vertices and faces; else the number of flat faces
+    uint hull;      // index in the table of hulls
     float radius;   // m
-    float scale;    // its thickness, m; of a triangle its size
+    float scale;    // min_half_width, m; of a triangle its largest half extent
     float pad;
 };
 
-// A device that knows both to be hulls (ONLY_HULLS) leaves out what is asked of other shapes.
+// ONLY_HULLS removes the code for other shapes.
 LAW ConvexShape convex_shape_of(BodyProperties properties, vec4 orientation, Hulls hulls) {
     ConvexShape solid;
     solid.axes = axes_of(orientation);
@@ -43,15 +43,15 @@ LAW ConvexShape convex_shape_of(BodyProperties properties, vec4 orientation, Hul
     return solid;
 }
 
-// Some of the corners of a box or a hull, or all.
+// A subset of the vertices of a box or a hull, or all.
 struct Corners {
-    uvec4 list;  // their numbers, from the second byte on; unused when all are meant
+    uvec4 list;  // their indices, from the second byte on; unused if `all`
     uint count;
     bool all;
     uint pad0, pad1;
 };
-// At least those that reach farthest in a direction (in the body's frame) or in one that differs from it by less than 1.8
-// degrees: a hull's cell lists few, and of two hulls of 32 corners an eighth is read of what would be.
+// A superset of the vertices that support a direction (body frame) or any within 1.8 degrees of it: a hull's cell lists
+// few, so an eighth of the vertices of two hulls of 32 is read.
 LAW Corners corners_towards(ConvexShape solid, vec3 local, Hulls hulls) {
     Corners corners;
     corners.list = uvec4(0u);
@@ -70,9 +70,9 @@ LAW Corners corners_towards(ConvexShape solid, vec3 local, Hulls hulls) {
 LAW uint corner_in(Corners corners, uint k) {
     return corners.all ? k : byte_of(corners.list, k + 1u);
 }
-// The first of a hull's vertices that reach farthest in a direction, in the hull's frame. That cells list few matters twice:
-// lavapipe ends a shader's loops after 65,535 rounds in all, without a word, and two hulls of 30 corners that spin beside each
-// other came to more when each asked all of its corners one by one.
+// The support vertex of a hull (the first of equals), hull frame. Cells also keep loops short: lavapipe silently ends a
+// shader's loops after 65,535 rounds in all, which two hulls of 30 vertices that spin beside each other exceeded when
+// each support searched all vertices.
 LAW vec3 farthest_vertex(ConvexShape solid, vec3 local, Hulls hulls) {
     Corners corners = corners_towards(solid, local, hulls);
     vec3 farthest = local;
@@ -88,14 +88,14 @@ LAW vec3 farthest_vertex(ConvexShape solid, vec3 local, Hulls hulls) {
     return farthest;
 }
 
-// The point of the core farthest in a direction (of any length but 0).
+// Support point of the core (`direction` of any length but 0).
 LAW vec3 support_of(ConvexShape solid, vec3 direction, Hulls hulls) {
     if (solid.shape == SHAPE_HULL) return in_world(solid.axes, farthest_vertex(solid, in_body(solid.axes, direction), hulls));
     return support_by_size(solid.shape, solid.size, solid.axes, direction);
 }
 
-// xyz: outward, unit; w: distance of the face from the centre, m. Faces 2k and 2k + 1 of a box look down and up axis k; a
-// cylinder's look down and up y.
+// The plane of a face: xyz: outward unit normal; w: distance from the centre, m. Faces 2k and 2k + 1 of a box are those
+// towards -axis k and +axis k; a cylinder's are those towards -y and +y.
 LAW vec4 plane_of(ConvexShape solid, uint face, Hulls hulls) {
     if (solid.shape == SHAPE_HULL) {
         vec4 plane = hull_plane(hulls, solid.hull, solid.head, face);
@@ -117,12 +117,12 @@ LAW vec4 plane_of(ConvexShape solid, uint face, Hulls hulls) {
     return vec4(axis.x, axis.y, axis.z, reach);
 }
 
-// Some of a body's faces, or all.
+// A subset of the faces, or all.
 struct Faces {
-    uvec4 list;  // their numbers, from the third byte on; unused when all are meant
+    uvec4 list;  // their indices, from the third byte on; unused if `all`
     uint count;
     bool all;
-    float beyond;  // so much, at most, do the normals of all others point in the direction asked for
+    float beyond;  // greatest cosine between the asked direction and the normals of all faces not listed
     float pad;
 };
 LAW Faces all_faces(ConvexShape solid) {
@@ -134,7 +134,7 @@ LAW Faces all_faces(ConvexShape solid) {
     faces.pad = 0.0f;
     return faces;
 }
-// At least those that look most in a direction (in the body's frame).
+// A superset of the faces whose normals are nearest to a direction (body frame).
 LAW Faces faces_towards(ConvexShape solid, vec3 local, Hulls hulls) {
     Faces faces = all_faces(solid);
     if (solid.head.across == 0u) return faces;
@@ -149,16 +149,16 @@ LAW uint face_at(Faces faces, uint k) {
     return faces.all ? k : byte_of(faces.list, k + 2u);
 }
 
-// What of a body looks in a direction: a face, a line or a point. A face of many corners is taken as one of every second, or
-// third ... of them, at most MOST_SIDES.
+// The feature that supports a direction: a face, an edge or a point. A face of many corners is reduced to every second,
+// or third ... of them, at most MOST_SIDES.
 CONSTANT uint MOST_SIDES = 16u;
 struct Feature {
-    vec3 first;   // of a line or point, m
+    vec3 first;   // of an edge, or the point, m
     uint points;  // 1, 2, or corners of the face
-    vec3 second;  // of a line, m; of a disc the way from its middle to the first corner, unit
+    vec3 second;  // of an edge, m; of a disc the unit vector from its centre to the first corner
     uint face;
-    uint stride;        // from corner to corner
-    uint first_corner;  // of a hull's face, in the hull's list
+    uint stride;        // index step between corners
+    uint first_corner;  // of a hull's face, index into the hull's list
     uint pad0, pad1;
 };
 LAW Feature line_between(vec3 first, vec3 second) {
@@ -178,8 +178,8 @@ LAW Feature point_at(vec3 point) {
     feature.points = 1u;
     return feature;
 }
-// A disc's corners begin where it reaches farthest in the direction, so that what rolls on a rim has its lowest point; as long as
-// it leans by less than that (sine, squared: 1.1 degrees), they stay where they are on the body.
+// The corners of a disc begin at its support point, so that a rim rolls on its lowest point; if the disc leans by less
+// than this (sine, squared: 1.1 degrees), they are fixed to the body.
 CONSTANT float FLAT_SQUARED = 0.0004f;
 LAW Feature face_as_feature(ConvexShape solid, uint face, vec3 direction, Hulls hulls) {
     Feature feature = line_between(solid.axes.y, solid.axes.x);
@@ -200,7 +200,7 @@ LAW Feature face_as_feature(ConvexShape solid, uint face, vec3 direction, Hulls 
     return feature;
 }
 
-// Sines and cosines of a sixteenth of a turn and its multiples.
+// `from` rotated towards `quarter` by k sixteenths of a turn.
 LAW vec3 sixteenth(uint k, vec3 from, vec3 quarter) {
     uint eighth = k & 3u;
     float along = eighth == 0u ? 1.0f : (eighth == 1u ? 0.92387953f : (eighth == 2u ? 0.70710678f : 0.38268343f));

@@ -1,4 +1,5 @@
-// How far two bodies are apart, and along which axis: the distance of round shapes, for two boxes a lower bound of it.
+// Distance of two bodies and its axis, for conservative advancement: exact for round shapes, a lower bound for two
+// boxes.
 #ifndef SCREE_PHYSICS_DISTANCE_H
 #define SCREE_PHYSICS_DISTANCE_H
 
@@ -12,7 +13,7 @@
 #include "shaders/physics/collide/collide_sphere_plane.h"
 #include "shaders/physics/collide/collide_sphere_sphere.h"
 #include "shaders/physics/collide/shape_data.h"
-// A scene without cylinders, cones and hulls leaves out what takes a second to compile on a processor.
+// Scenes without general convex shapes omit code that takes lavapipe a second to compile.
 #ifndef WITHOUT_CONVEX
 #include "shaders/physics/collide/collide_convex.h"
 #include "shaders/physics/collide/triangle.h"
@@ -22,7 +23,7 @@ LAWS_BEGIN
 
 struct DistanceBound {
     vec3 normal;     // unit, world, from A to B
-    float distance;  // m, < 0 inside
+    float distance;  // m, < 0: penetration
 };
 
 LAW vec3 axis_towards(vec4 orientation, uint k, float side) {
@@ -31,7 +32,7 @@ LAW vec3 axis_towards(vec4 orientation, uint k, float side) {
     return side < 0.0f ? -axis : axis;
 }
 
-// The widest of the fifteen separations: no distance is less, and none of them is positive where the boxes overlap.
+// The largest of the fifteen SAT separations: a lower bound of the distance, not positive for overlapping boxes.
 LAW DistanceBound distance_of_boxes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b) {
     BoxView view = view_of(pose_a, pose_b);
     BoxView back = reversed(view);
@@ -66,7 +67,7 @@ LAW DistanceBound distance_of_manifold(ManifoldBuffer touch) {
 }
 
 #ifndef WITHOUT_CONVEX
-// Of a cylinder, cone, hull or triangle (the second) and any other shape. What lies behind a triangle is far away from it.
+// Of a general convex shape or triangle (second) and any other shape. Behind a triangle the distance is infinite.
 LAW DistanceBound distance_of_convex(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float enough, Hulls hulls) {
     DistanceBound gap;
     ConvexShape of_b = convex_shape_of(b, pose_b.orientation, hulls);
@@ -93,7 +94,7 @@ LAW DistanceBound distance_of_convex(BodyProperties a, Pose pose_a, BodyProperti
 }
 #endif
 
-// The simpler shape first, as the laws of touching want it.
+// For the shape of the lower id first, as collision functions expect.
 LAW DistanceBound distance_in_order(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float enough, Hulls hulls) {
 #ifndef WITHOUT_CONVEX
     if (is_general_convex(b.shape) || b.shape == SHAPE_TRIANGLE) return distance_of_convex(a, pose_a, b, pose_b, enough, hulls);
@@ -113,7 +114,7 @@ LAW DistanceBound distance_in_order(BodyProperties a, Pose pose_a, BodyPropertie
     if (b.shape == SHAPE_BOX) return distance_of_boxes(a, pose_a, b, pose_b);
     return distance_of_manifold(collide_box_plane(a, pose_a, b, pose_b, any));
 }
-// Of what is at least `enough` (m) apart, an axis and a gap along it of so much are enough.
+// A separation of `enough` (m) along any axis suffices; the true distance may be larger.
 LAW DistanceBound distance_between_shapes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float enough,
                                           Hulls hulls) {
     bool swap = a.shape > b.shape;

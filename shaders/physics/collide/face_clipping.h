@@ -1,4 +1,4 @@
-// The part of a face that another body's face, edge or corner lies over, and its four points that hold best.
+// Face clipping: the part of the incident feature over the reference face, reduced to four points.
 #ifndef SCREE_PHYSICS_FACE_CLIPPING_H
 #define SCREE_PHYSICS_FACE_CLIPPING_H
 
@@ -8,16 +8,16 @@
 
 LAWS_BEGIN
 
-// As REDUCE_BIAS (manifold_reduction.h), but nearer to 1: the neighbour of a rim's farthest corner is 4% worse, and must not
-// stand for it.
+// As REDUCE_BIAS (manifold_reduction.h), but nearer to 1: the neighbour of a rim's farthest corner is only 4% worse,
+// and must not replace it.
 CONSTANT float PATCH_BIAS = 0.98f;
 
-CONSTANT uint PATCH_POINTS = 32u;  // 2 * MOST_SIDES: a polygon clipped by each side of another has one more corner for each
+CONSTANT uint PATCH_POINTS = 32u;  // 2 * MOST_SIDES: each clipping side adds one corner at most
 
-// The plane of heights: unit normal, and axes in it.
+// The reference plane: unit normal, and axes in the plane.
 struct ReferencePlane {
     vec3 normal;
-    float offset;  // height 0, along the normal, m
+    float offset;  // of the plane along the normal
     vec3 u;
     float pad_u;
     vec3 v;
@@ -46,15 +46,15 @@ LAW ReferencePlane reference_plane_of(vec3 normal, float offset, vec3 along, vec
     return reference;
 }
 
-// What lies over a face, or over a plane. `sides`: of the own face, whose corners `own` knows; none (points = 0) of a plane.
-// `corners`: so many of the other's hull, all, instead of those of its feature (`corners` = 0). d: the other's centre, from where
-// points are counted, m.
+// The manifold of an incident feature over a reference face, or over a plane. `sides`: the reference face of `own`
+// (points = 0: a plane). `corners`: use that many hull vertices of `other`, all, instead of its feature (0). d: centre
+// of `other` from that of `own`, m.
 //
-// The arrays stay inside this one function: handed from one to another they would be copied, and drivers took a minute to compile
-// that.
+// The arrays stay in one function: passed between functions they would be copied, which took drivers a minute to
+// compile.
 LAW ManifoldBuffer manifold_over(ReferencePlane reference, ConvexShape own, Feature sides, ConvexShape other, Feature across,
                                  uint corners, vec3 d, float ceiling, float flat_within, float margin, Hulls hulls) {
-    vec4 points[64];  // x: height, y, z: in the plane, m; w: feature. Two lists of PATCH_POINTS, each clipped into the other
+    vec4 points[64];  // x: height; y, z: in the plane, m; w: feature. Two lists of PATCH_POINTS in turn
     uint base = 0u;
     uint count = 0u;
     uint given = corners > 0u ? corners : across.points;
@@ -70,10 +70,10 @@ LAW ManifoldBuffer manifold_over(ReferencePlane reference, ConvexShape own, Feat
         points[count] = p;
         count = count + 1u;
     }
-    // Clipping by each side (Sutherland and Hodgman 1974); what is on the left of it, or `flat_within` beyond, stays.
+    // Sutherland-Hodgman clipping (1974) by each side; points to its left, or up to `flat_within` beyond, stay.
     vec4 from = vec4(0.0f);
     for (uint k = 0u; k <= sides.points; ++k) {
-        uint side = k == 0u ? sides.points - 1u : k - 1u;  // the last one first: where the first side begins
+        uint side = k == 0u ? sides.points - 1u : k - 1u;  // the last one first, whose end is the start of the first side
         if (sides.points == 0u) break;
         vec4 start = from;
         vec4 to = onto_reference_plane(reference, corner_of(own, sides, side, hulls), 0u);
@@ -103,7 +103,7 @@ LAW ManifoldBuffer manifold_over(ReferencePlane reference, ConvexShape own, Feat
         count = left;
         base = there;
     }
-    // At most four, chosen as best_four() does (manifold_reduction.h): the first by its way from the middle.
+    // At most four, chosen as by best_four() (manifold_reduction.h), the first by its distance from the middle.
     uint low = 0u;
     float lowest = ceiling;
     for (uint k = 0u; k < count; ++k) {

@@ -1,5 +1,5 @@
-// The way between two convex cores that are apart: the algorithm of Gilbert, Johnson and Keerthi (IEEE J. Robotics and Automation
-// 4, 1988), with the nearest point of a simplex by its Voronoi regions (Ericson, Real-Time Collision Detection, 2005, 5.1).
+// Distance between two disjoint convex cores: Gilbert, Johnson and Keerthi (IEEE J. Robotics and Automation 4, 1988),
+// with the nearest point of a simplex by its Voronoi regions (Ericson, Real-Time Collision Detection, 2005, 5.1).
 #ifndef SCREE_PHYSICS_GJK_H
 #define SCREE_PHYSICS_GJK_H
 
@@ -7,15 +7,15 @@
 
 LAWS_BEGIN
 
-// Fewer, and the way between two rims is found to a degree only.
+// With fewer, the direction between two rims is accurate to a degree only.
 CONSTANT uint NEAREST_ROUNDS = 24u;
-// Of the squared distance: what counts as no progress. With less, rounding ends the search.
+// Relative progress of the squared distance below which the search ends. With less, rounding ends it.
 CONSTANT float NEAREST_PROGRESS = 1.0e-6f;
 
-// Some points of the difference of two bodies, and of what they span the point nearest to 0.
+// A simplex of points of the Minkowski difference, and its point nearest to the origin.
 struct Simplex {
     vec3 nearest;
-    uint count;  // 1 to 3; while it is made, 4
+    uint count;  // 1 to 3
     vec3 a;
     float pad_a;
     vec3 b;
@@ -52,7 +52,8 @@ LAW Simplex nearest_on_triangle(vec3 a, vec3 b, vec3 c) {
     float d5 = -dot3(ab, c), d6 = -dot3(ac, c);
     vec3 normal = cross3(ab, ac);
     float squared = dot3(normal, normal);
-    // Which corner or side; a corner as a side of no length, so that only one site asks for the nearest point of a side.
+    // Voronoi region: a corner is treated as a degenerate side, so that only one place computes the nearest point of a
+    // side.
     vec3 p = a, q = b;
     if (d1 <= 0.0f && d2 <= 0.0f) {
         q = a;
@@ -74,16 +75,16 @@ LAW Simplex nearest_on_triangle(vec3 a, vec3 b, vec3 c) {
     return nearest_on_segment(p, q);
 }
 
-// What of the points a, b, c and p, seen from 0, has the point nearest to 0, if it has p in it (it has where p brings the points
-// nearer): p, a side, or a face that has 0 before it. By the Voronoi regions around p, all from the products of the ways to the
-// other points (points that are missing are equal to others, and lie beyond nothing).
+// The sub-simplex of a, b, c and p that holds the point nearest to the origin, if p belongs to it (it does where p
+// brings the points nearer): p, a side, or a face with the origin in front. By the Voronoi regions around p, from dot
+// products of the edges at p (missing points equal others and select no region).
 LAW Simplex with_corner(Simplex s, vec3 p) {
     if (s.count == 0u) return simplex_of(p, 1u, p, p, p);
     vec3 ea = s.a - p, eb = s.b - p, ec = s.c - p;
     float aa = dot3(ea, ea), bb = dot3(eb, eb), cc = dot3(ec, ec);
     float ab = dot3(ea, eb), ac = dot3(ea, ec), bc = dot3(eb, ec);
     float pa = -dot3(p, ea), pb = -dot3(p, eb), pc = -dot3(p, ec);
-    // How far 0 lies beyond the side from p to the first, the way of the second.
+    // a_to_b: signed distance (scaled) of the origin from the edge p-a, towards b; and so on.
     float a_to_b = aa * pb - ab * pa, b_to_a = bb * pa - ab * pb;
     float a_to_c = aa * pc - ac * pa, c_to_a = cc * pa - ac * pc;
     float b_to_c = bb * pc - bc * pb, c_to_b = cc * pb - bc * pc;
@@ -122,14 +123,13 @@ LAW Simplex with_corner(Simplex s, vec3 p) {
     return nearest_on_segment(first, p);
 }
 
-// The point of B less the point of A that reach farthest against each other along a direction from A to B; d: B's centre less
-// A's.
+// Support point of the Minkowski difference B - A against `direction` (from A to B); d: centre of B minus centre of A.
 LAW vec3 minkowski_support(ConvexShape a, ConvexShape b, vec3 d, vec3 direction, Hulls hulls) {
     return (d + support_of(b, -direction, hulls)) - support_of(a, direction, hulls);
 }
 
-// Where the shortest way from A's core to B's is found: its `nearest`, m; `start`: a direction to begin with. Where they overlap,
-// any short way.
+// Runs GJK: `nearest` is the shortest vector from A's core to B's, m; `start`: initial direction. For overlapping
+// cores, some short vector.
 LAW Simplex gjk_closest(ConvexShape a, ConvexShape b, vec3 d, vec3 start, Hulls hulls) {
     Simplex simplex = simplex_of(start, 0u, start, start, start);
     bool nearer = true;

@@ -1,9 +1,10 @@
-// Where a body is in the uniform grid of several levels, and which bodies are near each other.
+// Broadphase: a hashed uniform grid of several levels.
 //
-// Cells of level l are cell * 2^l wide. A body lies in the one cell of its bounds' centre, on the lowest level whose cells are at
-// least as wide as its bounds. So what overlaps a body has its centre at most half a cell outside the body's own bounds: in two
-// or three cells along each axis, on its own level and on each coarser one. A row of cells along x is a run of buckets, hence one
-// range of the sorted list. Planes and rare large bodies lie in one bucket more, which every body looks through.
+// Cells of level l are cell * 2^l wide. A body is in the single cell of its AABB's centre, on the lowest level whose
+// cells are at least as wide as its AABB. So any body whose AABB overlaps has its centre at most half a cell outside
+// the AABB: in two or three cells along each axis, on its own level and on each coarser one. A row of cells along x is
+// a run of buckets, hence one range of the sorted list. Planes and rare large bodies are in one more bucket, which
+// every body searches.
 #ifndef SCREE_PHYSICS_GRID_H
 #define SCREE_PHYSICS_GRID_H
 
@@ -20,7 +21,8 @@ LAW float power_of_two(int exponent) {
     return uintBitsToFloat(uint(exponent + 127) << 23);
 }
 
-// The lowest level whose cells are 1% wider than `extent`: the spare hides the rounding of positions up to 80,000 cells away.
+// The lowest level whose cells are 1% wider than `extent`: the margin covers rounding of positions up to 80,000 cells
+// away.
 LAW uint level_of(float extent, float inverse_cell) {
     float cells = extent * inverse_cell * 1.01f;
     if (cells <= 1.0f) return 0u;
@@ -31,14 +33,15 @@ LAW uint level_of(float extent, float inverse_cell) {
 
 LAW ivec3 cell_at(vec3 point, uint level, float inverse_cell) {
     vec3 scaled = point * (inverse_cell * power_of_two(-int(level)));
-    vec3 far = vec3(1.0e9f);  // all that is lost lies in one cell: an int must hold its number
+    vec3 far = vec3(1.0e9f);  // far away bodies share a cell, whose index must fit an int
     scaled = larger3(smaller3(scaled, far), -far);
     return ivec3(int(floor(scaled.x)), int(floor(scaled.y)), int(floor(scaled.z)));
 }
 LAW ivec3 cell_of(vec3 lower, vec3 upper, uint level, float inverse_cell) {
     return cell_at((lower + upper) * 0.5f, level, inverse_cell);
 }
-// Where the centre of a body of that level lies if its bounds reach these: at most half a cell outside them.
+// The cells in which a body of that level can have its centre if its AABB overlaps this one: half a cell outside at
+// most.
 struct CellRange {
     ivec3 first;
     int pad0;
@@ -55,8 +58,8 @@ LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters para
     return range;
 }
 
-// Buckets along x follow each other; rows are scattered by a multiplicative hash (Teschner et al. 2003, other primes, mixed once
-// more).
+// The hash bucket of a cell: consecutive along x; rows by a multiplicative hash (Teschner et al. 2003, with other
+// primes and one more mix).
 LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
     uint row = uint(cell.y) * 0x9E3779B1u ^ uint(cell.z) * 0x85EBCA77u ^ level * 0xC2B2AE3Du;
     row = (row ^ (row >> 15)) * 0x2C1B3C6Du;
@@ -67,11 +70,12 @@ LAW bool is_large(BodyProperties properties) {
     return properties.large != 0u;
 }
 
-// The level of what is nowhere in the grid: a body that touches with its parts only, or is not there.
+// Level of rows that are not in the grid: bodies whose parts alone collide, and absent bodies.
 CONSTANT uint NOT_IN_GRID = 0x40u;
 
-// Bounds over the coming step: the shape, the speculative distance, and the way the body will go if nothing meets it. What is
-// fast may not leave them, so the fall is in them too. `bend`: of a part's way (bend_of_way); 0 of a body.
+// Swept AABB over the step: the shape, the speculative distance, and the unobstructed motion. Fast bodies are clamped
+// to their bounds, so for them the fall by gravity is included. `bend`: curvature of a part's path (bend_of_way); 0 for
+// bodies.
 LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity velocity, BodyForces load,
                      Parameters parameters) {
     vec3 half_size = half_extents_of(properties, pose.orientation);
@@ -80,7 +84,7 @@ LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity 
         half_size = vec3(1.0e30f);
     } else if (moves && properties.shape != SHAPE_SPHERE) {
         float reach = bounding_radius(properties);
-        // Turning widens the bounds by at most the arc, and never beyond the sphere around the body.
+        // Rotation extends the AABB by at most the arc, and never beyond the bounding sphere.
         float arc = length3(velocity.angular) * parameters.dt * reach;
         half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
     }
@@ -108,7 +112,7 @@ LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity 
     return bounds;
 }
 
-// Of a body that is not there: in no bucket.
+// Bounds of an absent body: in no bucket.
 LAW Bounds no_bounds(Pose pose) {
     Bounds bounds;
     bounds.lower = pose.position;
@@ -124,43 +128,43 @@ LAW bool boxes_overlap(vec3 lower_a, vec3 upper_a, vec3 lower_b, vec3 upper_b) {
            lower_a.z <= upper_b.z && lower_b.z <= upper_a.z;
 }
 
-// Whether bounds reach a plane (whose own are infinite): the corner that lies deepest is not in front of it.
+// Whether an AABB reaches a plane: its deepest corner is not in front of the plane.
 LAW bool reaches_plane(vec3 lower, vec3 upper, vec3 normal, vec3 point) {
     vec3 corner =
         vec3(normal.x > 0.0f ? lower.x : upper.x, normal.y > 0.0f ? lower.y : upper.y, normal.z > 0.0f ? lower.z : upper.z);
     return dot3(corner - point, normal) <= 0.0f;
 }
 
-// A pair of grid bodies is listed once: by the one on the finer level, on the same level by the one with the lower id. Where
-// bodies lie in memory decides nothing here, so that it may change: `body` and `other` are ids.
+// The owner of a pair of grid bodies: the one on the finer level, on equal levels the lower id. `body` and `other` are
+// ids, because rows in memory may be permuted.
 LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
     return level < other_level || (level == other_level && body < other);
 }
 
-// Set in the level of a body's bounds: it does not stir in this step (sleep.h).
+// Flag in the level of a body's bounds: the body is inactive in this step (sleep.h).
 CONSTANT uint INACTIVE = 0x100u;
 
-// Set in the level of a cell's entry: the body is dynamic, or a part of one that is.
+// Flag in the level of a cell's entry: the body is dynamic, or a part of one that is.
 CONSTANT uint MOVES = 0x200u;
 LAW uint level_of_entry(uint level, BodyProperties properties) {
     return motion_of(properties) == MOTION_DYNAMIC ? level | MOVES : level;
 }
 
-// A pair of grid bodies one of which stirs is listed once. What stirs finds what is still on its own level and on coarser ones;
-// what is still finds what stirs on coarser ones, because nobody looks into finer levels. Pairs of still bodies are not looked
-// for.
+// Ownership when one body may be inactive: an active body finds inactive ones on its own and coarser levels; an
+// inactive body finds active ones on coarser levels, because no body searches finer levels. Pairs of inactive bodies
+// are not searched for.
 LAW bool finds(uint body, uint level, uint other, uint other_level) {
     bool still = (level & INACTIVE) != 0u, other_still = (other_level & INACTIVE) != 0u;
     if (still) return !other_still && level - INACTIVE < other_level;
     return other_still ? level <= other_level - INACTIVE : owns_pair(body, level, other, other_level);
 }
-// The same in the list of large bodies.
+// The same for the list of large bodies.
 LAW bool finds_large(uint body, uint level, bool large, uint other, uint other_level) {
     bool other_still = (other_level & INACTIVE) != 0u;
     if ((level & INACTIVE) != 0u) return !large && !other_still;
     return !large || other_still || body < other;
 }
-// Levels on which a body has partners to find.
+// Bit mask of the levels a body must search.
 LAW uint levels_to_search(uint level, Counts counts) {
     if ((level & NOT_IN_GRID) != 0u) return 0u;
     if ((level & INACTIVE) != 0u) return counts.levels_stirring & ~((2u << (level - INACTIVE)) - 1u);
@@ -172,9 +176,9 @@ LAW bool can_touch(BodyProperties a, BodyProperties b) {
     return moves && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE) && a.owner != b.owner;
 }
 
-// The first four shapes in rising order give the nine kinds 0 to 8 (SHAPE_PLANE with itself has none); with the others all have
-// one law, but for planes and triangles; what two hulls need of it is a kind of its own. PAIR_PERSISTENT is a contact that is
-// kept, PAIR_INACTIVE one between two bodies that do not stir.
+// The first four shapes in ascending order give pair types 0 to 8 (plane-plane has none); general convex shapes share
+// collide_convex, but for planes, triangles and hull-hull. PAIR_PERSISTENT keeps its manifold (persistence.h),
+// PAIR_INACTIVE is a pair of inactive bodies.
 CONSTANT uint PAIR_PLANE_CONVEX = 9u;
 CONSTANT uint PAIR_CONVEX = 10u;
 CONSTANT uint PAIR_HULL_HULL = 11u;
@@ -191,8 +195,8 @@ LAW uint pair_type_of(uint shape_a, uint shape_b) {
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 
-// How far ahead contacts of a pair are made: the speculative distance and the most it can close in a step. Those of fast bodies
-// that will not meet are dropped again (time_of_impact.h).
+// Contact margin of a pair: the speculative distance plus the most by which the pair can close in a step. Speculative
+// contacts of fast bodies that will not meet are dropped later (time_of_impact.h).
 LAW float margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, Parameters parameters) {
     float turning = length3(va.angular) * (a.shape == SHAPE_SPHERE ? 0.0f : length3(a.size)) +
                     length3(vb.angular) * (b.shape == SHAPE_SPHERE ? 0.0f : length3(b.size));

@@ -1,4 +1,4 @@
-// How a Touch is put together, and how it reads from the other body's side.
+// Building a ManifoldBuffer, and viewing it from the other body.
 #ifndef SCREE_PHYSICS_MANIFOLD_H
 #define SCREE_PHYSICS_MANIFOLD_H
 
@@ -7,7 +7,7 @@
 
 LAWS_BEGIN
 
-// A touch along the unit normal (from A to B) that has no points yet.
+// A manifold with a unit normal (from A to B) and no points.
 LAW ManifoldBuffer manifold_along(vec3 normal) {
     ManifoldBuffer touch;
     touch.manifold.normal = normal;
@@ -26,8 +26,8 @@ LAW ManifoldBuffer empty_manifold() {
     return manifold_along(vec3(0.0f, 0.0f, 0.0f));
 }
 
-// The touch and one more point (from A's centre, world axes, m), if its separation (m) is below the margin (m). A fifth point is
-// left out. The slots are named one by one, so that on a GPU they stay registers.
+// Adds a point (from A's centre, world axes, m) if its separation (m) is below the margin (m). A fifth point is
+// ignored. The slots are named one by one, so that on a GPU they stay in registers.
 LAW ManifoldBuffer with_point(ManifoldBuffer touch, vec3 point, float separation, uint feature, float margin) {
     if (separation < margin && touch.count < 4u) {
         vec4 slot = vec4(point.x, point.y, point.z, separation);
@@ -41,13 +41,13 @@ LAW ManifoldBuffer with_point(ManifoldBuffer touch, vec3 point, float separation
     return touch;
 }
 
-// Two round surfaces around the point 0 (radius_a, m) and a point `distance_between` (m) along the normal (radius_b, m).
+// Two spheres: radius_a (m) at the origin, radius_b (m) at `distance_between` (m) along the normal.
 LAW ManifoldBuffer manifold_of_balls(vec3 normal, float distance_between, float radius_a, float radius_b, float margin) {
     float separation = distance_between - (radius_a + radius_b);
     return with_point(manifold_along(normal), normal * (radius_a + 0.5f * separation), separation, 0u, margin);
 }
 
-// The least separation of its points (m); 1e30 if it has none.
+// Least separation of its points (m); 1e30 if it has none.
 LAW float deepest_of(ManifoldBuffer touch) {
     float least = touch.count > 0u ? touch.manifold.points[0].w : 1.0e30f;
     if (touch.count > 1u) least = smaller(least, touch.manifold.points[1].w);
@@ -60,7 +60,7 @@ LAW vec4 seen_from(vec4 point, vec3 d) {
     return vec4(point.x - d.x, point.y - d.y, point.z - d.z, point.w);
 }
 
-// A touch found for (first, second), as (second, first) would have it; d = second's position - first's position (m).
+// A manifold of (first, second) as that of (second, first); d = position of second - position of first (m).
 LAW ManifoldBuffer flipped(ManifoldBuffer touch, vec3 d) {
     touch.manifold.normal = -touch.manifold.normal;
     if (touch.count > 0u) touch.manifold.points[0] = seen_from(touch.manifold.points[0], d);
@@ -70,7 +70,7 @@ LAW ManifoldBuffer flipped(ManifoldBuffer touch, vec3 d) {
     return touch;
 }
 
-// The touch of a part, counted from its body's centre; offset: from there to the part's own (m).
+// A part's manifold relative to its body's centre; offset: part's position - body's position (m).
 LAW ManifoldBuffer from_body(ManifoldBuffer touch, vec3 offset) {
     if (touch.count > 0u) touch.manifold.points[0] = seen_from(touch.manifold.points[0], -offset);
     if (touch.count > 1u) touch.manifold.points[1] = seen_from(touch.manifold.points[1], -offset);

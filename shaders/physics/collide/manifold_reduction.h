@@ -1,4 +1,4 @@
-// Which four of up to eight points hold a body best.
+// Manifold reduction: the four of up to eight points that support best.
 #ifndef SCREE_PHYSICS_MANIFOLD_REDUCTION_H
 #define SCREE_PHYSICS_MANIFOLD_REDUCTION_H
 
@@ -6,17 +6,17 @@
 
 LAWS_BEGIN
 
-// A later point must be better by this factor than an earlier one, so that rounding does not change the choice between frames
-// (Box3D's b3ReduceManifoldPoints does so, and chooses in these four steps).
+// A later point must beat an earlier one by this factor, so that rounding does not change the choice between frames (as
+// Box3D's b3ReduceManifoldPoints, which uses the same four steps).
 CONSTANT float REDUCE_BIAS = 0.95f;
 
-// The area (twice, m^2) by which p lies to the right of the way from a to b, in the plane of y and z.
+// Twice the signed area (m^2) of a, b, p in the plane of y and z, > 0 if p is to the right of a to b.
 LAW float area_right_of(vec4 a, vec4 b, vec4 p) {
     return (p.y - a.y) * (b.z - a.z) - (p.z - a.z) * (b.y - a.y);
 }
 
-// How good p is as the next point after a; after a and b; after a, b and c (area_abc: area_right_of(a, b, c)): far away, a large
-// triangle, far outside of the triangle.
+// Score of p after a (distance), after a and b (triangle area), after a, b and c (outside distance as area; area_abc:
+// area_right_of(a, b, c)).
 LAW float merit(uint step, vec4 a, vec4 b, vec4 c, float area_abc, vec4 p) {
     float y = p.y - a.y;
     float z = p.z - a.z;
@@ -29,18 +29,18 @@ LAW float merit(uint step, vec4 a, vec4 b, vec4 c, float area_abc, vec4 p) {
     return larger(beyond_ab, larger(beyond_bc, beyond_ca));
 }
 
-// What a corner counts for: 1 where it touches (or is the lowest of those in the air), a quarter where it is `slop` (m) above,
-// less beyond. Without this, or with ten times the slop, corners that are far out but in the air displaced one that carried, and
-// boxes rocked for ever between two choices.
+// Weight of a point: 1 in contact (or if it is the lowest of those apart), a quarter at `slop` (m) above, less beyond.
+// Without it, or with ten times the slop, far corners in the air displaced one that carried, and boxes rocked for ever
+// between two choices.
 LAW float nearness(float height, float slop) {
     float near = height > 0.0f ? slop * reciprocal(slop + height) : 1.0f;
     return near * near;
 }
 
-// The bits of the overlay's corners below the ceiling (m) that are worth keeping: the lowest (of those as low to within
-// `flat_within`, m, the farthest from the rectangle's middle), the farthest from it, the one that spans the largest triangle with
-// these, and the one farthest outside of that. All, if there are no more than four. Were the first just any low one, it could be
-// where two sides that are all but parallel cross: in the middle of a face's edge, and a corner would go without support.
+// Bits of the chosen corners below the ceiling (m): the lowest (of those within `flat_within` (m) of it, the farthest
+// from the rectangle's middle), the farthest from that, the one of the largest triangle, and the one farthest outside
+// of it. All if there are at most four. If the first were any low corner, it could be the crossing of two nearly
+// parallel sides in the middle of a face's edge, and a corner would be left unsupported.
 LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
     uint present = 0u;
     uint count = 0u;

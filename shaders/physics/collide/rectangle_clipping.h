@@ -1,4 +1,4 @@
-// What a parallelogram and a rectangle have in common: one box's face seen against another's.
+// Clipping of a parallelogram by a rectangle: a box's incident face over another's reference face.
 #ifndef SCREE_PHYSICS_RECTANGLE_CLIPPING_H
 #define SCREE_PHYSICS_RECTANGLE_CLIPPING_H
 
@@ -6,9 +6,9 @@
 
 LAWS_BEGIN
 
-// The parallelogram centre +- e +- f, looked down upon the rectangle |y| <= half_y, |z| <= half_z; x is the height over it (m).
-// The rectangle is larger by the slack where the parallelogram's edges are cut, so that equal faces keep the same four corners
-// from frame to frame.
+// The parallelogram centre +- e +- f over the rectangle |y| <= half_y, |z| <= half_z; x is the height (m). The
+// rectangle is enlarged by the slack where it cuts the parallelogram's edges, so that equal faces keep the same corners
+// between frames.
 struct Overlay {
     vec3 centre;
     float half_y;  // m
@@ -41,7 +41,7 @@ LAW Overlay overlay_of(vec3 centre, vec3 e, vec3 f, float half_y, float half_z, 
     return overlay;
 }
 
-// The part of a run from `from` (m) that lies within +-extent: x, y: where it enters and leaves (0 to 1; y < x: nowhere), z, w:
+// The part of a run from `from` (m) that lies within +-extent: x, y: parameters of entry and exit (y < x: none), z, w:
 // 0 or 1, whether it crosses the border there.
 LAW vec4 within(vec4 part, float from, float inverse, float extent) {
     if (inverse == 0.0f) return abs(from) > extent ? vec4(0.0f, -1.0f, 0.0f, 0.0f) : part;
@@ -52,13 +52,14 @@ LAW vec4 within(vec4 part, float from, float inverse, float extent) {
     return vec4(larger(part.x, enter), smaller(part.y, leave), enter > part.x ? 1.0f : part.z, leave < part.y ? 1.0f : part.w);
 }
 
-// The common area has at most eight corners, all among CLIP_CANDIDATES: candidate 2k is where edge k of the parallelogram comes
-// into the rectangle (its own corner k, if that lies within), 2k + 1 is where it goes out, 8 to 11 are the rectangle's corners
-// within the parallelogram. Recomputing a candidate is cheaper than an array that a GPU must index.
+// The intersection has at most eight corners, all among CLIP_CANDIDATES: candidate 2k is where edge k of the
+// parallelogram enters the rectangle (or its corner k, if inside), 2k + 1 where the edge leaves, 8 to 11 are the
+// rectangle's corners within the parallelogram. Recomputing a candidate is cheaper than an array that a GPU must index.
 CONSTANT uint CLIP_CANDIDATES = 12u;
 
-// Candidate k: x: height, y, z: in the plane, m; w: feature, or -1 where there is no such corner. Features 0 to 3 are the
-// parallelogram's corners, 4 to 7 the rectangle's, 8 to 15 crossings. (Edges are cut as by Liang and Barsky, ACM TOG 3(1), 1984.)
+// Candidate k: x: height; y, z: in the plane, m; w: feature, or -1 if there is none. Features 0 to 3 are the
+// parallelogram's corners, 4 to 7 the rectangle's, 8 to 15 crossings. (Edges are clipped as by Liang and Barsky, ACM
+// TOG 3(1), 1984.)
 LAW vec4 overlay_corner(Overlay overlay, uint k) {
     if (k < 8u) {
         uint edge = k >> 1;
@@ -75,7 +76,7 @@ LAW vec4 overlay_corner(Overlay overlay, uint k) {
         part = within(part, start.z, inverse_z, overlay.half_z + overlay.slack);
         bool leaves = (k & 1u) != 0u;
         vec3 corner = start + along * (2.0f * (leaves ? part.y : part.x));
-        // An edge that ends within the rectangle leaves its end to the next edge.
+        // The end of an edge inside the rectangle is the start of the next edge.
         bool absent = part.y < part.x || (leaves && part.w == 0.0f);
         float feature = leaves || part.z != 0.0f ? float(8u + k) : float(edge);
         return vec4(corner.x, corner.y, corner.z, absent ? -1.0f : feature);

@@ -1,8 +1,8 @@
-// Contacts of what rolls on a curve that is no circle: found where the bodies will be in the middle of the step.
+// Contacts of ellipsoids, predicted at the middle of the step.
 //
-// A contact's points stay where they are about a body through a step. On a circle that is where they belong. But under an
-// ellipsoid that rocks the point wanders, and a point of the step's beginning lags by half a step: it pulls back too late, and
-// the rocking grows by a tenth in a second. The point of the middle of the step is right on average.
+// Contact points are fixed to a body through a step, which is right for rolling on a circle. Under a rocking ellipsoid
+// the point moves, and one from the start of the step lags by half a step: it pulls back too late, and the rocking
+// grows by a tenth in a second. The point at the middle of the step is right on average.
 #ifndef SCREE_PHYSICS_ROLLING_CONTACT_H
 #define SCREE_PHYSICS_ROLLING_CONTACT_H
 
@@ -12,12 +12,12 @@
 
 LAWS_BEGIN
 
-// So far at most bodies are taken ahead: rad, and of the thinner one's half width. Farther, and what is fast would be found
+// Limits of the prediction: rad, and a part of the smaller min_half_width. With more, a fast body would be predicted
 // behind what it is about to strike.
 CONSTANT float MOST_TURN_AHEAD = 0.2f;
 CONSTANT float MOST_WAY_AHEAD = 0.25f;
 
-// By how much time a pair is taken ahead, s; 0: its contact is found where the bodies are.
+// Time by which a pair is predicted, s; 0: not at all.
 LAW float time_ahead(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, Parameters parameters) {
     if (!is_smooth(a.shape) && !is_smooth(b.shape)) return 0.0f;
     float ahead = 0.5f * parameters.dt;
@@ -35,8 +35,8 @@ LAW Pose pose_ahead(Pose pose, Velocity velocity, float ahead) {
     return after;
 }
 
-// Which body a contact's points stay with: the one that rolls, or the thinner one. A ball rolls on, a small box slides on over a
-// big one, and the contact goes with it.
+// The anchor body of a contact: the one that rolls, or the thinner one. A ball rolls on, a small box slides over a
+// large one, and the contact goes with it.
 LAW bool stays_with_b(BodyProperties a, BodyProperties b) {
     if (can_roll(a.shape) != can_roll(b.shape)) return can_roll(b.shape);
     return min_half_width(b) < min_half_width(a);
@@ -47,8 +47,8 @@ LAW float speed_at(Manifold manifold, vec4 point, Velocity va, Velocity vb, vec3
     vec3 of_b = vb.linear + cross3(vb.angular, xyz(point) - d);
     return dot3(manifold.normal, of_b - of_a);
 }
-// A touch of bodies that were taken ahead, d apart then, as it is now: points where they will be about the body that they stay
-// with, separations as they are.
+// The manifold of predicted poses (d: their offset) brought back to the present: points where they will be on the
+// anchor body, separations as at present.
 LAW ManifoldBuffer brought_back(ManifoldBuffer touch, BodyProperties a, Velocity va, BodyProperties b, Velocity vb, vec3 d,
                                 float ahead) {
     vec3 back = stays_with_b(a, b) ? (va.linear - vb.linear) * ahead : d - d;

@@ -1,12 +1,12 @@
-// Along which axis two convex bodies are farthest apart, or overlap least.
+// Axis of greatest separation, or of least penetration, of two convex bodies.
 //
-// The separation along an axis is never more than the distance, and over all axes the largest is the distance, or where the two
-// overlap the least way that parts them, as a negative number. The axes of their faces are tried first. From the best of these
-// the others are found by pushing the bodies apart along the axis until there is a little room, and taking the shortest way
-// between them for the next axis: the separation grows with each round, and what no longer changes is a largest one (in the words
-// of optimisation a proximal point method, Rockafellar, SIAM J. Control and Optimization 14, 1976). So discs, cones and polyhedra
-// need nothing but their supports, and edges need no list. Of an axis of polyhedra one look tells that it will not change: what
-// the bodies push against each other with lies over the face, or the origin over the triangle of their difference.
+// The separation along an axis never exceeds the distance; its maximum over all axes is the distance, or minus the
+// penetration depth if the bodies overlap. Face normals are tried first. From the best one, the search pushes the
+// bodies apart along the axis until there is a small gap, and takes GJK's vector between them as the next axis: the
+// separation grows in each round, and a fixed point is a local maximum (a proximal point method, Rockafellar, SIAM J.
+// Control and Optimization 14, 1976). So discs, cones and polyhedra need only their support functions, and edges need
+// no list. For polyhedra one test proves an axis final: the other's support lies over the face, or the origin over the
+// simplex triangle.
 #ifndef SCREE_PHYSICS_SEPARATING_AXIS_H
 #define SCREE_PHYSICS_SEPARATING_AXIS_H
 
@@ -14,24 +14,24 @@
 
 LAWS_BEGIN
 
-// Rounds of pushing apart. With one, an edge found from a face is off by degrees where bodies overlap.
+// Rounds of pushing apart. With one, an edge axis found from a face is off by degrees for overlapping bodies.
 CONSTANT uint PUSH_ROUNDS = 3u;
-// Of the thinner body's half width: the room between the bodies when they are pushed apart. Less, and rounding turns the way
-// between them; more, and the rounds converge slowly.
+// The gap after pushing apart, relative to the smaller min_half_width. With less, rounding turns the vector; with more,
+// the rounds converge slowly.
 CONSTANT float PUSH_ROOM = 0.1f;
 
 struct Separation {
     vec3 normal;     // unit, from A to B
     float distance;  // m, between the surfaces
-    uint face_a;     // the best face of A, of B
+    uint face_a;     // best reference faces of A and B
     uint face_b;
     float by_face_a;  // its separation, m; -1e30 without faces
     float by_face_b;  // -1e30 also where it is no more than A's
-    bool over_face;   // the better of the two faces has what reaches farthest towards it over itself
+    bool over_face;   // the other body's support lies over the better face
 };
 
-// A hull's planes are looked at in its own frame, others' in the world's: the plane of a face, a vector to go with it, and how
-// high a point lies over it.
+// Planes of hulls are evaluated in the hull's frame, those of others in world axes: the plane of a face, a vector in
+// the same frame, and the height of a point over the plane.
 LAW vec4 plane_as_listed(ConvexShape own, uint face, Hulls hulls) {
     if (own.shape == SHAPE_HULL) return hull_plane(hulls, own.hull, own.head, face);
     return plane_of(own, face, hulls);
@@ -42,7 +42,7 @@ LAW vec3 as_listed(ConvexShape own, vec3 v) {
 LAW float height_over(vec4 plane, vec3 point) {
     return dot3(vec3(plane.x, plane.y, plane.z), point) - plane.w;
 }
-// Of some faces that over which the point lies highest.
+// The face over which the point is highest.
 LAW uint highest_over(ConvexShape own, Faces faces, vec3 point, Hulls hulls) {
     uint found = 0u;
     float best = -1.0e30f;
@@ -57,7 +57,7 @@ LAW uint highest_over(ConvexShape own, Faces faces, vec3 point, Hulls hulls) {
     return found;
 }
 
-// Whether a point, seen from the body's centre, lies over a face: then nothing near that face's axis parts the bodies farther.
+// Whether a point (from the body's centre) projects into a face: then no axis near that face's normal separates more.
 LAW bool lies_over(ConvexShape own, uint face, vec3 point, Hulls hulls) {
     vec4 plane = plane_of(own, face, hulls);
     vec3 normal = vec3(plane.x, plane.y, plane.z);
@@ -76,7 +76,7 @@ LAW bool lies_over(ConvexShape own, uint face, vec3 point, Hulls hulls) {
     }
     return over;
 }
-// The same of a triangle of points of the difference of the two bodies.
+// The same for a triangle of the Minkowski difference.
 LAW bool lies_over_triangle(Simplex s, vec3 point) {
     if (s.count != 3u) return false;
     vec3 normal = cross3(s.b - s.a, s.c - s.a);
@@ -86,16 +86,16 @@ LAW bool lies_over_triangle(Simplex s, vec3 point) {
     return first > 0.0f && second > 0.0f && third > 0.0f;
 }
 
-// The laws below look at both bodies in one loop instead of twice in a row: every support that is asked for in another place is
-// another copy of its code on a device, and drivers took minutes to compile a dozen of them.
+// The functions below treat both bodies in one loop instead of twice: every call of a support function is another
+// inlined copy on a device, and drivers took minutes to compile a dozen.
 //
-// And the loops of faces and of the way between are left at their head alone: where some threads left one in the middle of a
-// round, lavapipe has been seen to give them values of the rounds that the others went on with.
+// Loops over faces and in GJK exit at their head only: where threads left a loop in the middle of a round, lavapipe has
+// been seen to give them values of rounds that other threads went on with.
 //
-// A face's support is asked for only if the face may be the best one: of each body first that over which the other's centre lies
-// highest; then those over which that centre lies high enough, seeing how far the other reaches in any direction, and no lower
-// the corner that is lowest over the best face so far. Of equals the first counts. The second body's are only looked at so far
-// as they may be better than the first's best, and no more is asked once the two are known to be `enough` (m) apart.
+// A face's support is evaluated only if the face may be the best: first the face over which the other's centre is
+// highest; then faces over which that centre, less the other's inner radius, and the deepest vertex of the best face so
+// far are high enough. Of equals the first counts. B's faces are skipped unless they may beat A's, and the search ends
+// once the bodies are known to be `enough` (m) apart.
 LAW Separation separation_by_faces(ConvexShape a, ConvexShape b, vec3 d, float enough, Hulls hulls) {
     Separation s;
     s.normal = unit3(d, a.axes.y);
@@ -150,7 +150,7 @@ LAW Separation separation_by_faces(ConvexShape a, ConvexShape b, vec3 d, float e
                            (!better || height_over(listed, lowest) >= best);
                     ++next;
                 } else {
-                    // What the cell does not list counts only where it could be better than all that it does.
+                    // Unlisted faces only if they could be better than all listed ones.
                     left = !faces.all && (length3(between) * faces.beyond - own.head.inner) - other.head.inner >= best;
                     if (left) {
                         faces = all_faces(own);
@@ -180,7 +180,7 @@ LAW Separation separation_by_faces(ConvexShape a, ConvexShape b, vec3 d, float e
     return s;
 }
 
-// The axis to try next after the faces: of the first three, what the sides say; then the way between bodies pushed apart.
+// Side normals tried after the faces; then axes by pushing apart.
 CONSTANT uint SIDE_AXES = 3u;
 LAW vec3 side_axis_between(ConvexShape a, ConvexShape b, vec3 d, uint k) {
     if (k == 0u) return side_normal(a.shape, a.size, a.axes, d);
@@ -189,7 +189,7 @@ LAW vec3 side_axis_between(ConvexShape a, ConvexShape b, vec3 d, uint k) {
     return dot3(across, d) < 0.0f ? -across : across;
 }
 
-// Stops early where the two are known to be `enough` apart.
+// Ends early once the bodies are known to be `enough` (m) apart.
 LAW Separation separation_of(ConvexShape a, ConvexShape b, vec3 d, float enough, Hulls hulls) {
     float radii = a.radius + b.radius;
     Separation s = separation_by_faces(a, b, d, enough + radii, hulls);

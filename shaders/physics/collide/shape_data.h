@@ -1,15 +1,15 @@
-// What completes a body's shape, in a table of its kind (BodyProperties.shape_data): convex hulls, and triangles of meshes, which
-// lie there as hulls of one face (triangle.h), each at its place in the table of hulls, equal hulls once; and tyres (tyre.h).
+// Shape data in tables (BodyProperties.shape_data): convex hulls; triangles of meshes as hulls of one face
+// (triangle.h); tyres (tyre.h). Equal hulls are stored once.
 //
-// From a hull's place on: one record (vertices, faces and cells as uints, inner radius in m); a record a vertex (m); a record a
-// face (its unit normal outward, and its distance from the centre, m); another a face (its first corner in the list, how many, -,
-// -), as uints; two records a cell; and the list of corners, sixteen bytes a record, each the number of a vertex,
-// counter-clockwise seen from outside. Everything is from the centre of mass, along the principal axes of inertia.
+// Layout of a hull, in quads: a head (vertices, faces and cells as uints, inner radius in m); a quad per vertex (m); a
+// quad per face (outward unit normal, distance from the centre, m); a quad per face (first corner in the list, number
+// of corners, -, -) as uints; two quads per cell; the list of corners, a byte each (vertex indices, counter-clockwise
+// seen from outside). All relative to the centre of mass, along the principal axes of inertia.
 //
-// A hull of many corners knows by the cell into which a direction falls (cell_of) which of its vertices may reach farthest that
-// way, and which of its faces may look that way: sixteen bytes each. The vertices: how many, and their numbers; none (0) where
-// more than fifteen may. The faces: how many, how much the others look that way at most (cosine_of), and the numbers. (A cube map
-// of a polytope's normal fan; compute/scene/hull_cells.h.)
+// Hulls of many vertices have a cube map of directions (a polytope's normal fan; compute/scene/hull_cells.h): each cell
+// (cell_of) lists in sixteen bytes the vertices that may support its directions, and in sixteen the faces that may be
+// nearest. Vertices: count and indices; count 0 if there are more than fifteen. Faces: count, the greatest cosine of
+// all others (cosine_of), and indices.
 #ifndef SCREE_PHYSICS_SHAPE_DATA_H
 #define SCREE_PHYSICS_SHAPE_DATA_H
 
@@ -19,11 +19,11 @@
 
 LAWS_BEGIN
 
-CONSTANT uint MOST_CORNERS = 64u;     // of a hull; a corner's number fits a byte
-CONSTANT uint LISTED_VERTICES = 15u;  // of a cell, at most
+CONSTANT uint MOST_CORNERS = 64u;     // of a hull; vertex indices fit a byte
+CONSTANT uint LISTED_VERTICES = 15u;  // per cell, at most
 CONSTANT uint LISTED_FACES = 14u;
 
-// What a law is given to look into the table of hulls: in C++ a pointer, on a device nothing, because there the table is bound.
+// Access to the table of hulls: in C++ a pointer; on a device the table is bound.
 #ifdef __cplusplus
 struct Hulls {
     const uvec4* records;
@@ -41,7 +41,7 @@ uvec4 hull_record(Hulls table, uint place);  // shaders/stages/lib/shape_data.gl
 LAW uint hull_of(BodyProperties properties) {
     return properties.shape_data;
 }
-// In the table of tyres, counted from 1; 0: no tyre.
+// Index into the table of tyres plus 1; 0: no tyre.
 LAW uint tyre_of(BodyProperties properties) {
     return takes_tyre(properties.shape) ? properties.shape_data : 0u;
 }
@@ -49,13 +49,13 @@ LAW vec3 point_in(uvec4 record) {
     return vec3(uintBitsToFloat(record.x), uintBitsToFloat(record.y), uintBitsToFloat(record.z));
 }
 
-// The numbers that a hull begins with.
+// The head of a hull.
 struct HullHead {
     uint vertices;
     uint faces;
-    uint across;  // so many cells along each edge of the cube; 0: it has none
-    float inner;  // of the largest ball around the centre that lies inside, m; of what does not hold its centre the way to it at
-                  // most, negative: in any direction the hull reaches at least so far
+    uint across;  // cells along each edge of the cube map; 0: no map
+    float inner;  // least support over all directions, m: radius of the largest inscribed ball about the centre; < 0 if it is
+                  // outside
 };
 LAW HullHead hull_head(Hulls hulls, uint hull) {
     uvec4 record = hull_record(hulls, hull);
@@ -69,7 +69,7 @@ LAW HullHead hull_head(Hulls hulls, uint hull) {
 LAW vec3 hull_vertex(Hulls hulls, uint hull, uint k) {
     return point_in(hull_record(hulls, hull + 1u + k));
 }
-// xyz: outward, unit; w: distance of the face from the centre, m.
+// xyz: outward unit normal; w: distance from the centre, m.
 LAW vec4 hull_plane(Hulls hulls, uint hull, HullHead head, uint face) {
     uvec4 record = hull_record(hulls, hull + 1u + head.vertices + face);
     vec3 normal = point_in(record);
@@ -94,20 +94,20 @@ LAW vec3 hull_corner(Hulls hulls, uint hull, HullHead head, uint place) {
     uint list = hull_first_cell(hull, head) + 2u * cells_of(head.across);
     return hull_vertex(hulls, hull, byte_of(hull_record(hulls, list + (place >> 4u)), place));
 }
-// Records of a hull, those of its list of corners included.
+// Quads of a hull, the list of corners included.
 LAW uint hull_records(Hulls hulls, uint hull) {
     HullHead head = hull_head(hulls, hull);
     uvec4 last = hull_face(hulls, hull, head, head.faces - 1u);
     return (hull_first_cell(hull, head) + 2u * cells_of(head.across) - hull) + ((last.x + last.y + 15u) >> 4u);
 }
 
-// Where a number in -most..most lies among four equal parts of that.
+// The quarter of -most..most that holds x, 0 to 3.
 LAW uint quarter_of(float x, float most) {
     float half_way = 0.5f * most;
     return (x >= -half_way ? 1u : 0u) + (x >= 0.0f ? 1u : 0u) + (x >= half_way ? 1u : 0u);
 }
-// The cell of a direction (of any length but 0): the cube's side 2k is the one down axis k, 2k + 1 the one up; on it `across` (2
-// or 4) rows along the next axis (x, y, z, x, ...) and in each row as many cells along the one after that.
+// The cube map cell of a direction (of any length but 0). Side 2k faces -axis k, 2k + 1 faces +axis k; each has
+// `across` (2 or 4) rows along the next axis (x, y, z, x, ...) of as many cells along the one after that.
 LAW uint cell_of(vec3 direction, uint across) {
     float x = abs(direction.x), y = abs(direction.y), z = abs(direction.z);
     uint side = 0u;
@@ -128,7 +128,7 @@ LAW uint cell_of(vec3 direction, uint across) {
     float most = abs(ahead);
     return (side * across + (quarter_of(row, most) >> coarser)) * across + (quarter_of(column, most) >> coarser);
 }
-// What a byte says of a cosine: at least 0, at most 1/126 too much.
+// The cosine that a byte encodes, rounded up: at most 1/126 too large.
 LAW float cosine_of(uint byte) {
     return float(byte) * 0.0079366f - 1.0f;
 }

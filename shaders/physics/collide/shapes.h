@@ -1,8 +1,9 @@
-// The shapes, one by one: their ids, and what the step asks of each beside where two of them touch.
+// The shapes: ids, sizes, extents and support functions.
 //
-// An id is the place of the shape in SimpleShape (compute/shapes.h). What is asked of a shape is asked by its id and its size;
-// what a hull or a triangle answers with the table of its corners is in convex_support.h. The laws of pairs that have one of
-// their own are collide_a_b.h; all that follow the cylinder are convex in general, and meet by convex_support.h.
+// An id is the index of the shape in SimpleShape (compute/shapes.h). The functions here need a shape's id and size;
+// those of hulls and triangles, which need the table of vertices, are in convex_support.h. Pairs with a collision
+// function of their own are in collide_a_b.h; all shapes from the cylinder on are general convex shapes
+// (collide_convex.h).
 #ifndef SCREE_PHYSICS_SHAPES_H
 #define SCREE_PHYSICS_SHAPES_H
 
@@ -17,54 +18,54 @@ CONSTANT uint SHAPE_PLANE = 3u;      // size: unit normal; the pose's position i
 CONSTANT uint SHAPE_CYLINDER = 4u;   // size: radius, half height, - (along y) m
 CONSTANT uint SHAPE_CONE = 5u;       // size: radius, height, - (along y, apex up) m
 CONSTANT uint SHAPE_ELLIPSOID = 6u;  // size: radii along x, y and z           m
-CONSTANT uint SHAPE_HULL = 7u;       // size: half extents of the box about its centre of mass that holds it, m
-CONSTANT uint SHAPE_TRIANGLE = 8u;   // of a mesh, solid behind it; size: as of a hull. In the table of hulls: triangle.h
-CONSTANT uint SHAPE_NONE = 9u;       // only its parts touch. size: its thinnest part's thickness, how far it reaches, - m
+CONSTANT uint SHAPE_HULL = 7u;       // size: half extents of a box about the centre of mass, m
+CONSTANT uint SHAPE_TRIANGLE = 8u;   // of a mesh, solid behind its face; size: as of a hull. In the table of hulls: triangle.h
+CONSTANT uint SHAPE_NONE = 9u;       // only its parts collide. size: min_half_width of its thinnest part, bounding radius, - m
 
-#ifndef SCREE_LANES  // the laws of the solver ask nothing of shapes
+#ifndef SCREE_LANES  // the solver does not depend on shapes
 
-// ---- what kind of shape it is
-// A point or an axis with a radius around it: two of them touch along the line between their cores, wherever they go.
+// ---- classes of shapes
+// Sphere-swept point or segment: the contact of two follows the line between their cores as they move.
 LAW bool has_round_core(uint shape) {
     return shape == SHAPE_SPHERE || shape == SHAPE_CAPSULE;
 }
-// Met by its support alone.
+// Collides by its support function alone.
 LAW bool is_general_convex(uint shape) {
     return shape >= SHAPE_CYLINDER && shape <= SHAPE_HULL;
 }
-// Is curved everywhere, and by its support alone touches what is flat in one point.
+// Strictly convex: a single contact point with a flat face.
 LAW bool is_smooth(uint shape) {
     return shape == SHAPE_ELLIPSOID;
 }
-// Touches what is flat in one point, which goes on over it as soon as it turns.
+// Has a single contact point with a flat face, which moves as soon as the body rotates.
 LAW bool touches_in_a_point(uint shape) {
     return shape == SHAPE_SPHERE || is_smooth(shape);
 }
-// Can roll on its side, or on its rim.
+// Can roll, on its side or its rim.
 LAW bool can_roll(uint shape) {
     return has_round_core(shape) || shape == SHAPE_CYLINDER || shape == SHAPE_CONE || is_smooth(shape);
 }
 LAW bool takes_tyre(uint shape) {
     return has_round_core(shape) || shape == SHAPE_CYLINDER;
 }
-// Is the inside of flat faces, with corners.
+// Polyhedra.
 LAW bool is_polyhedron(uint shape) {
     return shape == SHAPE_BOX || shape == SHAPE_HULL || shape == SHAPE_TRIANGLE;
 }
-// Has a side of straight lines, which can lie along something.
+// Has a ruled side, whose lines may lie along a face.
 LAW bool has_straight_side(uint shape) {
     return shape == SHAPE_CYLINDER || shape == SHAPE_CONE || shape == SHAPE_CAPSULE;
 }
-// Has a curved side, whose normals are axes to try first (side_normal).
+// Has a curved side, whose normals are tried as separating axes (side_normal).
 LAW bool has_side(uint shape) {
     return has_straight_side(shape) || is_smooth(shape);
 }
-// Flat faces that are known without a table.
+// Number of flat faces that need no table.
 LAW uint flat_faces(uint shape) {
     return shape == SHAPE_BOX ? 6u : (shape == SHAPE_CYLINDER ? 2u : (shape == SHAPE_CONE ? 1u : 0u));
 }
 
-// ---- how large it is, m
+// ---- extents, m
 // A cone's centre of mass lies a quarter of its height above its base.
 LAW float cone_apex(vec3 size) {
     return 0.75f * size.y;
@@ -80,7 +81,7 @@ LAW float largest_component(vec3 v) {
     return larger(v.x, larger(v.y, v.z));
 }
 
-// Smallest half width: what lengths on a body are measured against.
+// Smallest half width, the scale of tolerances on a body.
 LAW float min_half_width(uint shape, vec3 size) {
     if (shape == SHAPE_PLANE || shape == SHAPE_TRIANGLE) return 1.0e30f;
     if (shape == SHAPE_CYLINDER) return smaller(size.x, size.y);
@@ -88,7 +89,7 @@ LAW float min_half_width(uint shape, vec3 size) {
     if (shape == SHAPE_HULL) return 0.5f * smallest_component(size);
     return shape == SHAPE_BOX || shape == SHAPE_ELLIPSOID ? smallest_component(size) : size.x;
 }
-// How far from its centre it reaches; of a hull a bound.
+// Radius of the bounding sphere about the centre; for a hull an upper bound.
 LAW float bounding_radius(uint shape, vec3 size) {
     if (is_polyhedron(shape)) return length3(size);
     if (shape == SHAPE_NONE) return size.y;
@@ -98,14 +99,14 @@ LAW float bounding_radius(uint shape, vec3 size) {
     if (shape == SHAPE_CONE) return larger(0.75f * size.y, square_root(size.x * size.x + 0.0625f * (size.y * size.y)));
     return size.x;
 }
-// How fast its surface moves against any fixed direction where it spins by 1 rad/s, at most: not that of a ball, of a capsule
-// only its axis.
+// Upper bound of the surface's normal speed at an angular velocity of 1 rad/s: 0 for a sphere, half the axis for a
+// capsule.
 LAW float turning_reach(uint shape, vec3 size) {
     if (shape == SHAPE_CAPSULE) return size.y;
     if (shape == SHAPE_ELLIPSOID) return largest_component(size) - smallest_component(size);
     return shape == SHAPE_SPHERE || shape == SHAPE_PLANE ? 0.0f : bounding_radius(shape, size);
 }
-// Its core reaches at least so far from its centre, in any direction; that of a hull the table knows.
+// Lower bound of the core's support in any direction; for hulls it is in the table.
 LAW float inner_radius(uint shape, vec3 size) {
     if (shape == SHAPE_BOX || shape == SHAPE_ELLIPSOID) return smallest_component(size);
     if (shape == SHAPE_CYLINDER) return smaller(size.x, size.y);
@@ -113,14 +114,14 @@ LAW float inner_radius(uint shape, vec3 size) {
     float slope = size.x * inverse_square_root(size.x * size.x + size.y * size.y);
     return smaller(-cone_base(size), slope * cone_apex(size));
 }
-// Its width along the widest of its own axes.
+// Width along the widest of its own axes.
 LAW float widest(uint shape, vec3 size) {
     if (shape == SHAPE_SPHERE) return 2.0f * size.x;
     if (shape == SHAPE_CAPSULE) return 2.0f * (size.x + size.y);
     if (shape == SHAPE_CONE) return larger(2.0f * size.x, 1.5f * size.y);
     return 2.0f * largest_component(size);
 }
-// Half the size of the box along the world's axes that holds it.
+// Half extents of the AABB.
 LAW vec3 world_half_extents(uint shape, vec3 size, vec4 orientation) {
     vec3 half_size = vec3(size.x);
     if (shape == SHAPE_CAPSULE) {
@@ -146,11 +147,11 @@ LAW vec3 world_half_extents(uint shape, vec3 size, vec4 orientation) {
     }
     return half_size;
 }
-// The radii of a ball that may be stretched along its axes.
+// The radii of a sphere, capsule end or ellipsoid along its axes.
 LAW vec3 ball_radii(uint shape, vec3 size) {
     return has_round_core(shape) ? vec3(size.x) : size;
 }
-// m^3; of a hull about half of the box around it.
+// Volume, m^3; for a hull about half of its box.
 LAW float volume_of(uint shape, vec3 size) {
     float r = size.x;
     if (shape == SHAPE_BOX) return 8.0f * (size.x * size.y * size.z);
@@ -162,7 +163,7 @@ LAW float volume_of(uint shape, vec3 size) {
     return shape == SHAPE_CAPSULE ? ball + 6.28318531f * r * r * size.y : ball;
 }
 
-// ---- its surface. Directions and points are along the world's axes, from the body's centre
+// ---- support functions. Directions and points in world axes, from the body's centre
 LAW vec3 in_body(Axes axes, vec3 v) {
     return vec3(dot3(axes.x, v), dot3(axes.y, v), dot3(axes.z, v));
 }
@@ -170,8 +171,8 @@ LAW vec3 in_world(Axes axes, vec3 v) {
     return (axes.x * v.x + axes.y * v.y) + axes.z * v.z;
 }
 
-// Across a body's y axis, unit, the way v points; the body's x axis where it points neither way. What rounding leaves along the
-// axis of a v that points almost along it is taken away once more: it would lift a rim by a hundredth of its radius.
+// The unit component of v perpendicular to the body's y axis; the x axis if v is parallel to y. Orthogonalised twice:
+// for a v almost parallel to the axis, rounding would lift a rim by a hundredth of its radius.
 LAW vec3 outward_from_axis(Axes axes, vec3 v) {
     vec3 across = v - axes.y * dot3(axes.y, v);
     if (dot3(across, across) <= 1.0e-10f * dot3(v, v)) return axes.x;
@@ -181,32 +182,32 @@ LAW vec3 outward_from_axis(Axes axes, vec3 v) {
 LAW vec3 rim_point(Axes axes, vec3 size, vec3 outward, float height) {
     return outward * size.x + axes.y * height;
 }
-// The normal of a cone's side: so much outward, so much upward.
+// Outward normal of a cone's side.
 LAW vec3 cone_normal(Axes axes, vec3 size, vec3 outward) {
     float scale = inverse_square_root(size.x * size.x + size.y * size.y);
     return outward * (size.y * scale) + axes.y * (size.x * scale);
 }
 
-// The point of an ellipsoid farthest in a direction: R^2 n / |R n|, with R the radii.
+// Support point of an ellipsoid with radii R: R^2 n / |R n|.
 LAW vec3 ellipsoid_support(vec3 size, Axes axes, vec3 direction) {
     vec3 stretched = in_body(axes, direction) * size;
     return in_world(axes, unit3(stretched, vec3(1.0f, 0.0f, 0.0f)) * size);
 }
-// Its normal where the way from its centre to a point comes out: R^-2 p, in units of the smallest radius.
+// Outward normal where the ray from the centre to a point leaves the ellipsoid: R^-2 p, scaled by the smallest radius.
 LAW vec3 ellipsoid_normal(vec3 size, Axes axes, vec3 towards) {
     float least = smallest_component(size);
     vec3 flatness = vec3(least * reciprocal(size.x), least * reciprocal(size.y), least * reciprocal(size.z));
     return unit3(in_world(axes, in_body(axes, towards) * flatness * flatness), axes.x);
 }
 
-// The normal of the curved side that looks towards a point.
+// Outward normal of the curved side towards a point.
 LAW vec3 side_normal(uint shape, vec3 size, Axes axes, vec3 towards) {
     if (shape == SHAPE_ELLIPSOID) return ellipsoid_normal(size, axes, towards);
     vec3 outward = outward_from_axis(axes, towards);
     return shape == SHAPE_CONE ? cone_normal(axes, size, outward) : outward;
 }
 
-// The point of the core farthest in a direction (of any length but 0), of all but hulls.
+// Support point of the core (`direction` of any length but 0), for all shapes but hulls.
 LAW vec3 support_by_size(uint shape, vec3 size, Axes axes, vec3 direction) {
     if (shape == SHAPE_ELLIPSOID) return ellipsoid_support(size, axes, direction);
     float along = dot3(axes.y, direction);
@@ -223,7 +224,7 @@ LAW vec3 support_by_size(uint shape, vec3 size, Axes axes, vec3 direction) {
         vec3 rim = rim_point(axes, size, outward_from_axis(axes, direction), cone_base(size));
         return dot3(apex - rim, direction) > 0.0f ? apex : rim;
     }
-    return axes.y * (along < 0.0f ? -size.y : size.y);  // of a sphere 0, of a capsule half its axis
+    return axes.y * (along < 0.0f ? -size.y : size.y);  // sphere: the centre; capsule: an end of its axis
 }
 
 #endif

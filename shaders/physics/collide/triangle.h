@@ -1,10 +1,9 @@
-// A triangle of a mesh: in the table of hulls, and which contacts its edges may have.
+// Mesh triangles in the table of hulls, and the contact normals that their edges allow (ghost collisions).
 //
-// It lies there as a hull of three corners with one face (shape_data.h), counter-clockwise seen from outside; behind these come
-// three records, one an edge, the first from corner 0 to 1: the normal that is the farthest a contact at that edge may lean out
-// over it. At an edge where the mesh goes on flat or rises that is the face's own: whatever seems to run into such an edge lies
-// on the neighbour, and would trip over nothing. At a ridge it is the neighbour's normal, at an open edge it points straight
-// outward.
+// A triangle is a hull of three vertices and one face (shape_data.h), counter-clockwise seen from outside, followed by
+// three records, one per edge, the first from corner 0 to 1: the limit normal, the farthest that a contact at that edge
+// may lean outward. At flat or concave edges that is the face normal: whatever seems to hit such an edge rests on the
+// neighbour and would trip. At a convex edge it is the neighbour's normal; at an open edge it points straight outward.
 #ifndef SCREE_PHYSICS_TRIANGLE_H
 #define SCREE_PHYSICS_TRIANGLE_H
 
@@ -13,13 +12,13 @@
 LAWS_BEGIN
 
 CONSTANT uint TRIANGLE_RECORDS = 10u;
-CONSTANT uint FIRST_LIMIT = 7u;  // where the edges' records begin
+CONSTANT uint FIRST_LIMIT = 7u;  // index of the edges' records
 
-// Of a body's least half width: so far its centre may lie behind a triangle and be pushed out in front. More, and what lies on
-// one side of a thin wall is drawn to the other; 0, and what is pressed in to its middle falls through.
+// A body is pushed out in front while its centre is at most this part of min_half_width behind the triangle. With more,
+// bodies on one side of a thin wall are pulled to the other; with 0, what is pressed in to its middle falls through.
 CONSTANT float STILL_IN_FRONT = 0.5f;
-// How far a contact's normal may be from what its edge allows and be turned to it, squared (sine of 1.1 degrees). With none, what
-// rests on the seam of two triangles belongs to neither; with more, it belongs to both twice over.
+// Squared sine of the angle (1.1 degrees) by which a contact normal may be corrected to the allowed one. With 0, a body
+// on the seam of two triangles belongs to neither; with more, to both twice.
 CONSTANT float BENT_SQUARED = 0.0004f;
 
 LAW vec3 limit_at(ConvexShape triangle, uint edge, Hulls hulls) {
@@ -29,7 +28,7 @@ LAW vec3 corner_of_triangle(ConvexShape triangle, uint k, Hulls hulls) {
     return in_world(triangle.axes, hull_vertex(hulls, triangle.hull, k < 3u ? k : k - 3u));
 }
 
-// The unit normal if its edges allow it, else what is nearest to it that they allow; away from the triangle.
+// The unit normal if the edges allow it, else the nearest allowed one; away from the triangle.
 LAW vec3 allowed_normal(ConvexShape triangle, vec3 face, vec3 normal, Hulls hulls) {
     vec3 allowed = normal;
     uint refused = 0u;
@@ -47,7 +46,7 @@ LAW vec3 allowed_normal(ConvexShape triangle, vec3 face, vec3 normal, Hulls hull
     return refused > 1u ? face : allowed;
 }
 
-// Whether a body whose centre lies so high over a triangle is in front of it.
+// Whether a body whose centre has that height over the triangle is in front of it.
 LAW bool in_front(float height, float scale) {
     return height >= -(STILL_IN_FRONT * scale);
 }

@@ -1,17 +1,16 @@
-// When a body breaks, and what becomes of its motion.
+// Fracture: threshold, impulse limit, and the motion of fragments.
 //
-// How a body comes apart is known before the first step: fragments are pre-allocated and inactive, so fracture needs no
-// allocation and no host round trip. It breaks at the end of the step in which one contact has carried more than its threshold:
-// the normal impulse that the contact handed it in this step and the greatest that one handed it in the step before, because a
-// blow that falls between two steps is one blow. So a load that stays counts twice what it presses with in a step. A threshold of
-// momentum is that of the body itself as the step began; it breaks if it had more, and a contact takes at least a tenth of the
-// threshold from it.
+// Fragments are cut before the first step, pre-allocated and inactive, so fracture needs no allocation and no host
+// round trip. A body breaks at the end of the step in which one contact's normal impulse, plus the greatest of the
+// previous step, exceeds the threshold: an impact may straddle two steps. So a steady load counts twice its impulse per
+// step. A threshold of momentum is compared with the body's own as the step began, and a contact must take at least a
+// tenth of it.
 //
-// A body that breaks cannot bear more than its threshold. So of what its contacts carried in that step they keep the part
-// threshold / impulse, and the rest is given back, to both bodies at one place and in opposite directions: what strikes a pane
-// goes on nearly as fast as it came, and what a frame held stays with the frame. Linear and angular momentum are kept. Then the
-// pieces go on as parts of a rigid body do, v + w x r and w; their masses add up to the body's, their places to its centre and
-// their inertia to its own (compute/scene/fracture.h), so that it is the same momentum.
+// A breaking body cannot bear more than its threshold. Its contacts keep the part threshold / impulse of what they
+// applied in that step; the rest is returned to both bodies at one point and in opposite directions: what strikes a
+// pane goes on nearly as fast as it came. Linear and angular momentum are conserved. Fragments then move as parts of
+// the rigid body, v + w x r and w; their masses, centres and inertias sum to the body's (compute/scene/fracture.h), so
+// the momentum is the same.
 #ifndef SCREE_PHYSICS_FRACTURE_H
 #define SCREE_PHYSICS_FRACTURE_H
 
@@ -20,20 +19,20 @@
 
 LAWS_BEGIN
 
-// Of a threshold of momentum: less is no blow but a touch, and what slides along the ground would break.
+// Of a momentum threshold: a contact with a smaller impulse does not break the body, else sliding would.
 CONSTANT float LEAST_BLOW = 0.1f;
 
 LAW bool may_break(BodyProperties properties) {
     return properties.fracture != NONE && properties.motion == MOTION_DYNAMIC;
 }
 
-// What a body remembers for the next step, N s: the blow, or its momentum.
+// What is stored for the next step, N s: the greatest contact impulse, or the momentum.
 LAW float strain_after(Fracturing fracturing, float blow, BodyProperties properties, Velocity velocity) {
     if (fracturing.of_momentum == 0u) return blow;
     return length3(velocity.linear) * reciprocal(properties.inverse_mass);
 }
-// The part of their impulses that its contacts keep, 1 if it stays whole. `blow`: the greatest impulse of one contact, N s;
-// `strain`: what the step before left.
+// The part of the contacts' impulses that stays, 1 if the body does not break. `blow`: the greatest impulse of one
+// contact, N s; `strain`: stored by the previous step, N s.
 LAW float kept_part(Fracturing fracturing, float blow, float strain) {
     float felt = fracturing.of_momentum == 0u ? blow + strain : strain;
     float least = fracturing.of_momentum == 0u ? 0.0f : LEAST_BLOW * fracturing.threshold;
@@ -41,7 +40,7 @@ LAW float kept_part(Fracturing fracturing, float blow, float strain) {
     return fracturing.threshold * reciprocal(felt);
 }
 
-// A body's velocity when a contact of it gives back `impulse`, N s. Of A: side 0.
+// The velocity after a contact returns `impulse`, N s, to body A (side 0) or B.
 LAW Velocity given_back(Velocity velocity, Mass mass, Constraint c, Impulse contact, uint side, float impulse) {
     c = refresh_round_contact(c, contact.center_offset);
     LeverArms r = lever_arms(c, c.centre, contact.center_offset);
@@ -51,7 +50,7 @@ LAW Velocity given_back(Velocity velocity, Mass mass, Constraint c, Impulse cont
     return velocity;
 }
 
-// A piece of the body where it belongs, and as fast as a part of the whole.
+// A fragment's pose and velocity, as a part of the rigid body.
 LAW RigidState piece_of(PoseInBody piece, Pose pose, Velocity velocity) {
     vec3 arm = rotate(pose.orientation, piece.position);
     vec3 way = arm + vec3(pose.low_x, velocity.low_y, velocity.low_z);

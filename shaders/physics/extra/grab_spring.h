@@ -1,4 +1,4 @@
-// A body that the user holds: its point is drawn to a place by a damped spring, as strong as the body is heavy.
+// Grab spring: a damped spring, scaled with the body's mass, that pulls an anchor of a held body to a target.
 #ifndef SCREE_PHYSICS_GRAB_SPRING_H
 #define SCREE_PHYSICS_GRAB_SPRING_H
 
@@ -6,8 +6,9 @@
 
 LAWS_BEGIN
 
-// K v = w for what a push at a point does to that point's velocity, of a body of mass 1: K = 1 - [r] (m I^-1) [r]. Symmetric, and
-// no eigenvalue is below 1. Spelled out, because products with a literal zero are not the same everywhere (arithmetic.h).
+// Solves K v = w, K = 1 - [r] (m I^-1) [r], the velocity change of the anchor by an impulse there, for unit mass.
+// Symmetric; no eigenvalue is below 1. Written out, because products with a literal zero differ between devices
+// (arithmetic.h).
 LAW vec3 push_for(vec3 w, vec3 r, Mass mass) {
     float m = reciprocal(mass.inverse_mass);
     vec3 turn_x = vec3(mass.xy * r.z - mass.xz * r.y, mass.yy * r.z - mass.yz * r.y, mass.yz * r.z - mass.zz * r.y) * m;
@@ -19,14 +20,14 @@ LAW vec3 push_for(vec3 w, vec3 r, Mass mass) {
     // Cramer's rule.
     float a = yy * zz - yz * yz, b = xz * yz - xy * zz, c = xy * yz - xz * yy;
     float d = xx * zz - xz * xz, e = xy * xz - xx * yz, f = xx * yy - xy * xy;
-    float determinant = larger((xx * a + xy * b) + xz * c, 1.0f);  // whatever rounding makes of it
+    float determinant = larger((xx * a + xy * b) + xz * c, 1.0f);  // at least 1 in spite of rounding
     return vec3((a * w.x + b * w.y) + c * w.z, (b * w.x + d * w.y) + e * w.z, (c * w.x + e * w.y) + f * w.z) *
            reciprocal(determinant);
 }
 
-// The velocity of a held body after the pull of one substep. The spring is implicit (Catto, Soft Constraints, GDC 2011), so no
-// stiffness lets it swing up, and it ends at a push in proportion to the mass, so it tears nothing apart. It is solved afresh in
-// every substep: with an impulse carried over, a jump of the target would throw the body.
+// The velocity of a held body after one substep. The spring is implicit (Catto, Soft Constraints, GDC 2011), so any
+// stiffness is stable, and its impulse is limited in proportion to the mass, so it tears nothing apart. No warm start:
+// with one, a jump of the target would throw the body.
 LAW Velocity pulled(Velocity velocity, Pose pose, Mass mass, Grip grip, Parameters parameters) {
     vec3 r = rotate(pose.orientation, grip.anchor);
     vec3 gap = (pose.position + r) - grip.target;

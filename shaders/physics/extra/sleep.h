@@ -1,15 +1,15 @@
-// When a body falls asleep, and what wakes it.
+// Sleep and waking without islands.
 //
-// A body that is slow, lies on something and is pushed by nobody counts its quiet steps; its count is never more than an eighth
-// of those to sleep above that of a body it touches. So restlessness spreads through contacts by one body a step, and a body that
-// has counted to the end has nothing restless within eight contacts: it sleeps, without islands and without a word from the host,
-// and one body that cannot come to rest does not keep a whole heap awake. Asleep it keeps every bit of its pose, whoever leans on
-// it, and only carries its contacts over from step to step.
+// A body that is slow, in contact, and not touched by a moving kinematic body counts quiet steps; its count exceeds
+// that of a body it touches by at most an eighth of the steps to sleep. So restlessness spreads through contacts by one
+// body a step, and a body that has counted to the end has nothing restless within eight contacts: it sleeps without
+// islands or the host, and one body that cannot come to rest does not keep a whole heap awake. A sleeper keeps every
+// bit of its pose whoever leans on it, and its contacts are only carried over from step to step.
 //
-// It wakes in the step in which something restless touches it, or when what an awake neighbour bears of it, or lays on it, has
-// changed since it fell asleep: that is how support withdrawn, and a weight added, reach a sleeper that stays put. A blow runs
-// further than one body within a step, so it shakes sleepers behind the two that meet, through awake bodies too: these may move
-// in this step, and sleep on if it turns out that they hardly did.
+// A sleeper wakes in the step in which a restless body touches it, or when the load of a contact with an awake
+// neighbour has changed since it fell asleep: so withdrawn support and added weight reach a sleeper that stays put. An
+// impact travels further than one body within a step, so it shakes sleepers behind the two that collide, through awake
+// bodies too: these may move in this step, and sleep on if they hardly did.
 #ifndef SCREE_PHYSICS_SLEEP_H
 #define SCREE_PHYSICS_SLEEP_H
 
@@ -18,33 +18,32 @@
 
 LAWS_BEGIN
 
-// The record of a body's rest. As the step begins: quiet steps in the low 12 bits. What wakes in this step adds bits, in any
-// order: whether something woke the body, and one for each depth (in contacts, 1 to DEEPEST) to which it shakes others, of which
-// the highest counts.
-CONSTANT uint QUIET_BITS = 0xFFFu;  // Settings::sleep_time ends below
+// A body's sleep state: quiet steps at the start of the step in the low 12 bits. Waking in this step sets bits, in any
+// order: WOKEN, and one for each depth (in contacts, 1 to DEEPEST) to which the body shakes others; the highest counts.
+CONSTANT uint QUIET_BITS = 0xFFFu;  // Settings::sleep_time is limited to fewer steps
 CONSTANT uint WOKEN = 0x100000u;
 CONSTANT uint SHAKING_SHIFT = 21u;
-CONSTANT uint NO_SLEEP = 0xFFFFFFFFu;  // for Parameters.sleep_steps: nobody sleeps
+CONSTANT uint NO_SLEEP = 0xFFFFFFFFu;  // for Parameters.sleep_steps: no body sleeps
 
-// A blow passes through two contacts in a substep, and more slowly than that at the strength to move anything. With less than
-// the number of substeps a row of balls throws a blow back from its sleeping end.
-CONSTANT uint DEEPEST = 11u;          // as many bits as the record has left
-CONSTANT float STRETCH_SPEED = 0.1f;  // of a body's half width in a second: a small body that moves so fast is not at rest
-// Of the speed of sleep: whom a blow shook less sleeps on, and its momentum is lost. Others lie awake for some steps in which the
-// blow may arrive; many, and a heap that settles keeps itself awake.
+// An impact passes through two contacts in a substep, and more slowly at the strength to move anything. With a depth
+// below the number of substeps a row of balls reflects an impact from its sleeping end.
+CONSTANT uint DEEPEST = 11u;          // all remaining bits of the sleep state
+CONSTANT float STRETCH_SPEED = 0.1f;  // speed limit of small bodies, half widths per second
+// Of the sleep speed: a shaken body that is slower sleeps on, and its momentum is lost. Faster ones stay awake for some
+// steps in which the impact may arrive; with many, a settling heap keeps itself awake.
 CONSTANT float SHAKEN_SPEED = 0.01f;
 CONSTANT uint SHAKEN_STEPS = 4u;
-// Of the load in which a body fell asleep and its own weight: less, and jitter keeps heaps awake; more, and sleepers hold what
-// should tip.
+// Relative change of the load (plus the sleeper's weight) that wakes: with less, jitter keeps heaps awake; with more,
+// sleepers hold what should tip.
 CONSTANT float LOAD_CHANGE = 0.05f;
-CONSTANT float TOUCH_DISTANCE = 0.25f;  // of the speculative distance: what comes nearer within a step touches
-CONSTANT uint NEARNESS_SHIFT = 3u;      // 1/8: more, and sleep begins beside what still moves, to be woken at once
-CONSTANT float FOREVER = 65536.0f;      // quiet steps of what cannot move
+CONSTANT float TOUCH_DISTANCE = 0.25f;  // of the speculative distance: closer within the step is contact
+CONSTANT uint NEARNESS_SHIFT = 3u;      // 1/8 of the steps to sleep: with more, moving neighbours wake sleepers at once
+CONSTANT float FOREVER = 65536.0f;      // quiet steps of an immovable body
 
 LAW uint quiet_steps(uint sleep_state) {
     return sleep_state & QUIET_BITS;
 }
-// At the step's start; being woken does not change it.
+// Whether the body was asleep as the step began; being woken does not change it.
 LAW bool has_slept(uint sleep_state, uint sleep_steps) {
     return quiet_steps(sleep_state) >= sleep_steps;
 }
@@ -54,11 +53,11 @@ LAW bool is_asleep(uint sleep_state, uint sleep_steps) {
 LAW uint shaking_bit(uint depth) {
     return depth == 0u ? 0u : 1u << (SHAKING_SHIFT + depth - 1u);
 }
-// Whether the body shakes others exactly that deep.
+// Whether the body shakes others to exactly that depth.
 LAW bool shakes(uint sleep_state, uint depth) {
     return (sleep_state >> (SHAKING_SHIFT + depth - 1u)) == 1u;
 }
-// Not woken itself, but behind someone who was.
+// Shaken but not woken: behind a body that was.
 LAW bool is_shaken(uint sleep_state, uint sleep_steps) {
     return sleep_state > WOKEN && (sleep_state & WOKEN) == 0u && has_slept(sleep_state, sleep_steps);
 }
@@ -67,7 +66,7 @@ LAW bool is_shaken(uint sleep_state, uint sleep_steps) {
 LAW bool is_movable(uint motion, uint sleep_state, uint sleep_steps) {
     return motion == MOTION_DYNAMIC && !is_asleep(sleep_state, sleep_steps);
 }
-// Whether a body may move, and therefore looks for others.
+// Whether a body is active: it may move, and therefore searches for pairs.
 LAW bool stirs(uint motion, Velocity velocity, uint sleep_state, uint sleep_steps) {
     if (motion == MOTION_KINEMATIC) return in_motion(velocity);
     return is_movable(motion, sleep_state, sleep_steps);
@@ -75,24 +74,25 @@ LAW bool stirs(uint motion, Velocity velocity, uint sleep_state, uint sleep_step
 LAW bool is_restless(uint motion, uint sleep_state) {
     return motion != MOTION_DYNAMIC || quiet_steps(sleep_state) == 0u;
 }
-// Whether a body wakes those that are joined to it. Being woken by one that it is joined to does not count before the next step.
+// Whether a body wakes those joined to it. A body woken through a joint wakes its own neighbours in the next step.
 LAW bool stirs_joined(uint motion, Velocity velocity, uint sleep_state) {
     if (motion == MOTION_KINEMATIC) return in_motion(velocity);
     return motion == MOTION_DYNAMIC && ((sleep_state & WOKEN) != 0u || quiet_steps(sleep_state) == 0u);
 }
 
 // ---- falling asleep
-// The speed of a body's fastest point, 1 where sleep ends.
+// Speed bound of the body's surface, relative to the sleep limit: 1 at the limit.
 LAW float pace_of(BodyProperties properties, Velocity velocity, Parameters parameters) {
     float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * min_half_width(properties));
     return (length3(velocity.linear) + length3(velocity.angular) * bounding_radius(properties)) * reciprocal(limit);
 }
-// What a body tells those who touch it: its quiet steps; less than none if it moves whatever it meets.
+// Quiet steps as seen by neighbours: < 0 for a moving kinematic body.
 LAW float told_quiet(uint motion, Velocity velocity, uint sleep_state) {
     if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? -1.0f : FOREVER;
     return (sleep_state & WOKEN) != 0u ? 0.0f : float(quiet_steps(sleep_state));
 }
-// The record for the next step. `carrying`: contacts that do; `told`: the least of what the bodies behind them told.
+// The sleep state for the next step. `carrying`: number of active contacts; `told`: least quiet steps of their other
+// bodies.
 LAW uint sleep_state_after(uint sleep_state, float pace, float carrying, float told, uint sleep_steps) {
     if (pace > 1.0f || carrying == 0.0f || told < 0.0f || sleep_steps == NO_SLEEP) return 0u;
     uint quiet = (sleep_state & WOKEN) != 0u ? 0u : quiet_steps(sleep_state);
@@ -107,7 +107,7 @@ LAW uint sleep_state_after(uint sleep_state, float pace, float carrying, float t
 }
 
 // ---- waking
-// How fast two bodies approach where they touch within the step, m/s; < 0: they do not touch.
+// Approach speed of two bodies where they touch within the step, m/s; < 0: no contact.
 LAW float approach_of(Manifold manifold, uint count, vec3 d, Velocity a, Velocity b, Parameters parameters) {
     float fastest = -1.0f;
     for (uint k = 0u; k < 4u; ++k) {
@@ -120,14 +120,14 @@ LAW float approach_of(Manifold manifold, uint count, vec3 d, Velocity a, Velocit
     }
     return fastest;
 }
-// How many contacts deep a blow shakes: two at the speed of sleep, three more each time it is twice as fast.
+// The depth of shaking, in contacts: two at the sleep speed, three more per doubling of the approach speed.
 LAW uint depth_of(float approach, Parameters parameters) {
     float ratio = approach * reciprocal(parameters.sleep_speed);
     if (ratio < 1.0f) return 0u;
     uint depth = 2u + 3u * ((floatBitsToUint(ratio) >> 23) - 127u);
     return depth < DEEPEST ? depth : DEEPEST;
 }
-// The load of a contact on a sleeper is that of the last step in which both bodies were awake.
+// A sleeper's contact keeps the load of the last step in which both bodies were awake.
 LAW float load_of(bool one_sleeps, Contact before, Impulse was) {
     return one_sleeps ? before.load : normal_impulse(was);
 }
@@ -135,8 +135,8 @@ LAW bool load_changed(float now, float then, BodyProperties sleeper, Parameters 
     float weight = length3(parameters.gravity) * abs(sleeper.gravity_scale) * parameters.h * reciprocal(sleeper.inverse_mass);
     return abs(now - then) > LOAD_CHANGE * (then + weight);
 }
-// Whether a contact wakes the sleeper at one of its ends. `restless`: the body at the other end is; `now`, `then`: the load in
-// the last step, and when the sleeper fell asleep, N s.
+// Whether a contact wakes the sleeper at one of its ends. `restless`: the other body is; `now`, `then`: the load in the
+// last step, and when the sleeper fell asleep, N s.
 LAW bool wakes(bool restless, float approach, float now, float then, BodyProperties sleeper, Parameters parameters) {
     if (restless && (approach >= 0.0f || now > 0.0f)) return true;
     return load_changed(now, then, sleeper, parameters);

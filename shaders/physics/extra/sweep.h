@@ -1,10 +1,10 @@
-// The way of a body through one step: whether it is so long that something could be passed unseen, and where it ends early.
+// Continuous collision: which bodies are fast, their sweeps through a step, and clamping.
 //
-// A body is fast if it moves by more than half of its thickness in a step. What is slower cannot pass anything whole: it enters
-// it by that much at most, and its contact pushes it back out of the side where it came in. Fast bodies are looked after three
-// times: contacts are made ahead only for those that will meet (shaders/stages/predict_impacts.comp), after the last substep they
-// are stopped where their ways meet (find_impacts.comp), or where they leave the bounds in which their neighbours were searched.
-// A stopped body keeps its velocity and goes on in the next step, which finds its contact (the way of Box2D and Box3D, Erin
+// A body is fast if it moves by more than half of its min_half_width in a step. A slower one cannot tunnel: it
+// penetrates by that much at most, and its contact pushes it out of the side where it came in. Fast bodies take three
+// measures: speculative contacts only for those that will meet (shaders/stages/predict_impacts.comp); after the last
+// substep, clamping where sweeps meet (find_impacts.comp), or where a body leaves the bounds of its broadphase search.
+// A clamped body keeps its velocity and moves on in the next step, which finds its contact (as in Box2D and Box3D: Erin
 // Catto, Continuous Collision, GDC 2013).
 #ifndef SCREE_PHYSICS_SWEEP_H
 #define SCREE_PHYSICS_SWEEP_H
@@ -14,11 +14,11 @@
 
 LAWS_BEGIN
 
-// Fraction of a step at which a body is stopped that is not: more than 1, so that it is told from those that may be.
+// Time of impact of bodies that are not clamped; greater than 1, the value of fast bodies whose sweep is free.
 CONSTANT float NO_HIT = 2.0f;
 
-// Rounds of search for what must stop. The first finds who meets whom, the second who runs into those that the first has stopped,
-// and so on: with fewer, bodies that fly in a row pass each other when the first of them is stopped.
+// Rounds of time of impact. The first finds who meets whom, the second who runs into bodies clamped by the first, and
+// so on: with fewer, bodies that fly in a row pass each other when the first of them is clamped.
 CONSTANT uint CCD_ROUNDS = 3u;
 
 LAW float min_half_width(BodyProperties properties) {
@@ -31,7 +31,7 @@ LAW float lever_of(BodyProperties properties) {
     return turning_reach(properties.shape, properties.size);
 }
 
-// How far a body may go in a step unwatched, m. A larger part, and a thin plate could be entered beyond its middle.
+// Motion in a step above which a body is fast, m. With more, a thin plate could be entered beyond its middle.
 LAW float ccd_threshold(BodyProperties properties) {
     return 0.5f * min_half_width(properties);
 }
@@ -39,8 +39,8 @@ LAW bool in_motion(Velocity v) {
     return v.linear.x != 0.0f || v.linear.y != 0.0f || v.linear.z != 0.0f || v.angular.x != 0.0f || v.angular.y != 0.0f ||
            v.angular.z != 0.0f;
 }
-// Whether a body at this velocity will be fast. What hangs on a joint never is: to stop it alone would tear it out of its joint
-// (limbs of figures that fall were 0.5 m apart), and the contacts that are made ahead of its way hold it back.
+// Whether a body at this velocity will be fast. Jointed bodies never are: clamping one alone would tear its joint open
+// (limbs of falling figures were 0.5 m apart), and speculative contacts hold them back.
 LAW bool will_be_fast(BodyProperties properties, Velocity velocity, Parameters parameters) {
     if (!in_motion(velocity) || properties.joints != NONE) return false;
     float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(properties);
@@ -51,13 +51,14 @@ LAW vec3 half_extents_of(BodyProperties properties, vec4 orientation) {
     return world_half_extents(properties.shape, properties.size, orientation);
 }
 
-// From one orientation to another on the shorter way: the difference of the quaternions, whichever sign the second has.
+// Difference of two quaternions on the shorter arc, whatever the sign of the second.
 LAW vec4 turn_between(vec4 from, vec4 to) {
     float cosine = (from.x * to.x + from.y * to.y) + (from.z * to.z + from.w * to.w);
     return cosine < 0.0f ? -to - from : to - from;
 }
-// A bound on how fast a body turns if its quaternion goes straight from one orientation by `turn` to the other, rad per step: the
-// quaternion's angle p (half of the turn) passes fastest midway, at twice the tangent of half of p: 2 |turn| over |from + to|.
+// Bound on the angular speed if the quaternion goes straight from one orientation by `turn` to the other, rad per step:
+// its angle p (half of the rotation) changes fastest midway, at twice the tangent of half of p: 2 |turn| over |from +
+// to|.
 LAW float turning_of(vec4 from, vec4 turn) {
     vec4 both = from * 2.0f + turn;
     float chord = (turn.x * turn.x + turn.y * turn.y) + (turn.z * turn.z + turn.w * turn.w);
@@ -91,16 +92,15 @@ LAW bool was_fast(BodyProperties properties, Sweep sweep, Pose end) {
     return way > ccd_threshold(properties) && properties.joints == NONE;
 }
 
-// The fraction of a way along one axis, from 0 to `way`, that lies between -back and ahead (both may be negative: then none).
+// The fraction of a displacement `way` along one axis that lies between -back and ahead (both may be negative: then 0).
 LAW float part_within(float way, float back, float ahead) {
     float room = way > 0.0f ? ahead : back;
     float length = abs(way);
     if (length <= room) return 1.0f;
     return room > 1.0e-9f ? room * reciprocal(length) : 0.0f;
 }
-// The fraction of its way after which a body leaves the bounds in which its neighbours were searched, by more than what it may go
-// unwatched; 1 if it stays within. What a ricochet or a blow sends elsewhere would else pass bodies that nobody has paired with
-// it.
+// The fraction of its sweep after which a body leaves the bounds of its broadphase search by more than ccd_threshold; 1
+// if it stays within. Beyond, a ricochet could pass bodies that it was not paired with.
 LAW float seen_part(BodyProperties properties, Sweep sweep, Pose end, Bounds bounds) {
     vec3 half_size = larger3(half_extents_of(properties, sweep.orientation), half_extents_of(properties, end.orientation));
     half_size = half_size - vec3(ccd_threshold(properties));
@@ -124,8 +124,8 @@ struct ClampedMotion {
     Pose pose;
     Velocity velocity;
 };
-// The body where it is stopped. Its velocity stays, but for what gravity and forces have done on the rest of its way, which is
-// still before it: v^2 - 2 a.x, so that waiting costs and gains no energy.
+// The body clamped to a fraction of its sweep. The velocity stays, less what gravity and forces added on the omitted
+// part: v^2 - 2 a.x, so clamping conserves energy.
 LAW ClampedMotion clamp_motion(Sweep sweep, Pose end, Velocity velocity, BodyForces load, float fraction) {
     ClampedMotion after;
     after.pose = pose_along(sweep.position, end.position - sweep.position, sweep.orientation,

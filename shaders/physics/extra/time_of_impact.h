@@ -1,8 +1,9 @@
-// When two bodies meet on their ways through a step: conservative advancement.
+// Time of impact of two bodies by conservative advancement (Mirtich, Impulse-based Dynamic Simulation, PhD thesis,
+// Berkeley 1996).
 //
-// Both go on until the gap between them, at the speed at which it can close at most, could be gone; there it is measured anew
-// (Mirtich, Impulse-based Dynamic Simulation, PhD thesis, Berkeley 1996). The gap along a fixed axis never exceeds the distance,
-// so only the speed along the axis counts: what flies past is done with in a few rounds.
+// Both advance until the distance between them could be closed at the greatest closing speed; there the distance is
+// computed anew. The separation along a fixed axis never exceeds the distance, so only the speed along the axis counts:
+// bodies that fly past each other need few rounds.
 #ifndef SCREE_PHYSICS_TIME_OF_IMPACT_H
 #define SCREE_PHYSICS_TIME_OF_IMPACT_H
 
@@ -12,24 +13,24 @@
 
 LAWS_BEGIN
 
-// Rounds of advancement. Fewer, and bodies that spin beside each other are stopped although they would have passed.
+// Rounds of advancement. With fewer, bodies that spin beside each other are clamped although they would have passed.
 CONSTANT uint IMPACT_ROUNDS = 32u;
-// Of the thinner one's half width: how far a body may enter another that has been stopped before it.
+// How far a body may penetrate one that was clamped before it, relative to the smaller min_half_width.
 CONSTANT float LOST_DEPTH = 0.5f;
-// Cosine of the angle (18 degrees) by which a contact made ahead may differ from the one that the impact will need.
+// Cosine of the angle (18 degrees) by which a speculative contact's normal may differ from that of the impact.
 CONSTANT float SAME_NORMAL = 0.95f;
 
-// A body's straight way through the step, or its part up to where it is stopped.
+// A body's motion through the step, linear in position and quaternion, or its part up to where it is clamped.
 struct MotionPath {
     vec3 start;   // m
-    float until;  // fraction at which it ends
+    float until;  // fraction of the step at which it ends
     vec3 way;     // m
-    float sweep;  // bound on the speed of its surface by turning, about an axis across the gap, m per step
+    float sweep;  // bound on the surface speed by rotation about an axis perpendicular to the gap, m per step
     vec4 orientation;
-    vec4 turn;        // of the quaternion
-    vec3 axis;        // of the turn, unit
-    float most;       // bound on the same whatever the gap's direction, m per step
-    PoseInBody part;  // where it lies in the body whose course this is
+    vec4 turn;        // difference of quaternions
+    vec3 axis;        // of the rotation, unit
+    float most;       // bound on the same for any direction of the gap, m per step
+    PoseInBody part;  // pose in the body that moves
     uint of_part;     // 1: it is a part
 };
 LAW MotionPath path_of(BodyProperties properties, vec3 start, vec4 orientation, Pose end, float until) {
@@ -50,7 +51,7 @@ LAW MotionPath path_of(BodyProperties properties, vec3 start, vec4 orientation, 
     course.of_part = 0u;
     return course;
 }
-// A part's, where that is its body's.
+// The path of a part from that of its body.
 LAW MotionPath path_of_part(BodyProperties properties, PoseInBody part, MotionPath body) {
     MotionPath course = body;
     course.sweep = turning_of(body.orientation, body.turn) * (length3(part.position) + lever_of(properties));
@@ -68,19 +69,19 @@ LAW float arc_along(MotionPath course, vec3 normal) {
     return smaller(course.most, course.sweep * length3(cross3(course.axis, normal)));
 }
 
-// What gaps of a pair mean, m.
+// Distances of a pair, m.
 struct Limits {
-    float touch;  // so near, they touch: the next step has their contact and finds it before they overlap
-    float slop;   // what counts as no change
-    float depth;  // how far they may enter each other
+    float touch;  // below: in contact; the next step finds it before they overlap
+    float slop;   // tolerance
+    float depth;  // penetration allowed
     float pad;
 };
-// Pairs that had a contact in this step are where it has left them, softness and all, and are stopped only as one is driven half
-// way through the other; a narrower limit would hold bodies of a dense flow while the rest goes on into them. But once either is
-// stopped, the other runs into it in a way that the contact knew nothing of.
-CONSTANT uint NO_CONTACT = 0u;    // no contact
-CONSTANT uint IN_CONTACT = 1u;    // a contact, and both go their whole ways
-CONSTANT uint CONTACT_LOST = 2u;  // a contact, but one of them is stopped
+// Pairs with a contact in this step were left by the solver, and are clamped only as one is driven half way through the
+// other; a narrower limit would stop bodies of a dense flow while the rest runs into them. But once either is clamped,
+// the other meets it in a way that the contact did not foresee.
+CONSTANT uint NO_CONTACT = 0u;
+CONSTANT uint IN_CONTACT = 1u;    // in contact, neither is clamped
+CONSTANT uint CONTACT_LOST = 2u;  // in contact, but one of them is clamped
 LAW uint contact_state_of(uint contact_points, float stop_a, float stop_b) {
     if (contact_points == 0u) return NO_CONTACT;
     return stop_a < 1.0f || stop_b < 1.0f ? CONTACT_LOST : IN_CONTACT;
@@ -102,12 +103,12 @@ LAW Limits limits_of(BodyProperties a, BodyProperties b, uint hold, Parameters p
 
 struct Impact {
     vec3 normal;     // unit, world, from A to B
-    float fraction;  // of the step; NO_HIT if they do not meet
+    float fraction;  // of the step; NO_HIT: none
 };
-// Where the two must be stopped: as they come to touch, if they then overlap. Those that touch from the start have contacts, and
-// are stopped only where one is driven into the other. That holds for all that the step before has stopped as they came to touch:
-// stopped there again and again, a hull that tips fast over its edge hung in the air for seconds. Out of rounds, they are stopped
-// as far as they are known to be free. `until_touch`: as they come to touch, whatever follows.
+// Time of impact: as the bodies come into contact, if they then overlap. Bodies in contact from the start are clamped
+// only where one is driven into the other, and so are those clamped in the previous step as they came into contact:
+// clamped there again and again, a hull tipping fast over its edge hung in the air for seconds. Out of rounds, they are
+// clamped as far as they are known to be free. `until_touch`: as they come into contact, whatever follows.
 LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionPath b, Limits limits, bool until_touch,
                      Hulls hulls) {
     Impact impact;
@@ -120,7 +121,7 @@ LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionP
     for (uint k = 0u; k < IMPACT_ROUNDS; ++k) {
         bool both = t < a.until && t < b.until;
         float leg = both ? smaller(a.until, b.until) : larger(a.until, b.until);
-        // What cannot close in this leg need not be known better.
+        // A distance that cannot close in this leg need not be exact.
         float fastest = a.most + b.most + length3(both ? b.way - a.way : (t < a.until ? a.way : b.way));
         float enough = aim + (tolerance + limits.slop) + positive(leg - t) * fastest;
         DistanceBound gap = distance_between_shapes(ta, pose_along_path(a, t), tb, pose_along_path(b, t), enough, hulls);
@@ -137,7 +138,7 @@ LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionP
             aim = -limits.depth;
         }
         if (met && gap.distance <= aim + 0.1f * limits.slop) {
-            // Found on the way: stop where they came to touch. Driven in from the start: stop here.
+            // Found during the sweep: clamp where contact began. Driven in from the start: clamp here.
             if (impact.fraction > 1.0f) {
                 impact.normal = gap.normal;
                 impact.fraction = t;
@@ -165,25 +166,25 @@ LAW Impact impact_of(BodyProperties ta, MotionPath a, BodyProperties tb, MotionP
     return impact;
 }
 
-// Where a body would be after the step if nothing met it.
+// The pose at the end of the step without contacts.
 LAW Pose predict_pose(Pose pose, Velocity velocity, BodyForces load, Parameters parameters) {
     Pose end = pose;
     end.position = pose.position + (velocity.linear + load.acceleration * parameters.dt) * parameters.dt;
     end.orientation = turned(pose.orientation, velocity.angular, parameters.dt);
     return end;
 }
-// Whether a contact is one of bodies that touch already.
+// Whether a contact is touching already, not speculative.
 LAW bool is_near(Manifold manifold, uint count, Parameters parameters) {
     bool near = false;
     for (uint k = 0u; k < 4u; ++k)
         if (k < count && manifold.points[k].w <= 0.1f * parameters.speculative) near = true;
     return near;
 }
-// What becomes of a contact made ahead, while nothing else strikes the two: they meet about as it says; or they pass each other,
-// or touch elsewhere, and then it would push where nothing is.
-CONSTANT uint SPECULATIVE = 0x80000000u;  // with the number of its points
-// Whether a contact will change the course of its bodies by more than foresight may be wrong: at a quarter of the speed at which
-// bodies bounce, 4 mm in a step of 1/60 s. At the whole of it, an avalanche lost contacts that it needed and clotted.
+// A speculative contact is doubtful if the predicted sweeps pass each other or meet elsewhere: it would push where
+// nothing is.
+CONSTANT uint SPECULATIVE = 0x80000000u;  // flag in point_counts: doubtful
+// Whether a contact will deflect its bodies by more than the prediction's error: a quarter of the restitution
+// threshold, 4 mm in a step of 1/60 s. At the whole of it, an avalanche lost contacts that it needed and clotted.
 LAW bool is_impacting(vec3 normal, Velocity a, Velocity b, Parameters parameters) {
     return dot3(normal, b.linear - a.linear) < -0.25f * parameters.restitution_threshold;
 }

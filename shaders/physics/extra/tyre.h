@@ -1,14 +1,14 @@
-// Tyres: rubber holds by slipping a little, holds best at some slip, and worse when it slides.
+// Tyre friction: rises with slip up to the best slip, and falls to that of a sliding tyre.
 //
-// The slip is how fast the tread moves over the ground, in parts of how fast the wheel goes along or its tread goes round,
-// whichever is faster: 0 of a wheel that rolls freely, 1 of a locked one; sideways it is the tangent of the slip angle. Up to the
-// best slip the friction grows in proportion to it, then it falls to that of a sliding tyre at slip 1 (as brush models and
-// measured curves do: Pacejka, Tire and Vehicle Dynamics, chapters 1 and 3), and it points against the slip whichever way that
-// goes, so that braking and cornering share what there is.
+// Slip is the speed of the tread over the ground, relative to the larger of the wheel's travel speed and the tread's
+// circumferential speed: 0 for a free-rolling wheel, 1 for a locked one; sideways it is the tangent of the slip angle.
+// Friction grows in proportion up to the best slip, then falls to that of a sliding tyre at slip 1 (as brush models and
+// measured curves do: Pacejka, Tire and Vehicle Dynamics, chapters 1 and 3), and it opposes the slip in any direction,
+// so braking and cornering share one limit.
 //
-// The rising part would be far too stiff for a force known from the slip before: a light wheel stops slipping within a
-// millisecond. So it is the compliance of the friction's rows, solved with them (contact_solver.h); only the falling part is
-// taken from the slip with which the step begins. A tyre at rest has no compliance: it holds as everything else does.
+// The rising part would be far too stiff as an explicit force: a light wheel stops slipping within a millisecond. So it
+// is the compliance of the friction rows, solved implicitly (contact_solver.h); only the falling part uses the slip at
+// the start of the step. A tyre at rest has no compliance, and ordinary friction.
 #ifndef SCREE_PHYSICS_TYRE_H
 #define SCREE_PHYSICS_TYRE_H
 
@@ -21,12 +21,13 @@ LAW vec3 along_surface(vec3 normal, vec3 v) {
     return v - normal * dot3(normal, v);
 }
 
-// The constraint of a contact of a tyre: of A, or of B. `v`: of the two bodies as the step begins; d as in Contact.
+// Turns a contact's constraint into a tyre's, of A or of B. `v`: of both bodies as the step begins; d: centre of B
+// minus centre of A, m.
 LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, VelocityPair v) {
     if (c.anchor == ANCHOR_ROUND) return c;
     LeverArms r = lever_arms(c, c.centre, d);
     vec3 slip = along_surface(c.normal, velocity_at(r, v));
-    // How the tyre goes along, seen from the ground, as part of the slip of B over A.
+    // Travel of the tyre over the ground, as part of the slip of B over A.
     vec3 way = is_a ? (v.b.linear + cross3(v.b.angular, r.b)) - v.a.linear : v.b.linear - (v.a.linear + cross3(v.a.angular, r.a));
     way = along_surface(c.normal, way);
     float pace = larger(length3(way), length3(slip - way));
@@ -34,11 +35,11 @@ LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, VelocityPair 
     float beyond = clamped((slipping - tyre.best_slip) * reciprocal(1.0f - tyre.best_slip), 0.0f, 1.0f);
     c.friction = c.friction * (1.0f - beyond * (1.0f - tyre.sliding));
     c.radius_a = tyre.best_slip * pace;
-    c.twist_arm = 0.0f;  // what twists a tread on the ground is small, and would hold the car straight
+    c.twist_arm = 0.0f;  // torsional friction of a tread is small, and would keep the car straight
     return c;
 }
 
-// What belongs to which point of the step before: the points stay where they are about the wheel while it turns under them.
+// Matches points across steps as they lie about the wheel, which turns under them.
 LAW uvec4 matches_of_tyre(Contact now, Contact before, bool is_a, float radius) {
     uvec4 matches = uvec4(NONE);
     uint taken = 0u;

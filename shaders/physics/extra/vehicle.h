@@ -1,7 +1,7 @@
-// A vehicle in one step: what its driver does, how far its wheels are turned, and what drives or brakes each of them.
+// Vehicles in one step: route following, steering, and the motors and brakes of wheels.
 //
-// It has no equations of its own: it says what the motors of its wheels' joints do (joint.h), and friction does the rest
-// (tyre.h).
+// A vehicle has no equations of its own: it sets the motors of its wheels' joints (joint.h), and tyre friction does the
+// rest (tyre.h).
 #ifndef SCREE_PHYSICS_VEHICLE_H
 #define SCREE_PHYSICS_VEHICLE_H
 
@@ -10,24 +10,24 @@
 
 LAWS_BEGIN
 
-// The driver looks ahead on the route by the way of that time, but not less than that way: nearer, and he weaves; farther, and he
-// cuts corners.
+// Pure pursuit looks ahead by LOOK_TIME at the present speed, at least LEAST_LOOK: nearer, and the vehicle weaves;
+// farther, and it cuts corners.
 CONSTANT float LOOK_TIME = 0.5f;      // s
 CONSTANT float LEAST_LOOK = 4.0f;     // m
-CONSTANT float THROTTLE_GAIN = 0.5f;  // per m/s of speed that is lacking
-CONSTANT float BRAKE_GAIN = 0.25f;    // per m/s above what is wanted, and
-CONSTANT float BRAKE_FROM = 0.5f;     // m/s, so much above
+CONSTANT float THROTTLE_GAIN = 0.5f;  // throttle per m/s below the wanted speed
+CONSTANT float BRAKE_GAIN = 0.25f;    // brake per m/s above the wanted speed
+CONSTANT float BRAKE_FROM = 0.5f;     // m/s above the wanted speed, where braking begins
 
 LAW Axes vehicle_axes(VehicleDynamics v, vec4 orientation) {
     return axes_of(compose(orientation, v.frame));
 }
 
-// The tightest curve that may be asked for at the present speed, 1/m.
+// The greatest curvature that may be steered at the present speed, 1/m.
 LAW float tightest_now(VehicleDynamics v) {
     return smaller(v.tightest, v.lateral * reciprocal(larger(v.speed * v.speed, 0.01f)));
 }
 
-// What a law is given to look into the table of way points; on a device nothing, because there it is bound.
+// Access to the table of way points: in C++ a pointer; on a device the table is bound.
 #ifdef __cplusplus
 struct Routes {
     const WayPoint* points;
@@ -52,7 +52,7 @@ LAW bool has_arrived(VehicleDynamics v) {
 LAW uint behind_point(VehicleDynamics v, uint k) {
     return k + 1u < v.points ? k + 1u : (v.loops != 0u ? 0u : k);
 }
-// How far along the leg from one way point to the next a place is, 0 to 1 and beyond.
+// Parameter of a point's projection onto the leg between two way points, 0 to 1 and beyond.
 LAW float part_of_leg(vec4 from, vec4 to, vec3 place) {
     vec3 leg = xyz(to) - xyz(from);
     return dot3(place - xyz(from), leg) * reciprocal(larger(dot3(leg, leg), 1.0e-6f));
@@ -66,8 +66,8 @@ LAW VehicleDynamics parked(VehicleDynamics v) {
     return v;
 }
 
-// The driver: towards a point of the route that lies ahead, on the circle through it (pure pursuit: Coulter, CMU-RI-TR-92-01,
-// 1992), as fast as the route says.
+// Controls by the route: steers along the circle through a point ahead on the route (pure pursuit: Coulter,
+// CMU-RI-TR-92-01, 1992), at the route's speed.
 LAW VehicleDynamics by_route(VehicleDynamics v, Routes routes, Axes axes, vec3 place) {
     if (has_arrived(v)) return parked(v);
     vec4 from = way_point(routes, v, v.next == 0u ? v.points - 1u : v.next - 1u);
@@ -104,7 +104,7 @@ LAW VehicleDynamics by_route(VehicleDynamics v, Routes routes, Axes axes, vec3 p
     return v;
 }
 
-// Once a step: what the driver does, and how the wheels are turned by now.
+// Once per step: controls by the route, if any, and the curvature steered at present.
 LAW VehicleDynamics driven(VehicleDynamics v, Routes routes, Pose pose, Velocity velocity, Parameters parameters) {
     Axes axes = vehicle_axes(v, pose.orientation);
     v.speed = dot3(axes.z, velocity.linear);
@@ -114,7 +114,7 @@ LAW VehicleDynamics driven(VehicleDynamics v, Routes routes, Pose pose, Velocity
     return v;
 }
 
-// Every wheel's axle points to the middle of the curve (Ackermann): tan(angle) = ahead / (radius - aside).
+// Ackermann steering: every axle points to the centre of the curve, tan(angle) = ahead / (radius - aside).
 LAW float wheel_angle(VehicleDynamics v, VehicleWheel wheel) {
     float rise = wheel.ahead * v.curvature;
     float angle = angle_of(abs(rise), larger(1.0f - wheel.aside * v.curvature, 0.05f));
@@ -124,7 +124,7 @@ LAW float wheel_angle(VehicleDynamics v, VehicleWheel wheel) {
 LAW float wheel_throttle(VehicleDynamics v, VehicleWheel wheel) {
     return clamped(v.throttle + wheel.skid * v.steer, -1.0f, 1.0f);
 }
-// The motor of a wheel that spins so fast against the chassis, rad/s.
+// The motor of a wheel's joint. `spin`: of the wheel relative to the chassis, rad/s.
 LAW JointAxis wheel_motor(JointAxis axis, VehicleDynamics v, VehicleWheel wheel, float spin) {
     float braking = wheel.brake * v.brake + wheel.hand_brake * v.hand_brake;
     float throttle = wheel_throttle(v, wheel);
@@ -134,7 +134,7 @@ LAW JointAxis wheel_motor(JointAxis axis, VehicleDynamics v, VehicleWheel wheel,
     if (braking <= 0.0f && (throttle != 0.0f || is_track)) {
         float fastest = (throttle < 0.0f ? -v.reverse_speed : v.top_speed) * reciprocal(wheel.radius);
         float torque = smaller(wheel.torque, wheel.power * reciprocal(larger(abs(spin), 0.1f)));
-        // The throttle says how hard a car's wheels are driven, and how fast a tank's, of which one side may have to stand.
+        // The throttle scales a car's torque, but a tracked vehicle's speed, one side of which may have to stand.
         axis.speed = is_track ? fastest * abs(throttle) : fastest;
         axis.most = is_track ? torque : torque * abs(throttle);
     }
@@ -142,7 +142,7 @@ LAW JointAxis wheel_motor(JointAxis axis, VehicleDynamics v, VehicleWheel wheel,
     return axis;
 }
 
-// Whether it keeps its bodies awake.
+// Whether the vehicle keeps its bodies awake.
 LAW bool is_under_way(VehicleDynamics v) {
     if (v.by_route != 0u && v.points != 0u) return !has_arrived(v);
     return v.throttle != 0.0f || (v.steer != 0.0f && v.brake <= 0.0f && v.hand_brake <= 0.0f);

@@ -1,4 +1,4 @@
-// One contact made ready for a step: last step's impulses carried over to this step's points, and what the solver needs of it.
+// Contacts: matching points across steps for the warm start, and the constraint that the solver reads.
 #ifndef SCREE_PHYSICS_CONTACT_H
 #define SCREE_PHYSICS_CONTACT_H
 
@@ -13,7 +13,7 @@ LAW uint feature_of(uint features, uint point) {
     return (features >> (8u * point)) & 0xFFu;
 }
 
-// How far a point may have wandered on a body and still be the same, m.
+// How far a point may move on a body between steps and still match, m.
 LAW float match_radius(BodyProperties a, BodyProperties b) {
     return 0.1f * smaller(min_half_width(a), min_half_width(b));
 }
@@ -32,9 +32,9 @@ LAW Impulse no_impulse(vec3 d) {
     return impulse;
 }
 
-// For each new point the old one that it was, or NONE: the nearest unused one within `radius`, measured on A; the feature id
-// breaks ties only, because ids flicker while points stay. A single point is its successor wherever it went: a wheel's contact
-// travels round the wheel.
+// For each new point the index of the matching old point, or NONE: the nearest unmatched one within `radius`, measured
+// in A's frame; feature ids only break ties, because they flicker while points stay. A single point matches a single
+// point at any distance: a wheel's contact travels round the wheel.
 LAW uvec4 matches_of(Contact now, Contact before, float radius) {
     uvec4 matches = uvec4(NONE);
     if (now.count == 1u && before.count == 1u) {
@@ -61,6 +61,7 @@ LAW uvec4 matches_of(Contact now, Contact before, float radius) {
     return matches;
 }
 
+// Impulses of the matching points; friction only if some normal impulse is left, projected onto the new tangent plane.
 LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     Impulse impulse = no_impulse(now.center_offset);
     for (uint k = 0u; k < 4u; ++k) {
@@ -70,7 +71,7 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {
         impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
-        // A single point has no patch to twist on: nothing would ever take an old twist back.
+        // A single point has no torsional friction that would reduce an inherited twist.
         if (now.count > 1u) impulse.twist = was.twist;
         impulse.rolling = was.rolling;
     }
@@ -97,7 +98,8 @@ LAW vec4 separations_of(Manifold manifold) {
     return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
 }
 
-// Between two round bodies the point and the normal follow both; others stay with one of them (rolling_contact.h).
+// Round bodies: in the contact of two, point and normal follow both; other points stay with one body
+// (rolling_contact.h).
 LAW bool is_round(BodyProperties properties) {
     return has_round_core(properties.shape);
 }
@@ -109,7 +111,7 @@ LAW uint anchor_of(Contact contact, BodyProperties a, BodyProperties b) {
     return stays_with_b(a, b) ? ANCHOR_B : ANCHOR_A;
 }
 
-// Half the least width of a body along its surface, seen against the normal, m: what slides further has left it.
+// Half width of the body along the contact plane, m: a point that slides further has left its face.
 LAW float width_along(BodyProperties properties, vec4 orientation, vec3 normal) {
     if (properties.shape != SHAPE_BOX || is_part(properties)) return min_half_width(properties);
     vec3 slant = absolute3(rotate_back(orientation, normal));
@@ -117,11 +119,11 @@ LAW float width_along(BodyProperties properties, vec4 orientation, vec3 normal) 
     return slant.y >= slant.z ? smaller(properties.size.x, properties.size.z) : smaller(properties.size.x, properties.size.y);
 }
 
-// The reach of a corner or a crossing of edges, of the thinner body's half width: a point is a small patch in truth. With none, a
-// box pinched between two points swings about them for ever.
+// Radius of the patch of a single point, of the smaller min_half_width, for torsional friction: with 0, a box pinched
+// between two points swings about them for ever.
 CONSTANT float POINT_PATCH = 0.01f;
 
-// The friction patch lies where the points touch: those still ahead weigh less, so its centre moves smoothly as a body tips.
+// The centre of the friction patch: points that are still apart weigh less, so it moves smoothly as a body tips.
 LAW vec3 patch_centre(Contact contact, Parameters parameters) {
     vec3 centre;
     float weights = 0.0f;
@@ -175,7 +177,7 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
     return c;
 }
 
-// Of a contact that moves nobody in this step: only statistics look at it.
+// The constraint of a contact between inactive bodies, read by statistics alone.
 LAW Constraint idle_constraint(Contact contact) {
     Constraint c;
     c.a = contact.a;

@@ -1,4 +1,4 @@
-// A contact made ready for a step: what it inherits from the step before, its constraint, and the warm start that it hands out.
+// Contact preparation: warm starting across steps, the constraint, and the first warm start of a step.
 #ifndef SCREE_PHYSICS_CONTACT_PREPARATION_H
 #define SCREE_PHYSICS_CONTACT_PREPARATION_H
 
@@ -15,15 +15,16 @@ struct PreparedContact {
     Impulse impulse;
 };
 
-// A contact that moves neither of its bodies in this step.
+// A contact between bodies that the solver does not move in this step.
 LAW bool is_idle(uint slot_a, uint slot_b) {
     return slot_a == NONE && slot_b == NONE;
 }
-// Whether the contact goes on as it was, with its points and impulses.
+// Whether the contact keeps its points and impulses: it persists, or both bodies are inactive.
 LAW bool is_carried_forward(uint pair_type) {
     return pair_type == PAIR_PERSISTENT || pair_type == PAIR_INACTIVE;
 }
 
+// A persistent contact: geometry and impulses of the last step, separations of this one.
 LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifold) {
     PreparedContact prepared;
     prepared.contact = carry_forward(before);
@@ -31,6 +32,7 @@ LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifo
     prepared.impulse.separation = separations_of(manifold);
     return prepared;
 }
+// A contact made from this step's manifold, without impulses.
 LAW PreparedContact newly_found(Pair pair, Manifold manifold, uint count, Pose a, Pose b) {
     PreparedContact prepared;
     prepared.contact = contact_of(pair, manifold, count, a, b);
@@ -39,7 +41,7 @@ LAW PreparedContact newly_found(Pair pair, Manifold manifold, uint count, Pose a
     return prepared;
 }
 
-// Warm starting across steps: the impulses of the points of last step's contact that are still there.
+// Warm starting across steps: impulses are taken from the points of last step's contact that match.
 LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impulse was, BodyProperties a, BodyProperties b) {
     uvec4 matches;
     if (tyre_of(a) != 0u || tyre_of(b) != 0u)
@@ -52,14 +54,14 @@ LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impul
     return prepared;
 }
 
-// The load that a sleeper's waking is measured by (sleep.h): a dynamic body without a slot sleeps.
+// The load that waking compares with the present one (sleep.h): a dynamic body without a slot sleeps.
 LAW float load_since(Contact before, Impulse was, BodyProperties a, uint slot_a, BodyProperties b, uint slot_b) {
     bool a_sleeps = slot_a == NONE && motion_of(a) == MOTION_DYNAMIC;
     bool b_sleeps = slot_b == NONE && motion_of(b) == MOTION_DYNAMIC;
     return load_of(a_sleeps || b_sleeps, before, was);
 }
 
-// The constraint of the contact of a pair of bodies, of which these properties may be parts.
+// The constraint of a contact between two bodies; the properties are those of the rows in contact, which may be parts.
 LAW Constraint idle_between(Contact contact, uint body_a, uint body_b) {
     Constraint c = idle_constraint(contact);
     c.a = body_a;
@@ -75,8 +77,8 @@ LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta,
     return c;
 }
 
-// What the contact tells its bodies before the first substep: the velocity changes of its inherited impulses, and whether it
-// counts among the contacts that share them.
+// The contact's contribution before the first substep: its warm start, and 1 if it is active (counts in mass
+// splitting).
 struct ContactShare {
     VelocityPair change;
     float carrying;

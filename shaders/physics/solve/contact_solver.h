@@ -1,34 +1,35 @@
-// One contact solved as one block of a mass-split Jacobi iteration.
+// Contact constraint solver: each contact is one block of a mass-splitting Jacobi iteration.
 //
-// Mass splitting (Tonge, Benevolenski, Voroshilov, Mass Splitting for Jitter-Free Parallel Rigid Body Simulation, SIGGRAPH 2012):
-// a body in n contacts lends each of them a body of mass m/s, s = max(1, n/1.5) if all press alike (mass_splitting.h). A contact
-// solves its own points one after the other on the two lent bodies and hands each whole body the s-th part of its velocity
-// change. So no contact waits for another, momentum is exact, the order of contacts means nothing, and the iteration converges (s
-// = n/omega with omega < 2 is over-relaxed Jacobi on the split masses). n counts only contacts that carry, or will in this
-// substep: a ball about to be hit shares nothing with the neighbour that it merely lies beside.
+// Mass splitting (Tonge, Benevolenski, Voroshilov, Mass Splitting for Jitter-Free Parallel Rigid Body Simulation,
+// SIGGRAPH 2012): a body in n contacts is split into one body of mass m/s for each, s = max(1, n/1.5) if their normal
+// impulses are equal (mass_splitting.h). A contact solves its points by Gauss-Seidel on its two split bodies, and each
+// whole body receives 1/s of its split body's velocity change. So contacts are independent, momentum is exact, the
+// order of contacts means nothing, and the iteration converges (s = n/omega with omega < 2 is over-relaxed Jacobi on
+// the split masses). n counts only active contacts, which bear a normal impulse or will in the next substep: a ball
+// about to be struck shares no mass with the neighbour that it merely lies beside.
 //
-// Softness (Catto, Soft Constraints, GDC 2011; Solver2D, 2024): penetration is a damped spring, solved implicitly, with the split
-// mass. Each substep has a biased pass, moves the bodies, and has a pass without bias that takes back the spring's velocity.
-// Impacts are thrown back in that second pass (restitution.h).
+// Soft constraints (Catto, Soft Constraints, GDC 2011; Solver2D, 2024): penetration is a damped spring, solved
+// implicitly with the split mass. A substep solves with bias, integrates positions, and relaxes without bias, which
+// takes the spring's velocity out again. Restitution acts in the relax pass (restitution.h).
 //
-// Both bodies feel an impulse at the same point, although they move on through the substeps: the lever arm of one is fixed, that
-// of the other follows from the present distance d between the centres. So angular momentum is exact to rounding.
-// A body that flies past another leaves it within the step: once the way along the surface is longer than the other is
-// wide, the points hang in the air beside it, and the contact pushes no more until the next step finds it anew.
+// Both bodies receive an impulse at the same point while they move through the substeps: the lever arm on the anchor
+// body is fixed, the other follows from the present offset d between the centres, so angular momentum is exact to
+// rounding. A contact ends within the step once its bodies have slid along the surface by more than the half width of
+// the body slid over: its points would hang in the air, so it pushes no more until the next narrowphase.
 //
-// What was measured against what (8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of 520):
+// Measured alternatives (8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of 520):
 //   as it is                                            0.117 m  0.048 m  0.021 m
-//   contact frequency 0.125/h; 0.16/h in place of 0.14  0.147; 0.090      a pyramid of 210 is not quiet within 8 s with 0.16
+//   contact frequency 0.125/h; 0.16/h in place of 0.14  0.147; 0.090   with 0.16 a pyramid of 210 is not quiet within 8 s
 //   contact frequency 0.18/h                            0.071             that pyramid creeps at 25 mm/s
-//   n as in this substep (mass_splitting.h)                      columns in a pile of ten thousand sway at 3 to 80 mm/s for ever
+//   n as in this substep (mass_splitting.h)             columns in a pile of ten thousand sway at 3 to 80 mm/s for ever
 // and with 0.125/h:
 //   as it is                                            0.147 m  0.048 m  0.026 m
 //   relaxation 1.8 in place of 1.5                      both columns, of 20 and of 40, fall within seconds
-//   relaxation 1.2                                      columns press together by a quarter more
+//   relaxation 1.2                                      columns compress by a quarter more
 //   damping ratio 20; 40                                0.147; 0.148   0.056; 0.066   0.027; 0.029
 //   momentum on the warm start, b = 0.3; 0.5            0.148; 0.147   0.044; 0.043   0.024; 0.023
-// Momentum (l + b (l - l before), dropped where the change turns about) would win a tenth in the buildings for 32 bytes more in
-// every contact; piles came to rest no sooner. Sixteen substeps win more: 0.06 m for the column.
+// Momentum (impulse + b (impulse - previous), dropped where the change reverses) would gain a tenth in the buildings
+// for 32 more bytes per contact; piles came to rest no sooner. Sixteen substeps gain more: 0.06 m for the column.
 #ifndef SCREE_PHYSICS_CONTACT_SOLVER_H
 #define SCREE_PHYSICS_CONTACT_SOLVER_H
 
@@ -41,7 +42,7 @@ LAWS_BEGIN
 LAW float round_gap(Constraint c, vec3 d) {
     return length3((d + c.centre) - xyz(c.arms[0])) - (c.radius_a + c.radius_b);
 }
-// The constraint as the bodies lie now: between two round ones, normal and point follow their centres of curvature.
+// The constraint at the present poses: between two round bodies, normal and point follow the centres of curvature.
 LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     bool follows = c.anchor == ANCHOR_ROUND;
     if (none(follows)) return c;
@@ -57,10 +58,11 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
 
 struct SolveResult {
     Impulse impulse;
-    VelocityPair pair_velocity;  // the lent bodies' velocities afterwards
+    VelocityPair pair_velocity;  // of the split bodies, afterwards
 };
 
-// Resistance to rolling: an impulse against the relative spin, at most rolling_resistance times the normal impulse.
+// Rolling resistance: an angular impulse against the relative angular velocity, at most rolling_resistance times the
+// normal impulse.
 LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
     Mass k;
     k.xx = a.xx * a.split + b.xx * b.split;
@@ -69,7 +71,7 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
     k.yy = a.yy * a.split + b.yy * b.split;
     k.yz = a.yz * a.split + b.yz * b.split;
     k.zz = a.zz * a.split + b.zz * b.split;
-    // In units of its trace: the determinant of a small body's tensor is beyond what a float holds.
+    // Scaled by the trace: the determinant of a small body's tensor leaves the range of a float.
     float unit = reciprocal((k.xx + k.yy) + k.zz);
     vec3 x = vec3(k.xx, k.xy, k.xz) * unit, y = vec3(k.xy, k.yy, k.yz) * unit, z = vec3(k.xz, k.yz, k.zz) * unit;
     vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
@@ -82,11 +84,12 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
     return s;
 }
 
-// A tyre that bears nothing holds nothing; these keep its rows within what a float holds.
+// Bounds that keep a tyre's compliance within the range of a float while its normal impulse is near 0.
 CONSTANT float LEAST_HOLD = 1.0e-20f;    // N s
 CONSTANT float MAX_COMPLIANCE = 1.0e6f;  // times the inverse effective mass of the bodies
 
-// Friction of the patch: twist about the normal, then slip within the circular cone |f| <= mu n.
+// Coulomb friction of the patch: torsional friction about the normal, |t| <= mu n twist_arm, then both tangents as one
+// 2x2 block within the circular cone |f| <= mu n.
 LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
     float most = c.friction * normal;
     bool twists = c.twist_arm > 0.0f;
@@ -116,7 +119,7 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     float slip1 = speed_along(row1, s.pair_velocity) * unit, slip2 = speed_along(row2, s.pair_velocity) * unit;
     bool slips = c.radius_a > 0.0f;
     if (!none(slips)) {
-        // A tyre (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
+        // Tyre compliance (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
         float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MAX_COMPLIANCE);
         k11 = choose(slips, k11 + compliance, k11);
         k22 = choose(slips, k22 + compliance, k22);
@@ -133,7 +136,7 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     return s;
 }
 
-// Of friction's work: that on `s`, or what was before it, `t`.
+// Selects the friction impulses and velocities of `s`, or those of `t`; all else is that of `t`.
 LAW SolveResult choose(bool condition, SolveResult s, SolveResult t) {
     t.impulse.friction = choose(condition, s.impulse.friction, t.impulse.friction);
     t.impulse.twist = choose(condition, s.impulse.twist, t.impulse.twist);
@@ -146,8 +149,8 @@ LAW bool has_friction(Impulse impulse) {
     return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
 }
 
-// In both passes: in the one without bias alone, where a warm start is answered only once, over-relaxed splitting overshoots
-// for a share above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
+// Friction acts in both passes. In the relax pass alone, which corrects a warm start only once, over-relaxed splitting
+// overshoots above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
 LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
     bool acts = normal != 0.0f || has_friction(s.impulse);
     if (none(acts)) return s;
@@ -157,13 +160,14 @@ LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, 
     return choose(acts, solve_friction(c, after, normal, a, b), s);
 }
 
-// The biased pass: normal impulses against the soft spring, or exactly up to touching where the bodies are still apart.
+// The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
+// are still apart.
 LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     c = refresh_round_contact(c, impulse.center_offset);
     bool gone = impulse.slide_distance > c.slide_limit;
     impulse.impact_velocity = vec4(0.0f);
-    // What overlaps many bodies is pushed by all of them at once, and pushes add up from layer to layer. A quarter is left to
-    // bear a load with: a tray under hundreds of boxes has small parts of its mass to push with.
+    // Push-out speed, divided by the split factor because the pushes of overlapping neighbours add up from layer to
+    // layer. At most by 4: a tray under hundreds of boxes must still bear them.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
     bool bounces = c.restitution > 0.0f;
     if (!none(bounces))
@@ -185,7 +189,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             float excess =
                 choose(separation > 0.0f, speed + separation * parameters.inverse_h, parameters.mass_scale * speed + bias);
             bool acts = there && !(before == 0.0f && (gone || excess >= 0.0f));
-            if (none(acts)) continue;  // a third of all contacts are merely near
+            if (none(acts)) continue;  // a third of all contacts are speculative and inactive
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
             change = choose(separation <= 0.0f, change - parameters.impulse_scale * before, change);
@@ -201,8 +205,8 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     return solve_patch_friction(c, result, normal, a, b);
 }
 
-// The pass without bias, after the bodies have moved with `v`: separations follow, what the spring added is taken back, impacts
-// are thrown back, friction acts.
+// The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
+// applies restitution and friction.
 LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     bool follows = c.anchor == ANCHOR_ROUND;
     for (int k = 0; k < 4; ++k) {
@@ -212,7 +216,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
         impulse.separation[k] = choose(there, separation, impulse.separation[k]);
     }
-    bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: the blow of this substep is not taken back
+    bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: this substep's impact stays
     vec3 way = (v.b.linear - v.a.linear) * parameters.h;
     impulse.center_offset = impulse.center_offset + way;
     impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
@@ -232,7 +236,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             target = choose(impulse.impact_velocity[k] < 0.0f,
                             restitution_target(c, impulse.impact_velocity[k], pull, parameters), target);
             float before = impulse.normal[k];
-            // A blow about to fall is left to the next substep, which sees how fast it is.
+            // A fast approach is left to the next substep, which measures its impact velocity.
             bool waits = impulse.impact_velocity[k] == 0.0f && c.restitution > 0.0f && speed < -parameters.restitution_threshold;
             bool acts = there && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
             if (none(acts)) continue;
@@ -249,7 +253,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     return solve_patch_friction(c, result, normal, a, b);
 }
 
-// v, and what last substep's impulses do to whole bodies: the guess with which the next substep begins.
+// Warm start: `v` plus what the previous substep's impulses do to the whole (not split) bodies.
 LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b) {
     c = refresh_round_contact(c, impulse.center_offset);
     float normal = impulse.normal.x;
@@ -262,7 +266,7 @@ LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass 
     }
     bool acts = normal != 0.0f || has_friction(impulse);
     if (none(acts)) return v;
-    // All points push along the normal, so their moments about a body come to one.
+    // All normal impulses are parallel, so the sum of their moments gives the torque on each body.
     vec3 across = impulse.center_offset * normal;
     vec3 push = c.normal * normal + impulse.friction;
     vec3 twist = impulse.rolling + c.normal * impulse.twist;
@@ -278,7 +282,8 @@ LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass 
     return choose(acts, after, v);
 }
 
-// Whether the contact carries or will in the next substep, gravity included.
+// Whether the contact counts in mass splitting, 1 or 0: a point bears a normal impulse, or will within the next
+// substep, gravity included.
 LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     bool carrying = false;
     bool open = !(impulse.slide_distance > c.slide_limit);
@@ -296,7 +301,8 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
     return choose(carrying, 1.0f, 0.0f);
 }
 
-// The whole bodies' shares of what the lent ones went through: (after - before) / split. The next warm start is added to it.
+// Velocity changes of the whole bodies from those of the split ones: (after - before) / split. The next warm start is
+// added to them.
 LAW VelocityPair to_body_deltas(VelocityPair before, VelocityPair after, Mass a, Mass b) {
     float share_a = reciprocal(a.split), share_b = reciprocal(b.split);
     VelocityPair share = before;

@@ -1,4 +1,4 @@
-// How two bodies push each other at a point: lever arms, what a push does to either, and with what mass they meet it.
+// Contact Jacobian rows: lever arms, effective masses, and velocity changes by an impulse at a point.
 #ifndef SCREE_PHYSICS_JACOBIAN_H
 #define SCREE_PHYSICS_JACOBIAN_H
 
@@ -23,6 +23,7 @@ struct LeverArms {
     vec3 b;
     float pad1;
 };
+// From each centre of mass to the point; `d` = centre of B minus centre of A, m.
 LAW LeverArms lever_arms(Constraint c, vec3 arm, vec3 d) {
     LeverArms arms;
     arms.a = choose(c.anchor == ANCHOR_B, arm + d, arm);
@@ -32,17 +33,16 @@ LAW LeverArms lever_arms(Constraint c, vec3 arm, vec3 d) {
     return arms;
 }
 
-// Velocity of B against A at a point.
+// Relative velocity (B minus A) at the point, m/s.
 LAW vec3 velocity_at(LeverArms r, VelocityPair v) {
     return (v.b.linear - v.a.linear) + (cross3(v.b.angular, r.b) - cross3(v.a.angular, r.a));
 }
 
-// A direction in which the two bodies push each other at a point, with what it does to them. The effective mass and the velocity
-// changes come from the same lever arms, those of now: masses from the step's start would, where a body flies past another,
-// give it more than it can take.
+// A row of the contact Jacobian, with M^-1 J^T. Effective mass and velocity changes come from the same, present lever
+// arms: masses from the start of the step would give a body that flies past another more than it can take.
 struct JacobianRow {
     vec3 direction;
-    float inverse_effective_mass_a;  // 1/mass of A felt along it: 1/m + (r x u).I^-1 (r x u), 1/kg
+    float inverse_effective_mass_a;  // of A alone: 1/m + (r x u).I^-1 (r x u), 1/kg
     vec3 angular_a;                  // r x u, m
     float inverse_effective_mass_b;
     vec3 angular_b;
@@ -66,14 +66,15 @@ LAW JacobianRow jacobian_row(LeverArms r, vec3 direction, Mass a, Mass b) {
     row.pad2 = 0.0f;
     return row;
 }
+// Effective mass of the two split bodies along the row, kg.
 LAW float mass_along(JacobianRow row, Mass a, Mass b) {
     return reciprocal(row.inverse_effective_mass_a * a.split + row.inverse_effective_mass_b * b.split);
 }
-// Velocity of B against A along the row.
+// J v: the relative velocity (B minus A) along the row.
 LAW float speed_along(JacobianRow row, VelocityPair v) {
     return dot3(row.direction, v.b.linear - v.a.linear) + (dot3(row.angular_b, v.b.angular) - dot3(row.angular_a, v.a.angular));
 }
-// An impulse along the row on B, its opposite on A; the bodies are those lent (split_a, split_b).
+// Applies `impulse` along the row to split body B and its opposite to A.
 LAW VelocityPair pushed(VelocityPair v, JacobianRow row, float impulse, Mass a, float split_a, Mass b, float split_b) {
     v.a.linear = v.a.linear - row.direction * (impulse * a.inverse_mass * split_a);
     v.a.angular = v.a.angular - row.angular_response_a * (impulse * split_a);
@@ -81,6 +82,7 @@ LAW VelocityPair pushed(VelocityPair v, JacobianRow row, float impulse, Mass a, 
     v.b.angular = v.b.angular + row.angular_response_b * (impulse * split_b);
     return v;
 }
+// Applies an angular impulse to split body B and its opposite to A.
 LAW VelocityPair twisted(VelocityPair v, vec3 impulse, Mass a, float split_a, Mass b, float split_b) {
     v.a.angular = v.a.angular - turned_by(a, impulse) * split_a;
     v.b.angular = v.b.angular + turned_by(b, impulse) * split_b;

@@ -1,10 +1,10 @@
-// A joint's coordinates and the rows of its Jacobian: where its bodies are along and about its six axes, and how their velocities
-// change that. What each axis asks of its row says joint_axis.h; how the rows of a block are solved together, joint_block.h.
+// Joint kinematics: the coordinates of a joint along and about its six axes, and the Jacobian rows of their rates. The
+// targets of rows are in joint_axis.h, the direct solver of a block in joint_block.h.
 //
-// A pendulum whose velocity were merely made to fit its joint where it hangs, moved and made to fit again would lose (h w)^2 of
-// its energy in each substep, half of all in a minute. So the biased pass also reckons with the way in which the joint's
-// direction turns during the substep (the drift): the impulses at either end of a substep are then alike, and what one adds to
-// the speed the other takes back (as in RATTLE: Andersen, J. Comput. Phys. 52, 1983).
+// A pendulum whose velocity is only projected onto its constraint, moved and projected again would lose (h w)^2 of its
+// energy in each substep, half of all in a minute. So the biased pass includes the drift, the second derivative of the
+// coordinate times half a substep: the impulses at both ends of a substep are then alike, and the speed that one adds
+// the other removes (as in RATTLE: Andersen, J. Comput. Phys. 52, 1983).
 #ifndef SCREE_PHYSICS_JOINT_H
 #define SCREE_PHYSICS_JOINT_H
 
@@ -12,10 +12,11 @@
 
 LAWS_BEGIN
 
-// The squares of a body's turn in a substep, rad, from which the drift is left out more and more, and wholly: it follows what
-// turns slowly to second order, but the end of a whip it drives.
+// The squared rotation of a body in a substep, rad^2, from which the drift fades (wholly at 0.01): to second order it
+// follows slow rotation, but would drive the end of a whip.
 CONSTANT float DRIFT_TURN = 0.0025f;
 CONSTANT float DRIFT_FADE = 133.33333f;  // 1 / (0.01 - 0.0025)
+// Lower bound of 1 + cos(swing), where the twist axis becomes singular (swing near 180 degrees).
 CONSTANT float FARTHEST_SWING = 0.05f;
 
 // tan^-1(y/x) for y, x >= 0, not both 0; error 2e-7 (Abramowitz and Stegun 4.4.49).
@@ -35,9 +36,9 @@ LAW float angle_of(float y, float x) {
     return choose(steep, 1.5707963f - p, p);
 }
 
-// A joint as its bodies lie.
+// A joint at the present poses; vectors in world axes.
 struct JointConfiguration {
-    vec3 x;       // its axes in A
+    vec3 x;       // the joint's axes fixed in A
     float twist;  // rad
     vec3 y;
     float swing_y;
@@ -50,7 +51,7 @@ struct JointConfiguration {
     vec3 gap;  // from A's anchor to B's, m
     float pad2;
     vec3 twist_axis;
-    float swing;  // the whole, rad
+    float swing;  // the whole swing, rad
     vec3 swing_axis;
     float pad3;
     vec3 x_b;  // B's own x axis
@@ -67,7 +68,7 @@ LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, 
     at.angular_a = rotate(a.orientation, anchor_a);
     at.angular_b = rotate(b.orientation, anchor_b);
     at.gap = ((b.position - a.position) + at.angular_b) - at.angular_a;
-    // q = swing after twist, the twist about x (the swing's own part of x is 0).
+    // q = swing * twist, the twist about x, the swing about an axis perpendicular to x.
     vec4 q = compose(conjugate(turn_a), turn_b);
     q = choose(q.w < 0.0f, -q, q);
     float along = square_root(q.x * q.x + q.w * q.w);
@@ -75,7 +76,7 @@ LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, 
     at.twist = choose(q.x < 0.0f, -2.0f * half_twist, 2.0f * half_twist);
     float unit = reciprocal(larger(along, 1.0e-6f));
     float sy = (q.w * q.y - q.x * q.z) * unit, sz = (q.w * q.z + q.x * q.y) * unit;
-    vec3 clean = flush_tiny(vec3(sy, sz, along));  // a zero's sign is not the same everywhere
+    vec3 clean = flush_tiny(vec3(sy, sz, along));  // the sign of zero differs between devices
     sy = clean.x;
     sz = clean.y;
     float across = square_root(sy * sy + sz * sz);
@@ -86,7 +87,7 @@ LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, 
     at.swing_z = sz * scale;
     vec3 about = at.y * sy + at.z * sz;
     at.swing_axis = choose(swings, unit3(about, at.y), at.y);
-    // The twist's rate is w.(xA + xB) / (1 + cos swing).
+    // The rate of the twist is w.(xA + xB) / (1 + cos swing).
     vec3 x_b = axes_of(turn_b).x;
     at.x_b = x_b;
     at.twist_axis = (at.x + x_b) * reciprocal(larger(1.0f + dot3(at.x, x_b), FARTHEST_SWING));
@@ -98,21 +99,22 @@ LAW JointConfiguration joint_configuration(vec3 anchor_a, vec4 frame_a, Pose a, 
     return at;
 }
 
-// Acceleration of B's anchor against A's that comes of their turning, m/s^2.
+// Centripetal acceleration of B's anchor relative to A's, m/s^2.
 LAW vec3 turning_of(JointConfiguration at, VelocityPair v) {
     return cross3(v.b.angular, cross3(v.b.angular, at.angular_b)) - cross3(v.a.angular, cross3(v.a.angular, at.angular_a));
 }
+// Relative velocity of the anchors (B minus A), m/s.
 LAW vec3 anchors_apart(JointConfiguration at, VelocityPair v) {
     return (v.b.linear - v.a.linear) + (cross3(v.b.angular, at.angular_b) - cross3(v.a.angular, at.angular_a));
 }
 
-// How much of the drift counts, times half a substep.
+// The factor of the second derivative in the drift: half a substep, times the fading.
 LAW float drift_part(VelocityPair v, float h) {
     float fastest = larger(dot3(v.a.angular, v.a.angular), dot3(v.b.angular, v.b.angular)) * (h * h);
     return 0.5f * h * clamped(1.0f - (fastest - DRIFT_TURN) * DRIFT_FADE, 0.0f, 1.0f);
 }
 
-// The row of one of the axes along which the joint moves; `row` brings its impulses.
+// The row of a linear axis; `row` provides its impulses.
 LAW JointRow linear_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, float h) {
     vec3 speed = anchors_apart(at, v);
     vec3 turning = turning_of(at, v);
@@ -134,11 +136,11 @@ LAW JointRow linear_row(JointRow row, JointConfiguration at, uint axis, uint fla
     row.angular_b = cross3(at.angular_b, row.direction);
     return row;
 }
-// And of one about which it turns: 0 the twist, 1 and 2 the swing.
+// The row of an angular axis: 0 is the twist, 1 and 2 the swing.
 LAW JointRow angular_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, float h) {
     bool cone = (flags & JOINT_CONE) != 0u;
     vec3 u = axis == 0u ? at.twist_axis : (axis == 1u ? (cone ? at.swing_axis : at.y) : at.z);
-    // What spins about its own x axis does not swing, however far it has swung: a steered wheel.
+    // Removes the twist from a swing axis: B may spin about its own x axis without swinging (a steered wheel).
     if (axis != 0u && (flags & JOINT_SPINS) != 0u) u = u - at.twist_axis * dot3(u, at.x_b);
     row.direction = u;
     row.coordinate = axis == 0u ? at.twist : (axis == 1u ? (cone ? at.swing : at.swing_y) : at.swing_z);
@@ -151,11 +153,12 @@ LAW JointRow angular_row(JointRow row, JointConfiguration at, uint axis, uint fl
 LAW bool is_linear(uint axis) {
     return axis < 3u;
 }
-// Speed of the place.
+// J v: the rate of the coordinate.
 LAW float row_speed(JointRow row, bool linear, VelocityPair v) {
     float turning = dot3(row.angular_b, v.b.angular) - dot3(row.angular_a, v.a.angular);
     return linear ? dot3(row.direction, v.b.linear - v.a.linear) + turning : turning;
 }
+// The velocity after an impulse along (linear) or about the row.
 LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
     if (linear) v.linear = v.linear + direction * (impulse * mass.inverse_mass * mass.split);
     v.angular = v.angular + turned_by(mass, arm) * (impulse * mass.split);

@@ -1,10 +1,10 @@
-// What an axis of a joint asks of its row, a lock, motor, spring or limit, and which of its bounds act (the active set).
+// Joint axes: locks, motors, springs and limits as targets of a Jacobian row, and the active set of their bounds.
 //
-// A row's impulse is that of its drive plus that of its limit. Soft rows: implicit springs and a compliance of the rigid ones, J
-// v
-// + bias + compliance * change = 0 (Catto, Soft Constraints, GDC 2011). Limits are complementarity conditions and motors box
-// constraints; rows that turn out to be at a bound, or to leave one, are exchanged and the block is solved again (block principal
-// pivoting: Cottle, Pang, Stone, The Linear Complementarity Problem, 1992, ch. 4).
+// The impulse of a row is that of its motor (or lock or spring) plus that of its limit. Springs are implicit and rigid
+// rows have a compliance: J v + bias + compliance * change = 0 (Catto, Soft Constraints, GDC 2011). Limits are
+// complementarity conditions and motors box constraints; rows found to be at a bound, or to leave one, change their
+// state and the block is solved again (block principal pivoting: Cottle, Pang, Stone, The Linear Complementarity
+// Problem, 1992, ch. 4).
 #ifndef SCREE_PHYSICS_JOINT_AXIS_H
 #define SCREE_PHYSICS_JOINT_AXIS_H
 
@@ -12,25 +12,27 @@
 
 LAWS_BEGIN
 
-// Part of a gap that a substep closes. With 1, a joint that contacts hold open shakes what it holds.
+// Baumgarte factor: the part of the position error corrected per substep. With 1, a joint held open by contacts shakes.
 CONSTANT float JOINT_RATE = 0.25f;
-CONSTANT float JOINT_TURN_SPEED = 6.0f;  // rad/s, greatest speed at which axes are turned together
-// Compliance of rigid rows, of what the lent bodies give themselves: mechanisms have more joints than they need, and without any
-// the surplus has no solution. More, and chains stretch; less, and what is surplus grows in the rounding of a float.
+CONSTANT float JOINT_TURN_SPEED = 6.0f;  // rad/s, greatest angular correction
+// Compliance of rigid rows, relative to their inverse effective mass: mechanisms have redundant joints, and without
+// compliance their equations are singular. More stretches chains; less lets the redundant part grow from rounding.
 CONSTANT float JOINT_COMPLIANCE = 1.0e-3f;
-CONSTANT float GENTLE_SPRING = 0.25f;  // of what would throw a body past its place in one substep: weaker ones are forces
+CONSTANT float GENTLE_SPRING = 0.25f;  // stability limit of explicit springs: softer ones act as forces
 
 struct RowTarget {  // row speed + bias + compliance * impulse's change = 0
     float bias;
     float compliance;
 };
 
+// Bias velocity that corrects a position error (Baumgarte), limited, m/s or rad/s.
 LAW float joint_push(float coordinate, uint axis, Parameters parameters) {
     float fastest = is_linear(axis) ? parameters.push_speed : JOINT_TURN_SPEED;
     return clamped(coordinate * (JOINT_RATE * parameters.inverse_h), -fastest, fastest);
 }
 
-// A spring so weak that it may act as the force that it is at the substep's start, which takes no energy out of its swinging.
+// Whether a spring is soft enough to act explicitly, as its force at the start of the substep, which takes no energy
+// out of its oscillation.
 LAW bool is_gentle(JointAxis axis, float inverse_effective_mass, Parameters parameters) {
     float h = parameters.h;
     return h * h * axis.stiffness * inverse_effective_mass < GENTLE_SPRING &&
@@ -45,7 +47,7 @@ LAW float spring_impulse(JointAxis axis, float coordinate, float speed, Paramete
     return clamped(force * parameters.h, -most_impulse(axis, parameters), most_impulse(axis, parameters));
 }
 
-// Whether the drive is an unknown of the block's equations; if not, its impulse is saturated_motor_impulse().
+// Whether the motor impulse is an unknown of the block's equations; if not, saturated_motor_impulse() gives it.
 LAW bool motor_is_solved(JointAxis axis, JointRow row, uint active_flags, bool biased, Parameters parameters) {
     if ((active_flags & (LIMIT_LOWER | LIMIT_UPPER)) != 0u) return false;
     if ((axis.mode & AXIS_LOCKED) != 0u) return true;
@@ -53,7 +55,7 @@ LAW bool motor_is_solved(JointAxis axis, JointRow row, uint active_flags, bool b
     if ((axis.mode & AXIS_SPRING) != 0u) return biased && !is_gentle(axis, row.inverse_effective_mass, parameters);
     return (axis.mode & AXIS_MOTOR) != 0u;
 }
-// `speed`: of the row as the pass begins.
+// The motor impulse of a row that does not solve for it. `speed`: of the row as the pass begins.
 LAW float saturated_motor_impulse(JointAxis axis, JointRow row, uint active_flags, float speed, bool biased,
                                   Parameters parameters) {
     float most = most_impulse(axis, parameters);
@@ -69,6 +71,7 @@ LAW float saturated_motor_impulse(JointAxis axis, JointRow row, uint active_flag
     if ((active_flags & MOTOR_AT_MAX) != 0u) return most;
     return 0.0f;
 }
+// The equation of a lock, spring or motor.
 LAW RowTarget motor_target(JointAxis axis, JointRow row, uint index, bool biased, Parameters parameters) {
     RowTarget demand;
     demand.compliance = JOINT_COMPLIANCE * row.inverse_effective_mass;
@@ -88,11 +91,12 @@ LAW RowTarget motor_target(JointAxis axis, JointRow row, uint index, bool biased
     }
     return demand;
 }
+// Bias of a limit: speculative while there is room, else the correction of the violation in the biased pass.
 LAW float limit_bias(float room, float drift, uint index, bool biased, Parameters parameters) {
     if (room > 0.0f) return room * parameters.inverse_h + (biased ? drift : 0.0f);
     return biased ? joint_push(room, index, parameters) + drift : 0.0f;
 }
-// Of the lower limit if `low`, else of the upper, whose speed and impulse are negative.
+// The equation of the lower limit if `low`, else of the upper, whose speed and impulse are negative.
 LAW RowTarget limit_target(JointAxis axis, JointRow row, uint index, bool low, bool biased, Parameters parameters) {
     RowTarget demand;
     demand.compliance = JOINT_COMPLIANCE * row.inverse_effective_mass;
@@ -102,8 +106,8 @@ LAW RowTarget limit_target(JointAxis axis, JointRow row, uint index, bool low, b
     return demand;
 }
 
-// The bits of an axis after a solution: which bounds act. `speed`: of the row afterwards; `solution`: of the row, if it was
-// solved.
+// The active set of an axis after a solution. `speed`: of the row afterwards; `solution`: of the row, if it was an
+// unknown.
 LAW uint active_set_after(JointAxis axis, JointRow row, uint index, uint active_flags, bool solved, float solution, float speed,
                           bool biased, bool settling, Parameters parameters) {
     if ((active_flags & LIMIT_LOWER) != 0u) {
@@ -142,7 +146,7 @@ LAW uint with_active_set(uint active_set, uint axis, uint active_flags) {
     return (active_set & ~(15u << (4u * axis))) | (active_flags << (4u * axis));
 }
 
-// Impulses within their bounds, whatever the last solution said.
+// Changes of the row's impulses, clamped to their bounds.
 LAW JointRow row_after(JointRow row, JointAxis axis, uint active_flags, bool solved, float solution, Parameters parameters) {
     bool stopped = (active_flags & (LIMIT_LOWER | LIMIT_UPPER)) != 0u;
     if (solved && stopped) {
@@ -158,7 +162,7 @@ LAW JointRow row_after(JointRow row, JointAxis axis, uint active_flags, bool sol
     return row;
 }
 
-// Whether the axis asks anything of bodies that can move.
+// Whether the axis constrains a body that can move.
 LAW bool row_acts(JointAxis axis, JointRow row) {
     return axis.mode != 0u && row.inverse_effective_mass > 0.0f;
 }
@@ -169,7 +173,7 @@ LAW bool is_stopped(uint active_flags) {
 LAW bool row_is_unknown(JointAxis axis, JointRow row, uint active_flags, bool biased, Parameters parameters) {
     return is_stopped(active_flags) || motor_is_solved(axis, row, active_flags, biased, parameters);
 }
-// The row with the changes of those of its impulses that are given, not solved for. `speed`: of the row as the pass begins.
+// The row with the changes of those impulses that are given, not unknowns. `speed`: of the row as the pass begins.
 LAW JointRow row_given(JointAxis axis, JointRow row, uint active_flags, float speed, bool biased, Parameters parameters) {
     row.limit_change = is_stopped(active_flags) ? 0.0f : -row.limit_impulse;
     row.motor_change = 0.0f;

@@ -1,10 +1,10 @@
-// A block of joints (compute/step/joint_blocks.h) as one sparse system of linear equations, which is solved exactly.
+// Direct solver for a block of joints (compute/step/joint_blocks.h): one sparse system of linear equations.
 //
-// (J M^-1 J^T + C) dl = -(J v + bias), the rows that are at their bounds left out. The matrix is symmetric and positive definite,
-// and two joints have an entry in it only if they share a body. It is factored as L D L^T from the first joint of the block to
-// the last, an order that fills in little (Baraff, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Davis, Direct
-// Methods for Sparse Linear Systems, 2006, ch. 4 and 7). So a block is one of those that mass splitting knows
-// (contact_solver.h), however many joints it has, and a chain carries a hundred times its links' weight without stretching.
+// (J M^-1 J^T + C) dl = -(J v + bias), without the rows at their bounds. The matrix is symmetric positive definite, and
+// two joints have an entry in it only if they share a body. It is factored as L D L^T in the order of the block's
+// joints, which causes little fill-in (Baraff, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; Davis,
+// Direct Methods for Sparse Linear Systems, 2006, ch. 4 and 7). For mass splitting (contact_solver.h) a block counts as
+// one constraint however many joints it has, and a chain carries a hundred times its links' weight without stretching.
 #ifndef SCREE_PHYSICS_JOINT_BLOCK_H
 #define SCREE_PHYSICS_JOINT_BLOCK_H
 
@@ -13,12 +13,12 @@
 
 LAWS_BEGIN
 
-CONSTANT uint JOINT_ROUNDS = 8u;    // times that a block is solved in a pass at most
-CONSTANT uint SETTLING_ROUND = 2u;  // from then on bounds are only let go: with both, some blocks go round in circles
+CONSTANT uint JOINT_ROUNDS = 8u;    // solutions of a block in a pass at most
+CONSTANT uint SETTLING_ROUND = 2u;  // then bounds are only released: else some blocks cycle
 
-// ---- what the bodies lend the block
-// In the biased pass, joints come after the contacts, and only blocks share a body. In the one without, it is shared with the
-// contacts, and if it is struck among those who strike it.
+// ---- split bodies
+// The split mass of a body of the block. In the biased pass joints are solved after the contacts, and only blocks share
+// the body; in the relax pass contacts share it as well, and if it is struck, its impacts.
 LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float impacts, float normal_sum, bool biased, Parameters parameters) {
     if (biased)
         mass.split = larger(1.0f, float(blocks) * parameters.inverse_relaxation);
@@ -45,7 +45,7 @@ LAW Velocity changed_by(Velocity velocity, VelocityDelta slot) {
 struct RowResponse {
     vec3 direction;
     uint axis;
-    vec3 turn_a;  // I^-1 of the row's arm, not yet split
+    vec3 turn_a;  // I^-1 of the row's angular part, not yet split
     float inverse_mass_a;
     vec3 turn_b;
     float inverse_mass_b;
@@ -69,7 +69,7 @@ LAW RowResponse row_response(JointRow row, uint axis, Mass a, Mass b) {
     return response;
 }
 
-// Which ends two joints share: bit by bit, A or B of the one is A or B of the other. At most two of them.
+// Which bodies two joints share: A or B of the one is A or B of the other. At most two bits are set.
 CONSTANT uint ENDS_A_A = 1u;
 CONSTANT uint ENDS_A_B = 2u;
 CONSTANT uint ENDS_B_A = 4u;
@@ -83,13 +83,13 @@ LAW uint shared_ends(uint a, uint b, uint other_a, uint other_b) {
     return ends;
 }
 
-// Through one body: the part of a row's speed that another row's impulse of 1 brings about.
+// The part of an entry due to one shared body: the row's speed from an impulse of 1 along the other row.
 LAW float entry_through(vec3 direction, vec3 arm, vec3 other_direction, vec3 other_turn, bool both_linear, float inverse_mass,
                         float split) {
     float turning = dot3(arm, other_turn);
     return (both_linear ? dot3(direction, other_direction) * inverse_mass + turning : turning) * split;
 }
-// The entry of J M^-1 J^T for a row with this direction and these arms, and the row of the response.
+// The entry of J M^-1 J^T for a row with this direction and these angular parts, and the row of `to`.
 LAW float row_entry(vec3 direction, vec3 angular_a, vec3 angular_b, uint axis, RowResponse to, uint ends) {
     bool linear = is_linear(axis) && is_linear(to.axis);
     float sum = 0.0f;
@@ -110,7 +110,8 @@ LAW float row_entry(vec3 direction, vec3 angular_a, vec3 angular_b, uint axis, R
     return sum;
 }
 
-// The row as its bodies lie, with the inverse of its effective mass (`a`, `b`: the lent bodies; `ends`: those that there are).
+// The row at the present poses with its inverse effective mass (`a`, `b`: split bodies; `ends`: ENDS_A_A and ENDS_B_B
+// of those that exist).
 LAW JointRow placed_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, Mass a, Mass b, uint ends,
                         float h) {
     if (is_linear(axis))
@@ -131,11 +132,11 @@ LAW float right_hand_side(float speed, RowTarget demand) {
 LAW float softened(float entry, RowTarget demand) {
     return entry + demand.compliance;
 }
-// The multiplier with which an equation loses its unknown: its entry over the pivot.
+// The elimination multiplier: entry over pivot.
 LAW float multiplier_of(float entry, float inverse_pivot) {
     return entry * inverse_pivot;
 }
-// What is left of an entry or right-hand side: of the Schur complement as rows are eliminated, of a sum as unknowns become known.
+// The update of an entry or right-hand side in elimination (Schur complement), or of a sum in back substitution.
 LAW float less_multiple(float entry, float multiplier, float other) {
     return entry - multiplier * other;
 }
@@ -151,7 +152,8 @@ struct RowAfter {
     uint pad1;
     uint pad2;
 };
-// The row's impulses after a solution, within their bounds, and which bounds act next. `v`: of its bodies afterwards.
+// The row's impulse changes after a solution, within their bounds, and the active set of the next round. `v`: of its
+// bodies afterwards.
 LAW RowAfter row_after_round(JointAxis axis, JointRow row, uint index, uint active_flags, bool solved, float solution,
                              VelocityPair v, bool biased, bool settling, Parameters parameters) {
     RowAfter after;
@@ -170,27 +172,30 @@ LAW float given_change(JointRow row) {
 LAW float row_impulse(JointRow row) {
     return row.motor_impulse + row.limit_impulse;
 }
-// What whole bodies feel of a row after a pass: its change, and where the next substep begins with a warm start all of it again.
+// The impulse applied to whole bodies after a pass: the change, plus the whole impulse where it warm starts a substep.
 LAW float handed_impulse(JointRow row, bool warms) {
     float change = given_change(row);
     return warms ? (row_impulse(row) + change) + change : change;
 }
+// Adds the changes of the pass to the impulses.
 LAW JointRow committed(JointRow row) {
     row.motor_impulse = row.motor_impulse + row.motor_change;
     row.limit_impulse = row.limit_impulse + row.limit_change;
     return row;
 }
+// Clears the impulses of a broken joint.
 LAW JointRow torn(JointRow row) {
     row.motor_impulse = 0.0f;
     row.limit_impulse = 0.0f;
     return row;
 }
-// On B.
+// The impulse on B along or about the row.
 LAW vec3 row_push(JointRow row) {
     return row.direction * row_impulse(row);
 }
 
-// What a joint carries: sums of impulses within a step, N s, and with their means over it the greatest since the start, N.
+// Load of a joint: sums of impulses within a step (N s, N m s), then their means over it and the maxima so far (N, N
+// m).
 struct JointLoad {
     vec3 force;
     float max_force;
@@ -205,6 +210,7 @@ LAW JointLoad mean_load(JointLoad load, Parameters parameters) {
     load.max_torque = larger(load.max_torque, length3(load.torque));
     return load;
 }
+// Whether the mean load of a step exceeds the break force or torque.
 LAW bool joint_tears(vec3 force, float break_force, vec3 torque, float break_torque) {
     return length3(force) > break_force || length3(torque) > break_torque;
 }

@@ -1,14 +1,15 @@
-// How a body's mass is shared out among the contacts that it has to bear.
+// Mass splitting: the share of a body's mass that each of its contacts solves with.
 //
-// Mass splitting converges for any parts of a body's mass that sum to 1 (contact_solver.h). Half of the mass is shared out
-// equally, half by what each contact pressed with as the substep began: equal parts alone would lend each of the few contacts
-// that hold up a tray under hundreds of bodies a hundredth of its mass, and it would sink through its table; and in a pile the
-// deepest contacts, which bear most, are stiffer so (of ten thousand boxes the deepest is 22 mm inside the other instead of 25).
+// The iteration converges for any shares that sum to 1 (contact_solver.h). Half of the mass is split equally, half in
+// proportion to the normal impulses as the substep began: equal shares alone would give each of the few contacts that
+// hold up a tray under hundreds of bodies a hundredth of its mass, and the tray would sink through its table. The
+// deepest contacts of a pile, which bear most, become stiffer so (of ten thousand boxes the deepest penetrates 22 mm
+// instead of 25).
 //
-// A contact is as soft as the parts that it is lent, so whatever changes the parts moves the bodies. Contacts that come and go at
-// the edge of touching drove columns of ten boxes to and fro at 3 to 80 mm/s for ever. So the number of contacts among which a
-// body is shared lags behind those that carry: it rises by a hundredth part a step (at once to what the iteration needs to
-// converge), and falls by as much in four steps. One contact alone has the whole body at once: blows are exact.
+// A contact is as soft as its split masses, so bodies move whenever the shares change. Contacts that come and go drove
+// columns of ten boxes to and fro at 3 to 80 mm/s for ever. So the contact count of a body follows its active contacts
+// with hysteresis: it rises by about 1% a step (at once to what the iteration needs to converge), and falls by as much
+// in four steps. A single contact has the whole body at once, so impacts are exact.
 #ifndef SCREE_PHYSICS_MASS_SPLITTING_H
 #define SCREE_PHYSICS_MASS_SPLITTING_H
 
@@ -17,15 +18,16 @@
 
 LAWS_BEGIN
 
-CONSTANT float LEAST_PRESSING = 1e-30f;  // N s; nothing is known of what presses
-// Of the contacts that carry, how many must be counted at once. With 0.75 of them a relaxation of 1.5 is one of 2, where the
-// iteration no longer converges.
+CONSTANT float LEAST_PRESSING = 1e-30f;  // N s; below, the impulses are unknown and shares are equal
+// The part of the active contacts that the count reaches at once. With 0.75 a relaxation of 1.5 acts as one of 2, where
+// the iteration no longer converges.
 CONSTANT float COUNTED_AT_ONCE = 0.77f;
-// In so many steps the count falls by a unit in its eighth bit. With 1, columns beside a contact that flickers move at 3 mm/s.
+// Steps in which the count falls by one unit of its eighth bit. With 1, columns beside a flickering contact move at 3
+// mm/s.
 CONSTANT uint FORGETTING_STEPS = 4u;
 
-// Two numbers in one word, each the upper half of a float: how many contacts, and what all of them press with. Bits of a number
-// that is neither denormal nor infinite, so a device may load and store it.
+// Packs two numbers into a word, each as the upper half of a float: the contact count and the sum of the normal
+// impulses. The word is a float neither denormal nor infinite, so a device may load and store it.
 LAW float pack_split_state(float contacts, float normal_impulse) {
     uint count = (floatBitsToUint(contacts) + 0xFFFFu) >> 16u;  // rounded up
     return uintBitsToFloat((floatBitsToUint(clamped(normal_impulse, LEAST_PRESSING, 1.0e30f)) & 0xFFFF0000u) | count);
@@ -34,7 +36,7 @@ LAW float contact_count_of(float split_state) {
     return uintBitsToFloat(floatBitsToUint(split_state) << 16u);
 }
 
-// Once a step, before its first substep: the count drifts towards the contacts that carry.
+// Once a step, before its first substep: the count moves by one unit towards the number of active contacts.
 LAW float update_hysteresis(float split_state, float carrying, uint steps) {
     uint was = floatBitsToUint(split_state) & 0xFFFFu;
     uint now = floatBitsToUint(pack_split_state(carrying, LEAST_PRESSING)) & 0xFFFFu;
@@ -47,7 +49,7 @@ LAW float split_state_after(float split_state, float carrying, float normal_impu
     return pack_split_state(choose(afresh, carrying, larger(counted, COUNTED_AT_ONCE * carrying)), normal_impulse);
 }
 
-// s, where the contact is lent the s-th part of the mass: max(1, contacts / 1.5) if the parts are equal.
+// The split factor s of a contact, which solves with 1/s of the mass: max(1, contacts / 1.5) if the shares are equal.
 LAW float split_factor(float split_state, float normal_sum, Parameters parameters) {
     float contacts = contact_count_of(split_state);
     float all = uintBitsToFloat(floatBitsToUint(split_state) & 0xFFFF0000u);
@@ -57,7 +59,7 @@ LAW float split_factor(float split_state, float normal_sum, Parameters parameter
     split = choose(weighed, parameters.inverse_relaxation * reciprocal(part), split);
     return larger(1.0f, split);
 }
-// The sum over a contact's points, N s.
+// Sum over the points, N s.
 LAW float normal_impulse(Impulse impulse) {
     return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
 }

@@ -1,4 +1,4 @@
-// How one body moves: what pushes it, its inertia in the world, its velocity and pose after a substep.
+// Motion of one body: forces, world inertia, semi-implicit integration of velocity and pose.
 #ifndef SCREE_PHYSICS_MOTION_H
 #define SCREE_PHYSICS_MOTION_H
 
@@ -17,12 +17,13 @@ LAW BodyForces gravity_forces(BodyProperties properties, Parameters parameters) 
     return load;
 }
 
-// The same about every axis: spheres, cubes, and bodies that contacts do not turn.
+// Spheres, cubes, and bodies that contacts do not turn (inverse inertia 0).
 LAW bool has_isotropic_inertia(BodyProperties properties) {
     return properties.inverse_inertia.x == properties.inverse_inertia.y &&
            properties.inverse_inertia.x == properties.inverse_inertia.z;
 }
 
+// The inverse mass and world inverse inertia tensor, R diag(i) R^T.
 LAW Mass mass_in_world(BodyProperties properties, vec4 orientation, float split) {
     Mass mass;
     mass.xx = properties.inverse_inertia.x;
@@ -46,7 +47,7 @@ LAW Mass mass_in_world(BodyProperties properties, vec4 orientation, float split)
     return mass;
 }
 
-// A velocity that is finite and within the speeds that a step can handle, whatever pushed the body.
+// Clamps a velocity to finite values, and to the greatest linear and angular speeds.
 LAW Velocity clamp_velocity(Velocity velocity, Parameters parameters) {
     vec3 far = vec3(1.0e15f);  // its square is finite
     velocity.linear = shortened(larger3(smaller3(velocity.linear, far), -far), parameters.max_speed);
@@ -54,7 +55,7 @@ LAW Velocity clamp_velocity(Velocity velocity, Parameters parameters) {
     return velocity;
 }
 
-// Impulses at the start of the step, forces into the load of the whole step.
+// Sets velocities and applies the user's impulses at the start of the step.
 LAW Velocity apply_impulses(Velocity velocity, Action action, Mass mass, Parameters parameters) {
     bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u;
     velocity.linear = choose(sets, action.velocity, velocity.linear);
@@ -63,14 +64,15 @@ LAW Velocity apply_impulses(Velocity velocity, Action action, Mass mass, Paramet
     velocity.angular = velocity.angular + turned_by(mass, action.angular_impulse);
     return clamp_velocity(velocity, parameters);
 }
+// Adds the user's forces and torques to the accelerations of the whole step.
 LAW BodyForces apply_forces(BodyForces load, Action action, Mass mass) {
     load.acceleration = load.acceleration + action.force * mass.inverse_mass;
     load.angular_acceleration = load.angular_acceleration + turned_by(mass, action.torque);
     return load;
 }
 
-// The velocity at the start of a substep: gravity, forces and damping (implicit: v / (1 + h c)), and what the contacts decided.
-// Damping sees the velocity before the contacts' changes, which arrive together with their next warm start.
+// The velocity at the start of a substep: gravity, forces, implicit damping (v / (1 + h c)) and the contacts' changes.
+// Damping acts on the velocity before those changes, which include the next warm start.
 LAW Velocity integrate_velocity(Velocity velocity, Velocity change, BodyForces load, BodyProperties properties,
                                 Parameters parameters) {
     float h = parameters.h;
@@ -85,9 +87,11 @@ LAW Velocity integrate_velocity(Velocity velocity, Velocity change, BodyForces l
     return after;
 }
 
+// The orientation after rotating with `angular` (world, rad/s) for h seconds.
 LAW vec4 turned(vec4 orientation, vec3 angular, float h) {
     vec3 half_turn = angular * (0.5f * h);
-    // The quaternion's angle is the arctangent of this; the next term of the tangent's series makes up for it.
+    // Normalisation yields an angle of atan(|half_turn|); one more term of the tangent's series corrects that to third
+    // order.
     half_turn = half_turn * (1.0f + 0.33333333f * dot3(half_turn, half_turn));
     vec3 axis = vec3(orientation.x, orientation.y, orientation.z);
     vec3 spin = half_turn * orientation.w + cross3(half_turn, axis);
@@ -98,7 +102,7 @@ struct RigidState {
     Pose pose;
     Velocity velocity;
 };
-// The centre goes on by h v, with the rest of the sum kept for the next time.
+// Adds h v to the position with Kahan compensation; the low-order term is stored with pose and velocity.
 LAW RigidState integrate_position(Pose pose, Velocity velocity, float h) {
     vec3 way = velocity.linear * h + vec3(pose.low_x, velocity.low_y, velocity.low_z);
     RigidState after;
@@ -112,16 +116,17 @@ LAW RigidState integrate_position(Pose pose, Velocity velocity, float h) {
     return after;
 }
 
-// The spin of a body of angular momentum L in this orientation, w = R I^-1 R^T L.
+// Angular velocity of a body of angular momentum L: w = R I^-1 R^T L.
 LAW vec3 angular_velocity_of(vec4 orientation, vec3 momentum, vec3 inverse_inertia) {
     vec3 l = rotate_back(orientation, momentum);
     return rotate(orientation, vec3(l.x * inverse_inertia.x, l.y * inverse_inertia.y, l.z * inverse_inertia.z));
 }
 
-// One substep of free motion. The angular momentum L = R I R^T w is what stays the same while the body turns, so w follows from
-// it: once at the middle of the substep (explicit midpoint, second order), once at its end. Torque-free tumbling keeps L to
-// rounding, and the energy of a spin lies between L^2 / 2 I_max and L^2 / 2 I_min whatever h. Only the change of w is taken from
-// L: its rounding and that of the reciprocals would otherwise add up in one direction, 1e-7 in every substep.
+// One substep of free motion with gyroscopic torque. The angular momentum L = R I R^T w is conserved while the body
+// rotates, so w follows from L at the middle of the substep (explicit midpoint, second order) and at its end.
+// Torque-free tumbling conserves L to rounding, and the rotational energy stays between L^2 / 2 I_max and L^2 / 2 I_min
+// whatever h. Only the change of w is computed from L: the rounding of w itself would add up in one direction, 1e-7 in
+// every substep.
 LAW RigidState integrate(Pose pose, Velocity velocity, BodyProperties properties, float h) {
     RigidState after = integrate_position(pose, velocity, h);
     bool tumbles = properties.motion == MOTION_DYNAMIC && !has_isotropic_inertia(properties);

@@ -1,12 +1,12 @@
-// Contacts that are kept: while two bodies hardly move against each other, their contact stays as it was made.
+// Persistent manifolds: while two bodies hardly move relative to each other, their contact keeps its geometry.
 //
-// The idea is Box3D's (Erin Catto, contact recycling): normal, points, impulses and lever arms are those of the step in which the
-// contact was made, and only the separation is measured anew, between the points' marks on either body. The frozen arms
-// take away the sideways shift of the load that makes a column of soft contacts buckle, and what is the same in every step
-// can come to true rest. The price: the two forces of a contact act up to the tolerance apart, and a resting pair's
-// angular momentum is exact only to that. So the tolerance is small against the bodies: what slides or rolls lets go at once,
-// and so does what tips. Where there is no weight nothing stands or leans, and no contact is kept: what collides and breaks in
-// empty space has its angular momentum to rounding.
+// After Box3D's contact recycling (Erin Catto): normal, points, impulses and lever arms are those of the step in which
+// the contact was made, and only the separation is updated, from body-fixed anchors. Frozen lever arms prevent the
+// sideways shift of the load that makes a column of soft contacts buckle, and what is equal in every step can come to
+// rest. The price: the two forces of a contact act up to the tolerance apart, so the angular momentum of a resting pair
+// is exact only to that. The tolerance is therefore small against the bodies: sliding, rolling and tipping end
+// persistence at once. Without gravity nothing stands or leans and no contact persists, so angular momentum there is
+// exact to rounding.
 #ifndef SCREE_PHYSICS_PERSISTENCE_H
 #define SCREE_PHYSICS_PERSISTENCE_H
 
@@ -14,23 +14,23 @@
 
 LAWS_BEGIN
 
-CONSTANT float KEPT_SLIP = 0.01f;     // of the thinner body's half width: further apart, and the contact is made anew
-CONSTANT float KEPT_SPEED = 0.1f;     // of the same in a second: faster, and it slides, rolls or tips
-CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the turn (5 degrees) after which a body's contacts are made anew
-// The same where there are one or two points (0.6 degrees, about as much as the slip allows where there are more): a body rocks
-// about them without slip, and where the normal of two edges is frozen while they turn, it rocks on for ever.
+CONSTANT float KEPT_SLIP = 0.01f;     // of the smaller min_half_width: anchors further apart end persistence
+CONSTANT float KEPT_SPEED = 0.1f;     // of the same per second: faster is sliding, rolling or tipping
+CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the rotation (5 degrees) of a body that ends persistence
+// The same for one or two points (0.6 degrees, about what the slip tolerance allows with more): a body rocks about them
+// without slip, and while the normal of two edges is frozen and they turn, the rocking never ends.
 CONSTANT float KEPT_ROCKING = 0.9999875f;
 
-// What tips over two of its four points falls upon a corner that was not chosen, and is thrown back: columns rocked on for ever.
-// So a contact is made anew in every step in which B turns faster than that against A (squared: 0.05 rad/s; with 0.1, four heaps
-// of 50 never came to rest),
+// A body that tips over two of its four points falls upon a corner that manifold reduction left out and rebounds:
+// columns rocked on for ever. So persistence ends when B rotates relative to A faster than this (squared: 0.05 rad/s;
+// with 0.1, four heaps of 50 never came to rest),
 CONSTANT float KEPT_SPIN_SQUARED = 0.0025f;
-// and when it has turned so far (sine of half the turn, squared: 0.4 degrees). With less, columns whose choice of four points
-// shifts them by more than that hop between two choices; with degrees, a corner falls 17 mm deep. (To prefer the corners chosen
-// before brought no more heaps to rest.)
+// or has rotated this far (sine of half the angle, squared: 0.4 degrees). With less, columns hop between two choices of
+// four points that shift them by more than that; with degrees, a corner falls 17 mm deep. (Preferring the corners
+// chosen before brought no more heaps to rest.)
 CONSTANT float KEPT_TILT_SQUARED = 1.225e-5f;
 
-// From the mark of a point on A to its mark on B, as the bodies lie now.
+// From the anchor of a point on A to its anchor on B at the present poses, world, m.
 LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
     vec3 arm = xyz(contact.points[point]);
     vec3 half_gap = contact.normal * (0.5f * contact.points[point].w);
@@ -39,14 +39,17 @@ LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
     return (b.position - a.position) + mark_b - mark_a;
 }
 
+// Whether there is gravity; without it no contact persists.
 LAW bool has_weight(Parameters parameters) {
     vec3 pull = absolute3(parameters.gravity);
     return pull.x > 1.0e-9f || pull.y > 1.0e-9f || pull.z > 1.0e-9f;
 }
 
+// cos| of half the angle between two orientations.
 LAW float cosine_between(vec4 before, vec4 now) {
     return abs((before.x * now.x + before.y * now.y) + (before.z * now.z + before.w * now.w));
 }
+// The rotation from `before` to `now` as a quaternion.
 LAW vec4 turn_since(vec4 before, vec4 now) {
     vec3 from = vec3(before.x, before.y, before.z), to = vec3(now.x, now.y, now.z);
     vec3 turn = (to * before.w - from * now.w) - cross3(to, from);
@@ -56,8 +59,8 @@ LAW bool turned_little(vec4 before, vec4 now, uint points) {
     return cosine_between(before, now) > (points > 2u ? KEPT_TURN : KEPT_ROCKING);
 }
 
-// Whether last step's contact serves for this step: it carried, the bodies do not roll on each other, and its marks
-// still lie together.
+// Whether last step's contact persists: it bore an impulse, neither body can roll on the other, rotations are below the
+// limits, and the anchors neither separate nor slide.
 LAW bool is_persistent(Contact contact, Impulse impulse, BodyProperties ta, Pose a, Velocity va, BodyProperties tb, Pose b,
                        Velocity vb) {
     if (touches_in_a_point(ta.shape) || touches_in_a_point(tb.shape) || (is_round(ta) && is_round(tb))) return false;
@@ -82,6 +85,7 @@ LAW bool is_persistent(Contact contact, Impulse impulse, BodyProperties ta, Pose
     return true;
 }
 
+// The contact's manifold with its separations updated from the anchors.
 LAW Manifold persistent_manifold(Contact contact, Pose a, Pose b) {
     Manifold manifold;
     manifold.normal = contact.normal;
@@ -94,7 +98,7 @@ LAW Manifold persistent_manifold(Contact contact, Pose a, Pose b) {
     return manifold;
 }
 
-// Between two bodies that do not stir nothing has changed.
+// The manifold of two inactive bodies, unchanged.
 LAW Manifold resting_manifold(Contact contact, Impulse impulse) {
     Manifold manifold;
     manifold.normal = contact.normal;

@@ -1,14 +1,15 @@
-// Impacts that are thrown back: how fast bodies strike, and how fast they leave.
+// Restitution: impact velocities, and the rebound velocities that the relax pass aims at.
 //
-// Restitution rides in the pass without bias instead of a pass of its own after the last substep: what approached faster than the
-// threshold leaves with e times that speed in the substep of the impact, so a bounce loses no part of a step's flight (g dt /
-// v of its energy, 3% at 5 m/s and 60 Hz) and an impact runs on through a row of balls. For that one pass a struck body is shared
-// among the contacts that strike it alone: with the usual over-relaxed share, what it merely lies on would take part of the
-// bounce, and two blows at once would throw it back too fast.
+// Restitution acts in the relax pass of the substep of the impact, not in a pass after the last substep: what
+// approaches faster than the threshold leaves with e times that speed, so a bounce loses no part of a step's flight (g
+// dt / v of its energy, 3% at 5 m/s and 60 Hz), and an impact propagates through a row of balls. In that pass a struck
+// body is split among the contacts that strike it alone: with the usual over-relaxed split, its resting contacts would
+// absorb part of the rebound, and two simultaneous impacts would rebound too fast.
 //
-// The positions of a body that falls in substeps (v += g h, x += v h) lie on a parabola exactly, but one whose speed is v + g h /
-// 2 on the way down and v - g h / 2 on the way up: e times v alone would lose g h of the speed in every bounce (1% of the height
-// from 1 m at 480 Hz). So the speed is taken from that parabola where it meets the surface, and handed to the one that leaves.
+// Symplectic Euler substeps (v += g h, x += v h) put positions exactly on a parabola whose speed is v + g h / 2 on the
+// way down and v - g h / 2 on the way up: e times v alone would lose g h of the speed in every bounce (1% of the height
+// from 1 m at 480 Hz). So the impact velocity is that of the parabola where it meets the surface, and the rebound is
+// corrected alike.
 #ifndef SCREE_PHYSICS_RESTITUTION_H
 #define SCREE_PHYSICS_RESTITUTION_H
 
@@ -17,21 +18,22 @@
 
 LAWS_BEGIN
 
-// Sweeps over the points of a blow, in both passes: after a single one a box that fell flat on four points left spinning, and
-// rose to half its height; after four its spin was 0.007 rad/s, after eight 1e-6.
+// Gauss-Seidel sweeps over the points of a contact in an impact, in both passes: after a single one a box that fell
+// flat on four points left spinning, and rose to half its height; after four its spin was 0.007 rad/s, after eight
+// 1e-6.
 CONSTANT int IMPACT_SWEEPS = 8;
 
-// Of the impulse that would stop a point: one that presses with less than this is struck. (With none at all, a row of balls that
-// a blow's forerunner had moved by 0.3 mm/s did not pass the blow on.)
+// A point that bears less than this part of the impulse that would stop it is struck; one that bears more is in resting
+// contact. (With 0, a row of balls that an impact's precursor had moved by 0.3 mm/s did not transmit the impact.)
 CONSTANT float IMPACT_DISTANCE = 0.01f;
 
-// Acceleration of B against A, m/s^2.
+// Relative acceleration (B minus A), m/s^2.
 LAW vec3 relative_acceleration(BodyForces a, BodyForces b) {
     return b.acceleration - a.acceleration;
 }
 
-// How fast the points strike that are to be thrown back, before any of them is answered: an answer at one of them turns the
-// bodies, and with them the others. The surface is met after a part of the substep.
+// Normal velocities at which points strike, m/s, < 0; 0 for those that do not rebound. Measured before any point is
+// solved, because solving one turns the bodies at the others. The surface is met after a part of the substep.
 LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
     vec4 found = vec4(0.0f);
     float gain = parameters.h * dot3(c.normal, pull);
@@ -45,13 +47,14 @@ LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a
         bool meets = there && strikes && speed < -parameters.restitution_threshold && impulse.separation[k] + way < 0.0f;
         if (none(meets)) continue;
         float part = choose(impulse.separation[k] > 0.0f, -impulse.separation[k] * reciprocal(way), 0.0f);
-        // A pull of more than the speed itself, in one substep, is beyond this.
+        // Clamped: accelerations that exceed the speed itself within one substep are beyond this model.
         found[k] = choose(meets, smaller(speed + gain * (part - 0.5f), 0.5f * speed), found[k]);
     }
     return found;
 }
 
-// The speed, toward the surface, after a blow: e times the approach, outward, and half a substep's gain.
+// Bias of the relax pass after an impact, minus the rebound velocity (<= 0): e times the impact velocity, plus half a
+// substep's relative acceleration along the normal.
 LAW float restitution_target(Constraint c, float impact_velocity, vec3 pull, Parameters parameters) {
     return smaller(c.restitution * impact_velocity + 0.5f * parameters.h * dot3(c.normal, pull), 0.0f);
 }
@@ -61,14 +64,14 @@ LAW float is_impact(Impulse impulse) {
     return choose(a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f, 1.0f, 0.0f);
 }
 
-// The mass as it is shared in the pass without bias.
+// The split mass in the relax pass: a struck body is split evenly among its impacts.
 LAW Mass impact_mass(Impulse impulse, Mass mass, BodyForces load, Parameters parameters) {
     mass = split_mass(mass, impulse, parameters);
     mass.split = choose(is_impact(impulse) > 0.0f, larger(1.0f, load.impacts), mass.split);
     return mass;
 }
 
-// The impulse of a blow is spent: the next substep must not begin with it.
+// Removes the impulses of impacts, which must not warm start the next substep.
 LAW Impulse clear_impacts(Impulse impulse, uint count) {
     bool blow = false;
     float normal = 0.0f;

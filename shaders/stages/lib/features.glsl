@@ -1,6 +1,6 @@
-// What cannot be in this scene: the driver leaves out what is said for it. A software device runs through both branches of every
-// `if`; a GPU needs registers for both. The stages that look ahead for impacts are two shaders each instead: a software device's
-// driver takes 0.3 s, every time, to read what convex shapes need before it leaves that out.
+// Specialisation by the features of a scene: the driver removes code that the scene does not need. A software device
+// runs both branches of every `if`; a GPU reserves registers for both. Stages that look ahead for impacts are two
+// shaders each instead: lavapipe takes 0.3 s, every time, to parse the code for convex shapes before it removes that.
 #ifndef SCREE_STAGES_FEATURES_GLSL
 #define SCREE_STAGES_FEATURES_GLSL
 
@@ -14,10 +14,11 @@ const bool REORDERED = (FEATURES & FEATURE_REORDERED) != 0u;
 const bool JOINTS = (FEATURES & FEATURE_JOINTS) != 0u;
 const bool BREAKING = (FEATURES & FEATURE_BREAKING) != 0u;
 
-// Which of the stages that share a module this is: the lines `variants` of its file.
+// The variant of a shared module: the lines `variants` of its file.
 layout(constant_id = 3) const uint VARIANT = 0u;
 
-// Only members that the laws compare are replaced: a zero in a sum would be folded away, and the sign of a zero with it.
+// Replaces only members that are compared: a literal zero in a sum would be folded away, and with it the sign of a
+// zero.
 Constraint narrowed(Constraint c) {
     if (!BOUNCES) c.restitution = 0.0f;
     if (!ROLLS) c.rolling_resistance = 0.0f;

@@ -1,8 +1,8 @@
-// A stage that is several in turn, for small worlds: one workgroup does the items of one part after the other, with a barrier
-// between them. compute/step/stage_fusion.h says when.
+// Fused stages for small worlds: one workgroup runs several stages in turn, with a barrier between them.
+// compute/step/stage_fusion.h decides when.
 //
-// On a software device the workgroup is one subgroup, a vector of the processor: its driver makes a coroutine of every vector
-// that meets a barrier(), and keeps its variables in memory: a quarter slower than without.
+// On a software device the workgroup is one subgroup, a vector of the processor: lavapipe makes a coroutine of every
+// vector that meets a barrier() and keeps its variables in memory, a quarter slower.
 #ifndef SCREE_STAGES_FUSED_GLSL
 #define SCREE_STAGES_FUSED_GLSL
 

@@ -1,5 +1,5 @@
-// The sum of what a body's contacts did to it, in the order of the contacts, how many of them carry, and of what
-// the slots tell the sum (what presses) and the least (the least quiet body).
+// Sums a body's slots in their order: velocity changes, active contacts, and `told` (the sum of normal impulses; in the
+// last pass the least quiet steps).
 #ifndef SCREE_STAGES_GATHER_GLSL
 #define SCREE_STAGES_GATHER_GLSL
 

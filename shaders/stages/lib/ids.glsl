@@ -1,5 +1,5 @@
-// Ids, not rows, decide which of two bodies is the first of a pair and in which order sums are taken: so the host may put bodies
-// into another order in memory (compute/step/memory_order.h) and changes no bit.
+// Ids, not rows, decide which body of a pair is A and the order of sums, so the host may reorder rows in memory
+// (compute/step/memory_order.h) without changing a bit.
 #ifndef SCREE_STAGES_IDS_GLSL
 #define SCREE_STAGES_IDS_GLSL
 

@@ -1,9 +1,8 @@
-// A pass over one block of joints, by one thread: its equations, their elimination, and what its bodies go through.
+// A pass over one block of joints by one thread: equations, elimination, back substitution, active set.
 //
-// Lavapipe ends a shader's loops after 65,535 rounds in all, without a word. As loops in loops the elimination of nine joints in
-// a ring came to more; so what a pair of joints has six or 36 of is written out (EACH_OF_SIX), and rounds of a block that would
-// still come to more are left to further dispatches (compute/step/stage_fusion.h, which knows how many rounds each loop here
-// takes).
+// lavapipe silently ends a shader's loops after 65,535 rounds in all, which the elimination of nine joints in a ring
+// exceeded as nested loops. So loops over six rows are unrolled (EACH_OF_SIX), and rounds of a block that would still
+// exceed it go to further dispatches (compute/step/stage_fusion.h, which knows how many rounds each loop here takes).
 #ifndef SCREE_STAGES_JOINTS_GLSL
 #define SCREE_STAGES_JOINTS_GLSL
 
@@ -14,7 +13,7 @@
 
 uint block_first, block_joints, block_bodies;
 
-// False if there is no such block, or nothing in it moves.
+// False if there is no such block, or no body of it can move.
 bool enter_block(uint index) {
     if (index >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u) return false;
     block_first = joints.at[index].first_of_block;
@@ -50,6 +49,7 @@ Mass mass_of(uint block_body) {
     return Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
 }
 
+// Split masses of the block's bodies.
 void lend(bool biased) {
     for (uint m = block_first; m < block_bodies; ++m) {
         uint body = joints.at[m].block_body;
@@ -58,7 +58,8 @@ void lend(bool biased) {
     }
 }
 
-// `biased`: with what the contacts have just done to them, which is in the slots before those of the blocks.
+// Velocities of the block's bodies; if `biased`, with this pass's changes by contacts, in the slots before those of
+// joints.
 void take_velocities(bool biased) {
     for (uint m = block_first; m < block_bodies; ++m) {
         uint body = joints.at[m].block_body;
@@ -76,6 +77,7 @@ void restore_velocities() {
     for (uint m = block_first; m < block_bodies; ++m) joints.at[m].velocity = joints.at[m].velocity_before;
 }
 
+// Jacobian rows of a joint at the present poses.
 void place_rows(uint j) {
     uint a = joints.at[j].a, b = joints.at[j].b;
     JointConfiguration at = joint_configuration(joints.at[j].anchor_a, joints.at[j].frame_a, pose_of(a), joints.at[j].anchor_b,
@@ -103,7 +105,7 @@ void push_row(uint j, uint k, float impulse) {
             row_pushed(joints.at[side_b].velocity, row.direction, row.angular_b, impulse, linear, joints.at[side_b].mass);
 }
 
-// Which axes are unknowns; the others' impulses are given, and act at once.
+// Chooses the axes that are unknowns; the impulses of the others are given and applied at once.
 void choose_unknowns(uint j, bool biased) {
     uint unknowns = 0u;
     uint active_set = joints.at[j].active_set;
@@ -126,7 +128,7 @@ void choose_unknowns(uint j, bool biased) {
     joints.at[j].solved_axes = unknowns;
 }
 
-#define UP_TO(n) ((2u << n) - 1u)  // of a set of six axes, a bit each
+#define UP_TO(n) ((2u << n) - 1u)  // bits 0 to n of a set of axes
 
 bool has(uint axes, uint k) {
     return (axes >> k & 1u) != 0u;
@@ -135,7 +137,7 @@ bool unknown(uint j, uint k) {
     return has(joints.at[j].solved_axes, k);
 }
 
-// The entry of row n of joint i and the row of a response, that of a row of a joint between these members.
+// The matrix entry of row n of joint i and the row of a response, whose joint connects these bodies of the block.
 float entry_of(uint i, uint n, RowResponse to, uint block_body_a, uint block_body_b) {
     return row_entry(joints.at[i].rows[n].direction, joints.at[i].rows[n].angular_a, joints.at[i].rows[n].angular_b, n, to,
                      shared_ends(joints.at[i].block_body_a, joints.at[i].block_body_b, block_body_a, block_body_b));
@@ -166,7 +168,7 @@ void set_up_equations(uint j, bool biased) {
         if (unknown(j, k)) set_up_equation(j, k, v, biased);
 }
 
-// Where joint j keeps its coupling with joint i: its links are in rising order.
+// Where joint j stores its coupling with joint i; fill_in_of is ascending.
 uint coupling_with(uint i, uint j) {
     uint fill_in = joints.at[j].fill_in, before = 0u;
 #define COUNT_BEFORE(l) \
@@ -177,7 +179,7 @@ uint coupling_with(uint i, uint j) {
     return 36u * before;
 }
 
-// What unknown k of joint j does to its own six rows, and to those of the joint of its link l.
+// Column k of joint j in its own six rows, or in those of its fill-in l.
 struct Column {
     float at[6];
 };
@@ -194,7 +196,7 @@ Column column_of_link(uint j, uint l, uint k) {
     return column;
 }
 
-// Less a multiple of a column, in those unknowns of a row that are in `of`.
+// Subtracts a multiple of a column from a row, in the unknowns `of`.
 void lessen_diagonal(uint j, uint row, uint of, float multiplier, Column by) {
 #define LESSEN_DIAGONAL(c) \
     if (has(of, c)) joints.at[j].diagonal[row + c] = less_multiple(joints.at[j].diagonal[row + c], multiplier, by.at[c]);
@@ -206,7 +208,7 @@ void lessen_coupling(uint j, uint row, uint of, float multiplier, Column by) {
     EACH_OF_SIX(LESSEN_COUPLING)
 }
 
-// Takes unknown k of joint j out of all equations behind it.
+// Eliminates unknown k of joint j from all later equations.
 void eliminate(uint j, uint k) {
     Column own = own_column(j, k);
     float inverse = reciprocal(joints.at[j].diagonal[7u * k]);
@@ -271,7 +273,7 @@ void solve_equations(bool biased) {
             if (holds(j) && unknown(j, k)) push_row(j, k, joints.at[j].solution[k]);
 }
 
-// Whether another bound acts than was thought.
+// Updates the active set after a solution; true if it changed.
 bool look_at_bounds(uint j, bool biased, bool settling) {
     bool others = false;
     VelocityPair v = couple_of(j);
@@ -291,8 +293,8 @@ bool look_at_bounds(uint j, bool biased, bool settling) {
     return others;
 }
 
-// push.pass: 1 in the last substep; from bit 8 on the first round of the pass that this dispatch does, from 16 on how many it
-// does (dispatches_of() in compute/step/stage_fusion.cpp).
+// push.pass: bit 0 in the last substep; from bit 8 the first round of this dispatch, from bit 16 the number of its
+// rounds (dispatches_of() in compute/step/stage_fusion.cpp).
 uint first_round() {
     return push.pass >> 8 & 255u;
 }
@@ -329,7 +331,7 @@ void solve_block(bool biased) {
     joints.at[block_first].unsettled = others ? 1u : 0u;
 }
 
-// Empties what the bodies are about to be told.
+// Clears the velocity changes, for whole bodies.
 void begin_shares() {
     for (uint m = block_first; m < block_bodies; ++m) {
         joints.at[m].velocity = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
@@ -337,7 +339,7 @@ void begin_shares() {
     }
 }
 
-// The changes of this pass and the next warm start (if it `warms`), as whole bodies feel them.
+// Velocity changes by this pass, and by the next warm start if it `warms`, of whole bodies.
 void share_out(uint j, bool warms) {
     for (uint k = 0u; k < 6u; ++k) {
         JointRow row = joints.at[j].rows[k];
@@ -358,13 +360,14 @@ void commit(uint j) {
     for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = committed(joints.at[j].rows[k]);
 }
 
-// What a joint pushes with, on B.
+// A joint's linear impulse on B.
 vec3 force_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 0u; k < 3u; ++k)
         if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k]);
     return sum;
 }
+// A joint's angular impulse on B.
 vec3 torque_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 3u; k < 6u; ++k)
@@ -372,6 +375,7 @@ vec3 torque_impulse(uint j) {
     return sum;
 }
 
+// Sums the impulses of the block's joints on each body: their weight in mass splitting.
 void note_pressing() {
     for (uint m = block_first; m < block_bodies; ++m) joints.at[m].normal_sum = 0.0f;
     for (uint j = block_first; j < block_joints; ++j) {

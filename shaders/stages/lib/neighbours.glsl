@@ -1,12 +1,12 @@
-// The bodies whose pairs one body owns: those whose bounds overlap its own, and between bodies that do not stir those that it
-// touched in the last step; each is handed to found(), which the stage defines.
+// Broadphase search: calls found(), which the stage defines, for the partners of the pairs that one body owns. Partners
+// are bodies with overlapping bounds; between inactive bodies, those of last step's contacts.
 #ifndef SCREE_STAGES_NEIGHBOURS_GLSL
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
 #include "shaders/physics/collide/grid.h"
 #include "shaders/stages/lib/ids.glsl"
 
-// Whether a joint keeps two bodies from touching. Only bodies that joints move have a list of them.
+// Whether a joint disables collision between two bodies. Only bodies that joints move have a list of joints.
 bool kept_apart(uint body, uint other) {
     uint listed = READ(properties, body).joints != NONE ? body : other;
     uint partner = listed == body ? other : body;
@@ -43,7 +43,7 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
     }
 }
 
-// The cells along x are one run of buckets, which may wrap round the end of the grid's entries.
+// Cells along x are consecutive buckets, which may wrap round the end of the grid's entries.
 void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, int last_x, uint level) {
     uint low = bucket_of(from, level, PARAMETERS.buckets);
     uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
@@ -58,13 +58,14 @@ void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, 
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         if (!finds(id, around.level, id_of(entry.body), entry.level & ~MOVES)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
-        if (cell.y != from.y || cell.z != from.z) continue;  // another row whose buckets happen to be the same
+        if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
         if (PARTS && is_part(own) && entry.body >= PARAMETERS.first_part && READ(properties, entry.body).owner == own.owner)
             continue;
         if (motion_of(own) == MOTION_DYNAMIC || (entry.level & MOVES) != 0u) meets(body, entry.body);
     }
 }
 
+// Partners of an inactive body that are inactive too: those of its contacts in the last step.
 void carry_over(uint body) {
     uint last = READ_WORD(first_contacts, body + 1u);
     for (uint k = READ_WORD(first_contacts, body); k < last; ++k) {

@@ -1,4 +1,4 @@
-// The pairs of one span by their kinds: counted, and, when the counts are summed, listed.
+// The pairs of one block of 16 binned by pair type: counted, then listed at the scanned offsets.
 #ifndef SCREE_STAGES_PAIR_TYPES_GLSL
 #define SCREE_STAGES_PAIR_TYPES_GLSL
 
@@ -14,7 +14,7 @@ void count_kinds_of(uint pair_block) {
     for (uint k = 0u; k < PAIR_TYPES; ++k) WORD(pair_type_counts, k * pair_blocks + pair_block) = found[k];
 }
 
-// In their order.
+// Stably.
 void list_kinds_of(uint pair_block) {
     uint pair_blocks = pair_blocks_of(COUNTED.pairs);
     if (pair_block >= pair_blocks) return;
@@ -25,7 +25,7 @@ void list_kinds_of(uint pair_block) {
         WORD(pairs_by_type, next[READ(pairs, pair).pair_type]++) = pair;
 }
 
-// Says how many pairs of a kind there are.
+// Writes the range and dispatch of a pair type.
 void tell_kind(uint pair_type) {
     uint pair_blocks = pair_blocks_of(COUNTED.pairs);
     if (pair_type >= PAIR_TYPES || pair_blocks == 0u) return;

@@ -1,11 +1,11 @@
-// The first partners that each body finds while they are counted, kept so that they need not be sought again to be listed: twelve
-// in three quads for each body. They lie in the memory of the table of pairs, which nobody reads before it is made anew.
+// Broadphase cache: the first twelve partners of each body, three quads, from count_pairs for fill_pairs, which then
+// need not search again. In the memory of the table of pairs, which is dead until match_pairs writes it.
 #ifndef SCREE_STAGES_PARTNER_CACHE_GLSL
 #define SCREE_STAGES_PARTNER_CACHE_GLSL
 
 #include "shaders/stages/lib/stage.glsl"
 
-// The same memory as quads: partner_cache.at[i], and CACHED(i) to be read.
+// That memory as quads: partner_cache.at[i] to write, CACHED(i) to read.
 #ifdef SCREE_BDA
 layout(std430, buffer_reference, buffer_reference_align = 16) buffer PartnerCacheTable {
     uvec4 at[];
@@ -37,7 +37,7 @@ uvec4 with_partner(uvec4 four, uint place, uint partner) {
     return uvec4(place == 0u ? partner : four.x, place == 1u ? partner : four.y, place == 2u ? partner : four.z,
                  place == 3u ? partner : four.w);
 }
-// As the k-th. Into registers all the same: a software device stores word by word, for every place where it might.
+// Sets partner k, in registers by selects: a software device would store word by word for every possible index.
 void note(inout Partners partners, uint k, uint partner) {
     partners.first = with_partner(partners.first, k, partner);
     partners.second = with_partner(partners.second, k - 4u, partner);

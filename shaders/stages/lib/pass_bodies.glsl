@@ -1,4 +1,4 @@
-// What a substep does with one body: before the biased pass, and between it and the one without bias.
+// A substep of one body: velocity before the biased pass, pose between the biased and the relax pass.
 #ifndef SCREE_STAGES_PASS_BODIES_GLSL
 #define SCREE_STAGES_PASS_BODIES_GLSL
 
@@ -9,11 +9,10 @@
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/stage.glsl"
 
-// after the tables that it sums
+// after the declarations of the tables
 #include "shaders/stages/lib/gather.glsl"
 
-// Gathers warm starts (and the last substep's relaxation), adds forces, pulls what the user holds, and splits the body among the
-// contacts that carry.
+// Applies warm starts (with the previous relax pass), forces, damping and grab springs, and updates the split state.
 void begin_body(uint i, bool first) {
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     BodyProperties body = READ(properties, i);
@@ -30,7 +29,7 @@ void begin_body(uint i, bool first) {
     masses.at[i].split = split_state_after(split_state, sum.carrying, sum.normal_impulse);
 }
 
-// Gathers the biased pass and moves the body by a substep.
+// Applies the biased pass and integrates the pose by a substep.
 void move_body(uint i) {
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     BodyProperties body = READ(properties, i);

@@ -1,4 +1,4 @@
-// The two passes of a substep over one contact of those that move somebody, `place` in their list.
+// The biased and the relax pass over one solver contact, `place` in contacts_to_solve.
 #ifndef SCREE_STAGES_PASS_CONTACTS_GLSL
 #define SCREE_STAGES_PASS_CONTACTS_GLSL
 
@@ -7,7 +7,7 @@
 #include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
-// With bias.
+// The biased pass.
 void solve_contact(uint place) {
     if (place >= COUNTED.solver_contacts) return;
     uint i = READ_WORD(contacts_to_solve, place);
@@ -33,8 +33,8 @@ void solve_contact(uint place) {
 
 const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
 
-// Without bias. It also hands out the next substep's warm start, or after the last one what each body tells the other of its
-// rest. Where bodies may break it also adds up what each contact carries in the step.
+// The relax pass. It also writes the next substep's warm start, or in the last substep the quiet steps of either body
+// for the other, and sums the contact's impulse over the step where bodies may break.
 void relax_contact(uint place, uint pass) {
     if (place >= COUNTED.solver_contacts) return;
     uint i = READ_WORD(contacts_to_solve, place);

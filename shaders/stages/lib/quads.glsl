@@ -1,4 +1,4 @@
-// The tables of quads (tables.h), which share one buffer: what the scene describes. READ_QUADS(table, i) is the i-th record.
+// The tables of quads (tables.h), constant scene data in one buffer. READ_QUADS(table, i) is the i-th record.
 #ifndef SCREE_STAGES_QUADS_GLSL
 #define SCREE_STAGES_QUADS_GLSL
 
@@ -17,7 +17,7 @@ uvec4 read_hulls(uint i) {
 SCREE_READER_PoseInBody(parts, SCREE_QUAD) SCREE_READER_Fracturing(fractures, SCREE_QUAD)
     SCREE_READER_PoseInBody(pieces, SCREE_QUAD) SCREE_READER_Tyre(tyres, SCREE_QUAD) SCREE_READER_WayPoint(way_points, SCREE_QUAD)
 
-    // Where a row behind all bodies lies in its body.
+    // The pose of a part in its body.
     PoseInBody part_in(uint row) {
     return READ_QUADS(parts, row - PARAMETERS.first_part);
 }

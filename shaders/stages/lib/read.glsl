@@ -1,7 +1,7 @@
-// READ(table, i): record i of a table that the stage does not write, or of its own thread before it writes it.
+// READ(table, i): record i of a table that the stage does not write, or that only its own thread writes afterwards.
 //
-// With SCREE_TEXELS it comes from a texel buffer over the same memory. lavapipe walks through the threads of a vector one by one
-// for each member of a record in a storage buffer, and takes 16 bytes of a texel at once: a fifth of the time.
+// With SCREE_TEXELS it comes from a texel buffer over the same memory. lavapipe reads each member of a record in a
+// storage buffer thread by thread, but fetches the 16 bytes of a texel at once: a fifth of the time.
 #ifndef SCREE_STAGES_READ_GLSL
 #define SCREE_STAGES_READ_GLSL
 
@@ -19,11 +19,11 @@ SCREE_BUFFERS(SCREE_DECLARE_TEXELS)
 
 #define SCREE_TEXEL(table, i) texelFetch(table##_texels, int(i))
 
-// For each record how it is put together from texels: made from records.h when the project is built.
+// Readers that assemble each record from texels, generated from records.h at build.
 #include "shaders/stages/lib/record_readers.glsl"
 
 #define SCREE_READ(table, record) SCREE_READER_##record(table, SCREE_TEXEL)
-// What the threads of a fused stage write for each other.
+// Tables that the threads of a fused stage write for each other.
 #ifdef SCREE_FUSED_SOLVER
 #include "shaders/stages/lib/read_coherent.glsl"
 #define SCREE_READ_OF_SOLVER(table, record) SCREE_READER_##record(table, SCREE_COHERENT_TEXEL)

@@ -1,14 +1,15 @@
-// READ(table, i) of what the threads of a fused stage write for each other: texels that a barrier brings up to date.
+// READ(table, i) of tables that threads of a fused stage write for each other: storage texels, coherent across a
+// barrier.
 //
-// A uniform texel buffer need not show before the next dispatch what this one writes. A storage texel buffer shows it, and
-// lavapipe takes 16 bytes of it at once too.
+// A uniform texel buffer need not show this dispatch's writes before the next one. A storage texel buffer does, and
+// lavapipe too fetches its 16 bytes at once.
 #ifndef SCREE_STAGES_READ_COHERENT_GLSL
 #define SCREE_STAGES_READ_COHERENT_GLSL
 
 #define SCREE_PLACE(index, name, block, record, length) const int name##_place = index;
 SCREE_BUFFERS(SCREE_PLACE)
 
-// After the bindings of the tables themselves and of their texels.
+// Behind the bindings of the buffers and of their texels.
 #define SCREE_DECLARE_COHERENT(name) \
     layout(set = 0, binding = 2 * BUFFERS + name##_place, rgba32ui) coherent readonly uniform uimageBuffer name##_coherent;
 SCREE_DECLARE_COHERENT(poses)

@@ -1,7 +1,7 @@
-// Exclusive prefix sums in three stages (reduce, then scan): sums of blocks, a scan of the sums by one workgroup, offsets.
+// Exclusive prefix sums in three stages (reduce, then scan): block sums, a scan of these by one workgroup, offsets.
 //
-// Nothing waits for another workgroup, because Vulkan promises no such progress; decoupled look-back would hang on some devices.
-// What is scanned is the variant's choice, or the including stage's as SCANNED.
+// No workgroup waits for another, because Vulkan guarantees no forward progress: decoupled look-back would hang on some
+// devices. The scanned list is the variant's choice, or the including stage's as SCANNED.
 #ifndef SCREE_STAGES_SCAN_GLSL
 #define SCREE_STAGES_SCAN_GLSL
 
@@ -53,7 +53,7 @@ void scan_write(uint i, uint sum) {
     else
         WORD(contact_starts, i) = sum;
 }
-// What the total, written behind the last item, means for the rest of the step.
+// The counts and dispatches that follow from the total.
 void scan_total(uint total) {
     if (SCANNED == SCAN_PAIRS)
         COUNTS = with_pairs(COUNTS, total, PARAMETERS);
@@ -67,7 +67,7 @@ void scan_total(uint total) {
 
 shared uint partial[256];
 
-// Sum of the values of the workgroup's threads before this one. Every thread calls it.
+// Exclusive prefix sum within the workgroup; all threads call it.
 uint sum_before(uint value) {
     uint t = gl_LocalInvocationID.x;
     partial[t] = value;
@@ -82,7 +82,7 @@ uint sum_before(uint value) {
 }
 
 #ifdef SCREE_FUSED
-// The whole of a short list, by one workgroup.
+// A short list, by one workgroup.
 void scan_whole() {
     uint items = scan_items();
     uint total = 0u;

@@ -1,4 +1,4 @@
-// The table of hulls, as the laws ask for it.
+// Access to the table of hulls for the collision functions.
 #ifndef SCREE_STAGES_SHAPE_DATA_GLSL
 #define SCREE_STAGES_SHAPE_DATA_GLSL
 

@@ -1,4 +1,4 @@
-// The slots of contacts with their bodies: counted, filled in any order, and put in order.
+// Slots of contacts with their bodies: counted, filled in any order, then sorted.
 #ifndef SCREE_STAGES_SLOTS_GLSL
 #define SCREE_STAGES_SLOTS_GLSL
 
@@ -9,7 +9,7 @@ bool can_be_moved(uint body) {
     return is_movable(READ(properties, body).motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps);
 }
 
-// Of each body that can be moved.
+// Counts a slot for each movable body of the contact.
 void count_slots_of(uint contact) {
     if (contact >= COUNTED.contacts || !any_stirs(COUNTED)) return;
     Pair pair = READ(pairs, READ(constraints, contact).pair);
@@ -18,7 +18,7 @@ void count_slots_of(uint contact) {
     if (can_be_moved(of_b)) atomicAdd(WORD(slot_counts, of_b), 1u);
 }
 
-// Also lists the contacts that have one, in any order.
+// Fills the slots, and lists the contacts that have one, in any order.
 void fill_slots_of(uint contact) {
     if (contact >= COUNTED.contacts || !any_stirs(COUNTED)) return;
     Pair pair = READ(pairs, READ(constraints, contact).pair);
@@ -34,7 +34,8 @@ void fill_slots_of(uint contact) {
     if ((place & (PARAMETERS.group_size - 1u)) == 0u) atomicMax(COUNTS.arguments[WORK_SOLVER_CONTACTS].x, group + 1u);
 }
 
-// By the id of the contact's owner, then by contact, and joints behind them: so that the body's sum has one order.
+// Order of a body's slots, which fixes the order of its sum: by the id of the contact's owner, then by contact; joints
+// last.
 bool comes_before(uint side, uint other) {
     if (!REORDERED) return side < other;
     uint owner = NONE, other_owner = NONE;
@@ -47,10 +48,10 @@ bool comes_before(uint side, uint other) {
 #define SORT_BEFORE(x, y) comes_before(x, y)
 #include "shaders/stages/lib/sort.glsl"
 
-// Also says where the contacts that the body owns begin.
+// Sorts a body's slots and writes where the contacts it owns begin.
 void order_slots_of(uint body) {
     if (COUNTED.overflow != 0u) return;
-    if (body == 0u) WORD(first_contacts, PARAMETERS.bodies) = COUNTED.contacts;  // even of no bodies
+    if (body == 0u) WORD(first_contacts, PARAMETERS.bodies) = COUNTED.contacts;  // also if there are no bodies
     if (body >= PARAMETERS.bodies) return;
     WORD(first_contacts, body) = READ_WORD(contact_starts, READ_WORD(pair_starts, body));
     uint first = body == 0u ? 0u : READ_WORD(slot_ends, body - 1u);

@@ -1,7 +1,8 @@
-// Sorts a short range by one thread: SORT_GET(i) and SORT_SET(i, value), which the stage defines, read and write a uint;
-// SORT_BEFORE(x, y) says whether x comes before y, the smaller one if the stage does not define it.
+// Sorts a range by one thread: SORT_GET(i) and SORT_SET(i, value), defined by the stage, read and write a uint;
+// SORT_BEFORE(x, y) is the order, ascending by default.
 //
-// Few items: insertion. Thousands (a plate that carries a heap, a world in one cell): heap sort, which no arrangement slows down.
+// Insertion sort up to 32 items; heap sort beyond (a plate under a heap, a world in one cell), whose worst case is n
+// log n.
 #ifndef SCREE_STAGES_SORT_GLSL
 #define SCREE_STAGES_SORT_GLSL
 

@@ -1,10 +1,10 @@
-// What every stage begins with: the tables of a step, and a workgroup whose size the host chooses. Record i of a table that has a
-// buffer of its own is name.at[i]; words.glsl and quads.glsl reach the others.
+// Common head of every stage: the tables of a step, and a workgroup whose size the host chooses. Record i of a table
+// that has a buffer of its own is name.at[i]; words.glsl and quads.glsl access the others.
 //
-// Each stage is compiled for every way of reaching them: for tables that are bound, and (SCREE_BDA) for tables found by their
-// addresses, which may be longer and more than a device binds; and either with SCREE_TEXELS, where what a stage only reads comes
-// from texel buffers (read.glsl). NAME, NAME.bda, NAME.texels and NAME.bda.texels are the names of the four. They are no
-// specialisation constants: a module may name no resource that the layout lacks, and many devices have no room for all.
+// Each stage is compiled for every way to access the tables: bound buffers, or (SCREE_BDA) buffer device addresses,
+// which may be longer and more than a device binds; and each with SCREE_TEXELS, where read-only tables are texel
+// buffers (read.glsl). The four are named NAME, NAME.bda, NAME.texels and NAME.bda.texels. Specialisation constants
+// cannot do this: a module may name no resource that the layout lacks, and many devices have no room for all.
 #ifndef SCREE_STAGES_STAGE_GLSL
 #define SCREE_STAGES_STAGE_GLSL
 
@@ -14,7 +14,7 @@
 
 layout(local_size_x_id = 0) in;
 
-// A stage that is several in turn (SCREE_FUSED) is one workgroup, whose threads read what the others wrote before a barrier.
+// A fused stage (SCREE_FUSED) is one workgroup whose threads read what others wrote before a barrier.
 #ifdef SCREE_FUSED
 #define SCREE_SHARED coherent
 #else
@@ -49,16 +49,16 @@ layout(push_constant) uniform Push {
 push;
 
 #define PARAMETERS parameters.at[0]
-#define COUNTS counts.at[0]       // to be changed
-#define COUNTED READ(counts, 0u)  // to be read: all but the arguments
+#define COUNTS counts.at[0]       // to be written
+#define COUNTED READ(counts, 0u)  // read-only: all but the arguments
 
 #include "shaders/stages/lib/read.glsl"
 
-// after the buffers that they look into
+// after the declarations of the buffers
 #include "shaders/stages/lib/quads.glsl"
 #include "shaders/stages/lib/words.glsl"
 
-// The body that a row belongs to.
+// The row of the body that a row belongs to.
 uint body_of(uint row) {
     return row < PARAMETERS.first_part ? row : READ(properties, row).owner;
 }

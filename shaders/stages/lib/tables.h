@@ -1,63 +1,64 @@
-// The tables of a step, each with its record, its length and its one meaning, and the buffers that hold them on a device. C++ and
-// GLSL both expand these lists.
+// The tables of a step (record, length, one meaning each) and the device buffers that hold them. C++ and GLSL both
+// expand these lists.
 //
-// Wide tables have a buffer each. Tables of single words share one buffer, and so do tables of whole quads (16 bytes), because
-// devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_offset says where each begins, and
-// shaders/stages/lib/words.glsl and quads.glsl read them. On the host every table is a list of its own (compute/step/state.h).
+// Wide tables have a buffer each. Tables of single words share one buffer, and so do tables of quads (16 bytes),
+// because devices bind few storage buffers (MoltenVK 31, lavapipe 32): Parameters.<table>_offset is where each begins,
+// and shaders/stages/lib/words.glsl and quads.glsl access them. On the host every table is a vector
+// (compute/step/state.h).
 //
-// *_before are the contacts of the last step: their buffers and those without the suffix change places after every step.
+// *_before are the contacts of the last step: their buffers and those without the suffix are swapped after every step.
 #ifndef SCREE_STAGES_TABLES_H
 #define SCREE_STAGES_TABLES_H
 
 // ---- tables: buffer, name, block, record, length
-#define SCREE_WIDE_TABLES(X)                                                                     \
-    X(1, counts, CountsTable, Counts, one)                                                       \
-    X(2, properties, PropertiesTable, BodyProperties, bodies)                                    \
-    X(3, poses, PosesTable, Pose, bodies)                                                        \
-    X(4, velocities, VelocitiesTable, Velocity, bodies)                                          \
-    X(5, masses, MassesTable, Mass, bodies)                                                      \
-    X(6, forces, ForcesTable, BodyForces, bodies)                                                \
-    X(7, actions, ActionsTable, Action, actions)                                                 \
-    X(8, bounds, BoundsTable, Bounds, bodies)                                                    \
-    X(9, cell_entries, CellEntriesTable, CellEntry, bodies)                                      \
-    X(10, pairs, PairsTable, Pair, pairs)                                                        \
-    X(11, manifolds, ManifoldsTable, Manifold, pairs)                                            \
-    X(12, contacts, ContactsTable, Contact, contacts)                                            \
-    X(13, contacts_before, ContactsBeforeTable, Contact, contacts)                               \
-    X(14, impulses, ImpulsesTable, Impulse, contacts)                                            \
-    X(15, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                               \
-    X(16, constraints, ConstraintsTable, Constraint, contacts)                                   \
-    X(17, slots, SlotsTable, VelocityDelta, slots)                                               \
-    X(18, candidates, CandidatesTable, Candidate, candidates) /* near each body, in any order */ \
-    X(19, joints, JointsTable, Joint, joints)                                                    \
+#define SCREE_WIDE_TABLES(X)                                                                  \
+    X(1, counts, CountsTable, Counts, one)                                                    \
+    X(2, properties, PropertiesTable, BodyProperties, bodies)                                 \
+    X(3, poses, PosesTable, Pose, bodies)                                                     \
+    X(4, velocities, VelocitiesTable, Velocity, bodies)                                       \
+    X(5, masses, MassesTable, Mass, bodies)                                                   \
+    X(6, forces, ForcesTable, BodyForces, bodies)                                             \
+    X(7, actions, ActionsTable, Action, actions)                                              \
+    X(8, bounds, BoundsTable, Bounds, bodies)                                                 \
+    X(9, cell_entries, CellEntriesTable, CellEntry, bodies)                                   \
+    X(10, pairs, PairsTable, Pair, pairs)                                                     \
+    X(11, manifolds, ManifoldsTable, Manifold, pairs)                                         \
+    X(12, contacts, ContactsTable, Contact, contacts)                                         \
+    X(13, contacts_before, ContactsBeforeTable, Contact, contacts)                            \
+    X(14, impulses, ImpulsesTable, Impulse, contacts)                                         \
+    X(15, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                            \
+    X(16, constraints, ConstraintsTable, Constraint, contacts)                                \
+    X(17, slots, SlotsTable, VelocityDelta, slots)                                            \
+    X(18, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */ \
+    X(19, joints, JointsTable, Joint, joints)                                                 \
     X(20, vehicles, VehiclesTable, Vehicle, vehicles)
 
-// Lists that are counted, scanned and then filled bear the name of what they end up with; what they are until then has a name of
-// its own (SCREE_VIEWS).
-#define SCREE_WORD_TABLES(X)                                                                                                   \
-    X(21, cell_ends, WordsTable, uint, buckets)             /* of each bucket's entries in cell_entries */                     \
-    X(21, pair_starts, WordsTable, uint, bodies_and_end)    /* of the pairs that each row owns */                              \
-    X(21, slot_ends, WordsTable, uint, bodies_and_end)      /* of each body's slots */                                         \
-    X(21, first_contacts, WordsTable, uint, bodies_and_end) /* that each row owns; until sort_slots, of the last step */       \
-    X(21, sleep_states, WordsTable, uint, bodies)           /* how long each body has been quiet, and what woke it: sleep.h */ \
-    X(21, ids, WordsTable, uint, bodies)                    /* which of the scene's bodies, or which part, is in each row */   \
-    X(21, strains, WordsTable, float, bodies)               /* of bodies that break: what the last step left: fracture.h */    \
-    X(21, point_counts, WordsTable, uint, pairs)            /* points of each pair's manifold; with SPECULATIVE */             \
-    X(21, pairs_by_type, WordsTable, uint, pairs)                                                                              \
-    X(21, contacts_to_solve, WordsTable, uint, contacts)   /* those that move somebody, in any order */                        \
-    X(21, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, of each kind's pairs in each span */           \
-    X(21, contact_starts, WordsTable, uint, pairs_and_end) /* of each pair's contact: the contact itself, if it has one */     \
-    X(21, carried, WordsTable, float, contacts)            /* where bodies may break: normal impulse in this step, N s */      \
-    X(21, slot_sides, WordsTable, uint, slots)             /* whose each slot is: 2 * contact + side, or OF_JOINT | record */  \
+// Lists that are counted, scanned and filled are named after their final content; earlier contents have names of their
+// own (SCREE_VIEWS).
+#define SCREE_WORD_TABLES(X)                                                                                                \
+    X(21, cell_ends, WordsTable, uint, buckets)             /* end of each bucket in cell_entries */                        \
+    X(21, pair_starts, WordsTable, uint, bodies_and_end)    /* first pair that each row owns */                             \
+    X(21, slot_ends, WordsTable, uint, bodies_and_end)      /* end of each body's slots */                                  \
+    X(21, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */ \
+    X(21, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */              \
+    X(21, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                        \
+    X(21, strains, WordsTable, float, bodies)    /* last step's impulse or momentum of breakable bodies: fracture.h */      \
+    X(21, point_counts, WordsTable, uint, pairs) /* points of each pair's manifold; with SPECULATIVE */                     \
+    X(21, pairs_by_type, WordsTable, uint, pairs)                                                                           \
+    X(21, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                       \
+    X(21, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */             \
+    X(21, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                      \
+    X(21, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */      \
+    X(21, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | record */     \
     X(21, scan_sums, WordsTable, uint, scan_blocks)
 
-#define SCREE_QUAD_TABLES(X)                                                                                      \
-    X(22, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, and triangles of meshes: shape_data.h */ \
-    X(22, parts, QuadsTable, PoseInBody, parts)         /* where the rows behind all bodies lie in theirs */      \
-    X(22, fractures, QuadsTable, Fracturing, fractures) /* how each body that can breaks */                       \
-    X(22, pieces, QuadsTable, PoseInBody, pieces)       /* where the pieces lie in bodies that break */           \
-    X(22, tyres, QuadsTable, Tyre, tyres)                                                                         \
-    X(22, way_points, QuadsTable, WayPoint, way_points) /* of the routes of vehicles */
+#define SCREE_QUAD_TABLES(X)                                                                                  \
+    X(22, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
+    X(22, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                  \
+    X(22, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
+    X(22, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
+    X(22, tyres, QuadsTable, Tyre, tyres)                                                                     \
+    X(22, way_points, QuadsTable, WayPoint, way_points) /* of the vehicles' routes */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \
@@ -75,7 +76,7 @@
     X(21, words, WordsTable, uint, shared) \
     X(22, quads, QuadsTable, uvec4, shared)
 
-// ---- what a table of words is before it is what its name says: table, until then
+// ---- views: table, name of its earlier content
 #define SCREE_VIEWS(X)          \
     X(cell_ends, cell_counts)   \
     X(cell_ends, cell_starts)   \
@@ -84,10 +85,10 @@
     X(slot_ends, slot_starts)   \
     X(pair_type_starts, pair_type_counts)
 
-// ---- tables of words that take turns in the same memory of a device: each is dead when the next is written
-#define SCREE_SHARES(X)                 /* table, whose memory it takes over */        \
-    X(contact_starts, pair_type_starts) /* when the pairs are sorted by kind */        \
-    X(carried, contact_starts)          /* when bodies know which contacts they own */ \
-    X(contacts_to_solve, pairs_by_type) /* when all pairs have been collided */
+// ---- aliased word tables on a device: each table is dead when the next one in its memory is written
+#define SCREE_SHARES(X)                 /* table, earlier table in its memory */ \
+    X(contact_starts, pair_type_starts) /* after pairs are binned by type */     \
+    X(carried, contact_starts)          /* after bodies know their contacts */   \
+    X(contacts_to_solve, pairs_by_type) /* after the narrowphase */
 
 #endif

@@ -1,9 +1,9 @@
-// The tables of words (tables.h), which share one buffer: WORD(table, i) to be changed, READ_WORD(table, i) of a table that the
-// stage does not write, or of its own thread before it writes it; likewise of floats.
+// The tables of words (tables.h) in one buffer: WORD(table, i) to write, READ_WORD(table, i) of a table that the stage
+// does not write, or that only its own thread writes afterwards; likewise for floats.
 #ifndef SCREE_STAGES_WORDS_GLSL
 #define SCREE_STAGES_WORDS_GLSL
 
-// What a list is before it is what its table's name says (SCREE_VIEWS).
+// Views: names of a list before it holds what its table is named after (SCREE_VIEWS).
 #define cell_counts_offset cell_ends_offset
 #define cell_starts_offset cell_ends_offset
 #define pair_counts_offset pair_starts_offset
@@ -14,7 +14,7 @@
 #define WORD(table, i) words.at[PARAMETERS.table##_offset + (i)]
 #define SET_FLOAT(table, i, value) WORD(table, i) = floatBitsToUint(value)
 
-// A fused stage reads what its threads write for each other.
+// A fused stage reads what its own threads write, so not through texels.
 #if defined(SCREE_TEXELS) && !defined(SCREE_FUSED_LISTS)
 #define READ_WORD(table, i) texelFetch(words_texels, int(PARAMETERS.table##_offset + (i))).x
 #else
