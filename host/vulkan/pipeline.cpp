@@ -1,4 +1,4 @@
-// Compute pipelines over one table of storage buffers.
+// Compute pipelines that share one descriptor set of storage buffers.
 #include "host/vulkan/pipeline.h"
 
 #include <algorithm>
@@ -136,7 +136,7 @@ void BindingSet::view(std::uint32_t i, const Buffer& of) {
 
 void BindingSet::fill(const std::vector<const Buffer*>& buffers) {
     const Device& device = *layout_->device();
-    const auto is_there = [](const Buffer* buffer) { return buffer && *buffer; };  // else no shader reads its binding
+    const auto is_there = [](const Buffer* buffer) { return buffer && *buffer; };  // absent buffers are not read by any shader
     std::vector<VkDescriptorBufferInfo> bound(layout_->buffers() + 1);
     std::vector<VkWriteDescriptorSet> writes;
     const auto write = [&](std::uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {

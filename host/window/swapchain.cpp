@@ -1,4 +1,4 @@
-// The pictures that a window shows in turn.
+// The swapchain of a window.
 #include "host/window/swapchain.h"
 
 #include <algorithm>
@@ -67,7 +67,7 @@ VkSwapchainCreateInfoKHR Swapchain::shape(const VkSurfaceCapabilitiesKHR& can, i
     info.imageFormat = format_.format;
     info.imageColorSpace = format_.colorSpace;
     info.imageExtent = can.currentExtent;
-    if (info.imageExtent.width == std::numeric_limits<std::uint32_t>::max()) {  // the window follows the pictures
+    if (info.imageExtent.width == std::numeric_limits<std::uint32_t>::max()) {  // the surface takes the size of the swapchain
         info.imageExtent.width =
             std::clamp(static_cast<std::uint32_t>(width), can.minImageExtent.width, can.maxImageExtent.width);
         info.imageExtent.height =
@@ -79,12 +79,12 @@ VkSwapchainCreateInfoKHR Swapchain::shape(const VkSurfaceCapabilitiesKHR& can, i
     info.compositeAlpha = (can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
                               ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                               : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;  // every device has it
+    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;  // supported everywhere
     info.clipped = VK_TRUE;
     return info;
 }
 
-// False if there is nothing to show on at present.
+// Returns false if the surface has no area (minimised).
 bool Swapchain::build(int width, int height) {
     const VulkanFunctions& vk = device_->vk();
     device_->wait_idle();
@@ -141,11 +141,11 @@ std::optional<Swapchain::Target> Swapchain::acquire(int width, int height) {
         return std::nullopt;
     }
     if (result == VK_SUBOPTIMAL_KHR)
-        stale_ = true;  // shown all the same
+        stale_ = true;  // suboptimal: present, then rebuild
     else
         check(result, "the next picture of the window");
     spare_.pop_back();
-    // The semaphore that this picture was acquired with the last time is free: its picture has been written since.
+    // The semaphore of this image's previous acquisition is free, since that image has been written and presented.
     if (targets_[index_].acquired) spare_.insert(spare_.begin(), targets_[index_].acquired);
     targets_[index_].acquired = acquired;
     return targets_[index_];
