@@ -1,4 +1,4 @@
-// The compiled shaders, as words and text in the program.
+// The compiled shaders, embedded in the program.
 #pragma once
 
 #include <cstdint>
@@ -8,19 +8,19 @@
 
 namespace scree::shaders {
 
-// The SPIR-V of a shader: "count_pairs" for stages/count_pairs.comp or the variant of that name, "count_pairs.bda" for the same
-// with tables found by their addresses (buffer device address), "count_pairs.texels" and "count_pairs.bda.texels" for both with
-// what is only read as texels, "box.vert" for render/box.vert. Empty if there is none of that name, and without SCREE_VULKAN.
+// SPIR-V words of a shader: "count_pairs" for stages/count_pairs.comp or the variant of that name, "count_pairs.bda"
+// with tables reached by buffer device address, "count_pairs.texels" and "count_pairs.bda.texels" with read-only
+// tables as texel buffers, "box.vert" for render/box.vert. Empty if unknown, and without SCREE_VULKAN.
 std::span<const std::uint32_t> find(std::string_view name);
 
-// What the specialisation constant VARIANT (stages/lib/features.glsl) is set to in the stage of that name: stages that differ in
-// little share a module.
+// Value of the specialisation constant VARIANT (stages/lib/features.glsl) for the stage of that name; similar stages
+// share a module.
 std::uint32_t variant_of(std::string_view name);
 
-// A shader of render/ as GLSL of OpenGL ES 3.1. Empty if there is none of that name.
+// OpenGL ES GLSL of a shader of render/, by file name. Empty if unknown.
 std::string_view find_es(std::string_view name);
 
-// All names with SPIR-V, stages first.
+// Names of all SPIR-V shaders, stages first.
 std::vector<std::string_view> names();
 
 }  // namespace scree::shaders
