@@ -1,4 +1,4 @@
-// The options of pictures.
+// Options of pictures.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -115,7 +115,7 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
 std::string place_of(const std::string& file) {
     std::error_code ignored;
     const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
-    return std::filesystem::is_other(place) ? "" : place.string();  // /dev/null takes what comes
+    return std::filesystem::is_other(place) ? "" : place.string();  // devices such as /dev/null may be named twice
 }
 
 }  // namespace
