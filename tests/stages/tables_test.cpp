@@ -1,4 +1,4 @@
-// The tables of a step in the buffers of a device: each in memory of its own, or in that of one that is dead by then.
+// Tables in device buffers: memory of their own, or shared with a table that is dead by then.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
@@ -22,7 +22,7 @@ Scene everything_that_has_tables() {
     return scene;
 }
 
-// Whether one of the two lies, at last, in the memory of the other.
+// Whether the two tables share memory, directly or through others.
 bool take_turns(const std::string& one, const std::string& other) {
     static const auto turns = [] {
         std::set<std::pair<std::string, std::string>> all;
