@@ -49,7 +49,7 @@ struct BodyTables {
     TableView properties;  // BodyProperties
     TableView poses;       // Pose
     TableView velocities;  // Velocity
-    // Contact manifolds and their impulses, for CanvasOptions::marks and ColorBy::contact_impulse.
+    // Contacts and their impulses, for CanvasOptions::marks and ColorBy::contact_impulse.
     TableView touches;              // Contact
     TableView pushes;               // Impulse
     std::uint32_t touch_count = 0;  // valid records in touches and pushes

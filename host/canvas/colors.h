@@ -27,7 +27,7 @@ enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
 enum class ColorMap { plasma, inferno, viridis, cividis, turbo };  // all but turbo are monotonic in lightness
 
 struct Material {
-    glm::vec3 nature{0};  // friction, restitution and density, encoded as in shaders/render/frame.h
+    glm::vec3 nature{0};  // coefficients and density, as in shaders/render/frame.h
     std::string label;    // text in the legend
 };
 

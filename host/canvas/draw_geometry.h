@@ -12,7 +12,7 @@
 namespace scree::host {
 
 constexpr std::uint32_t MOST_QUADS = 1024;     // capacity for legend and caption; further quads are not drawn
-constexpr std::uint32_t MARKS_OF_A_TOUCH = 4;  // points of a manifold
+constexpr std::uint32_t MARKS_OF_A_TOUCH = 4;  // points of a Contact
 
 // A range of records in a table.
 struct Run {
