@@ -149,7 +149,7 @@ void add_options(CLI::App& command, PictureOptions& options) {
         .add_option("--color", options.color,
                     "Quantity shown by colour. contact-impulse: sum over the body's contacts in one substep; sleep: how long the "
                     "body has "
-                    "been quiet; material: friction, restitution and density. Default: momentum.")
+                    "been still; material: friction, restitution and density. Default: momentum.")
         ->check(one_of(color_words()))
         ->group(group);
     command.add_option("--color-map", options.color_map, "Colour map.")->check(one_of(color_map_words()))->group(group);

@@ -184,7 +184,7 @@ void Video::Impl::fail() {
     said.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
     while (!said.empty() && said.back() == '\n') said.pop_back();
     discard();
-    throw ImageError(path.string() + ": ffmpeg failed: " + (said.empty() ? "it ended early and said nothing" : said));
+    throw ImageError(path.string() + ": ffmpeg failed: " + (said.empty() ? "it exited early without a message" : said));
 }
 
 void Video::Impl::discard() {

@@ -58,7 +58,7 @@ CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t times
     if (result == VK_SUCCESS) result = vk.vkBeginCommandBuffer(commands_, &begin);
     if (result == VK_SUCCESS && timed) result = vk.vkCreateQueryPool(device_->handle(), &queries, nullptr, &queries_);
     if (result != VK_SUCCESS && pool_) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
-    check(result, "beginning a recording");
+    check(result, "beginning a command buffer");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "recording");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "recording");
     if (!queries_) return;
@@ -155,7 +155,7 @@ void CommandBuffer::timestamp() {
 void CommandBuffer::end() {
     // Only the last barrier includes the host: on a discrete GPU that costs a cache flush each time.
     all_memory(device_->vk(), commands_, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
-    check(device_->vk().vkEndCommandBuffer(commands_), "ending a recording");
+    check(device_->vk().vkEndCommandBuffer(commands_), "ending a command buffer");
 }
 
 std::vector<double> CommandBuffer::timestamp_seconds() const {

@@ -86,7 +86,7 @@ void Instance::create(bool validation, std::vector<const char*> extensions) {
     const VkResult result = vk_.vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         throw DeviceError(
-            "no Vulkan driver on this machine: apt-get install mesa-vulkan-drivers (it has one for processors, too)");
+            "no Vulkan driver on this machine: apt-get install mesa-vulkan-drivers (with lavapipe, which runs on the CPU)");
     }
     check(result, "creating a Vulkan instance");
     if (!validation) return;
@@ -107,7 +107,7 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
     if (result == VK_SUCCESS && count > 0) result = vk_.vkEnumeratePhysicalDevices(instance_, &count, devices.data());
     if (count == 0 || result == VK_ERROR_INITIALIZATION_FAILED) {
         throw DeviceError(
-            "no Vulkan device on this machine: apt-get install mesa-vulkan-drivers (it has one for processors, too)");
+            "no Vulkan device on this machine: apt-get install mesa-vulkan-drivers (with lavapipe, which runs on the CPU)");
     }
     check(result, "listing the Vulkan devices");
     return devices;
