@@ -63,7 +63,7 @@ enum class Pass {
     picture,  // bodies and other geometry, depth tested
     finish    // overlay: smoothing (with one sample per pixel), legend and caption
 };
-enum class Cull { none, back, front };  // discarded sides of triangles; counterclockwise in clip space is front
+enum class Cull { none, back, front };  // discarded sides of triangles; counterclockwise on screen is front
 enum class Compare { always, less, greater, greater_or_equal };  // depth test: new depth against stored depth
 // Meshes. none: vertices come from gl_VertexIndex alone. Spheres and capsules in falling level of detail; disc and
 // discs cast shadows of round bodies.

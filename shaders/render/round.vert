@@ -24,7 +24,7 @@ vec3 seen_point(vec3 eye, vec3 forward, vec4 given) {
     float distance = max(length(eye), 1e-6);
     vec3 toward = orthographic() ? -normalize(forward) : eye / distance;
     vec3 side = normalize(cross(abs(toward.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0), toward));
-    // How far off the line of sight, in radii; at the silhouette the line of sight touches.
+    // Distance from the line of sight, in radii; the silhouette is where rays are tangent.
     float nearness = orthographic() ? 0.0 : min(1.0 / distance, 1.0);
     float off = given.z * sqrt(1.0 - nearness * nearness);
     return sqrt(1.0 - off * off) * toward + off * given.w * (side * given.x + cross(toward, side) * given.y);
@@ -72,7 +72,7 @@ void main() {
     if (capsule) {
         local = axis * (half_height * given.w) + radius * (side * given.x + axis * given.y + cross(side, axis) * given.z);
     } else {
-        // How far off the line of sight, in radii; at the silhouette the line of sight touches.
+        // Distance from the line of sight, in radii; the silhouette is where rays are tangent.
         float nearness = orthographic() ? 0.0 : min(radius / distance, 1.0);
         float off = given.z * sqrt(1.0 - nearness * nearness);
         local = radius * (sqrt(1.0 - off * off) * toward + off * given.w * (side * given.x + cross(toward, side) * given.y));

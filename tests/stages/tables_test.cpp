@@ -29,7 +29,7 @@ bool take_turns(const std::string& one, const std::string& other) {
 #define SCREE_SHARE(later, earlier) all.insert({#later, #earlier});
         SCREE_SHARES(SCREE_SHARE)
 #undef SCREE_SHARE
-        // carried lies where contact_starts lies, and so where pair_type_starts does.
+        // Transitive: carried shares with contact_starts, and that with pair_type_starts.
         for (const auto& [later, middle] : std::set(all))
             for (const auto& [between, earlier] : std::set(all))
                 if (middle == between) all.insert({later, earlier});
