@@ -1,4 +1,4 @@
-// The program scree: reads the command line, runs a command, and turns what went wrong into one message and an exit status.
+// The program scree: parses the command line, runs a command, and maps errors to a message and an exit status.
 #include <fcntl.h>
 
 #include <CLI/CLI.hpp>
@@ -31,7 +31,8 @@ int tell(const std::string& message, int status = scree::demos::wrong_usage) {
     return status;
 }
 
-// Where a standard stream is closed, the next file opened would take its number, and with it what is meant for the stream.
+// Opens /dev/null on closed standard streams; else the next opened file would get the stream's descriptor and its
+// output.
 void occupy_closed_streams() {
     for (int stream = 0; stream < 3; ++stream) {
         if (::fcntl(stream, F_GETFD) < 0) (void)::open("/dev/null", O_RDONLY);
@@ -79,7 +80,7 @@ int main(int argc, char** argv) {
     } catch (const demos::WorkFailed& error) {
         return tell(error.what(), demos::promise_missed);
     } catch (const std::system_error& error) {
-        return tell(error.what(), demos::promise_missed);  // a stream that takes no more, a thread that cannot start
+        return tell(error.what(), demos::promise_missed);  // such as a full stream or a thread that cannot start
     } catch (const std::exception& error) {
         return tell(error.what());
     }

@@ -1,4 +1,4 @@
-// Copying with all threads of the processor.
+// memcpy bandwidth of the processor.
 #include "host/copy_speed.h"
 
 #include <algorithm>

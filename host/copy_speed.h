@@ -1,4 +1,4 @@
-// How fast memory is copied: what work that does no more than move bytes reaches at best.
+// Memory copy bandwidth: the upper bound for stages that only move bytes.
 #pragma once
 
 #include <memory>
@@ -7,8 +7,8 @@ namespace scree::host {
 
 class Device;
 
-// Bytes a second, read and written together (a copy of n bytes moves 2 n); the best of a few copies of more than caches hold.
-double processor_copy_speed(int threads);                         // memcpy in so many threads (0: one a core)
-double device_copy_speed(const std::shared_ptr<Device>& device);  // from buffer to buffer. Throws DeviceError
+// Bytes per second, reads plus writes (a copy of n bytes moves 2 n); the best of a few copies larger than the caches.
+double processor_copy_speed(int threads);                         // memcpy on `threads` threads (0: one per core)
+double device_copy_speed(const std::shared_ptr<Device>& device);  // between two buffers. Throws DeviceError
 
 }  // namespace scree::host

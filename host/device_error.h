@@ -1,11 +1,11 @@
-// What goes wrong between the program and a graphics device.
+// Errors of graphics devices.
 #pragma once
 
 #include <stdexcept>
 
 namespace scree::host {
 
-// No driver, no such device, or a call to it that failed. The message says what to do about it.
+// Missing driver, no such device, or a failed device call. The message names the remedy.
 struct DeviceError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

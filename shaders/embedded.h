@@ -20,7 +20,7 @@ std::uint32_t variant_of(std::string_view name);
 // A shader of render/ as GLSL of OpenGL ES 3.1. Empty for an unknown name.
 std::string_view find_es(std::string_view name);
 
-// All names with SPIR-V, stages first.
+// Names of all SPIR-V shaders, stages first.
 std::vector<std::string_view> names();
 
 }  // namespace scree::shaders

@@ -1,4 +1,4 @@
-// Settling, stepping and timing.
+// Benchmark: settling, stepping and timing.
 #include "demos/bench/bench.h"
 
 #include <fmt/format.h>
@@ -32,7 +32,7 @@ Cost cost_of(std::vector<double> ms) {
     return {(ms[(n - 1) / 2] + ms[n / 2]) / 2, ms[n / 4], ms[n - 1 - n / 4], mean};
 }
 
-// Where a settled scene is kept, if it shall be.
+// Cache file of the settled scene; empty without a cache folder.
 std::string kept_file(const LoadedScene& subject, const SceneOptions& scene, const BenchOptions& options) {
     if (options.settled.empty()) return "";
     const std::size_t count = scene.bodies ? scene.bodies : subject.scene.bodies.size();
@@ -40,7 +40,7 @@ std::string kept_file(const LoadedScene& subject, const SceneOptions& scene, con
     return (std::filesystem::path(options.settled) / fmt::format("{}-{}-{:g}s.json", name, count, options.settle)).string();
 }
 
-// The scene that is measured: as it begins, or as it lies after a while.
+// The scene to measure: initial, or settled for some time.
 Scene settled(const LoadedScene& subject, const SceneOptions& scene, const BenchOptions& options, const Backend& machine) {
     if (options.settle <= 0) return subject.scene;
     const std::string file = kept_file(subject, scene, options);
@@ -66,7 +66,7 @@ Scene settled(const LoadedScene& subject, const SceneOptions& scene, const Bench
     return result;
 }
 
-// Of each step that counts.
+// Times of the measured steps.
 struct Samples {
     std::vector<double> step_ms;
     std::map<std::string, std::vector<double>> stage_ms;
@@ -76,7 +76,8 @@ Samples sample(World& world, const std::string& what, const BenchOptions& option
     Samples samples;
     const int steps = options.warmup + options.steps;
     Progress progress(what, steps, "steps", options.quiet);
-    // On a device times of stages take time. A single step has to tell both.
+    // Timestamps slow down a device, so step and stage times are measured in alternating steps. A single step gives
+    // both.
     const bool in_turn = world.runner().backend() != "cpu";
     for (int i = 0; i < steps && !is_interrupted(); ++i) {
         const bool counts = i >= options.warmup, timed = counts && (!in_turn || (steps - i) % 2 == 1);

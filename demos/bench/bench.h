@@ -1,4 +1,4 @@
-// What a step costs: measured step by step and stage by stage, beside what it moves through memory and how fast that could go.
+// Benchmark: time per step and per stage, with the memory traffic of each and the machine's copy bandwidth.
 #pragma once
 
 #include <cstddef>
@@ -14,12 +14,12 @@ namespace scree::demos {
 
 struct BenchOptions {
     int steps = 60, warmup = 60;
-    double settle = 0;    // s, simulated before the warmup
-    std::string settled;  // a folder where settled scenes are kept; may be empty
+    double settle = 0;    // s, simulated before the warm-up
+    std::string settled;  // folder that caches settled scenes; empty: no cache
     bool quiet = false;
 };
 
-// Of single steps, in ms: the median, and the quartiles between which half of them lie.
+// Statistics over single steps, ms: median, lower and upper quartile, mean.
 struct Cost {
     double median = 0, low = 0, high = 0, mean = 0;
 };
@@ -27,7 +27,7 @@ struct Cost {
 struct StageCost {
     std::string name;
     Cost ms;
-    double bytes = 0;  // that it must move at least in a step (compute/step/memory_traffic.h)
+    double bytes = 0;  // least memory traffic per step (compute/step/memory_traffic.h)
 
     double bytes_per_second() const { return ms.median > 0 ? bytes / ms.median * 1e3 : 0; }
 };
@@ -35,20 +35,20 @@ struct StageCost {
 struct Measurement {
     std::string name, backend, device;
     Statistics statistics;
-    StageCost step;  // by the wall clock
+    StageCost step;  // wall clock
     double p95 = 0, min = 0;
-    std::vector<StageCost> stages;  // GPU timestamps or the wall clock of the processor, in the order of the plan
+    std::vector<StageCost> stages;  // GPU timestamps or CPU wall clock, in the order of the plan
     std::size_t buffer_bytes = 0;
-    double copy_speed = 0;  // bytes a second, read and written; of this device, measured beside it
+    double copy_speed = 0;  // bytes per second, reads plus writes, measured on this device
 
     double microseconds_per_body() const;
 };
 
-// Settles the scene if that is asked for, steps it, and measures. Returns fewer steps than asked when interrupted.
+// Settles the scene if asked for, warms up and measures. Returns fewer steps than asked when interrupted.
 Measurement measure(const SceneOptions& scene, const BenchOptions& options, const Backend& machine, double copy_speed);
 
-std::vector<Cells> overview(const std::vector<Measurement>& all);   // a row for each measurement
-std::vector<Cells> stage_rows(const Measurement& measurement);      // a row for each stage that takes a share
-std::vector<Cells> long_form(const std::vector<Measurement>& all);  // a row for each stage of each, for spreadsheets and plots
+std::vector<Cells> overview(const std::vector<Measurement>& all);   // one row per measurement
+std::vector<Cells> stage_rows(const Measurement& measurement);      // one row per stage with a noticeable share
+std::vector<Cells> long_form(const std::vector<Measurement>& all);  // one row per stage and measurement, for plots
 
 }  // namespace scree::demos

@@ -1,4 +1,4 @@
-// Pairs that just touch, and what their narrowphase takes.
+// Narrowphase benchmark by pair type.
 #include "demos/bench/bench_pair_types.h"
 
 #include <fmt/format.h>
@@ -18,18 +18,19 @@ namespace scree::demos {
 
 namespace {
 
-constexpr int at_a_time = 20;  // steps of one kind before the next one's turn: a disturbance falls on all, and none drifts apart
-constexpr int halvings = 10;   // of the way between apart and inside: to a thousandth of a metre
-constexpr float spacing = 4;   // m, between pairs
-constexpr float overlap = 0.01f;  // m, by which each pair is then pushed together
-constexpr float spin = 0.06f;     // rad/s, just above where a contact is let go (shaders/physics/solve/persistence.h)
+constexpr int at_a_time =
+    20;  // steps per pair type before the next one's turn: spreads disturbances over all, and pairs do not drift apart
+constexpr int halvings = 10;      // bisections of the distance at which a pair touches: to 1 mm
+constexpr float spacing = 4;      // m, between pairs
+constexpr float overlap = 0.01f;  // m, depth to which each pair is then overlapped
+constexpr float spin = 0.06f;     // rad/s, just above the limit of persistent manifolds (shaders/physics/solve/persistence.h)
 
 struct Kind {
     const char* name;
     Shape shape;
 };
 
-// Points on a sphere, evenly by the golden angle (Swinbank and Purser, Fibonacci grids, 2006).
+// Fibonacci lattice on a sphere (Swinbank and Purser, Fibonacci grids, 2006).
 Hull round_hull(int vertices, float radius) {
     Hull hull;
     const float golden = std::numbers::pi_v<float> * (3 - std::sqrt(5.0f));
@@ -52,7 +53,7 @@ bool is_named(const std::vector<std::string>& names, const Kind& a, const Kind& 
     });
 }
 
-// Bodies 2i and 2i + 1 are a pair: the second `distances[i]` from the first along a direction of its own.
+// Bodies 2i and 2i + 1 are a pair, `distances[i]` (m) apart in a direction that varies with i.
 Scene pairs_of(const Kind& a, const Kind& b, const std::vector<float>& distances) {
     Scene scene;
     scene.gravity = vec3(0);
@@ -81,8 +82,8 @@ Settings at_rest() {
     Settings settings;
     settings.sleeping = false;
     settings.substeps = 1;
-    settings.push_speed = 1e-4f;            // what overlaps goes on overlapping
-    settings.speculative_distance = 1e-4f;  // and what does not touch has no contact
+    settings.push_speed = 1e-4f;            // overlaps persist
+    settings.speculative_distance = 1e-4f;  // no speculative contacts
     return settings;
 }
 
@@ -126,7 +127,7 @@ struct Candidate {
 void sample(Candidate& candidate, const Backend& machine) {
     World world(candidate.scene, at_rest(), machine.make_runner());
     const std::size_t pairs = candidate.scene.bodies.size() / 2;
-    world.step(2);  // buffers have grown, caches are warm
+    world.step(2);  // grows buffers, warms caches
     world.set_profiling(true);
     for (int i = 0; i < at_a_time; ++i) {
         world.step();

@@ -1,4 +1,4 @@
-// What was measured, in tables for people and rows for programs.
+// Benchmark results as tables for people and rows for programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,7 +9,7 @@ namespace scree::demos {
 
 namespace {
 
-constexpr double smallest_share = 0.005;  // of a step: stages below are told together
+constexpr double smallest_share = 0.005;  // of a step: stages below this are summed in one row
 
 std::string percent(double part, double whole) {
     return whole > 0 ? fmt::format("{:.1f}", 100 * part / whole) : std::string();

@@ -48,8 +48,7 @@ std::size_t body_named(const std::string& word, const Scene& scene) {
     return index;
 }
 
-// The slope of a path of numbers at its key i, so that it is smooth there; at rest at the ends (Catmull and Rom 1974, for keys
-// that are not evenly spaced).
+// Tangent of the path at key i: a Catmull-Rom spline (1974) for uneven keys, zero at the ends.
 template <class Value>
 Value slope_at(const std::vector<ViewKey>& path, std::size_t i, Value ViewKey::*member) {
     if (i == 0 || i + 1 == path.size()) return Value(0);
@@ -63,7 +62,7 @@ Value between_keys(const std::vector<ViewKey>& path, std::size_t i, float t, Val
            path[i + 1].*member * (3 * t2 - 2 * t3) + slope_at(path, i + 1, member) * (span * (t3 - t2));
 }
 
-// All places that the corners pass when the scene turns about its middle, so that an orbit cuts nothing off.
+// Positions of the corners during an orbit about the centre, so that no frame crops them.
 std::vector<vec3> swept(const std::vector<vec3>& corners, vec3 middle) {
     std::vector<vec3> all;
     for (int i = 0; i < 32; ++i) {
@@ -99,7 +98,7 @@ CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, f
     if (!options.follow) return;
     followed_ = body_named(*options.follow, subject.scene);
     vec3 back = view_.eye - view_.target;
-    // Unless the user says from where, the body is a tenth as high as the picture.
+    // By default the followed body takes a tenth of the picture's height.
     if (!placed && !options.fit) {
         const float rise = std::tan(glm::radians(view_.vertical_fov) / 2);
         back *= 10 * bounding_radius(subject.scene.bodies[*followed_].shape) / (rise * glm::length(back));
@@ -123,7 +122,7 @@ host::Camera CameraMan::at(double seconds, vec3 followed_position) const {
     camera.vertical_fov = key.vertical_fov;
     camera.orthographic = view_.orthographic;
     const vec3 along = key.target - key.eye;
-    if (std::abs(along.y) > 0.999f * glm::length(along)) camera.up = {0, 0, -1};  // straight down or up
+    if (std::abs(along.y) > 0.999f * glm::length(along)) camera.up = {0, 0, -1};  // looking straight down or up
     return camera;
 }
 
@@ -158,9 +157,8 @@ Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov,
     const float rise = std::tan(glm::radians(vertical_fov) / 2) / margin;
     view.target = vec3(0);
     for (const vec3& point : points) view.target += point / static_cast<float>(points.size());
-    // A point p off the target is seen if |p.right| <= rise aspect (d - p.back), and likewise upward; with parallel rays the size
-    // of what is seen is that at d. The target is moved until what is seen lies in the middle of the frame; a few rounds settle
-    // it.
+    // A point p relative to the target is visible if |p.right| <= rise aspect (d - p.back), and likewise upward; with
+    // an orthographic camera the bound is that at d. Iterate: centre the visible extent by moving the target.
     float distance = 0;
     for (int round = 0; round < 8; ++round) {
         distance = 1e-3f;

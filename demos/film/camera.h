@@ -1,4 +1,4 @@
-// The camera of a run: where it is at each moment, as the scene says and the user changes it.
+// The camera of a run over time, from the scene and the user's options.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,11 @@ namespace scree::demos {
 
 class CameraMan {
 public:
-    // `aspect`: width of a picture over its height. Throws UsageError for a body to be followed that is not there, and for an eye
-    // in the target.
+    // `aspect`: width of a picture over its height. Throws UsageError when the body to follow does not exist, or when
+    // eye and target coincide.
     CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect);
 
-    std::optional<std::size_t> followed() const { return followed_; }  // the body whose position at() wants to know
+    std::optional<std::size_t> followed() const { return followed_; }  // the body whose position at() needs
     host::Camera at(double seconds, vec3 followed_position = vec3(0)) const;
 
 private:
@@ -27,11 +27,10 @@ private:
     std::optional<std::size_t> followed_;
 };
 
-// Where a camera on the path is at a moment: it rests at the path's ends, and passes the keys between smoothly. The path must
-// not be empty.
+// The camera on a path at a time: a cubic spline through the keys, at rest at both ends. The path must not be empty.
 ViewKey key_at(const std::vector<ViewKey>& path, double seconds);
 
-// Sees all of the points, as near as it can, looking along -back (of any length).
+// The nearest camera that sees all points, looking along -back (of any length). vertical_fov in degrees.
 Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov, float aspect, bool orthographic = false);
 
 std::vector<vec3> corners_of(vec3 low, vec3 high);

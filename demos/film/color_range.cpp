@@ -1,4 +1,4 @@
-// Estimating how much momentum, speed, spin or energy a scene will show.
+// Estimates the range of momentum, speed, spin or energy in a scene.
 #include "demos/film/color_range.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ float rounded(double value) {
 }  // namespace
 
 std::pair<float, float> color_range(const LoadedScene& subject, const Settings& settings, const std::string& quantity) {
-    if (quantity == "contacts") return {0.0f, 12.0f};  // as many as spheres can have around one
+    if (quantity == "contacts") return {0.0f, 12.0f};  // the kissing number of equal spheres
     if (quantity == "sleep") return {0.0f, settings.sleep_time};
     if (quantity == "height") return {std::min(subject.low.y, subject.high.y - 1e-3f), subject.high.y};
     double mass = 0, reach = 0, fastest = 0, highest = subject.low.y, count = 0;
@@ -41,7 +41,7 @@ std::pair<float, float> color_range(const LoadedScene& subject, const Settings& 
     if (quantity == "spin") return {0.0f, rounded(speed / std::max(reach, 1e-3))};
     if (quantity == "kinetic-energy") return {0.0f, rounded(0.5 * mass * speed * speed)};
     if (quantity == "angular-momentum") return {0.0f, rounded(0.5 * mass * speed * reach)};
-    // What a body bears that carries as many others as lie above each other in the scene.
+    // Impulse at the base of a column as high as the scene.
     if (quantity == "contact-impulse") {
         const double above = std::max(3.0, 0.5 * (highest - subject.low.y) / std::max(2 * reach, 1e-3));
         const double weight = mass * std::max(1.0, static_cast<double>(glm::length(subject.scene.gravity)));

@@ -1,4 +1,4 @@
-// Where a world is drawn: the choice between the two canvases, and the tables that the chosen one draws from.
+// Drawing of a world: the choice of the canvas, and the tables that it draws from.
 #include "demos/film/drawing.h"
 
 #include <algorithm>
@@ -16,13 +16,14 @@ namespace scree::demos {
 
 namespace {
 
-// Rows of the tables by what they look like.
+// Rows grouped by shape and mesh.
 class Instances {
 public:
     void add(std::uint32_t row, const SimpleShape& shape) {
         std::visit([&](const auto& one) { draw(row, one); }, shape);
     }
-    // Triangles, a patch of them at a time: the first one's row carries the patch, and none is much larger than other solids.
+    // Triangles in patches, drawn with the first triangle's row. The size is limited, because every solid is drawn
+    // with the vertex count of the largest mesh.
     void add(std::uint32_t first_row, const MeshForm& form) {
         for (std::size_t k = 0; k < form.triangles.size(); k += triangles_of_patch) {
             const std::size_t last = std::min(k + triangles_of_patch, form.triangles.size());
@@ -55,8 +56,8 @@ private:
         made.solid_meshes.push_back(mesh);
     }
 
-    static constexpr std::size_t triangles_of_patch = 128;  // as many as a cylinder has
-    std::map<const void*, std::uint32_t> meshes_;           // of cylinders, of cones, of each hull
+    static constexpr std::size_t triangles_of_patch = 128;  // as many triangles as a cylinder
+    std::map<const void*, std::uint32_t> meshes_;           // mesh index of cylinders, cones and each hull
     const char cylinders_ = 0, cones_ = 0;
 };
 
@@ -65,7 +66,7 @@ private:
 host::ShapeInstances instances_of(const World& world) {
     const Scene& scene = world.scene();
     Instances instances;
-    auto part = static_cast<std::uint32_t>(scene.bodies.size());  // the row of the next; as State has them
+    auto part = static_cast<std::uint32_t>(scene.bodies.size());  // row of the next part, in the order of State
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Shape& shape = scene.bodies[i].shape;
         if (const std::optional<SimpleShape> simple = simple_shape(shape))
@@ -100,8 +101,8 @@ host::BodyTables tables_of(const State& state) {
 
 namespace {
 
-// On whatever is there. OpenGL ES first: a processor draws a frame in 5% less time than with Vulkan (llvmpipe and lavapipe, 3,000
-// bodies at 1280x720).
+// Any available canvas. OpenGL ES first, because llvmpipe draws a frame in 5% less time than lavapipe (3,000 bodies
+// at 1280x720).
 std::unique_ptr<host::Canvas> any_canvas(const Backend& machine, const host::ShapeInstances& instances,
                                          const host::CanvasOptions& options) {
     std::string missing;

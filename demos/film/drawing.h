@@ -1,4 +1,4 @@
-// Where a world is drawn: the choice between the two canvases, and the tables that the chosen one draws from.
+// Drawing of a world: the choice of the canvas, and the tables that it draws from.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,23 @@
 
 namespace scree::demos {
 
-// Which bodies have which shape.
+// Bodies grouped by shape.
 host::ShapeInstances instances_of(const World& world);
-// What a canvas draws from where a world is simulated on the processor.
+// Tables of a world that is simulated on the CPU.
 host::BodyTables tables_of(const State& state);
 
 class Drawing {
 public:
-    // `canvas` is a word of --canvas. Throws UsageError where there is no such canvas, saying what to install.
+    // `canvas` is a value of --canvas. Throws UsageError where that canvas is not available, naming the package to
+    // install.
     Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options);
 
     host::Canvas& canvas() { return *canvas_; }
-    void update();                   // the next picture shows the world as it is now, with the bodies that were added
-    std::uint32_t contacts() const;  // in the world at the last update
+    void update();                   // to be called before a picture: takes the world's current tables, with added bodies
+    std::uint32_t contacts() const;  // contacts at the last update
     vec3 position_of(std::size_t body) const;
-    // Whether a picture may be drawn while the next steps are made: not where both stand in one queue, for the steps would only
-    // wait for it, and their time would be told as longer than it is.
+    // Whether a picture may be drawn while the next steps run. Not when both use one queue: the steps would wait for
+    // it, and their measured time would include it.
     bool beside_steps() const { return !from_device_; }
 
 private:
@@ -37,10 +38,10 @@ private:
     std::string word_;
     Backend machine_;
     host::CanvasOptions options_;
-    std::size_t bodies_ = 0;  // that the canvas knows, and where
+    std::size_t bodies_ = 0;  // bodies and row order that the canvas was made for
     std::uint64_t reorderings_ = 0;
     std::unique_ptr<host::Canvas> canvas_;
-    bool from_device_ = false;  // draws from the very tables that the device works on
+    bool from_device_ = false;  // draws from the simulation's tables on the device
     std::uint32_t contacts_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Where a person looks from.
+// An orbit camera.
 #include "demos/film/orbit_camera.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 namespace scree::demos {
 
 namespace {
-constexpr float steepest = 1.55f;                      // rad: at the pole left and right have no meaning
+constexpr float steepest = 1.55f;                      // rad: the azimuth is undefined at the pole
 constexpr float nearest = 0.05f, farthest = 20000.0f;  // m
 constexpr float turn_of_a_pixel = 0.006f;              // rad
 constexpr float chasing_elevation = 0.28f;             // rad
@@ -60,7 +60,7 @@ void OrbitCamera::chase(vec3 target, vec3 ahead, float distance, double seconds)
     target_ += (target - target_) * part(in_place);
     distance_ += (distance - distance_) * part(behind);
     elevation_ += (chasing_elevation - elevation_) * part(behind);
-    if (std::abs(ahead.x) + std::abs(ahead.z) < 0.1f) return;  // on its nose
+    if (std::abs(ahead.x) + std::abs(ahead.z) < 0.1f) return;  // the heading is undefined when nearly vertical
     const float turn = std::atan2(-ahead.x, -ahead.z) - azimuth_;
     azimuth_ += std::remainder(turn, 2 * std::numbers::pi_v<float>) * part(behind);
 }

@@ -1,4 +1,4 @@
-// Where a person looks from: an eye on a sphere about a target, moved as a hand moves a mouse.
+// An orbit camera: an eye on a sphere about a target, moved by the mouse.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -9,36 +9,37 @@
 
 namespace scree::demos {
 
-struct Extent {  // of what is seen, pixels
+struct Extent {  // size of the viewport, pixels
     int width = 1280, height = 720;
 };
 
 class OrbitCamera {
 public:
     OrbitCamera() = default;
-    explicit OrbitCamera(const Viewpoint& view);  // looking straight up or down becomes nearly so
+    explicit OrbitCamera(const Viewpoint& view);  // views straight up or down are tilted slightly
 
     Viewpoint viewpoint() const;
     vec3 position() const;
-    vec3 forward() const;  // unit, and so are the next two
+    vec3 forward() const;  // unit, as right() and up()
     vec3 right() const;
     vec3 up() const;
     float distance() const { return distance_; }  // m, to the target
     vec3 target() const { return target_; }
 
-    void orbit(double dx, double dy);               // by a way of the pointer, pixels
-    void pan(double dx, double dy, Extent extent);  // what lies as far away as the target goes with the pointer
-    void zoom(double clicks);                       // nearer for > 0
-    // As a camera that chases what drives: it looks at the target, and comes round to behind it within a second or so.
+    void orbit(double dx, double dy);               // by pointer movement, pixels
+    void pan(double dx, double dy, Extent extent);  // points at the target's distance move with the pointer
+    void zoom(double clicks);                       // nearer if > 0
+    // Chase camera: looks at the target and turns behind `ahead` within about a second.
     void chase(vec3 target, vec3 ahead, float distance, double seconds);
-    void look_at(vec3 target) { target_ = target; }  // from the same side and distance
+    void look_at(vec3 target) { target_ = target; }  // keeps direction and distance
 
-    // Through the middle of a pixel (x to the right, y down), and back; nothing for a point behind the eye.
+    // The ray through a position in the viewport (pixels, x right, y down), and the reverse; nothing for points
+    // behind the eye.
     Ray ray(double x, double y, Extent extent) const;
     std::optional<glm::vec2> pixel_of(vec3 point, Extent extent) const;
 
 private:
-    float slope() const;  // of the upper edge of what is seen
+    float slope() const;  // tangent of half the vertical field of view
 
     vec3 target_{0};
     float distance_ = 10;      // m

@@ -1,4 +1,4 @@
-// Drawing a run through the canvas.
+// Pictures of a run.
 #include "demos/film/pictures.h"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ namespace scree::demos {
 
 namespace {
 
-// Adds the time that the work takes, s.
+// Adds the duration of the work, s.
 template <class Work>
 decltype(auto) timed(double& seconds, Work&& work) {
     struct Watch {
@@ -33,7 +33,7 @@ decltype(auto) timed(double& seconds, Work&& work) {
     return work();
 }
 
-// The materials of the bodies that move, the most frequent first: as many as colours can tell apart.
+// Materials of the dynamic bodies by falling frequency, up to the number of distinct colours.
 std::vector<host::Material> materials_of(const Scene& scene) {
     std::map<std::array<float, 3>, std::size_t> found;
     for (const Body& body : scene.bodies) {
@@ -66,7 +66,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
     canvas.cell = fixed.cell;
     canvas.step_seconds = fixed.dt;
     canvas.sleep_steps = fixed.sleep_steps == physics::NO_SLEEP ? 0 : fixed.sleep_steps;
-    // What a body's weight gives it in a substep.
+    // Velocity that gravity adds in a substep.
     const Settings& settings = world.settings();
     const float gravity = glm::length(world.scene().gravity);
     const float weight = gravity / (settings.rate * static_cast<float>(settings.substeps));
@@ -107,9 +107,9 @@ struct Pictures::Impl {
     bool captioned;
     PictureTimes times;
     int begun = 0;             // pictures
-    bool drawing_one = false;  // the last of them, beside the steps after it
+    bool drawing_one = false;  // the last one is being drawn, concurrently with later steps
 
-    // Hands the picture that was begun to the encoders.
+    // Passes the pending picture to the encoders.
     void take() {
         if (!drawing_one) return;
         drawing_one = false;
@@ -155,7 +155,7 @@ Pictures::~Pictures() = default;
 
 void Pictures::after_step() {
     Impl& in = *interior_;
-    // The picture of moment n / fps is taken at the nearest step.
+    // Picture n, due at n / fps, is drawn after the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.begun / in.fps) return;
     in.take();

@@ -1,4 +1,4 @@
-// Pictures of a run: at fixed moments of simulated time, from one camera, in colours that mean the same from first to last.
+// Pictures of a run at a fixed rate of simulated time, with one camera and a fixed colour scale.
 #pragma once
 
 #include <memory>
@@ -13,35 +13,35 @@
 
 namespace scree::demos {
 
-// Where the time of the one who simulates went, s.
+// Time that the simulating thread spent on pictures, s.
 struct PictureTimes {
-    double draw = 0;         // until the device had drawn, and the picture was here
-    double encode_wait = 0;  // until the encoders, which work beside it, had room; and at the end until they were done
+    double draw = 0;         // drawing and reading back
+    double encode_wait = 0;  // waiting for the encoding threads
 };
 
 class Pictures {
 public:
-    // Throws before anything is simulated if the folder, the video or the device will not do.
+    // Throws if the folder, the video or the device is not usable.
     Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world);
     ~Pictures();
     Pictures(const Pictures&) = delete;
     Pictures& operator=(const Pictures&) = delete;
 
-    void after_step();  // draws if a picture is due; also before the first step
-    void finish();      // waits until all is written, and throws what went wrong there
+    void after_step();  // draws if a picture is due; call it before the first step, too
+    void finish();      // waits until everything is written; throws the first error
     int count() const;
     PictureTimes times() const;
-    std::string canvas() const;  // for people: what draws them, and on which device
+    std::string canvas() const;  // API and device, for messages
 
 private:
     struct Impl;
     std::unique_ptr<Impl> interior_;
 };
 
-// The colours that the options ask for. Throws UsageError for a logarithmic scale that begins at 0.
+// The colour scale of the options. Throws UsageError for a logarithmic scale that begins at 0.
 host::ColorScale scale_of(const PictureOptions& options, const LoadedScene& subject, const Settings& settings);
 
-// The words of --color and --color-map.
+// Values of --color and --color-map.
 const std::vector<std::string>& color_words();
 const std::vector<std::string>& color_map_words();
 

@@ -1,4 +1,4 @@
-// Triangles of cylinders, cones and hulls.
+// Triangle meshes of cylinders, cones, hulls and meshes.
 #include "demos/film/solid_meshes.h"
 
 #include <cmath>
@@ -11,7 +11,7 @@ namespace scree::demos {
 
 namespace {
 
-constexpr int sides = 32;  // of a circle
+constexpr int sides = 32;  // sides of a circle
 
 void add(host::SolidMesh& mesh, vec3 point, vec3 normal) {
     mesh.corners.emplace_back(point, 0);
@@ -21,7 +21,7 @@ vec3 on_circle(int k) {
     const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / sides;
     return {std::cos(angle), 0, std::sin(angle)};
 }
-// A disc at a height, seen from above or from below.
+// A disc at a height, facing up or down.
 void add_disc(host::SolidMesh& mesh, float height, float up) {
     const vec3 lift(0, height, 0), normal(0, up, 0);
     for (int k = 0; k < sides; ++k) {

@@ -1,4 +1,4 @@
-// Triangles of cylinders, cones and hulls, for the canvas.
+// Triangle meshes of cylinders, cones, hulls and meshes, for the canvas.
 #pragma once
 
 #include <cstddef>
@@ -8,10 +8,10 @@
 
 namespace scree::demos {
 
-host::SolidMesh cylinder_mesh();              // of radius 1 and half height 1
-host::SolidMesh cone_mesh();                  // of radius 1 and height 1, about its centre of mass
-host::SolidMesh hull_mesh(const Hull& hull);  // of a checked scene
-// Some triangles of a mesh, from `first` to before `last`, as the row of the first one carries them.
+host::SolidMesh cylinder_mesh();              // radius 1, half height 1
+host::SolidMesh cone_mesh();                  // radius 1, height 1, about the centre of mass
+host::SolidMesh hull_mesh(const Hull& hull);  // the hull must be validated
+// Triangles [first, last) of a mesh, in the frame of the first one's row.
 host::SolidMesh patch_mesh(const MeshForm& form, std::size_t first, std::size_t last);
 
 }  // namespace scree::demos

@@ -1,4 +1,4 @@
-// What a person's hands mean.
+// User interaction: events, scenes and the clock.
 #include "demos/play/interaction.h"
 
 #include <algorithm>
@@ -11,10 +11,10 @@ namespace scree::demos {
 
 namespace {
 
-constexpr double most_steps = 8;    // in one go, and seconds that they may take: a slow machine falls behind the clock rather
-constexpr double most_time = 0.05;  // than show nothing
+constexpr double most_steps = 8;    // limits of steps and seconds per frame: a slow machine falls behind the clock
+constexpr double most_time = 0.05;  // rather than freeze the window
 constexpr double slowest = 1.0 / 16;
-constexpr std::size_t few_vehicles = 4;  // that one of them is what a scene is about
+constexpr std::size_t few_vehicles = 4;  // vehicles up to which a scene is taken to be about driving
 
 host::Key key(char character) {
     return host::key_of(character);

@@ -1,4 +1,5 @@
-// What a person's hands mean: pointer, buttons and keys become looks, forces and the clock. It knows no window.
+// User interaction, independent of the window: pointer, buttons and keys move the camera, grab and throw bodies,
+// drive vehicles and control the clock.
 #pragma once
 
 #include <array>
@@ -14,23 +15,23 @@
 
 namespace scree::demos {
 
-// The keys, a line each, for --help and the window.
+// Help on the keys, one per line, for --help and the window.
 extern const char* const key_help;
 
 enum class Kind { sphere, capsule, box };
 
-// A hold and its line: from the body to where the pointer draws it.
+// The grab spring as drawn: from the body's anchor to the pointer.
 struct Pull {
     std::size_t body = 0;
     vec3 from{0}, to{0};  // m
-    float strength = 0;   // of the greatest force, 0 to 1
-    float force = 0;      // N, about
+    float strength = 0;   // fraction of the maximum force, 0..1
+    float force = 0;      // N, estimated
 };
 
-// A hold from its beginning to its end, for the report.
+// A finished grab, for the report.
 struct Handled {
     std::size_t body = 0;
-    vec3 from{0}, to{0};  // the body's centre, m
+    vec3 from{0}, to{0};  // the body's centre at begin and end, m
 };
 
 class Interaction {
@@ -38,30 +39,30 @@ public:
     explicit Interaction(Session& session, Extent extent = {});
 
     void on(const host::Event& event);
-    void advance(double seconds);  // of the wall clock: makes the steps that are due, at most a few
+    void advance(double seconds);  // `seconds` of wall clock: makes the steps that are due, at most a few
 
-    // What the panel sets and shows.
+    // State that the panel shows and sets.
     bool paused = false;
-    bool follows = false;  // the selected body
-    bool chases = false;   // the vehicle, from behind
-    float pace = 1;        // simulated seconds in a second
+    bool follows = false;  // camera follows the selected body
+    bool chases = false;   // camera chases the vehicle from behind
+    float pace = 1;        // simulated seconds per second
     void step_once() { ++single_steps_; }
     void reset();
-    void open(const std::string& name);    // says what is wrong in message()
-    void open_next(int direction);         // of the demos made to be looked at
-    void add(Kind kind);                   // falls onto the middle of the view
-    void throw_body(Kind kind);            // from the eye through the pointer
-    void explode();                        // where the pointer points
-    void reset_upright();                  // the vehicle, where it is
-    void perform(const UserCommand& act);  // says what is wrong in message()
+    void open(const std::string& name);    // errors go to message()
+    void open_next(int direction);         // next or previous demo of the gallery
+    void add(Kind kind);                   // above the centre of the view
+    void throw_body(Kind kind);            // from the eye towards the pointer
+    void explode();                        // at the pointer
+    void reset_upright();                  // the vehicle, at its position
+    void perform(const UserCommand& act);  // errors go to message()
 
     bool wants_to_close() const { return wants_to_close_; }
     Extent extent() const { return extent_; }
     const OrbitCamera& eye() const { return eye_; }
     std::optional<std::size_t> selected() const { return selected_; }
-    std::optional<std::size_t> vehicle() const;  // that the keys drive: the selected body's, or the first
+    std::optional<std::size_t> vehicle() const;  // the vehicle driven by keys: the selected body's, or the first
     std::optional<Pull> pull();
-    std::vector<Handled> handled();  // the present one included
+    std::vector<Handled> handled();  // grabs so far, including the current one
     const std::string& message() const { return message_; }
     std::size_t thrown() const { return thrown_; }
 
@@ -69,7 +70,7 @@ private:
     struct Hold {
         std::size_t grip = 0, body = 0;
         vec3 anchor{0}, target{0}, start{0};
-        float depth = 0;  // m, of the target before the eye
+        float depth = 0;  // m, distance of the target along the view direction
     };
     enum class Motion { none, orbits, pans, holds };
 
@@ -83,7 +84,7 @@ private:
     void let_go();
     void drag();
     void push_selected();
-    void drive();                // as the keys say, from the first of them on
+    void drive();                // drives by keys once one was pressed
     void chase(double seconds);  // of the wall clock
     bool is_driving_key(host::Key key) const;
     void make_step();
@@ -99,9 +100,9 @@ private:
     std::optional<std::size_t> selected_;
     std::vector<Handled> handled_;
     std::set<host::Key> held_keys_;
-    std::optional<Controls> told_;  // to the vehicle last; none: it drives by itself
+    std::optional<Controls> told_;  // last controls sent to the vehicle; none: it follows its route
     std::size_t told_vehicle_ = 0;
-    double backlog_ = 0;  // steps that the wall clock is ahead
+    double backlog_ = 0;  // steps due by the wall clock
     int single_steps_ = 0;
     std::size_t thrown_ = 0;
     bool wants_to_close_ = false;

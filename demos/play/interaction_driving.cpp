@@ -1,4 +1,4 @@
-// How keys drive a vehicle, and how the camera chases it.
+// Driving a vehicle by keys, and the chase camera.
 #include <algorithm>
 #include <cmath>
 
@@ -9,8 +9,8 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float standing = 0.5f;    // m/s: slower, the key of the other direction drives instead of braking
-constexpr float chase_ways = 2.2f;  // of the vehicle's length, from the eye to it
+constexpr float standing = 0.5f;    // m/s: below this the key of the opposite direction drives instead of braking
+constexpr float chase_ways = 2.2f;  // distance of the eye in vehicle lengths
 
 bool is_of(const Scene& scene, const Vehicle& vehicle, std::size_t body) {
     return vehicle.chassis == body || std::any_of(vehicle.wheels.begin(), vehicle.wheels.end(),

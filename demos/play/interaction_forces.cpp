@@ -1,4 +1,4 @@
-// What hands do to bodies: they hold and draw them, throw, add, push and blow them up.
+// Grabbing, throwing, adding and pushing bodies, and explosions.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,7 +10,7 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float push_acceleration = 20;  // m/s^2, of an arrow key: twice the weight, so that friction does not hold
+constexpr float push_acceleration = 20;  // m/s^2, of an arrow key: twice gravity, which overcomes friction
 
 Shape shape_of(Kind kind, float size) {
     if (kind == Kind::sphere) return Sphere{size};
@@ -95,7 +95,7 @@ void Interaction::add(Kind kind) {
     Body body;
     body.name = "added";
     body.shape = shape_of(kind, size);
-    // From above onto what lies in the middle of the view, or onto what lies on that.
+    // Drops the body onto whatever is in the centre of the view, or onto what is stacked there.
     const World& world = session_.world();
     const std::optional<RayHit> seen = world.cast_ray(eye_.ray(0.5 * extent_.width, 0.5 * extent_.height, extent_));
     const vec3 middle = seen ? seen->point : eye_.target();

@@ -1,4 +1,4 @@
-// Recordings in files and in scripts.
+// Recorded user input as files and scripts.
 #include "demos/play/replay.h"
 
 #include <memory>

@@ -1,4 +1,4 @@
-// Recordings of a user's input (compute/replay/replay.h) as files of the program, and as scripts of its runs.
+// Recorded user input (compute/replay/replay.h) as files, and as scripts of runs.
 #pragma once
 
 #include <string>
@@ -11,14 +11,14 @@ namespace scree::demos {
 
 using namespace replay;
 
-// The input in a file. Throws UsageError naming the file, the place and the reason.
+// Reads recorded input. Throws UsageError naming file, JSON pointer and reason.
 Input load_input(const std::string& path);
 
-// The script that does what was recorded, after `first` (which may be empty); to be called after the last step, too. It throws
-// UsageError, naming `path` and the place, when an act does not fit the world.
+// A script that replays the input, each step after `first` (which may be empty); call it after the last step, too. It
+// throws UsageError, naming `path` and the JSON pointer, for a command that does not fit the world.
 Script script_of(Input input, std::string path, Script first);
 
-// What a session of these options records before anything was done.
+// The recording of a session before the first command.
 Input begun(const SceneOptions& options, std::uint64_t start_hash);
 
 }  // namespace scree::demos

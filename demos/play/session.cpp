@@ -1,4 +1,4 @@
-// Playing with a world.
+// An interactive session.
 #include "demos/play/session.h"
 
 #include "demos/scenes/demos.h"
@@ -11,14 +11,14 @@ Session::Session(SceneOptions options, MakeRunner make_runner)
 }
 
 void Session::begin() {
-    world_.reset();  // its memory first
+    world_.reset();  // frees memory before the next world allocates
     world_.emplace(subject_.scene, subject_.settings(options_), make_runner_());
     input_ = begun(options_, world_->state_hash());
     ++beginnings_;
     run_script();
 }
 
-// Before what the user does ahead of the same step: a replay keeps that order too.
+// The script runs before the user's commands of the same step, in replays too.
 void Session::run_script() {
     if (subject_.before_step) subject_.before_step(*world_);
 }
@@ -40,7 +40,7 @@ void Session::open(const std::string& name) {
 void Session::perform(const UserCommand& act) {
     replay::perform(act, *world_);
     const std::uint64_t step = world_->steps();
-    // Of several places that a body was drawn to before one step only the last counts.
+    // Of several drags of one grab before a step only the last counts.
     if (const auto* drag = std::get_if<Drag>(&act); drag && !input_.acts.empty()) {
         TimedAct& last = input_.acts.back();
         if (auto* before = std::get_if<Drag>(&last.act); before && last.step == step && before->grip == drag->grip) {

@@ -1,4 +1,4 @@
-// A world that a person plays with: begun and begun again, stepped by its script, and all that is done to it recorded.
+// An interactive session: a world with its script, restarts, and a recording of all user commands.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,10 @@ public:
     // Throws as load_subject and World do.
     Session(SceneOptions options, MakeRunner make_runner);
 
-    void reset();                        // the same scene from its start, and a new recording
-    void open(const std::string& name);  // another demo or scene file; throws UsageError and keeps what there is
+    void reset();                        // restarts the scene with a new recording
+    void open(const std::string& name);  // another demo or scene file; throws UsageError and keeps the current one
 
-    // At once, and into the recording; throws as scree::demos::perform does, and records nothing then.
+    // Performs a command now and records it; throws like scree::demos::perform, recording nothing.
     void perform(const UserCommand& act);
     void step();
 
@@ -27,8 +27,8 @@ public:
     const World& world() const { return *world_; }
     const LoadedScene& subject() const { return subject_; }
     const SceneOptions& options() const { return options_; }
-    std::uint64_t beginnings() const { return beginnings_; }  // worlds so far, this one included
-    Input input() const;                                      // from this world's beginning until now
+    std::uint64_t beginnings() const { return beginnings_; }  // number of worlds so far, including this one
+    Input input() const;                                      // recording of the current world
 
 private:
     void begin();

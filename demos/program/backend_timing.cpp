@@ -1,4 +1,4 @@
-// Which of two runners is the faster.
+// Comparison of two runners.
 #include "demos/program/backend_timing.h"
 
 #include <algorithm>
@@ -16,11 +16,11 @@ namespace scree::demos {
 
 namespace {
 
-constexpr int heap_rows = 10;  // a heap of heap_rows^3 boxes
+constexpr int heap_rows = 10;  // a pile of heap_rows^3 boxes
 static_assert(heap_rows * heap_rows * heap_rows == heap_bodies);
 constexpr int steps_to_warm = 4, steps_to_time = 6;
 
-// Layers of boxes, each shifted by half a box, so that most lie on four others, as in a pile.
+// Layers of boxes, shifted by half a box, so that most rest on four others, as in a pile.
 Scene resting_heap() {
     Scene scene;
     scene.bodies.push_back({.name = "ground", .motion = Motion::fixed, .shape = Plane{}});
@@ -41,7 +41,7 @@ double step_ms(World& world) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Changes with every build.
+// Identifies the build of this program.
 std::string this_program() {
     std::error_code none;
     const auto time = std::filesystem::last_write_time("/proc/self/exe", none);
@@ -98,7 +98,7 @@ Paces paces_of(const std::string& key, const std::function<Paces()>& measure) {
         try {
             host::make_folder(host::cache_folder());
             host::write_atomically(file_of_paces(), all.dump(1));
-        } catch (const host::FileError&) {  // it is measured again the next time
+        } catch (const host::FileError&) {  // not cached: measured again next time
         }
     }
     return paces;

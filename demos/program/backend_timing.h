@@ -1,4 +1,4 @@
-// Which of two runners is the faster: a software Vulkan device or the processor's own path.
+// Comparison of a software Vulkan device with the CPU backend, to choose the faster one.
 #pragma once
 
 #include <functional>
@@ -9,20 +9,20 @@
 
 namespace scree::demos {
 
-// A step of a resting heap, ms.
+// Duration of a step of a resting pile, ms.
 struct Paces {
     double device = 0;
     double processor = 0;
 };
-constexpr int heap_bodies = 1000;  // so many boxes, and a ground
+constexpr int heap_bodies = 1000;  // boxes, without the ground
 
 using MakeRunner = std::function<std::unique_ptr<Runner>()>;
 
-// The least of several steps each, by turns, after some to warm up; about a second.
+// Minimum of several alternating steps after warm-up; takes about a second.
 Paces measure_paces(const MakeRunner& on_device, const MakeRunner& on_processor);
 
-// What measure() says, or said when this program, of this very build, last asked for `key` (what ran where): kept in
-// host::cache_folder(). A file that is damaged or cannot be written is no error.
+// The result of measure(), cached in host::cache_folder() per build of the program and `key` (device, driver,
+// threads). A damaged or unwritable cache is no error.
 Paces paces_of(const std::string& key, const std::function<Paces()>& measure);
 
 }  // namespace scree::demos

@@ -1,4 +1,4 @@
-// scree bench: what a step costs, stage by stage, for several numbers of bodies; as a table and as CSV.
+// scree bench: time per step and stage for several numbers of bodies, as a table and as CSV.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -25,7 +25,7 @@ struct BenchCommandOptions {
     BenchOptions bench;
     std::string csv;
     bool sleeping = false;
-    std::size_t pairs = 0;  // of each two kinds of shapes, in place of demos
+    std::size_t pairs = 0;  // pairs per pair type, instead of demos
     MachineOptions machine;
 };
 

@@ -1,4 +1,4 @@
-// scree check: the stability suite. Every demo runs as long as its promise takes, and is held to it.
+// scree check: the stability suite. Runs every demo for the duration of its promise and judges it.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -51,7 +51,7 @@ std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const B
     return outcomes;
 }
 
-// A word that is no demo's name and yet chooses some was perhaps mistyped.
+// A note for words that match demos by prefix only, which may be typing errors.
 void note_beginning(const std::string& word) {
     std::string found;
     for (const Demo* demo : select_demos({word})) found += (found.empty() ? "" : ", ") + std::string(demo->name);

@@ -1,4 +1,4 @@
-// scree export: a demo's scene as a file, or the schema of such files.
+// scree export: a demo as a scene file, or the JSON schema of scene files.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// scree list: the demos and the trials, a line each.
+// scree list: demos and trials, a line each.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

@@ -1,4 +1,4 @@
-// scree run: simulates a demo or a scene file, with pictures and a report, and holds it to its promise.
+// scree run: simulates a demo or a scene file, with pictures and a report, and judges its promise.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -29,9 +29,9 @@ struct RunOptions {
     MachineOptions machine;
     PictureOptions pictures;
     std::string report;
-    std::string save;             // a file for the scene as it is at the end; may be empty
-    std::string input;            // a recording's file; may be empty
-    std::optional<Input> played;  // what is in it
+    std::string save;             // file for the final scene; may be empty
+    std::string input;            // file of recorded input; may be empty
+    std::optional<Input> played;  // the recorded input
     bool quiet = false;
 };
 
@@ -53,9 +53,9 @@ void require_writable(const RunOptions& options) {
     require_writable_file("--save", options.save);
 }
 
-// Where nobody looks at every step, so many short ones are asked for at once: a device then need not wait for the host between
-// them. In the report each of them took as long as all on average.
-constexpr int most_at_once = 8;  // divides the place of a timed step
+// Short steps are submitted in batches when no step is recorded or drawn, so that the device does not wait for the
+// host. The report then has the batch's mean for each of its steps.
+constexpr int most_at_once = 8;  // timed steps are at multiples of this
 constexpr double longest_waiting_ms = 10;
 
 double steps_alone(World& world, const Script& before_step, int count) {
@@ -68,12 +68,12 @@ double steps_alone(World& world, const Script& before_step, int count) {
 void steps_timed(const LoadedScene& subject, World& world, Recorder* recorder, int count, RunReport& report) {
     const double seconds = recorder ? recorder->step() : steps_alone(world, subject.before_step, count);
     if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
-    if (world.steps() == 2) report.step_ms.clear();  // the first is no measure of the others
+    if (world.steps() == 2) report.step_ms.clear();  // the first step is not representative
     report.step_ms.insert(report.step_ms.end(), static_cast<std::size_t>(count), seconds * 1e3 / count);
     report.seconds_simulating += seconds;
 }
 
-// At the end of the time that the promise speaks of: what a longer run shows is no part of it.
+// Judges the promise once its duration has passed; longer runs do not change the verdict.
 void hold_to_promise(const LoadedScene& subject, const World& world, std::optional<Recorder>& recorder, RunReport& report) {
     if (!recorder || world.time() < subject.seconds - 0.5 / static_cast<double>(world.settings().rate)) return;
     report.rows = subject.promise->judge(recorder->finish());
@@ -81,10 +81,10 @@ void hold_to_promise(const LoadedScene& subject, const World& world, std::option
     recorder.reset();
 }
 
-// Times of stages take time, up to a third of a small step on lavapipe.
+// One step in this many has stage timestamps, which cost up to a third of a small step on lavapipe.
 constexpr int steps_a_timed_one = 16;
 
-// False if the user wished to end.
+// Returns false if interrupted.
 bool simulate(const RunOptions& options, const LoadedScene& subject, World& world, Pictures* pictures, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds);
     std::optional<Recorder> recorder;
@@ -107,12 +107,13 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         if (pictures) pictures->after_step();
         progress.done(done);
     }
-    // What was done after the last recorded step is part of the state that the recording ended in.
+    // Commands after the last recorded step belong to the recording's final state.
     if (options.played && options.played->steps == world.steps()) subject.before_step(world);
     return !is_interrupted();
 }
 
-// A run that is held to no promise, or went on after it, must be sound all the same. Hands may throw from below the ground.
+// Judges soundness of runs without or beyond a promise. In replays bodies may be below the ground, thrown by the
+// user.
 void hold_to_soundness(bool played, World& world, RunReport& report) {
     report.statistics = world.statistics();
     Trace trace;
@@ -152,7 +153,7 @@ void conclude(const RunOptions& options, const LoadedScene& subject, const RunRe
     }
 }
 
-// What was drawn is written whole, and the video ends there.
+// Completes the frames and the video up to now.
 int end_early(World& world, Pictures* pictures) {
     const int frames = pictures ? pictures->count() : 0;
     try {
@@ -198,10 +199,10 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     return all_pass(report.rows) ? done : promise_missed;
 }
 
-// The limit is a setting, so a scene alone cannot be wrong about it.
+// The speed limit is a setting, so scene validation cannot check it.
 void note_clamped_speeds(const Scene& scene, const Settings& settings) {
     const auto count = std::count_if(scene.bodies.begin(), scene.bodies.end(), [&](const Body& body) {
-        const vec3 v = body.velocity;  // squares of the greatest floats need a double
+        const vec3 v = body.velocity;  // squares of large floats overflow
         return body.motion == Motion::dynamic && std::hypot(static_cast<double>(v.x), static_cast<double>(v.y),
                                                             static_cast<double>(v.z)) > static_cast<double>(settings.max_speed);
     });
@@ -214,7 +215,7 @@ int run(const RunOptions& options) {
     RunReport report;
     require_writable(options);
     LoadedScene subject = load_subject(options.scene);
-    if (options.played) {  // happens again, and the demo's promise no longer binds
+    if (options.played) {  // replay the commands; the demo's promise does not apply
         subject.before_step = script_of(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
@@ -235,8 +236,8 @@ void agree(const CLI::App& command, const char* option, const Value& named, cons
         fmt::format("{}: the recording {} says {}, the command line {}; leave the option out", option, path, recorded, named));
 }
 
-// The options with which the input was recorded, and its steps unless the user says how many. What else the user named on the
-// command line (the scene, --bodies, --seed and so on) must agree: throws UsageError.
+// The recording's options, and its number of steps unless given. Throws UsageError if other options on the command
+// line (scene, --bodies, --seed, ...) contradict the recording.
 SceneOptions with_input(const CLI::App& command, SceneOptions options, const Input& input, const std::string& path) {
     agree(command, "scene", options.name, input.scene, path);
     agree(command, "--bodies", options.bodies, input.bodies, path);

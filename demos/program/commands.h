@@ -1,4 +1,4 @@
-// The commands of the program, one file each. A command sets `status` to how the program ends, or throws.
+// The commands of the program, one file each. A command sets `status` to the exit status, or throws.
 #pragma once
 
 namespace CLI {

@@ -1,4 +1,4 @@
-// What the program says beside its results, on the standard error output.
+// Messages on the standard error output.
 #pragma once
 
 #include <fmt/format.h>
@@ -9,7 +9,7 @@
 
 namespace scree::demos {
 
-// The text with control characters, which may stand in names, written as \xNN: a terminal would obey them. Lines stay lines.
+// Escapes control characters but line feeds as \xNN, since names may contain terminal control sequences.
 inline std::string printable(const std::string& text) {
     std::string shown;
     for (const char c : text) {
@@ -19,7 +19,7 @@ inline std::string printable(const std::string& text) {
     return shown;
 }
 
-// Unlike fmt::print, it does not throw where nobody can listen: the exit status still tells.
+// Unlike fmt::print, say() does not throw when the stream is closed; the exit status remains.
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> form, Arguments&&... arguments) {
     const std::string text = fmt::format(form, std::forward<Arguments>(arguments)...);

@@ -1,4 +1,4 @@
-// How the program ends, and the errors that are the user's to mend.
+// Exit statuses, and the errors that map to them.
 #pragma once
 
 #include <exception>
@@ -9,21 +9,21 @@
 namespace scree::demos {
 
 constexpr int done = 0;
-constexpr int promise_missed = 1;  // or the work itself failed
+constexpr int promise_missed = 1;  // or the work failed
 constexpr int wrong_usage = 2;
-constexpr int interrupted = 130;  // as a shell reports a program that Ctrl-C ended
+constexpr int interrupted = 130;  // as shells report SIGINT
 
-// Wrong usage or input: the message names the place, the reason and the cure.
+// Wrong usage or input: the message names place, reason and remedy.
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The command was right and its work failed: the device, the encoder, the disk.
+// A valid command whose work failed: device, encoder, disk.
 struct WorkFailed : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// What goes wrong from here on is no fault of the command line.
+// Converts exceptions of the work to WorkFailed.
 template <class Work>
 decltype(auto) at_work(Work&& work) {
     try {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t help_width = 100, column = 28;
 
-// `name` and `text` side by side; a name that reaches into the column stands on a line of its own.
+// `name` and `text` side by side; a long name is on a line of its own.
 std::string entry(const std::string& name, const std::string& text) {
     std::string result = "  " + name, line;
     if (result.size() + 2 > column) {

@@ -10,7 +10,7 @@ class HelpFormatter : public CLI::Formatter {
 public:
     std::string make_option(const CLI::Option* option, bool is_positional) const override;
     std::string make_subcommand(const CLI::App* command) const override;
-    // The type, and the range or words of a checked option.
+    // The type, and the range or values of a checked option.
     std::string make_option_opts(const CLI::Option* option) const override;
 };
 

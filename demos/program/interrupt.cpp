@@ -1,4 +1,4 @@
-// Ctrl-C as a flag.
+// Interruption by signals.
 #include "demos/program/interrupt.h"
 
 #include <time.h>
@@ -14,10 +14,11 @@ namespace scree::demos {
 
 namespace {
 
-std::atomic<long long> wished = 0;  // ms on the monotonic clock; 0: not yet
+std::atomic<long long> wished = 0;  // time of the first signal, ms on the monotonic clock; 0: none
 static_assert(std::atomic<long long>::is_always_lock_free, "a signal handler may not wait");
 
-// One wish may arrive twice: timeout(1) signals the program and then its group, a closed terminal through its shell too.
+// Signals within this time count as one: timeout(1) signals the program and then its group, and so do closing
+// terminals.
 constexpr long long same_wish = 200;  // ms
 
 void on_signal(int) {
@@ -35,16 +36,16 @@ void on_signal(int) {
 void listen_for_interrupt() {
     struct sigaction action {};
     action.sa_handler = on_signal;
-    action.sa_flags = SA_RESTART;  // a write that it meets goes on
+    action.sa_flags = SA_RESTART;  // interrupted writes continue
     sigaction(SIGINT, &action, nullptr);
     sigaction(SIGTERM, &action, nullptr);
     struct sigaction before {};
     sigaction(SIGHUP, nullptr, &before);
-    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // nohup has it ignored
+    if (before.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);  // respect nohup
     struct sigaction ignore {};
-    ignore.sa_handler = SIG_IGN;  // a pipe that breaks is an error of a write, not the end of the program
+    ignore.sa_handler = SIG_IGN;  // broken pipes are errors of write()
     sigaction(SIGPIPE, &ignore, nullptr);
-    sigaction(SIGXFSZ, &ignore, nullptr);  // and so is a file that has reached its limit
+    sigaction(SIGXFSZ, &ignore, nullptr);  // and so are files at the size limit
 }
 
 bool is_interrupted() {

@@ -1,9 +1,9 @@
-// Ctrl-C: a wish to end, seen between steps, so that nothing is left half written.
+// Interruption by signals: a flag that is read between steps, so that outputs are completed.
 #pragma once
 
 namespace scree::demos {
 
-// SIGINT, SIGTERM and SIGHUP; a second one ends the program at once, and removes what is half written.
+// Handles SIGINT, SIGTERM and SIGHUP; a second signal ends the program at once, removing unfinished files.
 void listen_for_interrupt();
 bool is_interrupted();
 

@@ -1,4 +1,4 @@
-// Finding what to simulate, and refusing what cannot fit.
+// Loading the scene to simulate, and checks against free memory.
 #include "demos/program/loaded_scene.h"
 
 #include <fmt/format.h>
@@ -21,11 +21,11 @@ namespace scree::demos {
 
 namespace {
 
-// What a body takes while it is simulated: the scene itself, the tables of a step on the host and on the device, room for its
-// contacts. Too small, and a run ends half way, out of memory.
+// Memory per body during a run: scene, tables on host and device, contacts. With a smaller estimate runs would end
+// out of memory.
 constexpr double bytes_per_body = 7000;
 
-// Memory that this process may still take: what the system says is available, or less if a limit is set.
+// Memory available to this process, bytes: the system's estimate, or less under a resource limit.
 double available_memory() {
     double bytes = std::numeric_limits<double>::infinity();
     std::ifstream system("/proc/meminfo");
@@ -47,7 +47,7 @@ double available_memory() {
 }
 
 std::size_t most_bodies() {
-    // Bodies are numbered with 32 bits; the highest numbers are taken.
+    // Body ids have 32 bits, and the highest ones are reserved.
     return static_cast<std::size_t>(std::min(available_memory() / bytes_per_body, 4.0e9));
 }
 
@@ -55,7 +55,7 @@ bool is_file_name(const std::string& name) {
     return name.find('/') != name.npos || name.ends_with(".json");
 }
 
-// Corners of where a scene's bodies start: of those that move if there are any, else of all but planes.
+// Sets the bounding box of the initial bodies: of moving ones if there are any, else of all but planes.
 void set_bounds(LoadedScene& subject) {
     vec3 low(std::numeric_limits<float>::max()), high(-low);
     for (const bool moving : {true, false}) {
@@ -77,7 +77,7 @@ std::string free_memory() {
                        static_cast<double>(most_bodies()) / 1e3);
 }
 
-// Pieces of bodies that may break have rows of their own from the start (compute/scene/fracture.h).
+// Counts the pre-allocated fragments, too (compute/scene/fracture.h).
 void require_memory_for_pieces(const Scene& scene, const std::string& what) {
     constexpr std::size_t deepest = 4;
     double pieces = 0;

@@ -1,4 +1,4 @@
-// What is simulated: a demo by its name, or a scene from a file.
+// The scene to simulate: a demo by name, or a scene file.
 #pragma once
 
 #include <optional>
@@ -16,20 +16,20 @@ struct LoadedScene {
     std::string name;
     Scene scene;
     Viewpoint viewpoint;
-    vec3 low, high;  // corners of where it happens, m
+    vec3 low, high;  // bounding box of the action, m
     double seconds = 10;
-    std::optional<Promise> promise;  // a scene file has none
+    std::optional<Promise> promise;  // none for scene files
     bool sleeping = true;
     Script before_step;
 
-    Settings settings(const SceneOptions& options) const;  // what the user asks, as far as the scene allows it
+    Settings settings(const SceneOptions& options) const;  // the user's settings, limited by the scene's
 };
 
-// Throws UsageError naming the nearest demo, the place of a mistake in a file, or how many bodies would fit into the memory,
-// pieces of those that may break included.
+// Throws UsageError naming the nearest demo, the JSON pointer of an error in a file, or how many bodies (fragments
+// included) fit into memory.
 LoadedScene load_subject(const SceneOptions& options);
 
-// Throws UsageError if a run of that many bodies would not fit into the memory that is free.
+// Throws UsageError if a run of that many bodies would not fit into free memory.
 void require_memory_for(std::size_t bodies);
 
 }  // namespace scree::demos

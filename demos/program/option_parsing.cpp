@@ -1,4 +1,4 @@
-// Words of the command line as values.
+// Parsing of command line values.
 #include "demos/program/option_parsing.h"
 
 #include <fmt/format.h>
@@ -81,9 +81,9 @@ CLI::Validator one_of(std::vector<std::string> known) {
 
 std::string nearest(const std::string& word, const std::vector<std::string>& known) {
     std::string best;
-    std::size_t least = 1 + word.size() / 3;  // farther words are no help
+    std::size_t least = 1 + word.size() / 3;  // reject distant words
     for (const std::string& candidate : known) {
-        std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein's distance, row by row
+        std::vector<std::size_t> row(candidate.size() + 1);  // Levenshtein distance, row by row
         std::iota(row.begin(), row.end(), 0u);
         for (std::size_t i = 1; i <= word.size(); ++i) {
             std::size_t diagonal = std::exchange(row[0], i);

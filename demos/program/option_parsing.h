@@ -1,4 +1,4 @@
-// Words of the command line as values, with messages that say what is wrong with them.
+// Parsing of command line values, with error messages.
 #pragma once
 
 #include <cstddef>
@@ -13,24 +13,25 @@ class Validator;
 
 namespace scree::demos {
 
-// A finite number; `such_as` ends the message. Throws CLI::ValidationError naming `option`, as do the others here.
+// A finite number; `such_as` (an example) ends the message. All functions here throw CLI::ValidationError naming
+// `option`.
 double number_of(const std::string& word, const char* option, const char* such_as = "");
-// The same, within what a float holds.
+// The same, within the range of float.
 float float_of(const std::string& word, const char* option);
 // "1,2.5,-3"
 glm::vec3 vector_of(const std::string& word, const char* option);
-// What stands before and after the mark.
+// The parts before and after the first `mark`.
 std::pair<std::string, std::string> halves(const std::string& word, char mark, const char* option, const char* form);
 
 // "1 body", "2 bodies"
 std::string counted(std::size_t count, const char* one, const char* many);
 
-// As CLI::Range, which lets NaN pass.
+// As CLI::Range, but rejects NaN.
 CLI::Validator between(double low, double high);
-// One of some words, or a message that names the nearest.
+// One of the known words; the message names the nearest one.
 CLI::Validator one_of(std::vector<std::string> known);
 
-// The word of `known` that is nearest to `word` by changed letters; "" if none is near.
+// The nearest of the `known` words by edit distance; "" if none is near.
 std::string nearest(const std::string& word, const std::vector<std::string>& known);
 
 }  // namespace scree::demos

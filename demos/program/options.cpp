@@ -1,4 +1,4 @@
-// The options that commands share, and their words.
+// Options shared by commands.
 #include "demos/program/options.h"
 
 #include <fmt/format.h>
@@ -63,7 +63,7 @@ std::vector<std::size_t> counts_of(const std::string& list) {
     return counts;
 }
 
-// An option whose text, range and default are those of a setting (compute/fields/settings.h).
+// An option with description, range and default of a setting (compute/fields/settings.h).
 template <class Value>
 static CLI::Option* add_setting(CLI::App& command, const char* option, Value& value, Value Settings::*setting) {
     const auto field = fields::field_of(setting);

@@ -1,4 +1,4 @@
-// The options of pictures.
+// Options of pictures.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -115,7 +115,7 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
 std::string place_of(const std::string& file) {
     std::error_code ignored;
     const std::filesystem::path place = std::filesystem::weakly_canonical(std::filesystem::absolute(file), ignored);
-    return std::filesystem::is_other(place) ? "" : place.string();  // /dev/null takes what comes
+    return std::filesystem::is_other(place) ? "" : place.string();  // devices such as /dev/null may be named twice
 }
 
 }  // namespace
@@ -149,7 +149,7 @@ void add_options(CLI::App& command, PictureOptions& options) {
         .add_option("--color", options.color,
                     "Quantity shown by colour. contact-impulse: sum over the body's contacts in one substep; sleep: how long the "
                     "body has "
-                    "been quiet; material: friction, restitution and density. Default: momentum.")
+                    "been still; material: friction, restitution and density. Default: momentum.")
         ->check(one_of(color_words()))
         ->group(group);
     command.add_option("--color-map", options.color_map, "Colour map.")->check(one_of(color_map_words()))->group(group);

@@ -1,4 +1,4 @@
-// Whether a file can be written.
+// Checks that an output file can be written.
 #include "demos/program/output_check.h"
 
 #include <fmt/format.h>
@@ -24,11 +24,11 @@ void require_writable_file(const char* option, const std::string& name) {
         return;
     }
     std::filesystem::path target = std::filesystem::exists(status) ? std::filesystem::canonical(name, ignored) : "";
-    if (target.empty()) target = name;  // else where links lead
+    if (target.empty()) target = name;  // else the target of symbolic links
     const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
     if (!std::filesystem::is_directory(folder, ignored))
         refuse(fmt::format("there is no folder {}; make it first", folder.string()));
-    // Asking for permission is not enough: only making a file tells of a read-only disk.
+    // Create a file: checking permissions would miss a read-only file system.
     std::string trial = (folder / ".scree-XXXXXX").string();
     const int made = ::mkstemp(trial.data());
     if (made < 0) {

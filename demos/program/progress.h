@@ -1,4 +1,4 @@
-// How far long work has come: a bar on a terminal, a plain line every ten seconds elsewhere, nothing when it shall be quiet.
+// Progress display: a bar on a terminal, a line every ten seconds elsewhere, nothing when quiet.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,7 @@ public:
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
-    void done(long count);  // so far
+    void done(long count);  // total so far
 
 private:
     using Clock = std::chrono::steady_clock;
@@ -25,7 +25,7 @@ private:
     Clock::time_point start_ = Clock::now(), last_ = start_;
 };
 
-// For people: "412 us", "3.1 ms", "2 min 5 s".
+// Formats a duration: "412 us", "3.1 ms", "2 min 5 s".
 std::string duration(double seconds);
 
 }  // namespace scree::demos

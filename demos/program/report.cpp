@@ -24,7 +24,7 @@ Spread spread_of(std::vector<double> step_ms) {
 std::size_t peak_memory() {
     rusage usage{};
     if (getrusage(RUSAGE_SELF, &usage) != 0) return 0;
-    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux counts kilobytes
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux reports KiB
 }
 
 namespace {

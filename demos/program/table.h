@@ -1,4 +1,4 @@
-// Tables of text in aligned columns, and the same as CSV.
+// Tables as aligned text, Markdown and CSV.
 #pragma once
 
 #include <string>
@@ -10,12 +10,12 @@ namespace scree::demos {
 
 using Cells = std::vector<std::string>;
 
-// The first row is the heading. Columns that hold numbers below it stand to the right.
+// The first row is the heading. Numeric columns are right-aligned.
 std::string table(const std::vector<Cells>& rows);
 std::string markdown(const std::vector<Cells>& rows);
 std::string csv(const std::vector<Cells>& rows);  // RFC 4180
 
-// A promise's rows, "pass" or "MISS" at their end; `before` goes in front of each.
+// The rows of a verdict, ending in "pass" or "MISS"; `before` is prepended.
 Cells verdict_heading(Cells before = {});
 Cells verdict(const Row& row, Cells before = {});
 

@@ -1,4 +1,4 @@
-// The avalanche: stones of mixed shape and size, let go on a steep slope, tumble down terraces and run out on the plain.
+// The avalanche: stones of mixed shape and size slide down a steep slope and terraces onto a plain.
 #include <algorithm>
 #include <cmath>
 
@@ -10,12 +10,12 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float smallest_reach = 0.15f, largest_reach = 0.36f;  // m, from the centre to the farthest point
+constexpr float smallest_reach = 0.15f, largest_reach = 0.36f;  // m, bounding radius
 constexpr float cell = 2 * largest_reach;
 constexpr int terraces = 5;
 
-// The valley, in metres. All of it grows with the square root of the area that the stones start on, so a million look as four
-// thousand do.
+// The valley, m. All lengths grow with the square root of the stones' initial area, so a million look like four
+// thousand.
 struct Valley {
     explicit Valley(std::size_t count)
         : columns(std::max(6, static_cast<int>(std::lround(1.45 * std::cbrt(static_cast<double>(count)))))),
@@ -29,14 +29,14 @@ struct Valley {
           incline(42 * degrees) {}
 
     float terrace_top() const { return riser * static_cast<float>(terraces); }
-    float edge() const { return -tread * static_cast<float>(terraces); }  // x where the incline ends; the terraces end at 0
+    float edge() const { return -tread * static_cast<float>(terraces); }  // x of the incline's lower end; the terraces end at 0
     float surface(float x) const { return terrace_top() + (edge() - x) * std::tan(incline); }
 
-    int columns;  // of stones, along the slope and across
+    int columns;  // columns of stones, along the slope and across
     float length, half_width;
-    float layers;  // of stones
+    float layers;  // layers of stones
     float thickness;
-    float wall;  // height above the incline: as high as the stones lie
+    float wall;  // height above the incline: that of the stones
     float tread, riser;
     float incline;  // rad
 };
@@ -51,8 +51,7 @@ void add_walls(Scene& scene, vec3 centre, vec3 half, float friction, vec4 turn, 
 void add_valley(Scene& scene, const Valley& v) {
     const float t = v.thickness, friction = 0.25f;
     scene.bodies.push_back(ground(0.7f));
-    // The incline's surface passes through (edge, terrace_top) and goes on past the last stone, where an upright wall keeps them
-    // in.
+    // The incline's surface passes through (edge, terrace_top) and extends past the last stone to an upright wall.
     const vec3 out(std::sin(v.incline), std::cos(v.incline), 0), down(std::cos(v.incline), -std::sin(v.incline), 0);
     const float half_length = 0.5f * (v.length / std::cos(v.incline) + 2 * cell);
     const vec4 turn = turned({0, 0, 1}, -v.incline);
@@ -70,7 +69,7 @@ void add_valley(Scene& scene, const Valley& v) {
     }
 }
 
-// Of the way that gravity could bring them down, how much the stones have come, on average.
+// Mean height lost by the stones, as a fraction of their initial height.
 Claim comes_down(double part) {
     return at_least("height lost, of that at the start", part, "", "of all stones together", [](const Trace& trace) {
         double started = 0, fallen = 0;
@@ -91,7 +90,7 @@ DemoScene avalanche(const DemoOptions& options) {
     scene.bodies.reserve(options.bodies + 32);
     add_valley(scene, v);
     Random random(options.seed);
-    // The smaller a stone, the farther it may stray from the middle of its cell: the lattice does not show.
+    // Random offsets within the cell, larger for smaller stones, so that the lattice does not show.
     const auto stray = [](float reach, Random& dice) {
         return vec3(dice.between(-1, 1), dice.between(-1, 1), dice.between(-1, 1)) * ((largest_reach - reach) * 0.577f);
     };
@@ -114,8 +113,7 @@ DemoScene avalanche(const DemoOptions& options) {
         for (const vec3& point : {vec3(back, top, z), vec3(v.edge(), v.terrace_top(), z), vec3(run_out, 0, z)})
             seen.push_back(point);
     }
-    const float seconds =
-        12 * std::sqrt(std::max(1.0f, v.length / 16.6f));  // falling times grow with the square root of the size
+    const float seconds = 12 * std::sqrt(std::max(1.0f, v.length / 16.6f));  // fall times grow with the square root of lengths
     const float far = 20 * v.length;
     return {
         std::move(scene),

@@ -1,4 +1,4 @@
-// What breaks: a wall, panes of glass, and all that falls into a pit.
+// Fracture: a wall, panes of glass, and bodies that fall into a pit.
 #include <algorithm>
 #include <cmath>
 
@@ -33,7 +33,7 @@ Claim mass_stays() {
     return close_to("mass at the end, of the start's", 1, 1e-5, "", "of the dynamic bodies that are there",
                     [](const Trace& trace) { return mass_of(trace.scene, trace.end) / mass_of(trace.scene, trace.start); });
 }
-// Of bodies of the scene as it was described: pieces do not count.
+// Counts bodies of the scene only, not fragments.
 Claim broken_at_least(double part, Indices bodies) {
     return at_least("bodies that broke, of those that may", part, "", "at the end", [bodies](const Trace& trace) {
         const auto count = std::count_if(bodies.begin(), bodies.end(), [&](std::size_t i) { return !trace.end.at(i).exists; });
@@ -55,7 +55,7 @@ Claim whole_and_in_place(double part, Indices bodies) {
 
 namespace {
 
-// A tower crane at the right of the wall; its jib ends above `hook`. Returns the jib.
+// Adds a tower crane to the right of the wall, whose jib ends above `hook`. Returns the jib's index.
 std::size_t add_crane(Scene& scene, vec3 hook, float mast, float width) {
     const float top = hook.y + 0.25f, peak = top + 2.6f, tail = mast + 2.6f;
     const vec4 upright = turned({0, 1, 0}, 45 * degrees);
@@ -64,7 +64,7 @@ std::size_t add_crane(Scene& scene, vec3 hook, float mast, float width) {
     scene.bodies.push_back(fixed_box({0.5f * (hook.x - 0.4f + tail), top, hook.z}, {0.5f * (tail - hook.x + 0.4f), 0.2f, 0.2f}));
     const std::size_t jib = scene.bodies.size() - 1;
     scene.bodies.push_back(fixed_box({tail - 0.6f, top - 0.75f, hook.z}, {0.5f, 0.6f, 0.6f}));
-    for (const float end : {hook.x + 0.6f, tail - 0.3f}) {  // what the jib hangs from
+    for (const float end : {hook.x + 0.6f, tail - 0.3f}) {  // tie bars of the jib
         const vec3 from(mast, peak - 0.1f, hook.z), to(end, top + 0.1f, hook.z), along = to - from;
         scene.bodies.push_back(fixed_box(0.5f * (from + to), {0.5f * glm::length(along), 0.05f, 0.05f}, 0.6f,
                                          turned({0, 0, 1}, std::atan2(along.y, along.x))));
@@ -72,7 +72,7 @@ std::size_t add_crane(Scene& scene, vec3 hook, float mast, float width) {
     return jib;
 }
 
-// A ball of steel on a chain of the same, drawn back from below the hook towards -z. Returns the ball.
+// Adds a steel ball on a steel chain, deflected from below the hook towards -z. Returns the ball's index.
 std::size_t add_wrecker(Scene& scene, std::size_t jib, vec3 hook, float angle) {
     constexpr int links = 11;
     constexpr float length = 0.5f, radius = 0.7f;
@@ -103,8 +103,8 @@ std::size_t add_wrecker(Scene& scene, std::size_t jib, vec3 hook, float angle) {
 
 }  // namespace
 
-// Bricks in running bond, and a ball on a chain that weighs as much as fifty of them. The chain hangs before the wall: when the
-// ball has come through, it leans over the top.
+// A wall in running bond, and a ball on a chain that weighs as much as fifty bricks. The chain hangs before the wall
+// and bends over its top once the ball is through.
 DemoScene wrecking(const DemoOptions& options) {
     constexpr int rows = 12, columns = 16;
     const vec3 brick(0.4f, 0.2f, 0.2f), hook(-0.7f, 8.3f, -1.8f);
@@ -118,7 +118,7 @@ DemoScene wrecking(const DemoOptions& options) {
             Body body = box_at({x, brick.y * static_cast<float>(2 * row + 1), random.between(-0.002f, 0.002f)},
                                brick - vec3(0.0005f, 0, 0));
             body.density = 1800;
-            // Harder the lower they lie: the foot bears the wall.
+            // Higher thresholds lower down, where bricks carry the wall.
             body.fracture = breaking(800 + 140 * static_cast<float>(rows - row),
                                      random.unit() < 0.5f ? Cutting::boxes : Cutting::voronoi, 7, 1 + random.bits() % 4);
             bricks.push_back(scene.bodies.size());
@@ -148,7 +148,7 @@ DemoScene wrecking(const DemoOptions& options) {
                 .watching(all)};
 }
 
-// Panes that stand in grooves. The ball gives each no more than it can bear, and is hardly slower behind it.
+// Panes standing in grooves. The impulse at each pane is limited by its threshold, so the ball hardly slows down.
 DemoScene glass(const DemoOptions& options) {
     constexpr int panes = 7;
     const vec3 half(1, 1, 0.02f);
@@ -191,7 +191,7 @@ DemoScene glass(const DemoOptions& options) {
     return {std::move(scene), view_of(low, high, 65, 14), low, high, 6, promise};
 }
 
-// Five pieces each: with 2,000 bodies there are 10,000 of them.
+// Five fragments each: 2,000 bodies have 10,000.
 DemoScene shatter(const DemoOptions& options) {
     const auto count = static_cast<float>(options.bodies);
     const float spacing = 1.25f, side = std::max(2.0f, std::ceil(std::cbrt(count)));

@@ -1,4 +1,4 @@
-// The list of demos, in one place.
+// The list of demos.
 #include "demos/scenes/demos.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The demos: named scenes, each with a view of it and a promise of what will have happened at its end.
+// The demos: named scenes, each with a camera and a promise that is checked at the end of its run.
 #pragma once
 
 #include <cstddef>
@@ -15,34 +15,34 @@
 namespace scree::demos {
 
 struct DemoOptions {
-    std::size_t bodies = 0;  // wanted; scenes of a fixed size ignore it
+    std::size_t bodies = 0;  // requested number; scenes of a fixed size ignore it
     std::uint64_t seed = 1;
-    float offset = 0;  // m along x and z, of everything: far from the origin positions are coarse
+    float offset = 0;  // m along x and z, of the whole scene: tests precision far from the origin
 };
 
 struct DemoScene {
     Scene scene;
     Viewpoint viewpoint;
-    vec3 low, high;  // corners of where it happens, m
-    float seconds;   // until the promise can be judged
+    vec3 low, high;  // bounding box of the action, m
+    float seconds;   // duration of the run after which the promise is judged
     Promise promise;
-    bool sleeping = true;     // bodies at rest may fall asleep; scenes that shall stand awake say no
-    Script before_step = {};  // what happens during the run; a scene file cannot say it
+    bool sleeping = true;     // false in scenes that must stand awake
+    Script before_step = {};  // scripted actions during the run; not part of a scene file
 };
 
 struct Demo {
     const char* name;
-    const char* line;    // what it shows, one line
+    const char* line;    // one-line description
     std::size_t bodies;  // dynamic bodies by default
     bool takes_bodies;   // --bodies changes how many
     DemoScene (*build)(const DemoOptions&);
-    bool trial = false;  // made for the stability suite: listed after those made to be looked at, and checked at full size
+    bool trial = false;  // a scene of the stability suite: listed after the gallery's demos and checked at full size
 };
 
 const std::vector<Demo>& all_demos();
-const Demo* find_demo(std::string_view name);            // null if there is none
+const Demo* find_demo(std::string_view name);            // null if unknown
 DemoScene build(const Demo& demo, DemoOptions options);  // bodies 0: the default
-DemoScene awake(DemoScene scene);                        // nobody falls asleep in it
+DemoScene awake(DemoScene scene);                        // the scene with sleep off
 
 DemoScene rest(const DemoOptions&);
 DemoScene stack(const DemoOptions&);

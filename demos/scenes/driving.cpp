@@ -1,4 +1,4 @@
-// What demos of vehicles have alike.
+// Helpers for vehicle demos.
 #include "demos/scenes/driving.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Inclines as fixed boxes, and what lies on them.
+// Inclines as fixed boxes, with one body each.
 #include "demos/scenes/incline.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// A machine: a motor turns a gear, that another, and that a crank which moves a piston to and fro.
+// A machine: a motor drives a gear train and a crank with a piston.
 #include <cmath>
 #include <numbers>
 
@@ -10,11 +10,11 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float thickness = 0.2f;  // m, half of the gears'
-constexpr float motor_speed = 2;   // rad/s, of the motor
+constexpr float thickness = 0.2f;  // m, half thickness of the gears
+constexpr float motor_speed = 2;   // rad/s, speed of the motor
 constexpr float stroke = 0.6f;     // m, radius of the crank
 
-// A hub on a hinge in the world, along z, and teeth welded to it; returns the hub.
+// Adds a hub on a hinge about z to the world, with teeth on fixed joints. Returns the hub's index.
 std::size_t add_gear(Scene& scene, vec3 centre, float pitch_radius, int teeth, float phase, const Hinge& hinge) {
     const float hub = pitch_radius - 0.32f, tip = pitch_radius + 0.3f;
     Body body;
@@ -35,12 +35,12 @@ std::size_t add_gear(Scene& scene, vec3 centre, float pitch_radius, int teeth, f
     return middle;
 }
 
-// How far a body has turned about z, rad, over all moments.
+// Total rotation of a body about z, rad.
 double turn_of(const Trace& trace, std::size_t slot) {
     double turn = 0;
     for (std::size_t i = 1; i < trace.moments.size(); ++i) {
         const vec4 p = trace.moments[i - 1].bodies.at(slot).orientation, q = trace.moments[i].bodies.at(slot).orientation;
-        // The turn from one to the other, q p*, about the world's z.
+        // The rotation q p* between two moments, about the world's z axis.
         const double z = static_cast<double>(q.z * p.w - q.w * p.z - q.x * p.y + q.y * p.x);
         const double w = static_cast<double>(q.w * p.w + q.x * p.x + q.y * p.y + q.z * p.z);
         turn += 2 * std::atan2(w < 0 ? -z : z, std::abs(w));
@@ -52,7 +52,7 @@ double turn_of(const Trace& trace, std::size_t slot) {
 
 DemoScene machine(const DemoOptions&) {
     Scene scene;
-    const float small = 0.9f, large = 1.2f;  // pitch radii, as their teeth: 6 and 8
+    const float small = 0.9f, large = 1.2f;  // pitch radii, in the ratio of their teeth, 6 and 8
     const vec3 first(0, 2, 0), second(small + large, 2, 0);
     Hinge driven, idle;
     driven.turn.motor = Motor{motor_speed, 1e6f};
@@ -60,7 +60,7 @@ DemoScene machine(const DemoOptions&) {
     const std::size_t motor = add_gear(scene, first, small, 6, 0, driven);
     const std::size_t wheel = add_gear(scene, second, large, 8, std::numbers::pi_v<float> / 8, idle);
 
-    // The crank's pin lies before the wheel, so that the rod passes in front of the teeth.
+    // The crank pin is in front of the wheel, so that the rod clears the teeth.
     const vec3 pin = second + vec3(stroke, 0, 2.5f * thickness);
     const float length = 2;
     scene.bodies.push_back(box_at(pin + vec3(length / 2, 0, 0), {length / 2, 0.08f, 0.08f}));

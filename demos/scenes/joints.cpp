@@ -1,4 +1,4 @@
-// What hangs together: chains, a bridge, ragdolls and pendulums.
+// Joints: chains, a bridge, ragdolls and pendulums.
 #include <algorithm>
 #include <cmath>
 
@@ -11,10 +11,11 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float link = 0.5f;  // m, length of a chain's links
+constexpr float link = 0.5f;  // m, length of a chain link
 constexpr int links = 20;
 
-// A chain that begins at a point and points away from the vertical; its end carries a ball of so many times a link's mass.
+// Adds a chain that hangs from `top` at `angle` (rad) from the vertical, with a ball of `load` link masses at its
+// end.
 void add_chain(Scene& scene, vec3 top, float angle, float load) {
     const vec3 down(std::sin(angle), -std::cos(angle), 0);
     const vec4 turn = turned({0, 0, 1}, angle);
@@ -43,13 +44,14 @@ void add_chain(Scene& scene, vec3 top, float angle, float load) {
 }
 
 struct Part {
-    vec3 at, half;  // m; of a figure that stands with its feet at y = 0
+    vec3 at, half;  // m; pose of a standing figure with its feet at y = 0
     std::size_t to;
     vec3 anchor;
     JointKind kind;
 };
 
-// A figure of eleven boxes and ten joints. Shoulders, hips, neck and waist are cones, elbows and knees hinges.
+// A ragdoll of eleven boxes and ten joints: cone-twist at shoulders, hips, neck and waist, hinges at elbows and
+// knees.
 std::vector<Part> figure() {
     const auto cone = [](float swing, float twist) { return ConeTwist{swing, {-twist, twist}, 2}; };
     const auto bends = [](float lower, float upper) {
@@ -78,14 +80,14 @@ std::vector<Part> figure() {
 
 void add_figure(Scene& scene, const std::vector<Part>& parts, vec3 position, vec4 turn) {
     const std::size_t first = scene.bodies.size();
-    Scene alone;  // standing at the origin, where the joints are known
+    Scene alone;  // the figure at the origin, in whose frame the joints are defined
     for (const Part& part : parts) {
         Body body = box_at(part.at, part.half);
         body.density = 900;
         alone.bodies.push_back(body);
     }
     for (std::size_t i = 1; i < parts.size(); ++i) {
-        // Hinges turn about an axis across the limb: elbows about y, knees about x.
+        // Hinge axes: elbows about y, knees about x.
         const bool elbow = std::holds_alternative<Hinge>(parts[i].kind) && parts[i].at.y > 1;
         const bool cone = std::holds_alternative<ConeTwist>(parts[i].kind);
         const vec3 along = parts[i].at - parts[i].anchor;
@@ -124,7 +126,7 @@ DemoScene bridge(const DemoOptions& options) {
     const float width = 0.5f, half_span = 0.5f * width * planks, height = 4;
     scene.bodies.push_back(fixed_box({-half_span - 2, height / 2, 0}, {2, height / 2, 1.5f}));
     scene.bodies.push_back(fixed_box({half_span + 2, height / 2, 0}, {2, height / 2, 1.5f}));
-    // A little longer than the gap, it would sag; so it begins as an arc that hangs.
+    // The bridge is slightly longer than the gap, so it starts as a sagging arc.
     std::size_t before = 1;
     const auto edge = [&](int i) {
         const float x = -half_span + width * static_cast<float>(i);
@@ -173,7 +175,7 @@ DemoScene ragdolls(const DemoOptions& options) {
     const auto count = std::max<std::size_t>(1, options.bodies / parts.size());
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(count) / 4)));
     const float half = 0.5f * 2.0f * static_cast<float>(side) + 0.5f;
-    // Steps to fall on and over.
+    // Steps for the ragdolls to fall on.
     for (int i = 0; i < 4; ++i) {
         const float part = static_cast<float>(i + 1) / 5;
         scene.bodies.push_back(
@@ -206,7 +208,7 @@ DemoScene pendulums(const DemoOptions&) {
     Scene scene;
     scene.bodies.push_back(ground());
     for (const float end : {-3.6f, 3.6f}) scene.bodies.push_back(fixed_box({0, 2.04f, end}, {0.08f, 2.04f, 0.08f}));
-    scene.bodies.push_back(fixed_box({0, 4, 0}, {0.04f, 0.04f, 3.6f}));  // from which all hang
+    scene.bodies.push_back(fixed_box({0, 4, 0}, {0.04f, 0.04f, 3.6f}));  // the beam that carries all pendulums
     const std::size_t beam = scene.bodies.size() - 1;
     std::vector<Swinging> all;
     const auto add = [&](Body body, float lever, float angle, float z, const JointKind& kind, bool rod) {
@@ -219,7 +221,7 @@ DemoScene pendulums(const DemoOptions&) {
         scene.joints.push_back(rod ? joint_between(scene, kind, beam, index, pivot, body.position)
                                    : joint_at(scene, kind, beam, index, pivot, {0, 0, 1}));
         const MassProperties m = mass_properties(body.shape, body.density);
-        // A ball on a rod is not turned with it.
+        // A ball joint does not rotate the bob with the rod.
         const double own = rod ? 0.0 : static_cast<double>(m.inertia.z);
         const double l = lever;
         all.push_back({index, pivot, l, angle, own + static_cast<double>(m.mass) * l * l, m.mass});
@@ -230,7 +232,7 @@ DemoScene pendulums(const DemoOptions&) {
     plank.shape = Box{{0.1f, 0.8f, 0.1f}};
     add(ball, 1, 20 * degrees, -3, Distance{1, 1, {}}, true);
     add(ball, 2, 45 * degrees, -2, Distance{2, 2, {}}, true);
-    add(ball, 3, 90 * degrees, -1, Distance{0, 3, {}}, true);  // a rope
+    add(ball, 3, 90 * degrees, -1, Distance{0, 3, {}}, true);  // a rope: maximum distance only
     add(bar, 0.75f, 30 * degrees, 0, Ball{}, false);
     add(plank, 0.8f, 60 * degrees, 1, Hinge{}, false);
     add(plank, 1.5f, 120 * degrees, 2, Hinge{}, false);

@@ -1,4 +1,4 @@
-// Small mechanisms: see-saws, a row of spheres that passes on a blow, dominoes.
+// Small mechanisms: see-saws, Newton's cradle, dominoes.
 #include <algorithm>
 #include <cmath>
 
@@ -11,7 +11,7 @@ namespace scree::demos {
 
 namespace {
 
-// A plank on a ridge at z, with a weight near each end; the plank's index in the scene is returned.
+// Adds a plank on a ridge at z with a weight near each end. Returns the plank's index.
 std::size_t add_seesaw(Scene& scene, float z, float left_density, float right_density) {
     const float ridge = 0.3f, plank_half = 0.06f, weight_half = 0.25f;
     scene.bodies.push_back(fixed_box({0, ridge, z}, {0.12f, ridge, 0.5f}, 0.9f));
@@ -27,7 +27,7 @@ std::size_t add_seesaw(Scene& scene, float z, float left_density, float right_de
     return plank;
 }
 
-// How far the plank's right end has gone down, degrees.
+// Tilt of the plank, degrees; > 0 if its right end is down.
 double slant(const BodyState& plank) {
     const vec3 along = physics::rotate(plank.orientation, vec3(1, 0, 0));
     return -std::asin(std::clamp(static_cast<double>(along.y), -1.0, 1.0)) / degrees;
@@ -51,8 +51,8 @@ DemoScene seesaw(const DemoOptions&) {
 
 namespace {
 
-// Five spheres along x, free of friction, the first `raised` of them flying at the others. The gaps are wider than a contact is
-// made ahead, so the blow goes from pair to pair, and equal masses exchange their velocities.
+// Five frictionless spheres along x, the first `raised` of them moving towards the others. The gaps exceed the
+// speculative distance, so impacts are pairwise, and equal masses exchange their velocities.
 Indices add_cradle(Scene& scene, float z, std::size_t raised, float speed) {
     constexpr float radius = 0.5f, pitch = 1.15f;
     Indices row;
@@ -72,7 +72,7 @@ Indices add_cradle(Scene& scene, float z, std::size_t raised, float speed) {
 
 }  // namespace
 
-// Free of gravity, an arm's length above the floor: one sphere raised, and two.
+// Newton's cradle without gravity: one sphere raised, and two.
 DemoScene cradle(const DemoOptions&) {
     constexpr float speed = 2;
     Scene scene;
@@ -96,7 +96,7 @@ DemoScene dominoes(const DemoOptions& options) {
         const float heading = swing * std::sin(two_pi * static_cast<float>(i) / 30);
         Body domino = box_at(place, half, turned({0, 1, 0}, -heading));
         domino.friction = 0.3f;
-        if (i == 0) {  // pushed: it turns about its front foot
+        if (i == 0) {  // pushed: rotates about its front edge
             domino.angular_velocity = {0, 0, -1.5f};
             domino.velocity = {1.5f * half.y, 1.5f * half.x, 0};
         }

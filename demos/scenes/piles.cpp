@@ -1,4 +1,4 @@
-// Heaps in a pit: boxes alone, and boxes with spheres and capsules.
+// Piles in a pit: boxes, and boxes with spheres and capsules.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace {
 constexpr float largest_reach = 0.42f;  // m
 constexpr float cell = 2 * largest_reach;
 
-// `count` bodies in a lattice above a pit that is twice as wide as the lattice is high: one sees into it.
+// Bodies in a lattice above a pit that is twice as wide as the lattice is high.
 DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), float smallest_reach) {
     const std::size_t count = options.bodies;
     const int side = std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * static_cast<double>(count)))));
@@ -36,7 +36,7 @@ DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), f
     }
     const float outside = half + 0.5f;
     const vec3 low(-outside, 0, -outside), high(outside, top, outside);
-    const float seconds = 8 + 0.2f * static_cast<float>(side);  // the higher the lattice, the longer it falls and settles
+    const float seconds = 8 + 0.2f * static_cast<float>(side);  // higher lattices fall and settle longer
     return {std::move(scene),
             view_of(low, high, 35, 38),
             low,

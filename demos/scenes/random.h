@@ -1,4 +1,4 @@
-// Pseudo-random numbers that are the same on every machine: PCG32 (O'Neill, 2014), 64 bits of state, 32 bits of output.
+// Pseudo-random numbers, equal on every machine: PCG32 (O'Neill 2014), 64 bits of state, 32 bits of output.
 #pragma once
 
 #include <cstdint>
@@ -18,16 +18,17 @@ public:
         const auto turn = static_cast<std::uint32_t>(old >> 59);
         return (shifted >> turn) | (shifted << ((32 - turn) & 31));
     }
-    // 24 bits of chance: every value is a float, and no rounding differs between machines.
+    // 24 random bits convert to float exactly, so no rounding differs between machines.
     float unit() { return static_cast<float>(bits() >> 8) * 0x1p-24f; }
     float between(float low, float high) { return low + (high - low) * unit(); }
 
-    // Any orientation, all alike: a point of the 4-ball's surface, by rejection, since sin and cos differ between C libraries.
+    // A uniformly distributed orientation, by rejection sampling in the 4-ball, since sin and cos differ between C
+    // libraries.
     vec4 orientation() {
         for (;;) {
             const float x = between(-1, 1), y = between(-1, 1), z = between(-1, 1), w = between(-1, 1);
             const float squared = x * x + y * y + z * z + w * w;
-            if (squared < 1 && squared > 0.01f) return vec4(x, y, z, w);  // made unit when the scene is checked
+            if (squared < 1 && squared > 0.01f) return vec4(x, y, z, w);  // normalised by scene validation
         }
     }
 

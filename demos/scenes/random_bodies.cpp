@@ -1,4 +1,4 @@
-// Bodies of random shape that fit into a given sphere.
+// Random bodies within a given bounding sphere.
 #include "demos/scenes/random_bodies.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float shrunk = 0.995f;  // keeps rounding from letting neighbours touch
+constexpr float shrunk = 0.995f;  // margin against contacts between neighbours by rounding
 
 }
 
@@ -33,7 +33,7 @@ Body random_mixed(float reach, Random& random) {
         const float radius = shrunk * reach * random.between(0.4f, 0.6f);
         body.shape = Capsule{radius, shrunk * reach - radius};
     }
-    body.rolling_resistance = 0.05f * reach;  // round bodies come to rest as stones do
+    body.rolling_resistance = 0.05f * reach;  // lets round bodies come to rest
     return body;
 }
 
@@ -44,8 +44,8 @@ vec3 random_direction(Random& random) {
     return physics::upright(turn);
 }
 
-// Its first corners lie on all sides: of corners anywhere some stones would be flakes, pressed into the ground by what lies on
-// them.
+// The first vertices are on all sides: entirely random ones would give flat flakes, which are pressed into the ground
+// by those above.
 Hull stone(float reach, Random& random) {
     Hull hull;
     const auto corners = 6 + static_cast<int>(random.unit() * 9);
@@ -65,7 +65,7 @@ Hull stone(float reach, Random& random) {
 
 namespace {
 
-// A hammer, a dumbbell, a jack or an angle of boxes.
+// A hammer, a dumbbell, a jack, or two boxes at an angle.
 Compound random_compound(float reach, Random& random) {
     const vec4 along_x(0, 0, -0.70710678f, 0.70710678f), along_z(0.70710678f, 0, 0, 0.70710678f);
     const float r = reach * random.between(0.16f, 0.24f), arm = reach - r;

@@ -1,4 +1,5 @@
-// Bodies of mixed shape and size in a lattice of cells, each within its cell whichever way it is turned, so that none overlap.
+// Random bodies of mixed shape and size, each within a given bounding sphere, so that bodies in a lattice do not
+// overlap.
 #pragma once
 
 #include "compute/scene.h"
@@ -6,10 +7,10 @@
 
 namespace scree::demos {
 
-// A body that fits into a sphere of radius `reach` (m) about its centre, turned at random.
-Body random_box(float reach, Random& random);       // sides between 1 : 1 and 1 : 2
+// A body of bounding radius `reach` (m), randomly oriented.
+Body random_box(float reach, Random& random);       // ratio of sides between 1 : 1 and 1 : 2
 Body random_mixed(float reach, Random& random);     // half of them boxes, a quarter spheres, a quarter capsules
-Body random_assorted(float reach, Random& random);  // of any shape but planes, compounds among them, each as often
-Body random_stone(float reach, Random& random);     // a hull
+Body random_assorted(float reach, Random& random);  // any shape but planes, compounds included, equally likely
+Body random_stone(float reach, Random& random);     // a convex hull
 
 }  // namespace scree::demos

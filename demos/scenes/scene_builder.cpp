@@ -1,4 +1,4 @@
-// Pieces of demo scenes, and the view that holds all of the action.
+// Building blocks of demo scenes.
 #include "demos/scenes/scene_builder.h"
 
 #include <algorithm>

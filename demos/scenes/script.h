@@ -1,4 +1,4 @@
-// What happens to a world during a run: a script, called before every step.
+// Scripts: actions on a world during a run, called before every step.
 #pragma once
 
 #include <cmath>
@@ -8,9 +8,9 @@
 
 namespace scree::demos {
 
-using Script = std::function<void(World&)>;  // keeps nothing of its own: the world's time says what is due
+using Script = std::function<void(World&)>;  // stateless: depends on the world's time alone
 
-// True before exactly one step: the first that begins at that time (s) or after it, to half a step.
+// True before exactly one step, the one whose start time is nearest to `seconds`.
 inline bool is_due(const World& world, double seconds) {
     return world.steps() == static_cast<std::uint64_t>(std::llround(seconds * static_cast<double>(world.settings().rate)));
 }

@@ -1,4 +1,4 @@
-// Inclines: what slides, sticks and rolls down, against Coulomb's law and the rolling of rigid bodies.
+// Inclines: sliding, sticking and rolling, checked against Coulomb friction and rigid body rolling.
 #include "demos/scenes/demos.h"
 #include "demos/scenes/incline.h"
 #include "demos/scenes/scene_builder.h"
@@ -8,8 +8,8 @@ namespace scree::demos {
 
 namespace {
 
-const Incline incline{15 * degrees, 8};  // what sticks needs a coefficient of 0.268
-constexpr float lane = 1.3f;             // m, between the middles of two inclines
+const Incline incline{15 * degrees, 8};  // sticking needs a friction coefficient of tan 15 degrees = 0.268
+constexpr float lane = 1.3f;             // m, spacing of inclines
 
 std::size_t add_numbered(Scene& scene, int index, const Body& body, float height, float friction) {
     return add_lane(scene, incline, lane * (static_cast<float>(index) - 3.5f), body, height, friction);
@@ -52,7 +52,7 @@ DemoScene slopes(const DemoOptions&) {
     promise.also(accelerates("rolling sphere, 5/7 g sin a", watched.size() - 1, incline.along() * 5 / 7));
     Body capsule;
     capsule.shape = Capsule{0.3f, 0.15f};
-    capsule.orientation = turned({1, 0, 0}, 90 * degrees);  // its axis across the incline
+    capsule.orientation = turned({1, 0, 0}, 90 * degrees);  // axis across the incline
     watched.push_back(add_numbered(scene, index++, capsule, 0.3f, 0.6f));
     promise.also(accelerates("rolling capsule", watched.size() - 1, incline.along() * going_part(capsule)));
     const vec3 low(-8, 0, -5.2f), high(8.2f, 5.2f, 5.2f);

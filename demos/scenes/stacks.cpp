@@ -1,4 +1,4 @@
-// What must stand: bodies at rest, columns, a wall and pyramids.
+// Stability: resting bodies, columns, a wall and pyramids.
 #include <cmath>
 
 #include "demos/scenes/demos.h"
@@ -9,9 +9,9 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float half = 0.5f;  // m, of the boxes that are stacked
+constexpr float half = 0.5f;  // m, half extent of the stacked boxes
 
-// A column of boxes, each off by up to 2 mm and turned by up to 0.3 degrees, as if set by hand.
+// A column of boxes, each displaced by up to 2 mm and rotated by up to 0.3 degrees.
 Scene column(int count, std::uint64_t seed, float half_extent = half) {
     Scene scene;
     scene.bodies.push_back(ground());
@@ -97,10 +97,11 @@ DemoScene tower(const DemoOptions& options) {
                           Promise(drift_below(0.16), end_speed_below(0.005), penetration_below(0.01))));
 }
 
-// Taller than the contacts can carry awake for ever: it stands because it falls asleep.
+// Taller than the solver can hold awake indefinitely: the column stands because it falls asleep.
 DemoScene stack80(const DemoOptions& options) {
     constexpr std::size_t count = 80;
-    // Its own weight presses the column together by more than half a metre, so what counts is that it stays a column.
+    // Contact compliance shortens the column by more than half a metre under its weight, so sideways drift is the
+    // criterion.
     const Claim top_stays = at_most("sideways drift of the topmost", 0.5, "m", "from its start to the end, half a box",
                                     [](const Trace& trace) { return sideways_of(trace, count); });
     const Claim none_fell = at_most("boxes that fell", 0, "", "no longer above the one below", [](const Trace& trace) {
@@ -119,7 +120,7 @@ DemoScene smallstack(const DemoOptions& options) {
                           Promise(drift_below(0.01), end_speed_below(0.005), penetration_below(0.002))));
 }
 
-// Ten boxes, of which the topmost weighs as much as a hundred.
+// Mass ratio 100: ten boxes, with the topmost a hundred times as heavy.
 DemoScene heavytop(const DemoOptions& options) {
     Scene scene = column(10, options.seed);
     scene.bodies.back().density *= 100;
@@ -133,14 +134,14 @@ DemoScene wall(const DemoOptions& options) {
     scene.bodies.push_back(ground());
     Random random(options.seed);
     for (int row = 0; row < rows; ++row) {
-        const bool shifted = row % 2 == 1;  // odd courses begin and end with half a brick
+        const bool shifted = row % 2 == 1;  // odd courses begin and end with half bricks
         const float y = brick.y * static_cast<float>(2 * row + 1);
         for (int column = 0; column < columns + shifted; ++column) {
             const bool halved = shifted && (column == 0 || column == columns);
             float x = static_cast<float>(column) - 0.5f * columns + (shifted ? 0.0f : 0.5f);
             if (halved) x += column == 0 ? 0.25f : -0.25f;
             const vec3 size(halved ? 0.25f : 0.5f, brick.y, brick.z);
-            // A millimetre of air at each head joint: bricks must not overlap at the start.
+            // 1 mm gap at each head joint, so that bricks do not overlap initially.
             scene.bodies.push_back(box_at({x, y, random.between(-0.002f, 0.002f)}, size - vec3(0.0005f, 0, 0)));
         }
     }

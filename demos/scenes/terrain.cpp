@@ -1,4 +1,4 @@
-// Worlds of triangles: hills of a height field, and a staircase over a bowl that was read from a file.
+// Triangle worlds: hills of a height field, and a staircase over a bowl from a mesh file.
 #include <algorithm>
 #include <cmath>
 
@@ -13,7 +13,7 @@ namespace scree::demos {
 
 namespace {
 
-// Bodies of every shape in a lattice over a place.
+// Adds bodies of every shape in a lattice with its lowest centre at `lowest`.
 void add_bodies(Scene& scene, std::size_t count, std::size_t side, vec3 lowest, float friction, float smallest, float largest,
                 Random& random) {
     for (std::size_t i = 0; i < count; ++i) {
@@ -44,7 +44,7 @@ Claim none_falls_through(const std::string& what, double (*surface)(const Trace&
 constexpr float valley_radius = 30;  // m
 constexpr std::uint32_t side_points = 61;
 
-// A bowl with hills in it, higher on one side, that keeps what falls into it.
+// Height of the terrain, m: a bowl with hills, higher on one side.
 float hill(float x, float z) {
     const float r = std::sqrt(x * x + z * z) / valley_radius;
     const float waves = std::sin(0.45f * x + 0.6f) * std::cos(0.38f * z) + 0.5f * std::sin(0.9f * z + 0.7f * x);
@@ -59,7 +59,7 @@ double height_at(const Trace& trace, vec3 at) {
     const auto row = static_cast<std::uint32_t>(std::clamp(v, 0.0f, static_cast<float>(field.rows - 2)));
     const float s = u - static_cast<float>(column), t = v - static_cast<float>(row);
     const auto height = [&](std::uint32_t i, std::uint32_t k) { return field.heights[(row + k) * field.columns + column + i]; };
-    // Each cell is two triangles, parted from its corner (1, 0) to (0, 1).
+    // Each cell is two triangles, split along the diagonal (1, 0) to (0, 1).
     if (s + t <= 1) return height(0, 0) + s * (height(1, 0) - height(0, 0)) + t * (height(0, 1) - height(0, 0));
     return height(1, 1) + (1 - s) * (height(0, 1) - height(1, 1)) + (1 - t) * (height(1, 0) - height(1, 1));
 }
@@ -67,7 +67,7 @@ double height_at(const Trace& trace, vec3 at) {
 // ---- the bowl under the staircase, of demos/scenes/staircase
 double bowl_at(const Trace&, vec3 at) {
     const double r = std::min(4.0, std::hypot(static_cast<double>(at.x), static_cast<double>(at.z)));
-    return 1.6 * (r / 4) * (r / 4) - 0.05;  // its triangles lie a little within the paraboloid's hollow, or below the stairs
+    return 1.6 * (r / 4) * (r / 4) - 0.05;  // tolerance for the triangulation of the paraboloid
 }
 
 Claim come_into_the_bowl(double part) {
@@ -98,7 +98,7 @@ DemoScene terrain(const DemoOptions& options) {
     Random random(options.seed);
     const auto side = std::max<std::size_t>(4, static_cast<std::size_t>(std::cbrt(2.0 * static_cast<double>(options.bodies))));
     constexpr float largest = 0.6f;
-    // Over the highest ground under the lattice.
+    // Place the lattice above the highest terrain below it.
     const float half = 1.025f * largest * static_cast<float>(side);
     vec3 place(-16, 0, 0);
     for (float x = -half; x <= half; x += 0.5f)

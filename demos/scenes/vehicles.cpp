@@ -1,4 +1,4 @@
-// Vehicles: a course with ramps, a banked curve and things to push, and as many cars as one likes on a round track.
+// Vehicles: a course with ramps, a banked curve and loose obstacles, and any number of cars on a round track.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,13 +14,13 @@ namespace scree::demos {
 namespace {
 
 constexpr float pi = std::numbers::pi_v<float>;
-constexpr float gate_half = 2.6f;  // m, from the middle of a gate to its posts
+constexpr float gate_half = 2.6f;  // m, from the centre of a gate to its posts
 
 struct Course {
     std::vector<WayPoint> route;
     std::vector<std::size_t> gates;  // way points between posts
     float bend = 20;                 // m, radius of the banked curve
-    vec3 centre{24, 0, 118};         // of that
+    vec3 centre{24, 0, 118};         // centre of the curve, m
 };
 
 Course course() {
@@ -50,7 +50,7 @@ Course course() {
     return c;
 }
 
-// Up onto a deck and down again, along z.
+// Adds a ramp along z: up, over a deck, down.
 void add_ramp(Scene& scene, float from) {
     constexpr float rise = 0.9f, slope = 8, deck = 4, width = 5;
     scene.bodies.push_back(wedge({0, 0, from}, width, slope, rise, 0));
@@ -58,7 +58,7 @@ void add_ramp(Scene& scene, float from) {
     scene.bodies.push_back(wedge({0, 0, from + 2 * slope + deck}, width, slope, rise, pi));
 }
 
-// A road round the curve, whose outer edge rises at its beginning and falls at its end: a mesh.
+// Adds the banked curve as a mesh whose outer edge rises at its beginning and falls at its end.
 void add_bank(Scene& scene, const Course& c) {
     constexpr std::uint32_t sections = 48;
     constexpr float half_width = 3.5f, rise = 1;
@@ -77,7 +77,7 @@ void add_bank(Scene& scene, const Course& c) {
     }
     for (glm::uvec3& t : mesh.triangles) {
         const vec3 normal = glm::cross(mesh.vertices[t.y] - mesh.vertices[t.x], mesh.vertices[t.z] - mesh.vertices[t.x]);
-        if (normal.y < 0) std::swap(t.y, t.z);  // seen from above
+        if (normal.y < 0) std::swap(t.y, t.z);  // faces up
     }
     Body road;
     road.name = "banked road";
@@ -101,7 +101,7 @@ void add_gates(Scene& scene, const Course& c) {
     }
 }
 
-// A wall of cartons, a row of barrels and some balls, in the way.
+// Adds loose obstacles: a wall of cartons, a row of barrels, some balls.
 Indices add_loose(Scene& scene) {
     Indices loose;
     const auto add = [&](Shape shape, vec3 position, float density) {
@@ -120,7 +120,7 @@ Indices add_loose(Scene& scene) {
     return loose;
 }
 
-// When the car went through each gate, s; no_number from the first that it missed.
+// Times at which the car passed each gate, s; no_number from the first missed gate on.
 std::vector<double> passages(const Trace& trace, const Course& c) {
     std::vector<double> times;
     std::size_t next = 0;

@@ -1,4 +1,4 @@
-// Claims against closed forms, measured from a trace.
+// Checks against closed forms, measured from a trace.
 #include "demos/suite/analytic_checks.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ namespace {
 
 using glm::dvec3;
 
-// The greatest of the errors of some bodies; not a number if one is, or if there are none.
+// The largest error over the bodies; NaN if one is NaN or if there are no bodies.
 template <class Bodies, class Error>
 double worst(const Bodies& bodies, Error error) {
     double most = bodies.empty() ? no_number : 0;
@@ -33,8 +33,8 @@ double way(const Trace& trace, std::size_t body) {
     return glm::length(dvec3(trace.end.at(body).position) - dvec3(trace.start.at(body).position));
 }
 
-// The tops of a body's flights, m above its start, in order. The parabola through the highest step and its neighbours is exact
-// where all three are in flight.
+// Apexes of a body's bounces, m above its start, in order. The parabola through the highest step and its neighbours
+// is exact where all three are in free fall.
 std::vector<double> tops(const Trace& trace, std::size_t slot) {
     std::vector<double> found;
     const auto height = [&](std::size_t i) {
@@ -50,7 +50,7 @@ std::vector<double> tops(const Trace& trace, std::size_t slot) {
     return found;
 }
 
-// The worst of one body's bounces. A body that does not bounce has no top: its height is 0.
+// The largest error of one body's bounces. A missing bounce has height 0.
 double bounce_error(const Trace& trace, const Dropped& one) {
     const std::vector<double> reached = tops(trace, one.slot);
     double most = 0;

@@ -1,4 +1,4 @@
-// Claims that many demos share.
+// Claims shared by many demos.
 #include "demos/suite/common_checks.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Claims of what free bodies keep: momentum, angular momentum, energy; in double precision, from what a trace remembers.
+// Conservation laws of free bodies: momentum, angular momentum and energy, in double precision from a trace.
 #include <algorithm>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -15,10 +15,10 @@ using glm::dvec3;
 
 struct Motions {
     dvec3 linear{0};             // kg m/s
-    dvec3 orbit{0}, spin{0};     // kg m^2/s, about the origin and about the bodies' own centres
+    dvec3 orbit{0}, spin{0};     // kg m^2/s, about the origin, and about the centres of mass
     double lengths = 0;          // kg m/s, sum of |p|
     double angular_lengths = 0;  // kg m^2/s, sum of |x x p| + |L|
-    double energy = 0;           // J, of motion
+    double energy = 0;           // J, kinetic
 };
 
 void add(Motions& sum, const Body& body, const BodyState& state) {
@@ -43,7 +43,7 @@ Motions motions_of(const Trace& trace, const Trace::Moment& moment, const Indice
     return sum;
 }
 
-// The greatest value over the run of something measured against the start, for each of the watched bodies or all together.
+// The largest deviation from the start over the run, of each watched body or of all together.
 template <class Measure>
 double greatest(const Trace& trace, const Indices& watched, bool together, Measure measure) {
     const std::size_t count = together ? watched.size() : 1;

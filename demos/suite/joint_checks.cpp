@@ -1,4 +1,4 @@
-// Claims about joints.
+// Checks of joints.
 #include "demos/suite/joint_checks.h"
 
 #include <algorithm>
@@ -39,7 +39,7 @@ double widest_gap(const Scene& scene, const std::vector<BodyState>& bodies) {
     return widest;
 }
 
-// Times at which the body passes below its pivot, between the steps.
+// Times at which the body passes below its pivot, interpolated between steps.
 std::vector<double> passages(const Trace& trace, const Swinging& one) {
     std::vector<double> times;
     for (std::size_t i = 1; i < trace.moments.size(); ++i) {
@@ -52,7 +52,8 @@ std::vector<double> passages(const Trace& trace, const Swinging& one) {
     return times;
 }
 
-// Of finite amplitude, by the arithmetic-geometric mean (Carvalhaes and Suppes, Am. J. Phys. 76, 2008).
+// Period of a physical pendulum at finite amplitude, by the arithmetic-geometric mean (Carvalhaes and Suppes, Am. J.
+// Phys. 76, 2008).
 double period_of(const Swinging& one, double gravity) {
     double a = 1, b = std::cos(one.angle / 2);
     for (int i = 0; i < 8; ++i) {
@@ -111,7 +112,7 @@ Claim swings_keep_energy(std::vector<Swinging> pendulums, double part) {
                        double worst = trace.moments.empty() ? no_number : 0;
                        for (const Swinging& one : pendulums) {
                            const double all = one.mass * gravity * one.lever * (1 - std::cos(one.angle));
-                           // `start`, because the first look is after the first step.
+                           // trace.start, since the first moment is after the first step.
                            const double first = energy_of(trace.scene, one.slot, trace.start[one.slot], one.mass);
                            for (const Trace::Moment& moment : trace.moments) {
                                const double now = energy_of(trace.scene, one.slot, moment.bodies[one.slot], one.mass);

@@ -9,16 +9,17 @@ Indices every_body(const Scene& scene);
 
 vec3 place_of(const std::vector<BodyState>& bodies, std::size_t body, vec3 anchor);  // in the world, m
 
-// The greatest distance between the anchors of any joint that keeps them together, at any moment, m.
+// Joint drift: the largest distance between the anchors of a joint that locks them, at any moment, is below `limit`,
+// m.
 Claim gaps_below(const std::string& what, double limit);
 Claim none_torn();
 
-// A body that swings in the plane of x and y about a point above it. `slot`: of the watched ones.
+// A pendulum in the x-y plane below a pivot. `slot` indexes the watched bodies.
 struct Swinging {
     std::size_t slot;
     vec3 pivot;      // m
-    double lever;    // m, from the pivot to its centre of mass
-    double angle;    // rad, at which it is let go
+    double lever;    // m, from the pivot to the centre of mass
+    double angle;    // rad, initial angle
     double inertia;  // kg m^2, about the pivot
     double mass;     // kg
 };

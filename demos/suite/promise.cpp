@@ -1,4 +1,4 @@
-// Judging promises: comparing what was measured with what was promised.
+// Judging promises: measured values against limits.
 #include "demos/suite/promise.h"
 
 #include <fmt/format.h>

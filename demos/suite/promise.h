@@ -1,4 +1,4 @@
-// Promises: what must be true after a demo has run, measured from how its bodies moved.
+// Promises: limits that a demo's run must meet, measured from a trace of its bodies.
 #pragma once
 
 #include <functional>
@@ -11,50 +11,50 @@
 
 namespace scree::demos {
 
-// Measured where there is nothing to measure: it passes nothing.
+// The value of a measurement without data; it fails every claim.
 constexpr double no_number = std::numeric_limits<double>::quiet_NaN();
 
-// What is remembered of a run. Small: what a promise has not asked for is not kept.
+// The trace of a run: only what the promise has asked for.
 struct Trace {
     struct Moment {
         double time = 0;                // s
-        std::vector<BodyState> bodies;  // the watched ones, in the promise's order; or all, in a snapshot
+        std::vector<BodyState> bodies;  // the watched bodies, in the promise's order; all bodies in a snapshot
     };
     struct Sample {
         double time = 0;  // s
         Statistics statistics;
     };
-    Scene scene;       // as checked; for a claim that reads shapes and materials
+    Scene scene;       // the validated scene, for claims about shapes and materials
     double rate = 60;  // steps per second
     std::vector<BodyState> start, end;
     Statistics statistics;            // at the end
-    std::vector<Moment> moments;      // of the watched bodies
-    std::vector<Moment> snapshots;    // of all bodies, one for each time that the promise asks for
-    std::vector<Sample> samples;      // of sums and extremes over the world
-    std::vector<float> step_seconds;  // what each step took by the clock; differs from machine to machine
+    std::vector<Moment> moments;      // states of the watched bodies
+    std::vector<Moment> snapshots;    // states of all bodies, one per time in keeping()
+    std::vector<Sample> samples;      // statistics of the world over time
+    std::vector<float> step_seconds;  // wall clock time of each step
 };
 
-// One line of a verdict.
+// The verdict on one claim.
 struct Row {
     std::string what, promised, measured;
     bool pass = false;
     double value = 0;  // measured, in `unit`
     double low = 0, high = 0;
     std::string unit;
-    bool by_clock = false;  // depends on the machine and on what else it does
+    bool by_clock = false;  // measured by wall clock, hence machine-dependent
 };
 
-// What is promised of one measured value: that it lies between two limits, both included.
+// A claim: that a measured value is within two inclusive limits.
 struct Claim {
-    std::string what;      // is measured
-    std::string promised;  // the limits in words
+    std::string what;      // the measured quantity
+    std::string promised;  // the limits as text
     double low, high;
     std::string unit;  // may be empty
-    std::string how;   // it is measured
+    std::string how;   // method of measurement
     std::function<double(const Trace&)> measure;
-    bool by_clock = false;  // measured by the clock: meant for a machine that does nothing else
+    bool by_clock = false;  // measured by wall clock; needs an otherwise idle machine
 
-    Row operator()(const Trace& trace) const;  // a value that is not a number passes nothing
+    Row operator()(const Trace& trace) const;  // NaN fails
 };
 
 using Measure = std::function<double(const Trace&)>;
@@ -65,9 +65,9 @@ Claim by_clock(Claim claim);
 Claim close_to(std::string what, double expected, double tolerance, std::string unit, std::string how, Measure measure);
 
 using Indices = std::vector<std::size_t>;
-constexpr double every_step = std::numeric_limits<double>::infinity();  // as a number of looks per second
+constexpr double every_step = std::numeric_limits<double>::infinity();  // as samples per second
 
-// When to look: so often a second between two times, s.
+// Sampling: a rate, 1/s, between two times, s.
 struct Span {
     double per_second, from, to;
 
@@ -76,26 +76,26 @@ struct Span {
     bool holds(std::uint64_t step, double rate) const;
 };
 
-// At least one claim, so that no demo is without.
+// A list of at least one claim.
 class Promise {
 public:
     template <class... More>
     explicit Promise(Claim first, More... more) : claims_{std::move(first), std::move(more)...} {}
 
     void also(Claim claim) { claims_.push_back(std::move(claim)); }
-    // The states of some bodies.
+    // Records the states of some bodies over time.
     Promise&& watching(Indices bodies, Span span = 30) && {
         watched_ = std::move(bodies);
         watch_ = span;
         return std::move(*this);
     }
-    // Sums and extremes over the world: cheap beside a step, not beside nothing. Spans add up.
+    // Records the world's statistics, at a small cost per sample. Calls accumulate.
     Promise&& sampling(Span span) && {
         sampled_.push_back(span);
         return std::move(*this);
     }
     Promise&& watching_energy() && { return std::move(*this).sampling(2); }
-    // The states of all bodies at these times, s.
+    // Records the states of all bodies at these times, s.
     Promise&& keeping(std::vector<double> times) && {
         kept_ = std::move(times);
         return std::move(*this);
@@ -106,7 +106,7 @@ public:
     bool samples(std::uint64_t step, double rate) const;
     bool keeps(std::uint64_t step, double rate) const;
 
-    // Every claim, and what holds for any run.
+    // Judges every claim of the promise and those of soundness().
     std::vector<Row> judge(const Trace& trace) const;
 
 private:
@@ -117,7 +117,7 @@ private:
     std::vector<double> kept_;  // s
 };
 
-// What holds for any run: all bodies finite, none behind a plane (where hands did not put it).
+// Claims of every run: all states finite, no body behind a plane (unless the user moved it there).
 Claim finite();
 std::vector<Claim> soundness();
 std::vector<Row> judge(const std::vector<Claim>& claims, const Trace& trace);

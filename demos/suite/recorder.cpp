@@ -1,4 +1,4 @@
-// Recording runs.
+// Recording of traces.
 #include "demos/suite/recorder.h"
 
 #include <chrono>

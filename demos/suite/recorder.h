@@ -1,4 +1,4 @@
-// Steps a world by its script, and remembers what the promise will be judged by.
+// Steps a world with its script and records the trace that its promise needs.
 #pragma once
 
 #include "demos/scenes/script.h"
@@ -9,8 +9,8 @@ namespace scree::demos {
 class Recorder {
 public:
     Recorder(World& world, const Promise& promise, Script before_step = {});
-    double step();   // runs the script, makes one step and looks at it; returns what the step alone took, s
-    Trace finish();  // looks at the end
+    double step();   // runs the script and one step, and records; returns the step's duration alone, s
+    Trace finish();  // records the final state
 
 private:
     void look();

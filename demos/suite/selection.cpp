@@ -1,4 +1,4 @@
-// Choosing demos by names, beginnings and patterns.
+// Selection of demos by names, prefixes and patterns.
 #include "demos/suite/selection.h"
 
 #include <fmt/format.h>

@@ -1,4 +1,4 @@
-// Which demos a list of words names.
+// Selection of demos by names and patterns.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace scree::demos {
 
-// Each word is a name, else the beginning of names, or a pattern ("stack*", "*1m", "pile?m"); in the order of the words, each
-// demo once. No words: all. Throws UsageError for a word that names none.
+// Each word is a name, else a prefix of names, or a glob pattern ("stack*", "*1m", "pile?m"). Returns demos in the
+// order of the words, without duplicates; all demos for no words. Throws UsageError for a word without matches.
 std::vector<const Demo*> select_demos(const std::vector<std::string>& words);
 
 }  // namespace scree::demos

@@ -1,4 +1,4 @@
-// Running the stability suite, and telling what came of it.
+// The stability suite: running and reporting.
 #include "demos/suite/suite.h"
 
 #include <fmt/format.h>
@@ -17,7 +17,7 @@ namespace scree::demos {
 
 namespace {
 
-constexpr std::size_t small = 500;  // bodies; with more, the demos that are no trials would take most of the suite's time
+constexpr std::size_t small = 500;  // bodies; with more, the gallery's demos would take most of the suite's time
 
 nlohmann::ordered_json json_of(const Row& row) {
     const auto limit = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr; };

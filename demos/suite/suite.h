@@ -1,4 +1,4 @@
-// The stability suite: demos run as long as their promises take, and what came of it as a table and as JSON.
+// The stability suite: runs demos for the duration of their promises, and reports as a table and as JSON.
 #pragma once
 
 #include <cstdint>
@@ -21,23 +21,24 @@ struct Outcome {
     std::vector<Row> rows;
 };
 
-// The size at which the suite runs a demo: trials in full; others that take any number small, so that the suite ends in minutes.
+// Options of a demo in the suite: trials at full size, other scalable demos small, so that the suite takes minutes.
 DemoOptions suite_size(const Demo& demo);
 
-// Runs to the end, or until `progress` (told the steps done and those in all) says false; then there are no rows.
+// Runs a demo to its end, or until `progress` (arguments: steps done, steps in all) returns false; then there are no
+// rows.
 Outcome run_trial(const Demo& demo, DemoOptions options, std::unique_ptr<Runner> runner,
                   const std::function<bool(long, long)>& progress = {});
 
 struct Kept {
-    std::size_t kept = 0, of = 0;  // promises
+    std::size_t kept = 0, of = 0;  // claims that passed, and all
 };
 Kept count_kept(const std::vector<Outcome>& outcomes);
 
-// A line for each promise; a scene's wall time and state hash stand in its first.
+// A line per claim; a demo's first line has its wall time and state hash.
 std::string table_of(const std::vector<Outcome>& outcomes);
 std::string json_of(const std::vector<Outcome>& outcomes, const std::string& backend, const std::string& device);
-// What the demos promise and how it is measured, without running them.
+// The claims of the demos and how they are measured, without running them.
 std::string promises_of(const std::vector<const Demo*>& demos);
-std::string promises_as_markdown(const std::vector<const Demo*>& demos);  // as tests/README.md has them
+std::string promises_as_markdown(const std::vector<const Demo*>& demos);  // for tests/README.md
 
 }  // namespace scree::demos

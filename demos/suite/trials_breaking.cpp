@@ -1,4 +1,4 @@
-// Trials of breaking: thresholds a little above and below what strikes, and momentum in empty space.
+// Fracture trials: thresholds slightly above and below the impulse, and conservation of momentum.
 #include <algorithm>
 #include <cmath>
 
@@ -15,7 +15,7 @@ double length_of(const double (&v)[3]) {
     return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-// The greatest change of a sum over the world, against a scale.
+// The largest change of a total over the run, relative to `scale`.
 Claim keeps(const char* what, const double (Statistics::*sum)[3], double limit, double scale) {
     return at_most(what, limit, "", "of the bodies' own at the start added up as lengths, 30 times a second",
                    [sum, scale](const Trace& trace) {
@@ -32,8 +32,8 @@ Claim keeps(const char* what, const double (Statistics::*sum)[3], double limit, 
 
 }  // namespace
 
-// Balls that strike blocks far heavier than they are, of several masses and at several speeds. Such a blow has twice the ball's
-// momentum if it is thrown back whole, once if it is not.
+// Balls of several masses and speeds hit much heavier blocks. The impulse is twice the ball's momentum with
+// restitution 1, and once with restitution 0.
 DemoScene thresholds(const DemoOptions&) {
     Scene scene;
     scene.gravity = vec3(0);
@@ -76,8 +76,8 @@ DemoScene thresholds(const DemoOptions&) {
                     at_least("balls broken by 3% more", static_cast<double>(weak.size()), "", "at the end", broken(weak)))};
 }
 
-// The bodies are slow for their size, so that no piece is fast (sweep.h): one that is stopped on its way is set back on it,
-// which changes its moment about the origin (at twice the speed they lose 6e-5 of the angular momentum so).
+// The bodies are slow for their size, so that no fragment needs continuous collision (sweep.h): clamping to the time
+// of impact changes the position and thus the angular momentum about the origin (by 6e-5 at twice the speed).
 DemoScene fragments(const DemoOptions& options) {
     Scene scene;
     scene.gravity = vec3(0);

@@ -1,4 +1,5 @@
-// What stands only if contacts neither creep nor shake: a house of cards, a tower of blocks, a light tray under a heavy load.
+// Delicate stability, which needs contacts without creep or jitter: a house of cards, a tower of blocks, a tray under
+// a heavy load.
 #include <cmath>
 
 #include "demos/scenes/demos.h"
@@ -9,11 +10,11 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float lean = 22 * degrees;               // of a card from upright; the feet need a friction of 0.40
-constexpr float length = 0.9f, thickness = 0.01f;  // m, of a card; as thick as a card of 9 cm that is 1 mm thick
+constexpr float lean = 22 * degrees;               // angle of a card from the vertical; needs friction 0.40
+constexpr float length = 0.9f, thickness = 0.01f;  // m, a card of 9 cm x 1 mm, scaled by ten
 constexpr float width = 0.6f;
 
-// Two cards that lean against each other above (x, y); how high their upper edges are is returned.
+// Adds two cards that lean against each other above (x, y). Returns the height of their upper edges.
 float add_tent(Scene& scene, float x, float y, Random& random) {
     const float half_span = 0.5f * (thickness * std::cos(lean) + length * std::sin(lean));
     const float half_rise = 0.5f * (thickness * std::sin(lean) + length * std::cos(lean));
@@ -36,7 +37,7 @@ DemoScene cards(const DemoOptions& options) {
         float top = y;
         const float first = -0.5f * spacing * static_cast<float>(tents - 1);
         for (int i = 0; i < tents; ++i) top = add_tent(scene, first + spacing * static_cast<float>(i), y, random);
-        // Floors reach from the ridge of one tent to that of the next; cut to a millimetre less, so that they do not overlap.
+        // Floors span from ridge to ridge, 1 mm shorter so that they do not overlap.
         for (int i = 0; i + 1 < tents; ++i) {
             const vec3 place(first + spacing * (static_cast<float>(i) + 0.5f), top + thickness / 2,
                              random.between(-0.002f, 0.002f));
@@ -49,10 +50,10 @@ DemoScene cards(const DemoOptions& options) {
         {std::move(scene), view_of(low, high, 25, 12), low, high, 20, Promise(drift_below(0.02), end_speed_below(0.005))});
 }
 
-// The blocks of the game, ten times as large.
+// Jenga blocks, scaled by ten.
 DemoScene jenga(const DemoOptions& options) {
     const vec3 half(0.375f, 0.075f, 0.125f);
-    const float spacing = 0.254f;  // m, across: 4 mm of air, so that turned blocks do not overlap
+    const float spacing = 0.254f;  // m, with 4 mm gaps so that rotated blocks do not overlap
     Scene scene;
     scene.bodies.push_back(ground());
     Random random(options.seed);
@@ -68,13 +69,13 @@ DemoScene jenga(const DemoOptions& options) {
         }
     }
     const vec3 low(-0.8f, 0, -0.8f), high(0.8f, 2.75f, 0.8f);
-    // A third of a layer at the most, of what the whole tower sinks into itself.
+    // The drift limit includes the compression of the whole tower: a third of a layer.
     return awake({std::move(scene), view_of(low, high, 30, 14), low, high, 20,
                   Promise(drift_below(0.05), end_speed_below(0.005), penetration_below(0.01))});
 }
 
-// A plate on a table smaller than itself, under one layer of boxes that weigh two and a half times as much together. On one of a
-// tenth of their weight they would not come to rest: its parts are too light to hold a box (mass_splitting.h).
+// A plate on a table smaller than itself, under a layer of boxes of 2.5 times its mass. On a plate of a tenth of
+// their mass the boxes would not come to rest, because its split masses are too small (mass_splitting.h).
 DemoScene tray(const DemoOptions& options) {
     constexpr int rows = 20, columns = 25;
     constexpr float spacing = 1.05f;

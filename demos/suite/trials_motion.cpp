@@ -1,4 +1,4 @@
-// Trials of free motion and of blows: bounces, tumbling, what a swarm of colliding bodies keeps.
+// Trials of free motion and impacts: bounces, tumbling, conservation in a swarm of colliding bodies.
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random_bodies.h"
 #include "demos/scenes/scene_builder.h"
@@ -6,7 +6,7 @@
 
 namespace scree::demos {
 
-// Dropped from h, a body comes up again to e^2 h; a perfectly elastic one, time after time, to h.
+// Restitution: dropped from h, a body bounces to e^2 h, and a perfectly elastic one to h each time.
 DemoScene bounce(const DemoOptions&) {
     const vec3 flat(0.3f, 0.15f, 0.3f);
     constexpr float radius = 0.3f;
@@ -37,12 +37,12 @@ DemoScene bounce(const DemoOptions&) {
                     all_bounce("bounces of spheres, e = 0.5", half, 2),
                     all_bounce("bounces of flat boxes, e = 0.5", half_boxes, 2),
                     all_bounce("five bounces of spheres, e = 1", full, 2));
-    // Five bounces from 5 m: 1 s down, four times 2 s, and 1 s up to the last top.
+    // Five bounces from 5 m: 1 s down, four times 2 s, and 1 s up to the last apex.
     return {std::move(scene), view_of(low, high, 12, 10), low, high, 10.5f, std::move(promise).watching(watched, every_step)};
 }
 
-// Boxes of three different moments of inertia spin about the middle one, which is unstable: they turn over, again and again, and
-// keep their angular momentum and their energy.
+// Intermediate axis theorem: boxes that spin about the unstable middle axis of inertia flip repeatedly and conserve
+// angular momentum and energy.
 DemoScene tumbling(const DemoOptions&) {
     Scene scene;
     scene.gravity = vec3(0);
@@ -61,7 +61,7 @@ DemoScene tumbling(const DemoOptions&) {
     return {std::move(scene), view_of(low, high, 20, 20), low, high, 30, std::move(promise).watching(watched)};
 }
 
-// Bodies of every shape fly into each other in empty space, with friction, some bouncing, and apart again: 1,000 steps.
+// Bodies of every shape collide in empty space, with friction and some restitution, and fly apart: 1,000 steps.
 DemoScene swarm(const DemoOptions& options) {
     constexpr int side = 4;
     constexpr float cell = 1.5f;

@@ -1,5 +1,5 @@
-// Trials of bodies made of parts: tables of five boxes carry columns, bars tip where their centre of mass says, and a ball
-// rolls over the triangles of a plane.
+// Trials of compounds and meshes: tables of five boxes carry columns, bars tip by their centre of mass, and a ball
+// rolls over a triangulated plane.
 #include <algorithm>
 #include <cmath>
 
@@ -23,10 +23,10 @@ Compound table() {
     return compound;
 }
 
-// A bar of 1.6 m along x whose last eighth is ten times as dense: its centre of mass is where the moments about its middle say.
+// A bar of 1.6 m along x whose last eighth is ten times as dense, which shifts the centre of mass.
 constexpr float bar_half = 0.8f, head_half = 0.1f;
 constexpr float bar_centre = (10 * head_half * (bar_half - head_half) - (bar_half - head_half) * head_half) /
-                             (10 * head_half + (bar_half - head_half));  // m, from its middle
+                             (10 * head_half + (bar_half - head_half));  // m, from the bar's centre
 Compound bar() {
     Compound compound;
     compound.parts.push_back({.shape = Box{{bar_half - head_half, 0.1f, 0.1f}}, .position = {-head_half, 0, 0}});
@@ -40,7 +40,7 @@ Claim tips(std::size_t body) {
         [body](const Trace& trace) { return static_cast<double>(trace.start[body].position.y - trace.end[body].position.y); });
 }
 
-// Ten thousand triangles in the plane y = 0, of every shape: the corners within stray by a third of a cell.
+// Ten thousand irregular triangles in the plane y = 0: inner vertices are displaced by up to a third of a cell.
 Mesh sheet(vec3 half, std::uint32_t columns, std::uint32_t rows, Random& random) {
     Mesh mesh;
     for (std::uint32_t row = 0; row <= rows; ++row) {
@@ -71,7 +71,7 @@ DemoScene compounds(const DemoOptions&) {
         for (int k = 0; k < 3; ++k)
             tables.push_back(add_body(scene, Box{vec3(0.2f)}, {x - 0.6f + 0.08f * x, 1 + 0.4f * static_cast<float>(k), 0}));
     }
-    // On blocks of 1 m whose edge is at x = 2: the middle of a bar lies as far within as its centre of mass is beside it.
+    // On blocks whose edge is at x = 2, with the bar's centre of mass 2 cm inside or outside of the edge.
     std::vector<std::size_t> bars;
     for (const float beyond : {-0.02f, 0.02f}) {
         const float z = beyond < 0 ? -0.6f : 0.6f;

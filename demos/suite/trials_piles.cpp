@@ -1,4 +1,4 @@
-// Piles of ten thousand bodies of 1 m: how still they lie, what sleeping saves, and whether what overlaps comes apart.
+// Piles of ten thousand bodies of 1 m: residual motion, savings by sleep, and separation of overlapping bodies.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace scree::demos {
 
 namespace {
 
-// A pit, and over it a lattice of cells in which bodies of 1 m do not touch, whichever way they are turned.
+// A pit, and over it a lattice of cells in which bodies of 1 m do not touch at any orientation.
 struct Pit {
     explicit Pit(std::size_t count)
         : side(std::max(2, static_cast<int>(std::ceil(std::cbrt(2.0 * static_cast<double>(count)))))),
@@ -28,7 +28,7 @@ struct Pit {
                cell;
     }
 
-    static constexpr float cell = 1.75f;  // m, just over the diagonal of a cube of 1 m
+    static constexpr float cell = 1.75f;  // m, just above the diagonal of a 1 m cube
     int side;
     float half, wall;  // m
 };
@@ -46,7 +46,7 @@ Body metre_mixed(Random& random) {
     } else {
         body.shape = Capsule{random.between(0.25f, 0.35f), random.between(0.2f, 0.4f)};
     }
-    body.rolling_resistance = 0.03f;  // round bodies come to rest as stones do
+    body.rolling_resistance = 0.03f;  // lets round bodies come to rest
     return body;
 }
 
@@ -62,8 +62,7 @@ Scene pile_in(const Pit& pit, const DemoOptions& options, Body (*make)(Random&))
     return scene;
 }
 
-// When the last bodies have found their places, s. Of ten thousand boxes some still slide into theirs after 18 s; bodies that
-// roll are there sooner.
+// Settling times, s. Of ten thousand boxes some still slide after 18 s; piles with round bodies settle sooner.
 constexpr double settled = 20, mix_settled = 12;
 
 Claim speed_when_settled(double when) {
@@ -79,7 +78,7 @@ Claim penetration_when_settled(double when) {
                    [when](const Trace& trace) { return sample_at(trace, when).statistics.penetration_max; });
 }
 
-// ---- sleeping: allowed when the pile has settled; the pile is left alone, then struck
+// ---- sleeping: switched on once the pile has settled; later a ball hits the pile
 constexpr double left_alone = settled + 5, struck = settled + 6, end = settled + 13;  // s
 
 double count_dynamic(const Trace& trace) {
@@ -96,7 +95,7 @@ double all_asleep_since(const Trace& trace, double from) {
     return first_time(trace, from, [&](const Statistics& now) { return count_awake(trace, now) == 0; }) - from;
 }
 
-// When the ball met the pile: its velocity changed in one step by more than gravity does.
+// Time of the ball's impact: its velocity changed in one step by more than gravity explains.
 double impact(const Trace& trace) {
     for (std::size_t i = 1; i < trace.moments.size(); ++i) {
         const Trace::Moment &before = trace.moments[i - 1], &now = trace.moments[i];
@@ -125,7 +124,7 @@ std::vector<Claim> sleeping_claims(std::size_t boxes) {
                                 });
     const Claim wakes = at_least("bodies woken by the blow", 1, "", "two steps after the ball's velocity broke",
                                  [](const Trace& trace) { return woken_after_impact(trace, 2 / trace.rate); });
-    const double many = std::max(0.5 * static_cast<double>(boxes), 500.0);  // a small pile is shaken as a whole
+    const double many = std::max(0.5 * static_cast<double>(boxes), 500.0);  // a small pile wakes as a whole
     const Claim not_all = at_most("bodies woken by the blow, 0.1 s later", many, "", "0.1 s after the ball's velocity broke",
                                   [](const Trace& trace) { return woken_after_impact(trace, 0.1); });
     const Claim sleeps_again = at_most("time until all sleep again", 6, "s", "from the impact",
@@ -133,7 +132,8 @@ std::vector<Claim> sleeping_claims(std::size_t boxes) {
     return {falls_asleep, cheap, stays, wakes, not_all, sleeps_again};
 }
 
-// A ball on a post outside a corner of the pit, higher than the wall; its velocity when shot into the pile near that corner.
+// Adds a ball on a post outside a corner of the pit, higher than the wall. Returns the velocity that shoots it into
+// the pile near that corner.
 vec3 add_ball(Scene& scene, const Pit& pit) {
     const float out = pit.half + 1.5f, height = pit.wall + 7;
     scene.bodies.push_back(fixed_box({out, (height - 1) / 2, out}, {0.4f, (height - 1) / 2, 0.4f}));
@@ -182,7 +182,7 @@ DemoScene mix1m(const DemoOptions& options) {
 
 DemoScene hulls1m(const DemoOptions& options) {
     const Pit pit(options.bodies);
-    const auto metre_stone = [](Random& random) { return random_stone(0.62f, random); };  // about 1 m from side to side
+    const auto metre_stone = [](Random& random) { return random_stone(0.62f, random); };  // about 1 m wide
     const vec3 low(-pit.half, 0, -pit.half), high(pit.half, pit.wall, pit.half);
     const double when = settled;
     const Claim mean =
@@ -192,11 +192,11 @@ DemoScene hulls1m(const DemoOptions& options) {
                   Promise(mean, penetration_when_settled(when)).sampling({every_step, when})});
 }
 
-// Clumps of 3 by 3 by 3 bodies, half inside each other along every axis: pushed apart too fast, they would fly.
+// Clumps of 3 x 3 x 3 bodies that overlap by half along every axis: the depenetration speed must be limited.
 DemoScene overlap(const DemoOptions& options) {
     constexpr std::size_t edge = 3, clump = edge * edge * edge;
     constexpr float spacing = 0.5f,
-                    between_clumps = 4;  // m; half a body, and more room than a clump takes when it has come apart
+                    between_clumps = 4;  // m; half a body, and more than the size of a separated clump
     const std::size_t clumps = (options.bodies + clump - 1) / clump;
     const auto side = static_cast<std::size_t>(std::ceil(std::sqrt(static_cast<double>(clumps))));
     const float middle = 0.5f * static_cast<float>(side - 1);

@@ -1,4 +1,5 @@
-// Trials of fast bodies: thousands of shots at walls thinner than the way of one step, at plates and at bodies that can move.
+// Trials of continuous collision: thousands of projectiles at walls thinner than the motion per step, and at movable
+// plates and bodies.
 #include <algorithm>
 #include <cmath>
 
@@ -14,10 +15,10 @@ namespace {
 
 constexpr float fastest = 300, slowest = 5;  // m/s
 constexpr float wall_friction = 0.3f;
-constexpr float half_size = 0.05f;  // m, of every shot: spheres and boxes 0.1 m wide
-constexpr float cell = 1.5f;        // m, a shooter's share of the front
+constexpr float half_size = 0.05f;  // m, of projectiles: spheres and boxes 0.1 m wide
+constexpr float cell = 1.5f;        // m, width of one lane
 
-// Every second one a box, turned and spinning at random; the whole range of speeds, half of them above 100 m/s.
+// A projectile: spheres and randomly oriented, spinning boxes alternate; half of the speeds are above 100 m/s.
 Body some_shot(std::size_t index, Random& random) {
     Body body;
     if (index % 2 == 0) {
@@ -35,7 +36,7 @@ float some_speed(Random& random) {
     const float part = random.unit();
     return part < 0.5f ? slowest + (100 - slowest) * 2 * part : 100 + (fastest - 100) * (2 * part - 1);
 }
-// A direction toward -z, slanted at most so far that it moves `sideways` m sideways for one forward.
+// A random direction towards -z, whose lateral slopes are at most `sideways`.
 vec3 some_aim(float sideways, Random& random) {
     const vec3 aim(random.between(-sideways, sideways), random.between(-sideways, sideways), -1);
     return glm::normalize(aim);
@@ -66,7 +67,8 @@ DemoScene finish(Scene scene, const Front& front, const std::string& what, std::
     return {std::move(scene), view_of(-high, high, 30, 15), -high, high, seconds, Promise(none_through(what, std::move(shots)))};
 }
 
-// More wall around the pieces, as wide as the way of the fastest shot: one that does not bounce slides along it.
+// Extends the wall around its pieces by the range of the fastest projectile, since one without restitution slides
+// along it.
 void add_margin(Scene& scene, const Front& front, float half_thickness, float seconds) {
     const vec3 inner = front.corner(half_thickness);
     const float half = fastest * seconds / 2;
@@ -79,8 +81,8 @@ void add_margin(Scene& scene, const Front& front, float half_thickness, float se
 
 }  // namespace
 
-// A wall 0.05 m thick, in pieces that meet, each with its own shooter close before it: the slowest and most slanted shot arrives
-// after 0.2 s.
+// A wall 0.05 m thick, in adjacent pieces with a projectile each; the slowest and most oblique one arrives after 0.2
+// s.
 DemoScene shots(const DemoOptions& options) {
     constexpr float thin = 0.025f, seconds = 0.4f;
     const Front front = front_for(options.bodies);
@@ -101,13 +103,14 @@ DemoScene shots(const DemoOptions& options) {
         shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
         scene.bodies.push_back(shot);
     }
-    for (std::size_t i = options.bodies; i < front.places(); ++i) add_piece(i);  // no hole in the last row
+    for (std::size_t i = options.bodies; i < front.places(); ++i) add_piece(i);  // fill the last row
     add_margin(scene, front, thin, seconds);
     return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
 }
 
-// What can move: plates 0.04 m thick, of 50 kg and of 4 kg, a sphere and a box as large as the shots, of 0.5 and 1 kg. What
-// bounces goes away from its target's middle whatever it turns to; what sticks to a plate hits it straight and turns with it.
+// Movable targets: plates 0.04 m thick of 50 kg and 4 kg, a sphere and a box as large as the projectiles, of 0.5 and
+// 1 kg. Projectiles with restitution move away from the target's centre, however it rotates; those without hit a
+// plate straight and rotate with it.
 DemoScene strikes(const DemoOptions& options) {
     constexpr float thin = 0.02f, gentlest = 20;
     const Front front = front_for(options.bodies);
@@ -121,7 +124,7 @@ DemoScene strikes(const DemoOptions& options) {
         shot.restitution = sticking ? 0.0f : 0.5f;
         Body target = box_at(front.middle(i), {0.5f, 0.5f, thin});
         target.density = heavy ? 1250.0f : 100.0f;
-        if (!plate) {  // like meets like, face to face
+        if (!plate) {  // equal shapes, face to face
             shot.orientation = vec4(0, 0, 0, 1);
             shot.angular_velocity = vec3(0);
             target.shape = shot.shape;

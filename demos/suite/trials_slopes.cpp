@@ -1,5 +1,4 @@
-// Trials on inclines and level ground: when a box begins to slide, how fast it slides, what rolls down, and where it comes to
-// rest.
+// Trials of friction and rolling: onset of sliding, sliding acceleration, rolling, and rolling resistance.
 #include <cmath>
 
 #include "demos/scenes/demos.h"
@@ -13,8 +12,8 @@ namespace {
 
 const vec3 flat(0.3f, 0.1f, 0.3f), cube(0.25f, 0.25f, 0.25f);
 
-// Boxes of every friction, each on an incline of its own, at `part` of the angle atan(mu) at which it begins to slide. Above it,
-// from a friction of 1 on, a cube would tip first (its own angle is 45 degrees).
+// Boxes of several friction coefficients, each on an incline at the fraction `part` of the angle atan(mu) at which it
+// slides. From mu = 1 on a cube would tip first (at 45 degrees).
 class OnsetLanes {
 public:
     explicit OnsetLanes(float half_length) : half_length_(half_length) { scene.bodies.push_back(ground()); }
@@ -36,7 +35,7 @@ public:
             }
         }
     }
-    // Moves all of it, so that the middle lies over the origin. What rests must stay by friction, not by sleep.
+    // Centres the scene over the origin. Sleep is off, so that only friction holds resting bodies.
     DemoScene finish(Promise promise, float seconds) && {
         const float middle = (next_ - 1.3f) / 2, width = middle + 0.7f;
         for (Body& body : scene.bodies) body.position.z -= middle;
@@ -71,7 +70,7 @@ std::vector<Body> round_bodies() {
 
 }  // namespace
 
-// At 0.99 of the angle nothing moves, at 1.01 everything slides as fast as it should.
+// At 0.99 of the angle nothing moves, at 1.01 everything slides with the expected acceleration.
 DemoScene onset(const DemoOptions&) {
     OnsetLanes lanes(2);
     lanes.add(0.99f);
@@ -81,7 +80,7 @@ DemoScene onset(const DemoOptions&) {
     return std::move(lanes).finish(std::move(promise), 5);
 }
 
-// At 0.9 of the angle nothing creeps, however long.
+// At 0.9 of the angle nothing creeps.
 DemoScene hold(const DemoOptions&) {
     OnsetLanes lanes(1.2f);
     lanes.add(0.9f);
@@ -111,15 +110,15 @@ DemoScene steep(const DemoOptions&) {
     return {std::move(scene), view_of(low, high, 50, 20), low, high, 2, std::move(promise).watching(watched)};
 }
 
-// Rolling resistance, a torque c N against the turning: about the point of contact (I + m R^2) w' = -c m g, so a rolling body
-// slows down by (c / R) g / (1 + I / (m R^2)) and comes to rest after v^2 / 2a.
+// Rolling resistance is a torque c N against rotation: about the contact point (I + m R^2) w' = -c m g, so a rolling
+// body decelerates by a = (c / R) g / (1 + I / (m R^2)) and stops after v^2 / 2a.
 DemoScene rolling(const DemoOptions&) {
     const float speed = 1, start = -2;
     Scene scene;
     scene.bodies.push_back(ground(0.8f));
     std::vector<Rolling> bodies;
     float z = -8;
-    for (const float arm : {0.02f, 0.05f}) {  // of the radius
+    for (const float arm : {0.02f, 0.05f}) {  // as a fraction of the radius
         for (Body body : round_bodies()) {
             const float radius = radius_of(body);
             body.position = {start, radius, z};

@@ -1,4 +1,4 @@
-// The trial of cylinders, cones and hulls: they stand, ten hulls stack, a cylinder rolls as the formula says.
+// Trial of cylinders, cones and hulls: they stand, ten hulls stack, a cylinder rolls as expected.
 #include <cmath>
 #include <numbers>
 
@@ -40,7 +40,7 @@ DemoScene solids(const DemoOptions&) {
     roller.orientation = lying;
     const std::size_t rolling = add_lane(scene, incline, 0, roller, 0.4f, 0.6f, 1);
     const vec3 low(-6, 0, -1), high(6, 5, 5);
-    // A cylinder's inertia is half of m r^2: two thirds of the pull make it go.
+    // I = m r^2 / 2 for a cylinder, so it accelerates by two thirds of gravity along the slope.
     const double expected = incline.along() * 2 / 3;
     Promise promise(all_stay("cylinders, a cone and a hull that stand or lie", standing, 0.002),
                     all_stay("ten hulls, one on the other", column, 0.02),

@@ -1,4 +1,4 @@
-// A trial of vehicles: they brake, accelerate, corner and park as the formulas say.
+// Trial of vehicles: braking, acceleration, cornering and parking against closed forms.
 #include <algorithm>
 #include <cmath>
 
@@ -14,7 +14,7 @@ namespace {
 constexpr double g = 9.81;
 constexpr float wheel_radius = 0.33f, fast = 20;  // m, m/s
 
-// Mass, and what the wheels' spin adds to it, kg, of a car as add_car makes it.
+// Mass and effective mass (with the wheels' inertia) of a car by add_car, kg.
 struct Weight {
     double mass = 0, moving = 0;
 };
@@ -25,7 +25,7 @@ Weight weight_of(const Scene& scene, const Vehicle& vehicle) {
     for (const Wheel& wheel : vehicle.wheels) {
         const MassProperties properties = of(scene.joints[wheel.joint].b);
         weight.mass += static_cast<double>(properties.mass);
-        // Its axle is the axis of the greatest inertia.
+        // The axle is the axis of the largest inertia.
         weight.moving += static_cast<double>(std::max({properties.inertia.x, properties.inertia.y, properties.inertia.z}) /
                                              (wheel.radius * wheel.radius));
     }
@@ -44,13 +44,13 @@ Claim brakes(const std::string& how, std::size_t body, double deceleration) {
 double speed_of(const BodyState& body) {
     return static_cast<double>(glm::length(body.velocity));
 }
-// When the watched body at `slot` first went so fast, s.
+// Time at which the watched body `slot` first reached `speed`, s.
 double time_to(const Trace& trace, std::size_t slot, double speed) {
     for (const Trace::Moment& moment : trace.moments)
         if (speed_of(moment.bodies[slot]) >= speed) return moment.time;
     return no_number;
 }
-// Greatest acceleration across its way, m/s^2, mean over half a second.
+// Largest lateral acceleration, averaged over half a second, m/s^2.
 double greatest_lateral(const Trace& trace, std::size_t slot) {
     double greatest = 0;
     constexpr std::size_t span = 15;
@@ -64,7 +64,7 @@ double greatest_lateral(const Trace& trace, std::size_t slot) {
     return greatest;
 }
 
-// The trial under construction. Those that are watched have a slot.
+// The trial under construction, with the bodies that it watches.
 struct Roadtest {
     Scene scene;
     std::vector<Claim> claims;
@@ -80,7 +80,7 @@ struct Roadtest {
     }
 };
 
-// One with its wheels locked, which slide, and one whose brakes are a little too weak for that.
+// A car with locked, sliding wheels, and one braking just below that.
 void add_braking(Roadtest& test) {
     Scene& scene = test.scene;
     const std::size_t locked = add_car(scene, {.position = {-18, 0, 0}, .speed = fast, .brake = 10});
@@ -108,13 +108,13 @@ void add_start(Roadtest& test) {
                                    [body](const Trace& trace) { return speed_of(trace.end[body]); }));
 }
 
-// One slowly round a curve, and one as fast as its tyres let it with its wheels turned too far.
+// A car in a slow curve, and one at the limit of its tyres.
 void add_curves(Roadtest& test) {
     Scene& scene = test.scene;
     const std::size_t slow = add_car(scene, {.position = {15, 0, 0}, .speed = 5, .engine = {.drag = 0}});
     scene.vehicles[slow].controls.steer = 0.5f;
     const double tightest = std::tan(static_cast<double>(scene.vehicles[slow].steering.angle)) / 2.6;
-    const double radius = std::hypot(1 / (0.5 * tightest), 1.3);  // of the middle's circle
+    const double radius = std::hypot(1 / (0.5 * tightest), 1.3);  // circle of the car's centre
     const std::size_t sliding = add_car(
         scene, {.position = {60, 0, 0}, .speed = 15, .engine = {.torque = 600}, .steering = {.angle = 0.2f, .lateral = 1000}});
     scene.vehicles[sliding].controls = {.throttle = 1, .steer = 1};

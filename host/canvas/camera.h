@@ -1,4 +1,4 @@
-// From where a picture is taken.
+// The camera of a picture: look-at pose and projection, world coordinates.
 #pragma once
 
 #include <glm/glm.hpp>
@@ -12,8 +12,8 @@ struct Camera {
     vec3 target{0, 1, 0};  // m
     vec3 up{0, 1, 0};
     float vertical_fov = 40;    // degrees
-    float near_plane = 0.05f;   // m, at most, and a twentieth of the way to the target; there is no far plane
-    bool orthographic = false;  // parallel rays; what lies as far as the target is as large as without
+    float near_plane = 0.05f;   // m; capped at 1/20 of the distance to the target; the far plane is infinite
+    bool orthographic = false;  // parallel projection, scaled to match the perspective one at the target
 };
 
 }  // namespace scree::host

@@ -1,11 +1,11 @@
-// A canvas without a display: draws the bodies of a simulation into pictures.
+// Offscreen renderer: draws the bodies of a simulation into pictures, without a display.
 //
-// There are two, and the same state looks the same on both. The Vulkan canvas draws from tables on its device, with no read-back,
-// or from tables in host memory, which it copies there; the OpenGL ES canvas draws from host memory alone. They share all that
-// depends on neither API: what is drawn, by which shaders and in which order (canvas_plan.h), meshes and instances
-// (draw_geometry.h), camera and light (frame.h), colours (colors.h), legend and caption (overlay.h). A new
-// thing to draw is a pair of shaders in shaders/render and a line of canvas_plan.cpp; a new table to draw from is a member of
-// BodyTables and a line there.
+// There are two implementations with matching pictures. The Vulkan canvas draws from tables in device memory without
+// read-back, or from tables in host memory, which it uploads; the OpenGL ES canvas draws from host memory alone. They
+// share everything that depends on neither API: the draw list (canvas_plan.h), meshes and instances
+// (draw_geometry.h), camera and light (frame.h), colours (colors.h), legend and caption (overlay.h). To draw
+// something new, add a pair of shaders in shaders/render and a line in canvas_plan.cpp; to read another table, add a
+// member of BodyTables and a line there.
 #pragma once
 
 #include <cstddef>
@@ -26,12 +26,12 @@ class Buffer;
 class Device;
 using glm::vec3;
 
-// Records one after another: a buffer on the device that draws, or memory of the host. Borrowed.
+// A non-owning view of an array of records, in a buffer of the drawing device or in host memory.
 struct TableView {
     bool given = false;
     const Buffer* buffer = nullptr;
-    std::size_t offset = 0, size = 0;  // bytes of the buffer; size 0: all behind the offset
-    std::span<const std::byte> bytes;  // without a buffer; may be empty
+    std::size_t offset = 0, size = 0;  // bytes; size 0: from the offset to the end of the buffer
+    std::span<const std::byte> bytes;  // host memory, where buffer is null; may be empty
 
     TableView() = default;
     TableView(const Buffer* on_device) : given(on_device != nullptr), buffer(on_device) {}
@@ -43,81 +43,83 @@ struct TableView {
     TableView(const std::vector<Record>& in_memory) : TableView(std::span(in_memory)) {}
 };
 
-// The state of the simulation, one record a body, as in shaders/physics/base/records.h. Read while a picture is drawn.
+// The simulation state, one record per body unless noted, laid out as in shaders/physics/base/records.h. The memory
+// is read until Canvas::finish() returns.
 struct BodyTables {
     TableView properties;  // BodyProperties
     TableView poses;       // Pose
     TableView velocities;  // Velocity
-    // Where bodies touch, and how hard they push: for CanvasOptions::marks and ColorBy::contact_impulse.
+    // Contacts and their impulses, for CanvasOptions::marks and ColorBy::contact_impulse.
     TableView touches;              // Contact
     TableView pushes;               // Impulse
-    std::uint32_t touch_count = 0;  // records of both that mean something
-    // Which contacts a body has: for ColorBy::contact_impulse and contacts.
-    TableView slot_ends;            // uint, where the slots of each body end; those of the next begin there
-    TableView slot_sides;           // uint, 2 * contact + side
-    TableView sleep_states;         // uint (shaders/physics/extra/sleep.h), for ColorBy::rest and CanvasOptions::sleep
-    TableView bounds;               // Bounds, for CanvasOptions::boxes and cells
-    TableView ids;                  // uint, which body is in each row, for ColorBy::body
-    TableView joints;               // Joint, for CanvasOptions::joints
-    std::uint32_t joint_count = 0;  // records of it
+    std::uint32_t touch_count = 0;  // valid records in touches and pushes
+    // Contacts of each body (a compressed row list), for ColorBy::contact_impulse and ColorBy::contacts.
+    TableView slot_ends;     // uint, end of each body's slots, which is the begin of the next body's
+    TableView slot_sides;    // uint, one per slot: 2 * contact + side (0 for body a, 1 for body b), or a joint with OF_JOINT
+    TableView sleep_states;  // uint (shaders/physics/extra/sleep.h), for ColorBy::rest and CanvasOptions::sleep
+    TableView bounds;        // Bounds, for CanvasOptions::boxes and cells
+    TableView ids;           // uint, body id of each row, for ColorBy::body
+    TableView joints;        // Joint, for CanvasOptions::joints
+    std::uint32_t joint_count = 0;  // valid records in joints
 };
 
-// Triangles, counterclockwise from outside, in a body's frame.
+// A triangle mesh in the body's frame, counterclockwise seen from outside.
 struct SolidMesh {
-    bool stretched = false;          // x and z by the first of the body's sizes, y by the second; else in m
-    std::vector<glm::vec4> corners;  // three a triangle, and for each corner two: its place, and its normal
+    bool stretched = false;          // scaled by the body: x and z by its first size, y by its second; otherwise in m
+    std::vector<glm::vec4> corners;  // per triangle three corners of two vectors each: position, normal
 };
 
-// Which bodies have which shape: their indices in the tables, fixed for a run.
+// Bodies grouped by shape, as row indices into BodyTables; fixed for the canvas's lifetime.
 struct ShapeInstances {
     std::vector<std::uint32_t> spheres, capsules, boxes, planes;
-    std::vector<std::uint32_t> solids;        // all others
-    std::vector<std::uint32_t> solid_meshes;  // the mesh of each of them
+    std::vector<std::uint32_t> solids;        // all other shapes
+    std::vector<std::uint32_t> solid_meshes;  // for each entry of solids, its index into meshes
     std::vector<SolidMesh> meshes;
 };
 
 struct CanvasOptions {
     int width = 1280;     // pixels
     int height = 720;     // pixels
-    int samples = 0;      // a pixel: 4, or 1 with stairs smoothed afterwards; 0: 1 on a processor, where 4 are slow
-    int bits = 8;         // of a channel of the picture: 8, or 16, drawn into half floats that hold linear light
-    bool shadows = true;  // of the sun, and the darkening between bodies
-    bool legend = true;   // the colour scale in the picture
-    bool marks = false;   // on the points where bodies touch, with lines that tell how hard they push; the bodies grow paler
-    // Speed that a push gives to the lighter body, m/s, when its line is half the thinner body's half width long; lines grow as
-    // the square root.
+    int samples = 0;      // per pixel: 4 (MSAA), or 1 with edges smoothed afterwards; 0: 1 on a software renderer, else 4
+    int bits = 8;         // per channel: 8, or 16, rendered into half floats of linear light
+    bool shadows = true;  // shadow map of the sun, and ambient occlusion
+    bool legend = true;   // the colour scale
+    bool marks = false;   // contact points, with lines for the impulses; bodies are drawn paler
+    // Velocity change of the lighter body, m/s, at which the line of an impulse is half as long as the thinner body's
+    // half width; length grows with the square root.
     float mark_push = 0.02f;
-    bool velocities = false;                // as arrows
-    float arrow_seconds = 0.2f;             // an arrow is as long as the way in this time
-    bool boxes = false;                     // the bodies' bounds
-    bool cells = false;                     // of the broadphase's grid, in which bodies are
-    float cell = 1;                         // width of the finest, m
-    bool joints = false;                    // those that hold: lines from bodies to their anchors, and the axes
-    float joint_pull = 9.81f;               // their colour tells the force on the lighter body, in units of this, m/s^2
-    bool sleep = false;                     // sleepers are dull and blue
-    std::uint32_t sleep_steps = 0;          // quiet steps after which a body sleeps; 0: none does
-    float step_seconds = 1.0f / 60;         // a step's
-    vec3 toward_sun{-0.52f, 0.74f, 0.43f};  // any length
+    bool velocities = false;                // linear velocities as arrows
+    float arrow_seconds = 0.2f;             // arrow length is velocity times this
+    bool boxes = false;                     // bounding boxes of bodies
+    bool cells = false;                     // occupied cells of the broadphase grid
+    float cell = 1;                         // width of the finest grid level, m
+    bool joints = false;                    // unbroken joints: lines from bodies to their anchors, and axes
+    float joint_pull = 9.81f;               // acceleration of the lighter body, m/s^2, that is the unit of a joint's colour
+    bool sleep = false;                     // sleeping bodies are drawn dull and blue
+    std::uint32_t sleep_steps = 0;          // still steps after which a body falls asleep; 0: sleep is off
+    float step_seconds = 1.0f / 60;         // duration of a step
+    vec3 toward_sun{-0.52f, 0.74f, 0.43f};  // need not be normalised
 };
 
 class Canvas {
 public:
     virtual ~Canvas() = default;
 
-    virtual std::string name() const = 0;  // for people: what draws, and on which device
+    virtual std::string name() const = 0;  // API and device, for messages
 
-    // Where the bodies are from now on; before the first picture, and when tables were made anew. Throws std::invalid_argument
-    // for a table that is missing, or that lies where this canvas cannot draw from.
+    // Sets the tables to draw from; call before the first picture, and again when tables were reallocated. Throws
+    // std::invalid_argument for a required table that is missing, or one in memory that this canvas cannot read.
     virtual void set_tables(const BodyTables& tables) = 0;
 
-    // Begins a picture of the tables as they are now, behind what was submitted to the queue before; what is submitted later, a
-    // step perhaps, does not change it, and goes on meanwhile. `scene_low` and `scene_high` are corners of the part of the world
-    // that casts shadows; keep them fixed over a run, or the shadows' edges crawl. Lines of the caption are parted by '\n'. The
-    // same state gives the same pixels. Throws std::invalid_argument for a camera that looks nowhere or a scale without extent.
+    // Starts drawing the tables' present contents, asynchronously: ordered after earlier submissions to the queue,
+    // unaffected by later ones (a step, for instance). `scene_low` and `scene_high` are corners of the shadow casting
+    // volume; keep them fixed over a run, or shadow edges crawl. `caption` separates its lines by '\n'. Equal state
+    // gives equal pixels. Throws std::invalid_argument for a camera whose direction is undefined or an empty colour
+    // scale.
     virtual void begin(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                        vec3 scene_high) = 0;
-    // Waits for the picture that was begun last; every begin() wants its finish() before the next, and before the host writes to
-    // tables or takes them away.
+    // Waits for the picture and returns it. Call once after each begin(), before the next begin() and before the host
+    // writes or frees the tables.
     virtual Image finish() = 0;
 
     Image draw(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high) {
@@ -126,12 +128,12 @@ public:
     }
 };
 
-// Throws DeviceError for sizes that the device cannot draw. Tables may lie on `device` or in host memory, each as it likes.
+// Throws DeviceError for image sizes beyond the device's limits. Each table may be on `device` or in host memory.
 std::unique_ptr<Canvas> make_vulkan_canvas(std::shared_ptr<Device> device, const ShapeInstances& instances,
                                            const CanvasOptions& options = {});
 
-// Throws DeviceError where there is no OpenGL ES 3.1 without a window, saying what to install, and for sizes that it cannot draw.
-// Tables must lie in host memory.
+// Throws DeviceError when surfaceless OpenGL ES 3.1 is not available (naming the package to install), and for image
+// sizes beyond its limits. Tables must be in host memory.
 std::unique_ptr<Canvas> make_gl_canvas(const ShapeInstances& instances, const CanvasOptions& options = {});
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// What every canvas draws: the tables and images that the picture shaders read, and the draws of a picture in their order.
+// The draw list shared by both canvases.
 #include "host/canvas/canvas_plan.h"
 
 #include <stdexcept>
@@ -68,12 +68,12 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         const DrawState round{map, "round_shadow.vert", "round_shadow.frag", Cull::none, Compare::less, true};
         shadow(round, Mesh::disc, RUN_ALL_SPHERES);
         shadow(round, Mesh::discs, RUN_ALL_CAPSULES);
-        // The maps are not mirrored as pictures are, so this keeps the sides towards the light.
+        // Light maps are not mirrored in y as pictures are, so culling fronts keeps the lit sides.
         shadow({map, "box_shadow.vert", "", Cull::front, Compare::less, true}, Mesh::box, RUN_ALL_BOXES);
         shadow({map, "solid_shadow.vert", "", Cull::front, Compare::less, true}, Mesh::solid, RUN_ALL_SOLIDS);
     }
-    // Depth falls from 1 to 0 with distance, which spends a float's precision evenly. What usually lies behind comes last, so
-    // that most of it is never shaded.
+    // Reversed depth (1 near, 0 infinitely far) distributes float precision evenly. Planes and sky come last, so that
+    // most of their pixels fail the depth test and are not shaded.
     const auto body = [](const char* vertex, const char* fragment, Cull cull) {
         return DrawState{Pass::picture, vertex, fragment, cull, Compare::greater, true};
     };
@@ -88,7 +88,8 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         seen("round.vert", "round.frag", finer(Mesh::sphere_0, k), RUN_SPHERES + k);
     for (std::uint32_t k = 0; k < CAPSULE_DETAILS; ++k)
         seen("round.vert", "round.frag", finer(Mesh::capsule_0, k), RUN_CAPSULES + k);
-    // First all depths, then the colours of what was nearest: bodies come in any order, and shading takes ten times as long.
+    // Depth prepass, then shading of the visible fragments only: bodies are unsorted, and shading costs ten times as
+    // much.
     for (Draw draw : bodies) {
         draw.state.fragment = "";
         draws.push_back(draw);

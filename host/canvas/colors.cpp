@@ -1,4 +1,4 @@
-// What a body's colour tells, and the perceptual colour maps that tell it.
+// Colour quantities and perceptual colour maps.
 #include "host/canvas/colors.h"
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace {
 using glm::vec3;
 
 // Evenly spaced colours of the published maps (matplotlib's viridis, inferno, plasma; Nunez, Anderton and Renslow's cividis;
-// Mikhailov's turbo), 0xRRGGBB. The first colours of plasma and inferno are left out: near black, a body's shading cannot be
-// seen.
+// Mikhailov's turbo), 0xRRGGBB. The darkest colours of plasma and inferno are left out, since shading is not visible
+// on near black.
 constexpr std::uint32_t PLASMA[] = {0x2d0594, 0x5b02a3, 0x8707a6, 0xab2394, 0xca457a,
                                     0xe16462, 0xf2844b, 0xfca636, 0xfcce25, 0xf0f921};
 constexpr std::uint32_t INFERNO[] = {0x2f0a5b, 0x540f6d, 0x781c6d, 0x9b2964, 0xbc3754, 0xd84c3e,
@@ -47,7 +47,7 @@ vec3 linear_color(std::uint32_t rgb) {
     return {channel(16), channel(8), channel(0)};
 }
 
-// OKLab (Ottosson 2020), in which a straight way between two colours looks like one.
+// OKLab (Ottosson 2020), a perceptually uniform space to interpolate in.
 vec3 to_oklab(vec3 c) {
     const float l = std::cbrt(0.4122214708f * c.r + 0.5363325363f * c.g + 0.0514459929f * c.b);
     const float m = std::cbrt(0.2119034982f * c.r + 0.6806995451f * c.g + 0.1073969566f * c.b);
@@ -162,7 +162,7 @@ std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most
     const double power = std::pow(10.0, std::floor(std::log10(rough)));
     double step = 10 * power;
     for (const double factor : {1.0, 2.0, 5.0}) {
-        // One more interval than ticks fits between the ends.
+        // k ticks span k - 1 intervals.
         if (factor * power * 1.0001 >= (static_cast<double>(high) - low) / std::max(most - 1, 1)) {
             step = factor * power;
             break;

@@ -1,4 +1,4 @@
-// What a body's colour tells, and the perceptual colour maps that tell it.
+// Colour quantities of bodies and the perceptual colour maps that show them.
 #pragma once
 
 #include <array>
@@ -19,26 +19,26 @@ enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
     body,
     plain,
     angular_momentum,  // about the body's own centre
-    contact_impulse,   // the sum of what its contacts push in a substep
-    contacts,          // with how many others it touches, or is about to
-    rest,              // how long it has been quiet; a sleeper has the highest colour
+    contact_impulse,   // sum of normal impulses of its contacts in a substep
+    contacts,          // number of contacts, speculative ones included
+    rest,              // sleep timer; sleeping bodies have the colour at 1
     material
 };
-enum class ColorMap { plasma, inferno, viridis, cividis, turbo };  // all but turbo grow lighter steadily
+enum class ColorMap { plasma, inferno, viridis, cividis, turbo };  // all but turbo are monotonic in lightness
 
 struct Material {
-    glm::vec3 nature{0};  // as shaders/render/frame.h has it
-    std::string label;    // in the legend
+    glm::vec3 nature{0};  // coefficients and density, as in shaders/render/frame.h
+    std::string label;    // text in the legend
 };
 
-// Fixed for a run by its owner, so that colours mean the same in every frame.
+// The mapping of a quantity to colours; keep it fixed over a run so that colours are comparable between frames.
 struct ColorScale {
     ColorBy by = ColorBy::momentum;
     ColorMap map = ColorMap::plasma;
     float low = 0;    // in the unit of `by`; on a logarithmic scale > 0
     float high = 10;  // > low
     bool logarithmic = false;
-    std::vector<Material> materials;  // those that are told apart, at most 8; a body has the colour of the most alike
+    std::vector<Material> materials;  // distinguished materials, at most 8; a body takes the colour of the nearest
 };
 
 const std::vector<std::string>& color_by_names();   // in the order of ColorBy
@@ -48,19 +48,20 @@ std::optional<ColorMap> color_map_named(std::string_view name);
 
 std::string color_title(ColorBy by);  // "momentum |p|"
 std::string color_unit(ColorBy by);   // "kg m/s"; empty where there is none
-bool has_scale(ColorBy by);           // false for body, plain and material, which no range has
-// Of the n-th material (or body, which repeat after 4096), linear light.
+bool has_scale(ColorBy by);           // whether there is a numeric range; false for body, plain and material
+// Colour of the n-th material or body (body colours repeat after 4096), linear RGB.
 glm::vec3 name_color(unsigned n);
-// Where a value lies on the scale, from 0 to 1; outside of it clamped.
+// Position of a value on the scale, clamped to 0..1.
 float scale_place(const ColorScale& scale, float value);
 
-// The colour at t from 0 to 1, linear light.
+// The colour of the map at t in 0..1, linear RGB.
 glm::vec3 map_color(ColorMap map, float t);
-// One channel, 0 to 1: from linear light to an sRGB byte, and back.
+// sRGB transfer function of one channel: linear 0..1 to a byte 0..255, and encoded 0..1 to linear.
 int srgb_byte(float linear);
 float linear_from_srgb(float encoded);
 
-// Round numbers from low to high, at most `most` of them: 1, 2 or 5 times a power of ten, on a logarithmic scale powers of ten.
+// Tick values from low to high, at most `most`: multiples of 1, 2 or 5 times a power of ten; powers of ten on a
+// logarithmic scale.
 std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most);
 std::string tick_label(float value, bool logarithmic);
 

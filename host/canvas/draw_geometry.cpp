@@ -1,4 +1,4 @@
-// What a canvas knows of a scene before its first picture, on whatever it draws: instances and meshes.
+// Instances and meshes of a canvas, independent of the graphics API.
 #include "host/canvas/draw_geometry.h"
 
 #include <algorithm>
@@ -9,13 +9,13 @@
 namespace scree::host {
 namespace {
 
-// Corners that an instance should have at least: fewer, and a processor spends its time on beginning instances.
+// Minimum vertices per instance; with fewer, a software renderer is dominated by per-instance overhead.
 constexpr std::uint32_t CORNERS_OF_AN_INSTANCE = 512;
 constexpr int SPHERE_CORNERS[SPHERE_DETAILS] = {64, 24, 8, 4};
 constexpr int CAPSULE_CORNERS[CAPSULE_DETAILS] = {32, 12, 6};
 
-// Of the three near sides of a box whose corner k + 1 lies on the near side of axis i if bit i of k + 1 is set: counterclockwise
-// from outside if the near sides are those of +x, +y, +z.
+// Triangles of the three visible faces of a box. Corner k lies on the near side of axis i if bit i of k + 1 is set;
+// counterclockwise from outside if the near sides are +x, +y, +z.
 const std::vector<std::uint32_t> BOX_TRIANGLES{0, 2, 6, 0, 6, 4, 1, 5, 6, 1, 6, 2, 3, 4, 6, 3, 6, 5};
 
 Mesh nth(Mesh first, std::uint32_t n) {
@@ -64,7 +64,7 @@ void Scenery::add_meshes() {
         add_round(nth(Mesh::sphere_0, k), RUN_SPHERES + k, sphere_mesh(SPHERE_CORNERS[k]));
     for (std::uint32_t k = 0; k < CAPSULE_DETAILS; ++k)
         add_round(nth(Mesh::capsule_0, k), RUN_CAPSULES + k, capsule_mesh(CAPSULE_CORNERS[k]));
-    // The corners of the others are not in the table: their numbers begin at 0.
+    // Boxes and discs have no vertices in `directions`: their vertex numbers begin at 0.
     add_mesh(Mesh::box, RUN_BOXES, 7, BOX_TRIANGLES, {});
     runs[RUN_BOXES].directions = 0;
     std::vector<std::uint32_t> squares;
@@ -80,7 +80,7 @@ void Scenery::add_meshes() {
     if (directions.empty()) directions.emplace_back(0);
 }
 
-// As shaders/render/solid_mesh.h reads it. Every body is drawn with as many corners as the largest mesh has.
+// Layout as in shaders/render/solid_mesh.h. Every body is drawn with the vertex count of the largest mesh.
 void Scenery::add_solids(const ShapeInstances& bodies) {
     std::vector<glm::vec4> table(bodies.solids.empty() ? 0 : records);
     std::vector<std::size_t> begins;

@@ -1,4 +1,4 @@
-// The frame as the picture shaders see it: from a camera, a colour scale and the lights.
+// The uniform block of the render shaders.
 #include "host/canvas/frame.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ struct Axes {
     vec3 right, up, back;
 };
 
-// A right-handed frame whose `back` is given; `up` is a wish.
+// A right-handed orthonormal frame with the given `back` and, as nearly as possible, `up`.
 Axes axes_of(vec3 back, vec3 up) {
     vec3 right = glm::cross(up, back);
     if (glm::dot(right, right) < 1e-8f) right = glm::cross(std::abs(back.y) < 0.9f ? vec3(0, 1, 0) : vec3(0, 0, -1), back);
@@ -24,8 +24,8 @@ bool finite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// How far before and behind the target an orthographic camera sees, in distances of the eye: more, and depths of bodies that
-// touch become the same number.
+// Depth range of an orthographic camera before and behind the target, in multiples of the eye's distance; with more,
+// bodies in contact get equal depths.
 constexpr float ORTHOGRAPHIC_REACH = 100;
 
 struct LightMap {
@@ -34,7 +34,7 @@ struct LightMap {
     float depth = 0;  // m
 };
 
-// The box, as seen along parallel rays that come from `toward`, as 0..1 in three axes.
+// Orthographic projection of the box along the light direction `toward`, to 0..1 in all three axes.
 LightMap light_map(vec3 toward, vec3 eye, vec3 low, vec3 high, int size) {
     const Axes axes = axes_of(toward, vec3(0, 1, 0));
     vec3 least(1e30f), most(-1e30f);
@@ -72,7 +72,7 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
     const auto width = static_cast<float>(options.width), height = static_cast<float>(options.height);
     const float slope = std::tan(glm::radians(camera.vertical_fov) * 0.5f);
     const float aspect = width / height, distance = glm::length(look);
-    // Half the picture's height: at 1 m, or everywhere.
+    // Half the view's height, m: at distance 1 m (perspective), or everywhere (orthographic).
     const float rise = camera.orthographic ? slope * distance : slope;
     const float near_plane = std::min(camera.near_plane, 0.05f * distance);
     mat4 m(0);
@@ -83,7 +83,7 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
     }
     m[3][2] = near_plane;
     if (camera.orthographic) {
-        // Depth falls from 1 to 0 over a stretch with the target in its middle; what lies farther before or behind is cut off.
+        // Depth falls from 1 to 0 over a range centred on the target; the rest is clipped.
         const float depth = 1 / (2 * ORTHOGRAPHIC_REACH * distance);
         for (int k = 0; k < 3; ++k) m[k][2] = axes.back[k] * depth;
         m[3] = vec4(0, 0, 0.5f + distance * depth, 1);

@@ -1,4 +1,4 @@
-// The letters of pictures: an atlas of distances to their outlines, made from a font when the project is built.
+// Text in pictures: lookup in the glyph atlas.
 #include "host/canvas/glyphs.h"
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// The meshes of spheres and capsules, as directions that round.vert turns to the eye and stretches.
+// Sphere and capsule meshes for round.vert.
 #include "host/canvas/meshes.h"
 
 #include <cmath>
@@ -22,7 +22,7 @@ void add(RoundMesh& mesh, std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 RoundMesh sphere_mesh(int corners) {
     RoundMesh mesh;
-    // Rings from the silhouette inwards, each with half the corners of the last.
+    // Rings from the silhouette inwards, each with half the vertices of the previous one.
     const double shares[] = {1.0, 0.86, 0.59, 0.34, 0.19};
     const double stretch = std::sqrt(2 * PI / corners / std::sin(2 * PI / corners));
     std::uint32_t outer = 0;
@@ -52,8 +52,8 @@ RoundMesh sphere_mesh(int corners) {
 
 RoundMesh capsule_mesh(int corners) {
     RoundMesh mesh;
-    const int rings = corners >= 32 ? 8 : corners >= 16 ? 4 : corners >= 10 ? 3 : 2;  // from a pole to its equator
-    // From the upper pole to the lower one; the equator twice, once for each cap.
+    const int rings = corners >= 32 ? 8 : corners >= 16 ? 4 : corners >= 10 ? 3 : 2;  // per hemisphere
+    // From the upper to the lower pole; the equator twice, once for each cap.
     for (int cap = 1; cap >= -1; cap -= 2) {
         for (int k = 0; k <= rings; ++k) {
             const int ring = cap > 0 ? k : rings - k;
@@ -72,7 +72,7 @@ RoundMesh capsule_mesh(int corners) {
             const auto b = static_cast<std::uint32_t>(row * corners + (i + 1) % corners);
             const auto c = a + static_cast<std::uint32_t>(corners);
             const auto d = b + static_cast<std::uint32_t>(corners);
-            if (row > 0) add(mesh, a, b, c);  // at the poles one of the two has no area
+            if (row > 0) add(mesh, a, b, c);  // at the poles one of the two triangles is degenerate
             if (row + 2 < rows) add(mesh, b, d, c);
         }
     }

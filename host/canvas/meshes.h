@@ -1,4 +1,4 @@
-// The meshes of spheres and capsules, as directions that round.vert turns to the eye and stretches.
+// Sphere and capsule meshes, as unit directions that round.vert turns toward the camera and scales.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct RoundMesh {
     std::vector<std::uint32_t> indices;  // triangles, counterclockwise from outside
 };
 
-// The visible cap of a sphere, with `corners` (a multiple of 4) on its silhouette, stretched to the circle's area.
+// The visible cap of a sphere with `corners` (a multiple of 4) silhouette vertices, scaled to the area of the circle.
 RoundMesh sphere_mesh(int corners);
 // A whole capsule with `corners` (even, at least 6) around its axis.
 RoundMesh capsule_mesh(int corners);

@@ -1,4 +1,4 @@
-// The legend and the caption, as rectangles in pixels.
+// Layout of legend and caption.
 #include "host/canvas/overlay.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 constexpr glm::vec3 INK{0.87f, 0.88f, 0.90f};
 constexpr glm::vec3 PANEL{0.012f, 0.014f, 0.020f};
 
-// Lengths in pixels for a picture of this height; at 720 the text is 19 high, and it is never below 10.
+// Sizes in pixels, proportional to the picture's height: text is 19 at height 720, and at least 10.
 struct Measures {
     float unit, text, small, margin, padding, side;
     explicit Measures(int height)
@@ -89,7 +89,7 @@ void add_caption(Sheet& sheet, int height, const std::string& caption) {
     }
 }
 
-// As many ticks as leave room between their labels on a bar of this length.
+// As many ticks as fit on a bar of this length without overlapping labels.
 std::vector<float> ticks_with_room(const ColorScale& scale, float length, float size) {
     std::vector<float> ticks;
     for (int most = 6; most > 1; --most) {
@@ -121,17 +121,17 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
     sheet.bar(left, top, right, bottom);
     const float thin = std::max(1.0f, std::round(m.unit));
     for (const float value : ticks_with_room(scale, right - left, m.small)) {
-        // The middle of the tick on the middle of the pixel that has the value's colour: the first has the scale's lowest.
+        // Centre the tick on the pixel with the value's colour; the first pixel has the scale's lowest.
         const float x = std::round(left + scale_place(scale, value) * (right - left - 1) - 0.5f * (thin - 1));
         sheet.panel(x, bottom, x + thin, bottom + std::round(5 * m.unit), 0, glm::vec4(INK, 0.8f));
         const std::string label = tick_label(value, scale.logarithmic);
-        // Below its tick, but on the panel.
+        // Label below its tick, clamped to the panel.
         const float wide = text_width(label, m.small), outmost = right + m.padding + m.side - wide;
         sheet.text(label, std::min(x + 0.5f * (thin - wide), outmost), bottom + std::round(5 * m.unit + 1.0f * m.small), m.small);
     }
 }
 
-// A swatch and a line of words for each material, in the place of the scale.
+// Material legend: a swatch and a label per material, instead of the colour bar.
 void add_materials(Sheet& sheet, int width, int height, const ColorScale& scale) {
     const Measures m(height);
     float widest = text_width(color_title(scale.by), m.text);

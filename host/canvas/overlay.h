@@ -1,4 +1,4 @@
-// The legend and the caption, as rectangles in pixels.
+// Legend and caption, as quads in pixels.
 #pragma once
 
 #include <string>
@@ -9,15 +9,15 @@
 
 namespace scree::host {
 
-// Where the colour bar lies, pixels.
+// Rectangle of the colour bar, pixels from the upper left.
 struct BarPlace {
     int left = 0, top = 0, right = 0, bottom = 0;
 };
 
 BarPlace legend_bar(int width, int height);
 
-// The legend (if it shall be there and `scale` has one) in the lower right corner, the caption's lines in the lower left. Sizes
-// follow the height.
+// The legend (if asked for and `scale` has one) in the lower right corner, the caption's lines in the lower left.
+// Sizes are proportional to the picture's height.
 std::vector<OverlayQuad> overlay_quads(int width, int height, bool legend, const ColorScale& scale, const std::string& caption);
 
 }  // namespace scree::host

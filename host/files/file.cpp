@@ -1,4 +1,4 @@
-// Files: read whole, written whole or not at all.
+// File input and atomic file output.
 #include "host/files/file.h"
 
 #include <fcntl.h>
@@ -71,7 +71,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) fail("write", path, EISDIR);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return write_in_place(path, bytes);
-    // Through a link, the file it leads to is replaced, not the link.
+    // Resolve symbolic links, so that the rename replaces the target and not the link.
     std::filesystem::path target = std::filesystem::exists(status) ? std::filesystem::canonical(path, ignored) : path;
     if (target.empty()) target = path;
 

@@ -1,4 +1,4 @@
-// Files: read whole, written whole or not at all.
+// File input and atomic file output.
 #pragma once
 
 #include <filesystem>
@@ -14,18 +14,19 @@ struct FileError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The bytes of a file. Throws FileError.
+// Reads all bytes of a file. Throws FileError.
 std::string read_text(const std::filesystem::path& path);
 
-// The file has either its old content or all of the new: written beside its place first, then renamed. What is not a regular file
-// (/dev/stdout, a pipe) is written in place. Throws FileError and leaves nothing behind.
+// Atomic write: to a temporary file in the same folder, then rename, so that the file has either its old or its new
+// content. Paths that are no regular files (/dev/stdout, a pipe) are written in place. Throws FileError and removes
+// the temporary file.
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 void write_atomically(const std::filesystem::path& path, std::span<const std::byte> bytes);
 
-// Where to keep what can be made anew: $XDG_CACHE_HOME/scree, else ~/.cache/scree; empty if neither is known.
+// Folder of caches: $XDG_CACHE_HOME/scree, else ~/.cache/scree; empty if neither is known.
 std::filesystem::path cache_folder();
 
-// Makes a folder and those above it, unless it is there. Throws FileError.
+// Creates a folder and its parents where they are missing. Throws FileError.
 void make_folder(const std::filesystem::path& path);
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// Finds what lies too deep in one pass over the text, with no calls into itself.
+// Nesting depth check of JSON text, in one pass without recursion.
 #include "host/files/json_depth.h"
 
 #include <algorithm>
@@ -8,13 +8,13 @@ namespace scree::host {
 
 namespace {
 
-constexpr std::size_t most_shown = 8;  // members of a pointer
+constexpr std::size_t most_shown = 8;  // tokens of a JSON pointer in messages
 
-// An array or object that is open at the place reached.
+// An array or object that encloses the current position.
 struct Open {
     bool is_array;
-    std::size_t index = 0;      // of an array's element
-    std::string_view key = {};  // of an object's member
+    std::size_t index = 0;      // of the current array element
+    std::string_view key = {};  // of the current object member
 };
 
 std::string pointer_to(const std::vector<Open>& open) {
@@ -27,7 +27,7 @@ std::string pointer_to(const std::vector<Open>& open) {
     return open.size() > most_shown ? pointer + "/..." : pointer;
 }
 
-// Of the quote that ends the string which begins at `at`.
+// Index of the closing quote of the string that begins at `at`.
 std::size_t end_of_string(std::string_view json, std::size_t at) {
     for (++at; at < json.size() && json[at] != '"'; ++at)
         if (json[at] == '\\') ++at;

@@ -1,4 +1,4 @@
-// How deep JSON text is nested, before a parser that calls itself reads it.
+// Nesting depth check of JSON text, to protect recursive parsers from stack overflow.
 #pragma once
 
 #include <cstddef>
@@ -8,8 +8,8 @@
 
 namespace scree::host {
 
-// The JSON pointer (its first members, where it is long) of the first value that lies in more than `most` arrays and objects;
-// nothing if none does. Of what is no JSON whatever it looks like: its parser will say.
+// The JSON pointer (shortened if long) of the first value nested in more than `most` arrays and objects; nothing if
+// there is none. The result for malformed JSON is unspecified, since the parser reports that.
 std::optional<std::string> nested_deeper_than(std::size_t most, std::string_view json);
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// Triangles from files, by tinyobjloader (OBJ) and tinygltf (glTF, GLB).
+// Triangle mesh files, by tinyobjloader (OBJ) and tinygltf (glTF, GLB).
 #include "host/files/mesh_file.h"
 
 #include <algorithm>
@@ -28,13 +28,13 @@ namespace scree::host {
 namespace {
 
 constexpr std::size_t most_vertices = 100'000'000;
-// In arrays and objects of a glTF file: the loader calls itself for each, and 256 take a tenth of the smallest stack.
+// Nesting limit of glTF JSON: the loader is recursive, and 256 levels use a tenth of the smallest stack.
 constexpr std::size_t most_depth = 256;
-// Of a glTF scene, one that several nodes have as their child counted each time: 60 that each have the next one twice are more
-// than there is memory for.
+// Limit of node visits in a glTF scene, counting shared children each time: 60 nodes that each reference the next one
+// twice are 2^60 visits.
 constexpr std::size_t most_nodes = 1'000'000;
 
-// One file, for messages.
+// A file's name, for error messages.
 struct Source {
     std::string name;
     [[noreturn]] void refuse(const std::string& reason) const { throw FileError(name + ": " + reason); }
@@ -47,7 +47,7 @@ std::string one_line(std::string text) {
 }
 
 // ---- OBJ
-// tinyobjloader reads what is no number as 0: so vertices are looked at before.
+// Checks vertices in the text, since tinyobjloader reads malformed numbers as 0.
 void check_vertices(std::string_view bytes, const Source& source) {
     std::size_t line = 1;
     for (std::size_t begin = 0; begin < bytes.size(); ++line) {
@@ -96,7 +96,7 @@ MeshFile from_obj(std::string_view bytes, const Source& source) {
 }
 
 // ---- glTF
-// The bytes of an accessor, one element after the other.
+// The elements of an accessor in memory.
 struct Elements {
     const unsigned char* first;
     std::size_t stride, count;
@@ -159,7 +159,7 @@ private:
 
     void add_primitive(const tinygltf::Primitive& primitive, const glm::dmat4& turn, const std::string& place) {
         const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
-        if (mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines
+        if (mode < TINYGLTF_MODE_TRIANGLES) return;  // points and lines are ignored
         const auto position = primitive.attributes.find("POSITION");
         if (position == primitive.attributes.end()) source_.refuse(place + ": has no POSITION");
         const Elements places = elements(position->second, TINYGLTF_TYPE_VEC3, place);
@@ -231,8 +231,8 @@ private:
     std::size_t nodes_ = 0;
 };
 
-// The JSON of a GLB file: its first chunk, behind the file's head (12 bytes) and the chunk's own (8), which begins with its
-// length.
+// The JSON of a GLB file: its first chunk, after the file header (12 bytes) and the chunk header (8, beginning with
+// its length).
 std::string_view json_of(std::string_view bytes, bool binary) {
     if (!binary) return bytes;
     if (bytes.size() < 20) return {};
@@ -246,7 +246,7 @@ MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, co
         source.refuse(*place + ": lies in more than " + std::to_string(most_depth) +
                       " arrays and objects; write the file without such \"extras\"");
     tinygltf::TinyGLTF loader;
-    // Pictures are nothing to collide with: none is read.
+    // Skip images, which collision does not need.
     loader.SetImageLoader(
         [](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; },
         nullptr);

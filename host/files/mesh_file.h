@@ -1,4 +1,4 @@
-// Triangles from files: Wavefront OBJ, glTF and GLB.
+// Triangle mesh files: Wavefront OBJ, glTF and GLB.
 #pragma once
 
 #include <filesystem>
@@ -12,15 +12,15 @@
 namespace scree::host {
 
 struct MeshFile {
-    std::vector<glm::vec3> vertices;    // as the file has them, every object where its scene puts it
-    std::vector<glm::uvec3> triangles;  // their corners, counter-clockwise seen from outside
+    std::vector<glm::vec3> vertices;    // in the file's units, node transforms applied
+    std::vector<glm::uvec3> triangles;  // vertex indices, counter-clockwise seen from outside
 };
 
-// All triangles of a file whose name ends in .obj, .gltf or .glb; polygons are cut into triangles, materials and pictures are
-// passed over. Throws FileError, naming the file and the place in it, for what cannot be read, has no triangles, or needs
-// an extension that packs them.
+// Reads all triangles of a file with the extension .obj, .gltf or .glb; polygons are triangulated, materials and
+// textures ignored. Throws FileError, naming the file and the place in it, if it is malformed, has no triangles, or
+// needs a compression extension.
 MeshFile read_mesh(const std::filesystem::path& path);
-// The same of bytes that came from elsewhere; `name` for its ending and for messages. A .gltf looks for its buffers in `folder`.
+// The same from memory; `name` gives the extension and appears in messages. A .gltf finds its buffers in `folder`.
 MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::filesystem::path& folder = {});
 
 }  // namespace scree::host

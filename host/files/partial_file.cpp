@@ -1,4 +1,4 @@
-// Files that are not whole yet.
+// A registry of files being written, for removal by a signal handler.
 #include "host/files/partial_file.h"
 
 #include <signal.h>
@@ -12,7 +12,7 @@
 namespace scree::host {
 namespace {
 
-// A signal handler may neither wait nor ask for memory.
+// Fixed-size and lock-free, since a signal handler may neither block nor allocate.
 struct Entry {
     enum State { free, being_filled, filled };
     std::atomic<int> state{free};
@@ -21,7 +21,7 @@ struct Entry {
 };
 static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may not wait");
 
-std::array<Entry, 32> entries;  // more files than threads write at a time
+std::array<Entry, 32> entries;  // more than the files written concurrently
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Files that are not whole yet: known here, so that nothing is left of them when the program must end at once.
+// A registry of files being written, so that a signal handler can remove them.
 #pragma once
 
 #include <sys/types.h>
@@ -7,10 +7,11 @@
 
 namespace scree::host {
 
-// A file that is being written under a name of its own, until the object ends. Which does not remove it: its owner does.
+// Registers a temporary file for the object's lifetime. The destructor does not remove the file; its owner does.
 class Unfinished {
 public:
-    // `writer`: the process that writes it, if it is another one. What finds no room in the list is not remembered.
+    // `writer`: the child process that writes the file, if any. When the fixed-size list is full, the file is not
+    // registered.
     explicit Unfinished(const std::filesystem::path& path, pid_t writer = 0);
     ~Unfinished();
     Unfinished(const Unfinished&) = delete;
@@ -20,7 +21,7 @@ private:
     int place_ = -1;
 };
 
-// Ends the writers and removes the files. May be called from a signal handler; the program should end after it.
+// Kills the writers and removes the files. Async-signal-safe; the program should end afterwards.
 void remove_unfinished() noexcept;
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// Writing to another program, which may end before it has read all.
+// Writing to a pipe whose reader may exit early.
 #include "host/files/pipe.h"
 
 #include <unistd.h>

@@ -1,4 +1,4 @@
-// Writing to another program, which may end before it has read all.
+// Writing to a pipe whose reader may exit early.
 #pragma once
 
 #include <signal.h>
@@ -7,7 +7,7 @@
 
 namespace scree::host {
 
-// Writing to a program that has ended raises SIGPIPE; this turns it into an error of write() for this thread alone.
+// Blocks SIGPIPE in this thread for the object's lifetime, so that write() to a closed pipe returns EPIPE.
 class PipeSignalHeld {
 public:
     PipeSignalHeld();
@@ -21,7 +21,7 @@ private:
     bool was_pending_ = false;
 };
 
-// Waits until all is taken. Returns 0 or the error.
+// Blocks until all bytes are written. Returns 0 or an errno value.
 int write_all(int descriptor, const void* data, std::size_t bytes);
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// Frames to PNG files, to a video, to an animated preview and as bare pixels, encoded beside the simulation.
+// Frame output as PNG files, video, preview and raw pixels, encoded on threads of its own.
 #include "host/pictures/frame_writer.h"
 
 #include <algorithm>
@@ -25,14 +25,14 @@ struct Job {
     std::shared_ptr<const Image> image;
 };
 
-// A bounded queue of frames with its own threads.
+// A bounded queue of frames with its worker threads.
 class Line {
 public:
     Line(std::size_t longest, int threads, std::function<void(const Job&)> work) : longest_(longest), work_(std::move(work)) {
         try {
             for (int i = 0; i < threads; ++i) threads_.emplace_back([this] { run(); });
         } catch (const std::system_error& error) {
-            close();  // those that started wait for frames
+            close();  // release the threads that have started and wait for frames
             throw ImageError(std::string("frames: no thread to encode them: ") + error.what());
         }
     }
@@ -54,7 +54,7 @@ public:
             closed_ = true;
         }
         arrived_.notify_all();
-        threads_.clear();  // joins
+        threads_.clear();  // joins the threads
     }
     void rethrow() {
         const std::lock_guard lock(mutex_);
@@ -71,7 +71,7 @@ private:
                 if (jobs_.empty()) return;
                 job = std::move(jobs_.front());
                 jobs_.pop_front();
-                if (error_) continue;  // after an error the rest is only taken away
+                if (error_) continue;  // after an error, drain the queue without encoding
             }
             room_.notify_one();
             try {
@@ -94,7 +94,7 @@ private:
     std::vector<std::jthread> threads_;
 };
 
-// Frames of an earlier run would stand behind the last of a shorter one, as if they were its own.
+// Refuses folders with frames: a shorter run would leave the later frames of an earlier one, as if its own.
 void require_no_frames(const std::filesystem::path& folder) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
         const std::string name = entry.path().filename().string();
@@ -109,7 +109,8 @@ Clip clip_of(const std::filesystem::path& preview) {
     throw ImageError(preview.string() + ": a preview is a .gif or a .webp; name a file such as scree.gif");
 }
 
-// What ffmpeg makes is MP4 whatever the name says. What is no regular file is refused with that as the reason.
+// Requires the extension .mp4, since ffmpeg is asked for that format. Paths that are no regular files are refused
+// later, with that reason.
 void require_film(const std::filesystem::path& video) {
     std::error_code ignored;
     const std::filesystem::file_status status = std::filesystem::status(video, ignored);
@@ -131,9 +132,9 @@ struct FrameWriter::Impl {
     std::unique_ptr<RawFrames> raw;
     struct Output {
         std::unique_ptr<Line> line;
-        std::function<void()> finish;  // what the line wrote to; may be empty
+        std::function<void()> finish;  // finishes the sink of the line; may be empty
     };
-    std::vector<Output> outputs;  // end before what they write to
+    std::vector<Output> outputs;  // destroyed before the sinks that they write to
 
     void add_output(int threads, std::function<void(const Job&)> work, std::function<void()> finish) {
         const auto longest = static_cast<std::size_t>(std::max(options.waiting, 1));
@@ -176,11 +177,11 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
 }
 
 FrameWriter::~FrameWriter() {
-    if (interior_->frames == 0) return;  // nothing replaces what stood under the names
+    if (interior_->frames == 0) return;  // existing files are not replaced
     try {
         finish();
     } catch (const std::exception&) {
-        // The owner is already leaving with its own error, or did not ask.
+        // The owner is unwinding from its own error, or did not call finish().
     }
 }
 
@@ -190,7 +191,7 @@ void FrameWriter::add(Image image) {
 }
 
 void FrameWriter::finish() {
-    // All to their ends before the first error is told: what can be whole, shall be.
+    // Close every output before reporting the first error, so that the others are complete.
     std::exception_ptr first;
     for (const Impl::Output& output : interior_->outputs) {
         output.line->close();

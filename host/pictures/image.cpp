@@ -1,4 +1,4 @@
-// A picture in memory, and PNG files, through libspng.
+// Images in memory, and PNG files by libspng.
 #include "host/pictures/image.h"
 
 #include <spng.h>
@@ -54,13 +54,13 @@ float float_of_half(std::uint16_t half) {
     return (half & 0x8000) != 0 ? -size : size;
 }
 
-// What each half float is in a picture, so that a pixel costs three looks into a table instead of three powers.
+// Table of the sRGB encoding of every half float: three lookups per pixel instead of three powers.
 const std::vector<std::uint16_t>& levels_of_halves() {
     static const std::vector<std::uint16_t> levels = [] {
         std::vector<std::uint16_t> made(1u << 16);
         for (std::size_t i = 0; i < made.size(); ++i) {
             const auto half = static_cast<std::uint16_t>(i);
-            const float x = std::clamp(float_of_half(half), 0.0f, 1.0f);  // infinities and what is no number end up as 1
+            const float x = std::clamp(float_of_half(half), 0.0f, 1.0f);  // infinity and NaN become 1
             // IEC 61966-2-1.
             const float encoded = x <= 0.0031308f ? 12.92f * x : 1.055f * std::pow(x, 1.0f / 2.4f) - 0.055f;
             made[i] = static_cast<std::uint16_t>(std::lround(encoded * 65535.0f));
@@ -152,7 +152,7 @@ void require_writable_folder(const std::filesystem::path& folder) {
     std::filesystem::create_directories(at, error);
     if (error) throw ImageError(at.string() + ": the folder cannot be made: " + error.message());
     if (!std::filesystem::is_directory(at, error)) throw ImageError(at.string() + ": not a folder");
-    // Asking for permission is not enough: only making a file tells of a full or read-only disk.
+    // Create a file: checking permissions would miss a full or read-only file system.
     std::string name = (at / ".scree-XXXXXX").string();
     const int made = ::mkstemp(name.data());
     if (made < 0) throw ImageError(at.string() + ": no file can be made in this folder: " + std::strerror(errno));

@@ -1,4 +1,4 @@
-// Frames as bare pixels.
+// Raw video frames.
 #include "host/pictures/raw_frames.h"
 
 #include <fcntl.h>

@@ -1,4 +1,4 @@
-// Frames as bare pixels, for another program to read through a pipe.
+// Raw video frames, for another program to read through a pipe.
 #pragma once
 
 #include <filesystem>
@@ -8,18 +8,18 @@
 
 namespace scree::host {
 
-// Rows from the top, red, green and blue, a byte each (ffmpeg's rgb24), or two in the machine's order for pictures of 16 bits
-// (rgb48le); frame after frame with nothing between.
+// Format: rows from the top, RGB interleaved, 8 bits per channel (ffmpeg's rgb24) or 16 in native byte order
+// (rgb48le); frames are concatenated without headers.
 class RawFrames {
 public:
-    // "-" is the standard output; a pipe or a device is written in place; anything else becomes a file, which appears under its
-    // name when it is whole. Throws ImageError.
+    // "-" is the standard output; a pipe or a device is written in place; any other path is a file that appears when
+    // finish() completes. Throws ImageError.
     explicit RawFrames(const std::filesystem::path& path);
     ~RawFrames();  // an unfinished file is removed
     RawFrames(const RawFrames&) = delete;
     RawFrames& operator=(const RawFrames&) = delete;
 
-    void add(const Image& image);  // waits for a slow reader; throws ImageError when it is gone
+    void add(const Image& image);  // blocks on a slow reader; throws ImageError when the reader has closed the pipe
     void finish();
 
 private:

@@ -36,7 +36,8 @@ std::string find_ffmpeg() {
     throw ImageError("ffmpeg not found: apt-get install ffmpeg, or leave out --video and --preview");
 }
 
-// The file that links lead to, so that it is replaced and not the link. Throws ImageError unless that is a file or nothing yet.
+// Resolves symbolic links, so that the target is replaced and not the link. Throws ImageError unless the target is a
+// regular file or does not exist.
 std::filesystem::path target_of(const std::filesystem::path& path, const char* such_as) {
     namespace fs = std::filesystem;
     const auto refuse = [&](const char* why) {
@@ -48,7 +49,7 @@ std::filesystem::path target_of(const std::filesystem::path& path, const char* s
     if (fs::is_regular_file(status)) return fs::canonical(path);
     if (fs::exists(status)) refuse("is not a regular file, and only such can be replaced by a whole video");
     fs::path target = path;
-    for (int links = 0; fs::is_symlink(target, ignored); ++links) {  // to what is not there yet
+    for (int links = 0; fs::is_symlink(target, ignored); ++links) {  // dangling links
         if (links == 40) refuse("is a symbolic link that leads back to itself");
         target = target.parent_path() / fs::read_symlink(target);
     }
@@ -64,26 +65,26 @@ std::string decimal(double number) {
     return text.str();
 }
 
-// What ffmpeg makes of the frames.
+// ffmpeg's output options.
 Words output_of(const VideoShape& shape) {
     const std::string smaller = "fps=" + decimal(std::min(shape.frames_per_second, 15.0)) +
                                 ",scale=" + std::to_string(std::min(shape.width, 480)) + ":-1:flags=lanczos";
     if (shape.clip == Clip::webp) return {"-vf", smaller, "-c:v", "libwebp_anim", "-quality", "75", "-loop", "0", "-f", "webp"};
     if (shape.clip == Clip::gif) {
-        // The palette is of the first seconds: until it is known, ffmpeg holds the frames in memory. One for each frame would
-        // make the file eight times as large.
+        // The palette is computed from the first 8 s, because ffmpeg keeps the frames in memory until it is known. A
+        // palette per frame would make the file eight times as large.
         const std::string colored =
             ",split[a][b];[a]trim=end=8,palettegen[p];[b][p]paletteuse=dither=bayer:bayer_scale=4:diff_mode=rectangle";
         return {"-filter_complex", smaller + colored, "-loop", "0", "-f", "gif"};
     }
     return {"-vf",
-            // The default would tag nothing and convert by BT.601, which players of HD video misread.
+            // By default ffmpeg converts by BT.601 without tags, which players of HD video take for BT.709.
             "crop=trunc(iw/2)*2:trunc(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv", "-colorspace", "bt709",
             "-color_primaries", "bt709", "-color_trc", "bt709", "-c:v", "libx264", "-preset", "fast", "-crf", "18", "-pix_fmt",
             "yuv420p", "-movflags", "+faststart", "-f", "mp4"};
 }
 
-// What turns the frames on ffmpeg's standard input into the file.
+// ffmpeg's command line: raw frames from standard input to the file.
 Words command_of(const std::string& program, const VideoShape& shape, const std::string& file) {
     const char* sixteen = std::endian::native == std::endian::little ? "rgba64le" : "rgba64be";
     Words words{program,
@@ -120,7 +121,7 @@ struct Video::Impl {
     std::optional<Unfinished> unfinished;
     pid_t process = -1;
     int pipe = -1;    // to ffmpeg's input
-    int errors = -1;  // what ffmpeg says, an unnamed file
+    int errors = -1;  // ffmpeg's standard error, an unnamed file
 
     void start(const std::string& program);
     int wait();
@@ -148,7 +149,7 @@ void Video::Impl::start(const std::string& program) {
     sigset_t none;
     sigemptyset(&none);
     posix_spawnattr_setsigmask(&attributes, &none);
-    // Its own group: Ctrl-C is for the simulation, which then finishes or discards the video itself.
+    // A process group of its own, so that Ctrl-C reaches only the simulation, which finishes or discards the video.
     posix_spawnattr_setpgroup(&attributes, 0);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETPGROUP);
     const int error = posix_spawn(&process, program.c_str(), &actions, &attributes, arguments.data(), environ);
@@ -172,7 +173,7 @@ int Video::Impl::wait() {
         }
     }
     process = -1;
-    if (unfinished) unfinished.emplace(partial);  // nobody writes it any more
+    if (unfinished) unfinished.emplace(partial);  // registered without a writer: ffmpeg has exited
     return status;
 }
 
@@ -183,7 +184,7 @@ void Video::Impl::fail() {
     said.resize(n > 0 ? static_cast<std::size_t>(n) : 0);
     while (!said.empty() && said.back() == '\n') said.pop_back();
     discard();
-    throw ImageError(path.string() + ": ffmpeg failed: " + (said.empty() ? "it ended early and said nothing" : said));
+    throw ImageError(path.string() + ": ffmpeg failed: " + (said.empty() ? "it exited early without a message" : said));
 }
 
 void Video::Impl::discard() {

@@ -1,5 +1,5 @@
-// SPIR-V modules as lists of instructions, and what in them is not exact.
-// Numbers are those of the SPIR-V specification 1.6 and of its extended instruction set GLSL.std.450.
+// SPIR-V parsing and the list of inexact instructions. Opcodes are those of the SPIR-V specification 1.6 and of its
+// extended instruction set GLSL.std.450.
 #include <algorithm>
 #include <cstring>
 #include <iterator>
@@ -15,8 +15,8 @@ namespace {
 struct Known {
     std::uint16_t opcode;
     const char* name;
-    bool arithmetic;  // takes NoContraction
-    bool exact;       // every bit is fixed by Vulkan, given NoContraction
+    bool arithmetic;  // NoContraction applies
+    bool exact;       // correctly rounded or exact in Vulkan, given NoContraction
 };
 constexpr Known known[] = {
     {115, "OpFConvert", false, false},
@@ -60,7 +60,7 @@ constexpr Known known[] = {
     {6402, "OpGroupFMulKHR", false, false},
 };
 
-// GLSL.std.450 by number.
+// Names of GLSL.std.450 instructions, by number.
 constexpr const char* extended_names[] = {
     "Bad",
     "Round",
@@ -145,8 +145,8 @@ constexpr const char* extended_names[] = {
     "NMax",
     "NClamp",
 };
-// RoundEven, Trunc, FAbs, SAbs, SSign, Floor, Ceil, the integer min, max and clamp, and the bit searches. FMin and its like are
-// not here: which of NaN and -0 they return is the device's choice.
+// RoundEven, Trunc, FAbs, SAbs, SSign, Floor, Ceil, the integer min, max and clamp, and the bit searches. FMin, FMax
+// and FClamp are not exact: their result for NaN and -0 is implementation-defined.
 constexpr std::uint32_t exact_extended[] = {2, 3, 4, 5, 7, 8, 9, 38, 39, 41, 42, 44, 45, 73, 74, 75};
 
 const Known* find_known(std::uint16_t opcode) {

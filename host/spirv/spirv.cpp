@@ -1,4 +1,4 @@
-// SPIR-V modules rewritten: the decorations and modes that make their arithmetic exact.
+// SPIR-V rewriting: NoContraction, float controls, stripping of debug lines.
 #include "host/spirv/spirv.h"
 
 #include <cstring>
@@ -10,7 +10,7 @@
 namespace scree::host {
 namespace {
 
-constexpr std::uint32_t version_1_4 = 0x00010400;  // from here on float controls are no extension
+constexpr std::uint32_t version_1_4 = 0x00010400;  // float controls are core from here
 
 constexpr std::uint32_t decoration_no_contraction = 42;
 constexpr std::uint32_t execution_mode_id = 331;  // OpExecutionModeId
@@ -21,14 +21,14 @@ void append(std::vector<std::uint32_t>& out, std::uint16_t opcode, std::initiali
 }
 
 void append_extension(std::vector<std::uint32_t>& out, const char* name) {
-    const std::size_t words = std::strlen(name) / 4 + 1;  // with the closing 0
+    const std::size_t words = std::strlen(name) / 4 + 1;  // including the terminating 0
     out.push_back(static_cast<std::uint32_t>(words + 1) << 16 | op_extension);
     out.resize(out.size() + words, 0);
     std::memcpy(out.data() + out.size() - words, name, std::strlen(name));
 }
 
-// Where the annotations end: at the first type, constant, global variable or function. What may stand before it: OpName and its
-// like, OpString, OpLine, the preamble, execution modes, decorations.
+// Whether the opcode belongs before the first type, constant, global variable or function: preamble, execution modes,
+// debug names, strings and lines, decorations.
 bool stands_before_types(std::uint16_t opcode) {
     return opcode <= op_execution_mode || opcode == op_capability || (opcode >= op_decorate && opcode <= 75) ||
            opcode == op_no_line || opcode == op_module_processed || opcode == execution_mode_id || opcode == 332 ||
@@ -46,7 +46,7 @@ std::vector<std::uint32_t> without_contraction(std::span<const std::uint32_t> wo
             decorated.insert(i.words[1]);
         if (end_of_annotations == words.size() && !stands_before_types(i.opcode)) end_of_annotations = i.at;
     }
-    // A line number belongs to what follows it, here the first type: it stays in front of it.
+    // OpLine applies to the instruction after it, here the first type, so insert before it.
     for (auto i = instructions.rbegin(); i != instructions.rend(); ++i) {
         if (i->at < end_of_annotations && i->opcode != op_line && i->opcode != op_no_line) break;
         if (i->at < end_of_annotations) end_of_annotations = i->at;
@@ -102,7 +102,7 @@ std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> wo
             append(modes, op_execution_mode, {i.words[2], wish.mode, 32});
         }
     }
-    // The order of a module: capabilities, extensions, imports, memory model, entry points, execution modes.
+    // Section order of a module: capabilities, extensions, imports, memory model, entry points, execution modes.
     std::vector<std::uint32_t> out(words.begin(), words.begin() + header_words);
     const auto give = [&out](std::vector<std::uint32_t>& part) {
         out.insert(out.end(), part.begin(), part.end());

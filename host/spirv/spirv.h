@@ -1,4 +1,4 @@
-// SPIR-V modules as lists of instructions: what in them is not exact, and the decorations and modes that make them so.
+// SPIR-V parsing and rewriting for bit-exact floats: inexact instructions, NoContraction, float controls.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace scree::host {
 
-// Words that are no SPIR-V module.
+// A malformed SPIR-V module.
 struct SpirvError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -18,36 +18,36 @@ struct SpirvError : std::runtime_error {
 struct SpirvInstruction {
     std::uint16_t opcode = 0;
     std::size_t at = 0;                    // index of the first word in the module
-    std::span<const std::uint32_t> words;  // the first holds the opcode and the count of words
+    std::span<const std::uint32_t> words;  // words[0] holds word count and opcode
 };
 
-// The instructions in order; they refer to `words`. Throws SpirvError.
+// The instructions in order, as spans into `words`. Throws SpirvError.
 std::vector<SpirvInstruction> spirv_instructions(std::span<const std::uint32_t> words);
 
-// "OpFDiv"; "Op" and the number for an opcode that this file has no use for.
+// The opcode's name, such as "OpFDiv"; "Op" and its number if unknown here.
 std::string spirv_name(std::uint16_t opcode);
 
-// Whether NoContraction applies to it: float arithmetic.
+// Whether NoContraction applies to the opcode.
 bool is_float_arithmetic(std::uint16_t opcode);
 
-// Every instruction whose result Vulkan does not fix to the last bit, one line each: "OpFDiv at laws.h:20" (the place if the
-// module has line numbers). Exact are + - * and negation, comparisons, absolute value, floor, ceiling, truncation, integer
-// operations.
+// Instructions whose result Vulkan does not define exactly, one line each: "OpFDiv at laws.h:20" (the source line if
+// the module has debug lines). Exact are + - * and negation, comparisons, absolute value, floor, ceiling, truncation,
+// integer operations.
 std::vector<std::string> inexact_instructions(std::span<const std::uint32_t> words);
 
-// The module with NoContraction on every float arithmetic instruction.
+// Adds NoContraction to every float arithmetic instruction, so that no compiler fuses multiply and add.
 std::vector<std::uint32_t> without_contraction(std::span<const std::uint32_t> words);
 
-// The module without source text and line numbers.
+// Strips source text and line numbers.
 std::vector<std::uint32_t> without_lines(std::span<const std::uint32_t> words);
 
-// What a device can be asked to promise for 32-bit floats (SPV_KHR_float_controls).
+// Execution modes for 32-bit floats (SPV_KHR_float_controls).
 struct FloatControls {
-    bool preserve_denormals = false;  // denormals are neither flushed on the way in nor as results
-    bool preserve_specials = false;   // -0, infinities and NaN are what IEEE 754 says
-    bool round_to_nearest = false;    // ties to even
+    bool preserve_denormals = false;  // DenormPreserve: no flushing of operands or results
+    bool preserve_specials = false;   // SignedZeroInfNanPreserve
+    bool round_to_nearest = false;    // RoundingModeRTE
 };
-// The module asking for them, in every entry point.
+// Adds the execution modes to every entry point.
 std::vector<std::uint32_t> with_float_controls(std::span<const std::uint32_t> words, FloatControls controls);
 
 }  // namespace scree::host

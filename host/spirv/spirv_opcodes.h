@@ -1,4 +1,4 @@
-// Numbers of the SPIR-V specification 1.6. Impl of spirv.
+// Opcodes of the SPIR-V specification 1.6. Internal to spirv/.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ enum Opcode : std::uint16_t {
     op_module_processed = 330,
 };
 
-// The text in the words of an OpString or the like.
+// Decodes a literal string operand.
 std::string literal(std::span<const std::uint32_t> words);
 
 }  // namespace scree::host

@@ -1,10 +1,10 @@
-// A build tool: compiles a shader in all its variants and makes each ready to be embedded.
+// Build tool: compiles a shader in all its variants, for embedding.
 //     scree_compile_shader GLSLC FOLDER [-I FOLDER]... [--words] [--forbid-inexact] [--es] SOURCE (VARIANT
 //     [-DMACRO[=VALUE]]...)...
 //
-// With --words writes FOLDER/VARIANT.words for each: the optimised module, with NoContraction on all its float arithmetic. With
-// --es writes FOLDER/VARIANT.es: GLSL of OpenGL ES. What they depend on goes to FOLDER/VARIANT.d of the first variant. One glslc
-// compiles all variants, for it takes longer to start than to compile a shader; the optimiser is a part of this program.
+// --words writes FOLDER/VARIANT.words: the optimised SPIR-V with NoContraction on all float arithmetic. --es writes
+// FOLDER/VARIANT.es: OpenGL ES GLSL. Dependencies go to FOLDER/VARIANT.d of the first variant. One glslc process
+// compiles all variants, since starting it takes longer than compiling a shader; the optimiser is linked in.
 #include <spawn.h>
 #include <sys/wait.h>
 
@@ -77,9 +77,9 @@ Task task_of(const std::vector<std::string>& arguments) {
     return task;
 }
 
-// What a driver would do first with each shader, every time a program starts: calls unfolded, variables made values, what is not
-// used dropped. None of it touches arithmetic, which would be computed as the optimiser's machine does; that is the driver's. Nor
-// may it join equal expressions (--redundancy-elimination): with that, hulls collided otherwise than on the CPU.
+// Optimiser passes that save drivers work at start-up: inlining, conversion to SSA, dead code elimination. No pass
+// may fold float arithmetic, whose result must come from the device, nor merge equal expressions
+// (--redundancy-elimination): with that, hull collisions differed from the CPU.
 const std::vector<std::string> optimiser_passes = {
     "--merge-return",         "--inline-entry-points-exhaustive", "--eliminate-dead-functions",
     "--scalar-replacement=0", "--eliminate-local-single-block",   "--eliminate-local-single-store",
@@ -100,7 +100,8 @@ std::vector<std::uint32_t> optimized(const std::vector<std::uint32_t>& words) {
     return made;
 }
 
-// The source with the definitions behind its #version, which must stand first. Messages name the source's own lines.
+// The source with the definitions after its #version, which must come first; #line keeps the line numbers of
+// messages.
 std::string text_of(const Variant& variant, const fs::path& source, const std::string& text) {
     const std::size_t version = text.starts_with("#version") ? 0 : text.find("\n#version");
     const std::size_t end = version == std::string::npos ? version : text.find('\n', version + 1);
@@ -116,7 +117,7 @@ std::string text_of(const Variant& variant, const fs::path& source, const std::s
            text.substr(end + 1);
 }
 
-// In the present folder, as glslc -c needs it.
+// Runs in the current folder, where glslc -c writes its output.
 void run(const std::vector<std::string>& command) {
     std::vector<char*> words;
     for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
@@ -138,7 +139,7 @@ std::vector<std::uint32_t> read_words(const fs::path& path) {
     return words;
 }
 
-// The files that a line "TARGET: FILE FILE..." of make names, as it spells them.
+// Adds the files of a make rule "TARGET: FILE FILE...".
 void add_files_of(const std::string& line, std::set<std::string>& files) {
     std::string file;
     for (std::size_t i = line.find(": ") + 2; i <= line.size(); ++i) {
@@ -151,7 +152,7 @@ void add_files_of(const std::string& line, std::set<std::string>& files) {
     }
 }
 
-// A folder of its own for what glslc reads and writes, gone in the end.
+// A temporary folder for glslc's input and output, removed by the destructor.
 class Workplace {
 public:
     explicit Workplace(fs::path folder) : folder_(std::move(folder)) {

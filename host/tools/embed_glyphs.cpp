@@ -1,4 +1,4 @@
-// A build tool: draws the letters of a font into an atlas of distances to their outlines, and writes it as C++.
+// Build tool: renders a font into a signed distance field atlas and writes it as C++.
 //     scree_embed_glyphs FONT.ttf OUT.cpp
 #define STB_TRUETYPE_IMPLEMENTATION
 #define STBTT_STATIC
@@ -26,7 +26,7 @@ using namespace scree::host;
 
 constexpr int ATLAS_WIDTH = 512;
 
-// ASCII, and what captions and units want besides.
+// ASCII, and further characters of captions and units.
 std::vector<std::uint32_t> wanted_codes() {
     std::vector<std::uint32_t> codes;
     for (std::uint32_t c = 32; c < 127; ++c) codes.push_back(c);
@@ -57,7 +57,7 @@ Atlas draw_atlas(const stbtt_fontinfo& font) {
         glyph.advance = static_cast<float>(advance) * scale;
         unsigned char* levels = stbtt_GetGlyphSDF(&font, scale, index, GLYPH_PADDING, GLYPH_OUTLINE, GLYPH_SLOPE, &glyph.width,
                                                   &glyph.height, &glyph.left, &glyph.top);
-        if (levels == nullptr) glyph.width = glyph.height = 0;  // a space
+        if (levels == nullptr) glyph.width = glyph.height = 0;  // glyphs without outline, such as a space
         if (x + glyph.width > ATLAS_WIDTH) {
             x = 0;
             y += row;

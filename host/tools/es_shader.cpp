@@ -1,4 +1,4 @@
-// Compiled shaders turned into GLSL of OpenGL ES 3.1, by spirv-cross.
+// Translation of SPIR-V shaders to OpenGL ES 3.1 GLSL, by SPIRV-Cross.
 #include "host/tools/es_shader.h"
 
 #include <spirv_cross/spirv_cross_c.h>
@@ -59,7 +59,7 @@ private:
     spvc_compiler compiler_ = nullptr;
 };
 
-// The line that moves depth from 0..w to -w..w, only where it is asked for.
+// Makes SPIRV-Cross's line that maps clip space depth from 0..w to -w..w conditional on SCREE_WHOLE_DEPTH.
 std::string with_depth_by_choice(std::string text) {
     const std::string line = "    gl_Position.z = 2.0 * gl_Position.z - gl_Position.w;\n";
     for (std::size_t at = 0; (at = text.find(line, at)) != std::string::npos;) {

@@ -1,4 +1,4 @@
-// Compiled shaders turned into GLSL of OpenGL ES 3.1.
+// Translation of SPIR-V shaders to OpenGL ES 3.1 GLSL.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace scree::host {
 
-// Bindings stay as they are. The push constant becomes the uniform `pushed`. Depth in clip space runs from 0 to w, as in Vulkan;
-// for contexts where it runs from -w to w, SCREE_WHOLE_DEPTH is defined behind the first line. Throws std::runtime_error.
+// Bindings are unchanged. The push constant becomes the uniform `pushed`. Clip space depth is 0..w, as in Vulkan;
+// define SCREE_WHOLE_DEPTH after the first line where the context has -w..w. Throws std::runtime_error.
 std::string es_text_of(std::span<const std::uint32_t> words);
 
 }  // namespace scree::host

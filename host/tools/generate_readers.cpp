@@ -1,4 +1,4 @@
-// A build tool: writes readers of the records in a header, and a list of their layouts.
+// Build tool: writes GLSL readers of the records in a header, and a list of their layouts.
 //     scree_generate_readers RECORDS.h READERS.glsl LAYOUTS.h SHOWN
 #include <exception>
 #include <iostream>

@@ -1,4 +1,4 @@
-// The records of a header that GLSL and C++ share, read from its text, and where both put their members.
+// Parser and std430 layout of the records in a header that GLSL and C++ share.
 #include "host/tools/record_layout.h"
 
 #include <algorithm>
@@ -19,7 +19,7 @@ bool is_word(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// The words and signs of the text without comments. Lines of the preprocessor are one token, which begins with '#'.
+// Tokens of the text without comments. A preprocessor line is one token, which begins with '#'.
 std::vector<Token> tokens_of(const std::string& text) {
     std::vector<Token> tokens;
     std::size_t line = 1;
@@ -139,7 +139,7 @@ private:
         expect("struct");
         Record record;
         record.name = take_name("a record");
-        if (take(";")) return;  // only announced
+        if (take(";")) return;  // forward declaration
         expect("{");
         packed_ = 0;
         while (!take("}")) {
@@ -180,7 +180,7 @@ private:
     std::vector<Token> tokens_;
     std::string path_;
     std::size_t at_ = 0;
-    std::size_t packed_ = 0;  // bytes of the record so far, as C++ puts them
+    std::size_t packed_ = 0;  // size of the record so far without padding, bytes
     std::map<std::string, std::size_t> constants_;
     std::vector<Record> records_;
 };

@@ -1,4 +1,4 @@
-// The records of a header that GLSL and C++ share, read from its text, and where both put their members.
+// std430 layouts of the records in a header that GLSL and C++ share, parsed from its text.
 #pragma once
 
 #include <cstddef>
@@ -8,17 +8,17 @@
 
 namespace scree::host {
 
-// A text that is no list of records as they are written here. The message names file, line and reason.
+// A header that does not parse as a list of records. The message names file, line and reason.
 struct RecordError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
 struct RecordMember {
-    std::string type;  // "uint", "vec3", the name of a record
+    std::string type;  // "uint", "vec3", or the name of a record
     std::string name;
-    std::size_t count = 0;   // of an array; 0: it is none
+    std::size_t count = 0;   // array length; 0: no array
     std::size_t offset = 0;  // bytes
-    std::size_t stride = 0;  // of an array's elements, bytes
+    std::size_t stride = 0;  // array stride, bytes
 };
 
 struct Record {
@@ -28,8 +28,9 @@ struct Record {
     std::size_t alignment = 0;
 };
 
-// The structs of `text`, each of scalars, vectors, structs before it, and arrays of these, laid out by std430. Throws RecordError
-// for one that C++ lays out otherwise, where every member follows the one before it at once. `path` is for messages.
+// The structs of `text`, whose members are scalars, vectors, earlier structs and arrays of these, laid out by std430.
+// Throws RecordError for a struct whose std430 layout has implicit padding, which C++ would lay out differently.
+// `path` is for messages.
 std::vector<Record> records_of(const std::string& text, const std::string& path);
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// What is generated from the layout of records.
+// Code generation from record layouts.
 #include "host/tools/record_readers.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ const Record* find(const std::vector<Record>& records, const std::string& name) 
     return found == records.end() ? nullptr : &*found;
 }
 
-// A scalar or vector at a byte of the record: of texel t0, t1 and so on, which are uvec4.
+// GLSL expression of a scalar or vector at a byte offset of the record, from the texels t0, t1, ... (uvec4).
 std::string value_of(const std::string& type, std::size_t byte) {
     const bool vector = std::isdigit(static_cast<unsigned char>(type.back())) != 0;
     const std::size_t lanes = vector ? static_cast<std::size_t>(type.back() - '0') : 1;

@@ -1,4 +1,4 @@
-// What is generated from the layout of records.
+// Code generation from record layouts.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace scree::host {
 
-// GLSL: for each record a macro SCREE_READER_RECORD(table, TEXEL) that defines `RECORD read_table(uint i)`, which puts record i
-// together from texels, TEXEL(table, k) being texel k of the table as uvec4. Texels have 16 bytes; those of a shorter record have
-// as many as it has. A record that is no number of texels long has no reader.
+// GLSL: for each record a macro SCREE_READER_RECORD(table, TEXEL) that defines `RECORD read_table(uint i)`, which
+// assembles record i from texels, where TEXEL(table, k) is texel k of the table as uvec4. A texel has 16 bytes, or
+// the record's size if that is smaller. Records whose size is no multiple of a texel have no reader.
 std::string readers_of(const std::vector<Record>& records, const std::string& source);
 
 // C++: SCREE_RECORDS(RECORD, MEMBER) expands RECORD(name, bytes) for each record and MEMBER(record, name, offset) for each

@@ -1,4 +1,4 @@
-// A buffer on a device, with its memory.
+// Device buffers and their memory.
 #include "host/vulkan/buffer.h"
 
 #include <algorithm>
@@ -29,8 +29,8 @@ VkBufferUsageFlags usage_of(BufferUse use) {
            VK_BUFFER_USAGE_INDIRECT_BUFFER_BIT | VK_BUFFER_USAGE_TRANSFER_SRC_BIT | VK_BUFFER_USAGE_TRANSFER_DST_BIT;
 }
 
-// What the memory is to be, best first. Device memory that the host sees but does not cache (a card's BAR) is not mapped: reading
-// it is a hundred times slower than a copy.
+// Memory properties, in order of preference. Device memory that the host sees but does not cache (a GPU's BAR) is not
+// mapped: host reads of it are a hundred times slower than a copy.
 std::vector<VkMemoryPropertyFlags> wishes_of(BufferUse use, bool staged) {
     switch (use) {
         case BufferUse::readback:
@@ -79,7 +79,7 @@ Buffer::Buffer(std::shared_ptr<Device> device, const char* name, std::size_t byt
     name_ = name;
     const bool addressed = use != BufferUse::readback && device_->report().has_addresses;
     if (use != BufferUse::readback && !addressed) require_bindable(*device_, name, bytes);
-    // Not empty, which Vulkan forbids, and whole words, which filling needs.
+    // Vulkan forbids empty buffers, and vkCmdFillBuffer needs whole words.
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
     info.size = (std::max<std::size_t>(bytes, 1) + 15) / 16 * 16;

@@ -1,4 +1,5 @@
-// A buffer on a device, with its memory. Host-visible when the device's memory is (lavapipe), else filled through staging.
+// A device buffer and its memory: mapped where device-local memory is host-visible (lavapipe), else accessed through
+// staging copies.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 
 namespace scree::host {
 
-// Throws DeviceError, naming the buffer and the limit, if the device cannot bind so much at once.
+// Throws DeviceError, naming the buffer and the limit, if `bytes` exceed the largest storage buffer binding.
 void require_bindable(const Device& device, const char* name, std::size_t bytes);
 
 enum class BufferUse {
@@ -21,8 +22,8 @@ enum class BufferUse {
 class Buffer {
 public:
     Buffer() = default;
-    // Zero-filled. Throws DeviceError naming `name`, the size and the limit when memory ends, or when it exceeds what can be
-    // bound and the device has no addresses.
+    // Zero-filled. Throws DeviceError with name, size and limit when out of memory, or when the size exceeds the
+    // largest binding on a device without buffer addresses.
     Buffer(std::shared_ptr<Device> device, const char* name, std::size_t bytes, BufferUse use = BufferUse::storage);
     ~Buffer();
     Buffer(Buffer&& other) noexcept;
@@ -31,11 +32,11 @@ public:
     VkBuffer handle() const { return buffer_; }
     std::size_t bytes() const { return bytes_; }
     const std::string& name() const { return name_; }
-    VkDeviceAddress address() const;  // 0 of an empty one, and where the device has none
+    VkDeviceAddress address() const;  // 0 for an empty buffer and on devices without buffer addresses
     explicit operator bool() const { return buffer_ != VK_NULL_HANDLE; }
     void* mapped() const { return mapped_; }  // null unless host-visible
 
-    // Copies now, waiting for the queue. The range must lie inside the buffer (std::out_of_range).
+    // Synchronous copies; they wait for the queue. Throw std::out_of_range for a range outside the buffer.
     void write(const void* data, std::size_t bytes, std::size_t offset = 0);
     void read(void* data, std::size_t bytes, std::size_t offset = 0) const;
 

@@ -1,4 +1,4 @@
-// A recorded command buffer: dispatches, barriers, copies and timestamps, to be submitted once or many times.
+// Recording of command buffers.
 #include "host/vulkan/command_buffer.h"
 
 #include <algorithm>
@@ -15,7 +15,7 @@ void check_range(const Buffer& buffer, std::size_t bytes, std::size_t offset) {
                             " of a buffer of " + std::to_string(buffer.bytes()));
 }
 
-// One barrier for all memory. A stage writes several buffers and the next reads most of them.
+// A global memory barrier, since a stage writes several buffers and the next reads most of them.
 void all_memory(const VulkanFunctions& vk, VkCommandBuffer commands, VkPipelineStageFlags more_stages,
                 VkAccessFlags more_access) {
     VkMemoryBarrier barrier{};
@@ -58,7 +58,7 @@ CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t times
     if (result == VK_SUCCESS) result = vk.vkBeginCommandBuffer(commands_, &begin);
     if (result == VK_SUCCESS && timed) result = vk.vkCreateQueryPool(device_->handle(), &queries, nullptr, &queries_);
     if (result != VK_SUCCESS && pool_) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
-    check(result, "beginning a recording");
+    check(result, "beginning a command buffer");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "recording");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "recording");
     if (!queries_) return;
@@ -153,9 +153,9 @@ void CommandBuffer::timestamp() {
 }
 
 void CommandBuffer::end() {
-    // The host is left out of the barriers between stages: on a card it costs a flush of its caches each time.
+    // Only the last barrier includes the host: on a discrete GPU that costs a cache flush each time.
     all_memory(device_->vk(), commands_, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT | VK_ACCESS_HOST_WRITE_BIT);
-    check(device_->vk().vkEndCommandBuffer(commands_), "ending a recording");
+    check(device_->vk().vkEndCommandBuffer(commands_), "ending a command buffer");
 }
 
 std::vector<double> CommandBuffer::timestamp_seconds() const {

@@ -12,25 +12,25 @@ namespace scree::host {
 
 class CommandBuffer {
 public:
-    // `timestamps`: how many timestamp() calls it may hold. Recording begins at once.
+    // Begins recording. `timestamps`: capacity for timestamp() calls.
     explicit CommandBuffer(std::shared_ptr<Device> device, std::uint32_t timestamps = 0);
     ~CommandBuffer();
     CommandBuffer(CommandBuffer&& other) noexcept;
     CommandBuffer& operator=(CommandBuffer&& other) noexcept;
 
-    void bind(const Pipeline& pipeline, const BindingSet& table);  // skips what is bound already
+    void bind(const Pipeline& pipeline, const BindingSet& table);  // skips redundant binds
     void push(const void* data, std::uint32_t bytes);
     void dispatch(std::uint32_t groups);
     void dispatch_indirect(const Buffer& arguments, std::size_t offset);  // VkDispatchIndirectCommand at `offset`
     void barrier();  // compute and transfer writes become visible to compute, indirect arguments, vertex shaders and transfers
-    void zero(const Buffer& buffer);  // all of it
+    void zero(const Buffer& buffer);  // the whole buffer
     void copy(const Buffer& from, const Buffer& to, std::size_t bytes, std::size_t from_offset = 0, std::size_t to_offset = 0);
     void timestamp();
-    void end();  // before the first submission. Makes all writes visible to the host and to later submissions
+    void end();  // ends recording; makes writes visible to the host and to later submissions
 
     VkCommandBuffer handle() const { return commands_; }
-    // Seconds between consecutive timestamps of the last submission (which must have been waited for); empty if the queue has no
-    // timestamps.
+    // Seconds between consecutive timestamps of the last submission, which must have completed; empty if the queue
+    // has no timestamps.
     std::vector<double> timestamp_seconds() const;
 
 private:

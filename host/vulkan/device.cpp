@@ -1,4 +1,4 @@
-// A Vulkan device: found, explained, opened.
+// Vulkan devices: selection and opening.
 #include "host/vulkan/device.h"
 
 #include <algorithm>
@@ -67,7 +67,7 @@ bool is_number(const std::string& text) {
            std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isdigit(c); });
 }
 
-// The device that `which` means (see DeviceOptions), or DeviceError.
+// Selects the device by DeviceOptions::which. Throws DeviceError if none matches.
 const DeviceReport& choose(const std::vector<DeviceReport>& reports, const std::string& which) {
     const DeviceReport* chosen = nullptr;
     if (which.empty()) {
@@ -110,7 +110,7 @@ struct Device::Impl {
     VkQueue queue = VK_NULL_HANDLE;
     std::unique_ptr<PipelineCache> cache;
     bool staged = false;
-    std::mutex queue_mutex;  // Vulkan leaves it to the caller that one thread at a time uses a queue
+    std::mutex queue_mutex;  // queues are externally synchronised in Vulkan
 };
 
 void check(VkResult result, const char* what) {

@@ -1,4 +1,5 @@
-// A Vulkan device: found, explained, opened. The loader is looked up at run time, so a machine without Vulkan can run the rest.
+// Vulkan devices: enumeration, capabilities, opening. The loader is found at run time, so the program runs without
+// Vulkan.
 #pragma once
 
 #include <cstdint>
@@ -12,48 +13,48 @@
 
 namespace scree::host {
 
-// A step is one table of buffers, bound once, or found by address (compute/device/device_runner.cpp, which holds these to it).
-// Lavapipe binds 32 storage buffers a stage, MoltenVK 31, most cards a million.
+// Descriptors that the simulation's one descriptor set needs (device_runner.cpp checks these counts). Lavapipe binds
+// 32 storage buffers per stage, MoltenVK 31, most GPUs a million.
 struct TablesOfAStep {
     std::uint32_t storage, texels, changing_texels;
 };
 inline constexpr TablesOfAStep tables_of_a_step{22, 23, 6};
 
-// One physical device as `scree devices` shows it.
+// Properties of a physical device, as `scree devices` shows them.
 struct DeviceReport {
-    int index = 0;  // as the loader lists them
+    int index = 0;  // position in the loader's enumeration
     std::string name;
     std::string driver;                 // name and version
     std::string api_version;            // "1.3.230"
     bool is_processor = false;          // a software device such as lavapipe
-    std::uint32_t subgroup = 0;         // threads that run as one
-    std::uint64_t memory_bytes = 0;     // the largest device-local heap
+    std::uint32_t subgroup = 0;         // subgroup size, threads
+    std::uint64_t memory_bytes = 0;     // size of the largest device-local heap
     std::uint64_t largest_binding = 0;  // maxStorageBufferRange, bytes
-    bool has_addresses = false;         // shaders can find buffers by address: they may be longer than a binding
-    bool prefers_texels = false;        // reads records from texel buffers faster than from storage buffers, as lavapipe does
-    // Which modes 32-bit floats can be asked for (host/spirv/spirv.h). None of them is a lack: + - * are correctly rounded
-    // without.
+    bool has_addresses = false;         // buffer device address: buffers may exceed largest_binding
+    bool prefers_texels = false;        // texel buffer reads are faster than storage buffer reads (lavapipe)
+    // Float controls for 32-bit floats (host/spirv/spirv.h). None is required, since + - * are correctly rounded
+    // without them.
     bool can_preserve_denormals = false;
     bool can_preserve_specials = false;
     bool can_round_to_nearest = false;
-    std::vector<std::string> lacks;  // each with the reason; empty when usable
+    std::vector<std::string> lacks;  // missing requirements, with reasons; empty if the device is usable
 };
 
-// Every physical device. Throws DeviceError when there is no Vulkan loader or no driver, naming the package that brings one.
+// All physical devices. Throws DeviceError when there is no Vulkan loader or driver, naming the package to install.
 std::vector<DeviceReport> list_devices();
 
 struct DeviceOptions {
-    std::string which;        // "" the first real GPU, else the first usable one; an index; or part of a name, any case
-    bool validation = false;  // validation and synchronisation validation layers (DeviceError if the layer is not installed)
-    // Treats device memory as the host cannot see it, as on most discrete cards: buffers are read and written through staging.
+    std::string which;  // "": the first GPU, else the first usable device; an index; or a part of the name, case-insensitive
+    bool validation = false;  // core and synchronisation validation (DeviceError if the layer is not installed)
+    // Treats device memory as not host-visible, as on most discrete GPUs, so that buffers go through staging copies.
     bool staged = false;
-    // Not 0: binds no more bytes than that at once, whatever the device could.
+    // If not 0, caps the largest storage buffer binding, bytes.
     std::uint64_t largest_binding = 0;
-    // Prefers storage buffers, as a GPU does.
+    // Never uses texel buffers, as on a GPU.
     bool without_texels = false;
-    // What the window system asks of the instance (Display::extensions); not empty: the device can show pictures in a window.
+    // Instance extensions of the window system (Display::extensions); if not empty, the device can present.
     std::vector<const char*> window_extensions = {};
-    // Receives each validation message, from any thread; they are collected in Device::validation_messages() too.
+    // Receives each validation message, on any thread; Device::validation_messages() also collects them.
     std::function<void(const std::string&)> on_message;
 };
 
@@ -69,24 +70,24 @@ public:
     VkInstance instance() const;
     VkPhysicalDevice physical() const;
     VkDevice handle() const;
-    VkQueue queue() const;  // one queue with graphics, compute and transfer
+    VkQueue queue() const;  // the one queue, with graphics, compute and transfer
     std::uint32_t queue_family() const;
     const VkPhysicalDeviceLimits& limits() const;
     const VkPhysicalDeviceMemoryProperties& memory() const;
     bool staged() const;                   // see DeviceOptions
     std::uint32_t timestamp_bits() const;  // 0: the queue has no timestamps
-    // Read at the start from, and written at the end to, cache_folder().
+    // Loaded from cache_folder() on opening and saved there on destruction.
     VkPipelineCache pipeline_cache() const;
     double timestamp_period_ns() const;
     std::vector<std::string> validation_messages() const;
 
-    // Index of a memory type with these properties among `allowed_bits`; throws DeviceError if there is none.
+    // Index of a memory type in the mask `allowed_bits` that has the properties. Throws DeviceError if there is none.
     std::uint32_t memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags properties) const;
-    // Submits command buffers (in order) to the queue with one fence and waits for it.
+    // Submits command buffers in order and waits for their completion.
     void submit_and_wait(const std::vector<VkCommandBuffer>& commands);
-    // For the canvas and the runner to share the queue from several threads.
+    // Submits without waiting; thread-safe, since canvas and runner share the queue.
     void submit(const std::vector<VkCommandBuffer>& commands, VkFence fence);
-    // For a window: a submission with semaphores, and the presentation, whose result (out of date, lost) is the caller's affair.
+    // For windows: submission with semaphores, and presentation, whose result (out of date, lost) the caller handles.
     void submit(const VkSubmitInfo& info, VkFence fence);
     VkResult present(const VkPresentInfoKHR& info);
     void wait_idle() const;
@@ -104,14 +105,14 @@ private:
     std::unique_ptr<Impl> interior_;
 };
 
-// Command buffers on their way through the queue.
+// A pending submission, completed by wait() or the destructor.
 class Submission {
 public:
     Submission(Device& device, const std::vector<VkCommandBuffer>& commands);
     ~Submission();  // waits
     Submission(const Submission&) = delete;
     Submission& operator=(const Submission&) = delete;
-    void wait();  // until the device has done with them
+    void wait();  // until the command buffers have completed
 
 private:
     Device& device_;

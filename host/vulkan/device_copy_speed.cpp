@@ -1,4 +1,4 @@
-// Copying from buffer to buffer on a device.
+// Copy bandwidth between buffers of a device.
 #include <algorithm>
 #include <chrono>
 

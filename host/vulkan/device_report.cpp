@@ -1,4 +1,4 @@
-// What a physical device is, and what it lacks.
+// Properties of a physical device, and the requirements that it lacks.
 #include <algorithm>
 
 #include "host/vulkan/instance.h"
@@ -47,7 +47,7 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
     VkPhysicalDeviceProperties2 all{};
     all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
     vk.vkGetPhysicalDeviceProperties(physical, &all.properties);
-    // The youngest of these structures came with 1.2.
+    // Some of these structures need Vulkan 1.2.
     const bool is_new_enough = all.properties.apiVersion >= VK_API_VERSION_1_2;
     if (is_new_enough) {
         all.pNext = &driver;
@@ -87,7 +87,7 @@ DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int 
         if (!(memory.memoryHeaps[i].flags & VK_MEMORY_HEAP_DEVICE_LOCAL_BIT)) continue;
         report.memory_bytes = std::max<std::uint64_t>(report.memory_bytes, memory.memoryHeaps[i].size);
     }
-    // 1.2 is the first with float controls, SPIR-V 1.5 and a driver's name in the core.
+    // Vulkan 1.2 has float controls, SPIR-V 1.5 and driver properties in the core.
     if (!is_new_enough) report.lacks.push_back("Vulkan 1.2 (it has " + report.api_version + "): a newer driver may bring it");
     if (find_queue_family(vk, physical, nullptr) < 0) report.lacks.push_back("a queue with graphics and compute");
     if (!report.has_addresses) {

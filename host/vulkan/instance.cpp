@@ -1,4 +1,4 @@
-// The Vulkan instance: the loader found, validation switched on. Impl of Device.
+// The Vulkan instance: loader and validation. Internal to Device.
 #include "host/vulkan/instance.h"
 
 #include <cstring>
@@ -56,7 +56,7 @@ void Instance::create(bool validation, std::vector<const char*> extensions) {
                                         .pEngineName = "scree",
                                         .engineVersion = 1,
                                         .apiVersion = VK_API_VERSION_1_2};
-    // Not GENERAL: the loader uses it to complain about drivers of other people.
+    // Not GENERAL, by which the loader reports faults of unrelated drivers.
     VkDebugUtilsMessengerCreateInfoEXT messenger{};
     messenger.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT;
     messenger.messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
@@ -66,7 +66,7 @@ void Instance::create(bool validation, std::vector<const char*> extensions) {
     const VkValidationFeatureEnableEXT enabled[] = {VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT};
     VkValidationFeaturesEXT features{};
     features.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT;
-    features.pNext = &messenger;  // so that creating and destroying the instance is watched too
+    features.pNext = &messenger;  // validates creation and destruction of the instance too
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = enabled;
 
@@ -86,7 +86,7 @@ void Instance::create(bool validation, std::vector<const char*> extensions) {
     const VkResult result = vk_.vkCreateInstance(&info, nullptr, &instance_);
     if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
         throw DeviceError(
-            "no Vulkan driver on this machine: apt-get install mesa-vulkan-drivers (it has one for processors, too)");
+            "no Vulkan driver on this machine: apt-get install mesa-vulkan-drivers (with lavapipe, which runs on the CPU)");
     }
     check(result, "creating a Vulkan instance");
     if (!validation) return;
@@ -107,7 +107,7 @@ std::vector<VkPhysicalDevice> Instance::physical_devices() const {
     if (result == VK_SUCCESS && count > 0) result = vk_.vkEnumeratePhysicalDevices(instance_, &count, devices.data());
     if (count == 0 || result == VK_ERROR_INITIALIZATION_FAILED) {
         throw DeviceError(
-            "no Vulkan device on this machine: apt-get install mesa-vulkan-drivers (it has one for processors, too)");
+            "no Vulkan device on this machine: apt-get install mesa-vulkan-drivers (with lavapipe, which runs on the CPU)");
     }
     check(result, "listing the Vulkan devices");
     return devices;

@@ -1,4 +1,4 @@
-// The Vulkan instance: the loader found, validation switched on, the physical devices described. Impl of Device.
+// The Vulkan instance: loader, validation, physical device reports. Internal to Device.
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace scree::host {
 
 class Instance {
 public:
-    // Throws DeviceError, naming the package that brings what is missing.
+    // Throws DeviceError, naming the package to install.
     Instance(bool validation, std::function<void(const std::string&)> on_message, const std::vector<const char*>& extensions);
     ~Instance();
     Instance(const Instance&) = delete;
@@ -22,7 +22,7 @@ public:
     VkInstance handle() const { return instance_; }
     std::vector<VkPhysicalDevice> physical_devices() const;
     std::vector<std::string> messages() const;
-    void receive(const std::string& message);  // from the validation layer, on any thread
+    void receive(const std::string& message);  // called by the validation layer on any thread
 
 private:
     void create(bool validation, std::vector<const char*> extensions);
@@ -37,7 +37,7 @@ private:
 
 DeviceReport describe(const VulkanFunctions& vk, VkPhysicalDevice physical, int index);
 
-// The first family with graphics and compute (and so transfer), or -1.
+// Index of the first queue family with graphics and compute (which implies transfer), or -1.
 int find_queue_family(const VulkanFunctions& vk, VkPhysicalDevice physical, std::uint32_t* timestamp_bits);
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// Compute pipelines over one table of storage buffers.
+// Compute pipelines that share one descriptor set of storage buffers.
 #include "host/vulkan/pipeline.h"
 
 #include <algorithm>
@@ -29,7 +29,7 @@ BindingSetLayout::BindingSetLayout(std::shared_ptr<Device> device, std::uint32_t
     const VkPhysicalDeviceLimits& limits = device_->limits();
     const bool far = reach == Reach::far;
     if (far && !device_->report().has_addresses)
-        throw DeviceError(device_->report().name + " has no addresses of buffers (bufferDeviceAddress)");
+        throw DeviceError(device_->report().name + " has no buffer device addresses (bufferDeviceAddress)");
     const auto uniform = static_cast<std::uint32_t>(
         std::count_if(special_.begin(), special_.end(), [](const Access& access) { return access.uniform; }));
     if ((!far && buffers - uniform > limits.maxPerStageDescriptorStorageBuffers) || push_bytes > limits.maxPushConstantsSize) {
@@ -52,7 +52,8 @@ BindingSetLayout::BindingSetLayout(std::shared_ptr<Device> device, std::uint32_t
     set_info.sType = VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO;
     set_info.bindingCount = static_cast<std::uint32_t>(entries.size());
     set_info.pBindings = entries.data();
-    check(vk.vkCreateDescriptorSetLayout(device_->handle(), &set_info, nullptr, &set_layout_), "creating the layout of a table");
+    check(vk.vkCreateDescriptorSetLayout(device_->handle(), &set_info, nullptr, &set_layout_),
+          "creating a descriptor set layout");
     const VkPushConstantRange range{VK_SHADER_STAGE_COMPUTE_BIT, 0, push_bytes};
     VkPipelineLayoutCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO;
@@ -62,7 +63,7 @@ BindingSetLayout::BindingSetLayout(std::shared_ptr<Device> device, std::uint32_t
     info.pPushConstantRanges = &range;
     const VkResult result = vk.vkCreatePipelineLayout(device_->handle(), &info, nullptr, &pipeline_layout_);
     if (result != VK_SUCCESS) vk.vkDestroyDescriptorSetLayout(device_->handle(), set_layout_, nullptr);
-    check(result, "creating the layout of a table");
+    check(result, "creating a pipeline layout");
     device_->set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, set_layout_, "table");
     device_->set_name(VK_OBJECT_TYPE_PIPELINE_LAYOUT, pipeline_layout_, "table");
 }
@@ -115,7 +116,7 @@ void BindingSet::make_set() {
     info.descriptorPool = pool_;
     info.descriptorSetCount = 1;
     info.pSetLayouts = &set_layout;
-    check(vk.vkAllocateDescriptorSets(device.handle(), &info, &set_), "creating a table");
+    check(vk.vkAllocateDescriptorSets(device.handle(), &info, &set_), "creating a descriptor set");
     device.set_name(VK_OBJECT_TYPE_DESCRIPTOR_SET, set_, "table");
 }
 
@@ -136,7 +137,7 @@ void BindingSet::view(std::uint32_t i, const Buffer& of) {
 
 void BindingSet::fill(const std::vector<const Buffer*>& buffers) {
     const Device& device = *layout_->device();
-    const auto is_there = [](const Buffer* buffer) { return buffer && *buffer; };  // else no shader reads its binding
+    const auto is_there = [](const Buffer* buffer) { return buffer && *buffer; };  // absent buffers are not read by any shader
     std::vector<VkDescriptorBufferInfo> bound(layout_->buffers() + 1);
     std::vector<VkWriteDescriptorSet> writes;
     const auto write = [&](std::uint32_t binding, VkDescriptorType type) -> VkWriteDescriptorSet& {

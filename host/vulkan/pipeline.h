@@ -1,6 +1,7 @@
-// Compute pipelines over one table of storage buffers, the same table for every pipeline of a run: bound (set 0, binding i is
-// buffer i), or found by address (set 0, binding 0 is a uniform block of the buffers' addresses, 8 bytes each). Either way a
-// buffer can be read as texels besides (binding `buffers` + i), and as texels that other threads write (binding 2 `buffers` + i).
+// Compute pipelines that share one descriptor set of storage buffers: bound (set 0, binding i is buffer i), or
+// reached by buffer device address (set 0, binding 0 is a uniform block of addresses, 8 bytes each). In both cases a
+// buffer may have texel views: uniform (binding `buffers` + i), and storage, for texels that other threads write
+// (binding 2 `buffers` + i).
 #pragma once
 
 #include <cstdint>
@@ -15,18 +16,19 @@ namespace scree::host {
 
 enum class Reach {
     bound,
-    far,  // by address: buffers may be more, and longer, than the device binds
+    far,  // buffer device address: neither count nor size is limited by bindings
 };
 
-// What is special about a buffer of a table.
+// Additional ways in which shaders access a buffer.
 struct Access {
-    bool uniform = false;           // bound as a uniform block, which no pipeline writes
-    std::uint32_t texel_bytes = 0;  // 4, 8 or 16: also a texel buffer of so many bytes a texel, as uints; 0: not
-    bool changing = false;          // also a storage texel buffer of texels like these
+    bool uniform = false;           // a uniform block, read-only
+    std::uint32_t texel_bytes = 0;  // also a uniform texel buffer with texels of 4, 8 or 16 bytes (uints); 0: none
+    bool changing = false;          // also a storage texel buffer of that texel size
 };
 
-// The layout that all pipelines of a run share: `buffers` storage buffers, the first ones as `special` says, and `push_bytes` of
-// push constants. Throws DeviceError when the device takes fewer, or has no addresses and `reach` asks for them.
+// The descriptor set and pipeline layout of all pipelines: `buffers` storage buffers, with `special` access for the
+// first of them, and `push_bytes` of push constants. Throws DeviceError when the device supports fewer buffers, or
+// when `reach` needs buffer addresses that the device lacks.
 class BindingSetLayout {
 public:
     BindingSetLayout(std::shared_ptr<Device> device, std::uint32_t buffers, std::uint32_t push_bytes, Reach reach = Reach::bound,
@@ -54,8 +56,9 @@ private:
     std::vector<Access> special_;
 };
 
-// One filling of the table. Buffers are borrowed; each must stay alive while recordings that use the table run. Throws
-// DeviceError when one is longer than the device binds, if it is to be bound, or has more texels than it reads.
+// A descriptor set with its buffers. Buffers are borrowed and must outlive the execution of command buffers that use
+// the set. Throws DeviceError when a bound buffer exceeds the largest binding, or a texel view the largest texel
+// buffer.
 class BindingSet {
 public:
     BindingSet(std::shared_ptr<BindingSetLayout> layout, const std::vector<const Buffer*>& buffers);
@@ -79,8 +82,8 @@ private:
 
 class Pipeline {
 public:
-    // `words` is SPIR-V with entry point main; specialisation constant i gets specialisation[i]. Rounding to nearest, denormals,
-    // true -0, infinities and NaN are asked for where the device offers them.
+    // `words` is SPIR-V with entry point main; specialisation constant i has the value specialisation[i]. Requests
+    // the float controls (rounding to nearest, denormals, -0, infinities, NaN) that the device supports.
     Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, std::span<const std::uint32_t> words,
              const std::vector<std::uint32_t>& specialisation = {});
     ~Pipeline();

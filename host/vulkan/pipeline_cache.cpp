@@ -1,4 +1,4 @@
-// Compiled pipelines, kept on disk from one run to the next. Impl of Device.
+// The pipeline cache, stored on disk between runs. Internal to Device.
 #include "host/vulkan/pipeline_cache.h"
 
 #include <cstdint>
@@ -17,14 +17,14 @@ std::string hexadecimal(const std::uint8_t* bytes, std::size_t count) {
     return text;
 }
 
-// FNV-1a. Drivers check the header of a cache, but not all of them survive damage behind it.
+// FNV-1a checksum. Drivers validate the header of a cache, but some crash on damaged data after it.
 std::uint64_t hash(std::string_view bytes) {
     std::uint64_t h = 0xcbf29ce484222325u;
     for (unsigned char byte : bytes) h = (h ^ byte) * 0x100000001b3u;
     return h;
 }
 
-// A file is the hash of the driver's bytes, and those.
+// File format: hash of the driver's data, then the data. Empty if damaged.
 std::string read_intact(const std::string& path) {
     std::error_code ignored;
     if (path.empty() || !std::filesystem::is_regular_file(path, ignored)) return {};
@@ -79,7 +79,7 @@ PipelineCache::~PipelineCache() {
             write_atomically(path_, file + bytes);
         }
     } catch (const std::exception&) {
-        // The next run compiles again.
+        // Ignored: the next run compiles again.
     }
     vk_.vkDestroyPipelineCache(device_, cache_, nullptr);
 }

@@ -1,4 +1,4 @@
-// Compiled pipelines, kept on disk from one run to the next. Impl of Device.
+// The pipeline cache, stored on disk between runs. Internal to Device.
 #pragma once
 
 #include <string>
@@ -9,9 +9,9 @@ namespace scree::host {
 
 class PipelineCache {
 public:
-    // Reads what an earlier run left for this device and driver; a file that is damaged counts as none.
+    // Loads the file of this device and driver; a damaged file is ignored.
     PipelineCache(const VulkanFunctions& vk, VkPhysicalDevice physical, VkDevice device);
-    // Writes what is new; a cache that cannot be written is no error.
+    // Saves the cache if it has changed; failing to write is no error.
     ~PipelineCache();
     PipelineCache(const PipelineCache&) = delete;
     PipelineCache& operator=(const PipelineCache&) = delete;
@@ -21,7 +21,7 @@ private:
     const VulkanFunctions& vk_;
     VkDevice device_;
     VkPipelineCache cache_ = VK_NULL_HANDLE;
-    std::string path_;  // empty: nowhere to keep it
+    std::string path_;  // empty: no cache folder
     std::string loaded_;
 };
 

@@ -1,4 +1,4 @@
-// Pieces on their way into buffers and back: straight where the host sees the memory, else through one staging buffer.
+// Batched copies between host and buffers: direct where the memory is mapped, else through one staging buffer.
 #include "host/vulkan/transfer.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace scree::host {
 namespace {
 
-constexpr std::size_t most_staged = std::size_t{16} << 20;  // bytes of a submission
+constexpr std::size_t most_staged = std::size_t{16} << 20;  // bytes staged per submission
 
 void check_range(std::size_t bytes, std::size_t offset, std::size_t size) {
     if (offset <= size && bytes <= size - offset) return;
@@ -21,13 +21,14 @@ void check_range(std::size_t bytes, std::size_t offset, std::size_t size) {
                             " lie outside a buffer of " + std::to_string(size));
 }
 
-// A staging buffer that fills up, is submitted, and fills up again.
+// A staging buffer that is filled, submitted when full, and reused.
 class Staging {
 public:
     Staging(const std::shared_ptr<Device>& device, const char* name, std::size_t bytes, BufferUse use)
         : device_(device), buffer_(device, name, std::min(bytes, most_staged), use) {}
 
-    // Cuts a piece into what still fits: copy(recording, buffer, place in it, done, count) for each; `sent` after a submission.
+    // Splits a piece to fit: calls copy(recording, buffer, offset in it, done, count) for each part, and `sent` after
+    // each submission.
     template <typename Copy, typename Sent>
     void add(std::size_t bytes, const Copy& copy, const Sent& sent) {
         for (std::size_t done = 0; done < bytes;) {

@@ -1,4 +1,4 @@
-// Pieces of the host's memory on their way into buffers and back, many in one submission.
+// Batched copies between host memory and buffers, in one submission.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ struct Download {
     std::size_t offset = 0;  // bytes, in the buffer
 };
 
-// Copy now, waiting for the queue. A range outside its buffer throws std::out_of_range, before anything is copied.
+// Synchronous copies of all pieces. Throw std::out_of_range for a range outside its buffer, before copying anything.
 void upload(const std::shared_ptr<Device>& device, std::span<const Upload> pieces);
 void download(const std::shared_ptr<Device>& device, std::span<const Download> pieces);
 

@@ -1,4 +1,4 @@
-// The Vulkan functions that are used, as pointers: looked up at run time, so that the program starts where there is no Vulkan.
+// Vulkan function pointers, loaded at run time.
 #include "host/vulkan/vulkan_functions.h"
 
 #include <dlfcn.h>
@@ -6,7 +6,7 @@
 namespace scree::host {
 namespace {
 
-// Never closed: drivers leave threads and exit handlers behind in it.
+// Never unloaded: drivers leave threads and exit handlers in the library.
 void* loader() {
     static void* const library = [] {
         void* found = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
@@ -24,7 +24,7 @@ bool VulkanFunctions::load() {
 #define SCREE_LOAD(name) name = reinterpret_cast<PFN_##name>(vkGetInstanceProcAddr(nullptr, #name));
     SCREE_VULKAN_LOADER_FUNCTIONS(SCREE_LOAD)
 #undef SCREE_LOAD
-    // A loader of Vulkan 1.0 lacks vkEnumerateInstanceVersion; callers look at it.
+    // Vulkan 1.0 loaders lack vkEnumerateInstanceVersion; callers check for null.
     return vkCreateInstance && vkEnumerateInstanceLayerProperties && vkEnumerateInstanceExtensionProperties;
 }
 

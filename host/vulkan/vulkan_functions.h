@@ -1,4 +1,4 @@
-// The Vulkan functions that are used, as pointers: looked up at run time, so that the program starts where there is no Vulkan.
+// Vulkan function pointers, loaded at run time so that the program starts without Vulkan.
 #pragma once
 
 #ifndef VK_NO_PROTOTYPES
@@ -9,7 +9,7 @@
 namespace scree::host {
 
 // clang-format off
-// Known before there is an instance.
+// Functions that need no instance.
 #define SCREE_VULKAN_LOADER_FUNCTIONS(X) \
     X(vkCreateInstance) X(vkEnumerateInstanceVersion) X(vkEnumerateInstanceLayerProperties) X(vkEnumerateInstanceExtensionProperties)
 
@@ -44,11 +44,11 @@ namespace scree::host {
     X(vkCmdDrawIndexedIndirect) X(vkCmdClearColorImage) X(vkCmdClearAttachments) X(vkCmdResolveImage) X(vkCmdBlitImage) \
     X(vkCmdCopyImage) X(vkCmdCopyBufferToImage) X(vkCmdCopyImageToBuffer)
 
-// Of VK_EXT_debug_utils: null unless validation is on.
+// VK_EXT_debug_utils; null unless validation is on.
 #define SCREE_VULKAN_DEBUG_FUNCTIONS(X) \
     X(vkCreateDebugUtilsMessengerEXT) X(vkDestroyDebugUtilsMessengerEXT) X(vkSetDebugUtilsObjectNameEXT)
 
-// Of VK_KHR_surface and VK_KHR_swapchain: null unless the device was opened for a window.
+// VK_KHR_surface and VK_KHR_swapchain; null unless the device was opened for a window.
 #define SCREE_VULKAN_SURFACE_FUNCTIONS(X) \
     X(vkDestroySurfaceKHR) X(vkGetPhysicalDeviceSurfaceSupportKHR) X(vkGetPhysicalDeviceSurfaceCapabilitiesKHR) \
     X(vkGetPhysicalDeviceSurfaceFormatsKHR)
@@ -67,9 +67,9 @@ struct VulkanFunctions {
     SCREE_VULKAN_SWAPCHAIN_FUNCTIONS(SCREE_VULKAN_POINTER)
 #undef SCREE_VULKAN_POINTER
 
-    // Finds libvulkan.so.1, once for the whole program, and what it offers without an instance. False if there is none.
+    // Opens libvulkan.so.1 (once per process) and loads the functions that need no instance. False if not found.
     bool load();
-    // The rest. Return the name of a function that is missing, or null.
+    // Load the instance and device functions. Return the name of a missing function, or null.
     const char* load_instance(VkInstance instance);
     const char* load_device(VkDevice device);
 };

@@ -1,4 +1,4 @@
-// What a person does at a window, free of the window system: the pointer in pixels, buttons, keys.
+// Window events, independent of the window system: pointer, buttons, keys, resizing.
 #pragma once
 
 namespace scree::host {
@@ -7,7 +7,7 @@ enum class EventKind { moved, pressed, released, scrolled, key_pressed, key_rele
 
 enum class Button { left, right, middle };
 
-// Letters (as capitals), digits and ' ' '.' ',' are their own characters; other keys follow.
+// Key codes: upper-case ASCII for letters, digits and ' ' '.' ','; other keys from 256.
 enum class Key : int { space = ' ', escape = 256, enter, tab, backspace, left, right, up, down, page_up, page_down, home, other };
 constexpr Key key_of(char character) {
     return static_cast<Key>(character);
@@ -16,7 +16,7 @@ constexpr Key key_of(char character) {
 struct Event {
     EventKind kind = EventKind::moved;
     double x = 0, y = 0;  // moved, pressed, released, scrolled: pixels from the upper left corner; resized: the new size
-    double amount = 0;    // scrolled: clicks, away from the person > 0
+    double amount = 0;    // scrolled: wheel clicks, > 0 away from the user
     Button button = Button::left;
     Key key = Key::other;
     bool shift = false;

@@ -1,4 +1,4 @@
-// Draws what Dear ImGui has laid out over a finished picture.
+// Render pass that draws Dear ImGui's draw data over a finished picture.
 #include "host/window/imgui_pass.h"
 
 #include <imgui.h>
@@ -15,12 +15,12 @@ struct Push {
     float scale[2], shift[2];
 };
 
-// Room for this many and half as many again.
+// Grows the buffer to the requested size plus half of it.
 void make_room(const std::shared_ptr<Device>& device, Buffer& buffer, const char* name, std::size_t bytes) {
     if (bytes > buffer.bytes()) buffer = Buffer(device, name, bytes + bytes / 2);
 }
 
-// The part of a picture that a command draws in; empty if it lies outside.
+// Scissor rectangle of a draw command; empty if outside the picture.
 VkRect2D scissor_of(const ImVec4& clip, const ImDrawData& panel, VkExtent2D extent) {
     const float width = static_cast<float>(extent.width), height = static_cast<float>(extent.height);
     const ImVec2 origin = panel.DisplayPos, scale = panel.FramebufferScale;

@@ -1,4 +1,4 @@
-// Draws what Dear ImGui has laid out over a finished picture.
+// Render pass that draws Dear ImGui's draw data over a finished picture.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ namespace scree::host {
 
 class PanelPass {
 public:
-    // For pictures of a format. Dear ImGui's context must be there, with its fonts: they are drawn into a texture now.
+    // For target images of this format. Dear ImGui's context and fonts must exist: the font atlas is uploaded here.
     PanelPass(std::shared_ptr<Device> device, VkFormat format);
 
-    // Into the commands: over the picture, which is laid out as a transfer's destination before, and to be shown afterwards.
+    // Records the pass. The picture's layout is TRANSFER_DST_OPTIMAL before and PRESENT_SRC_KHR after it.
     void record(VkCommandBuffer commands, const ImDrawData& panel, VkImageView picture, VkExtent2D extent);
 
 private:
@@ -36,7 +36,7 @@ private:
     VkPipelineLayout layout_ = VK_NULL_HANDLE;
     VkPipeline pipeline_ = VK_NULL_HANDLE;
     Buffer corners_, indices_;
-    std::unique_ptr<VulkanObjectPool> framebuffer_;  // of the last picture
+    std::unique_ptr<VulkanObjectPool> framebuffer_;  // of the last recording
 };
 
 }  // namespace scree::host

@@ -1,4 +1,4 @@
-// The pictures that a window shows in turn.
+// The swapchain of a window.
 #include "host/window/swapchain.h"
 
 #include <algorithm>
@@ -10,16 +10,16 @@ namespace {
 
 VkSurfaceFormatKHR choose_format(const Device& device, VkSurfaceKHR surface) {
     std::uint32_t count = 0;
-    check(device.vk().vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr), "the display's formats");
+    check(device.vk().vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, nullptr), "surface formats");
     std::vector<VkSurfaceFormatKHR> formats(count);
     check(device.vk().vkGetPhysicalDeviceSurfaceFormatsKHR(device.physical(), surface, &count, formats.data()),
-          "the display's formats");
+          "surface formats");
     for (const VkFormat wanted : {VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_A8B8G8R8_SRGB_PACK32}) {
         for (const VkSurfaceFormatKHR& format : formats) {
             if (format.format == wanted && format.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return format;
         }
     }
-    throw DeviceError("this display takes no 8-bit sRGB pictures from " + device.report().name);
+    throw DeviceError("this display supports no 8-bit sRGB images from " + device.report().name);
 }
 
 }  // namespace
@@ -67,7 +67,7 @@ VkSwapchainCreateInfoKHR Swapchain::shape(const VkSurfaceCapabilitiesKHR& can, i
     info.imageFormat = format_.format;
     info.imageColorSpace = format_.colorSpace;
     info.imageExtent = can.currentExtent;
-    if (info.imageExtent.width == std::numeric_limits<std::uint32_t>::max()) {  // the window follows the pictures
+    if (info.imageExtent.width == std::numeric_limits<std::uint32_t>::max()) {  // the surface takes the size of the swapchain
         info.imageExtent.width =
             std::clamp(static_cast<std::uint32_t>(width), can.minImageExtent.width, can.maxImageExtent.width);
         info.imageExtent.height =
@@ -79,12 +79,12 @@ VkSwapchainCreateInfoKHR Swapchain::shape(const VkSurfaceCapabilitiesKHR& can, i
     info.compositeAlpha = (can.supportedCompositeAlpha & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0
                               ? VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR
                               : VK_COMPOSITE_ALPHA_INHERIT_BIT_KHR;
-    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;  // every device has it
+    info.presentMode = VK_PRESENT_MODE_FIFO_KHR;  // supported everywhere
     info.clipped = VK_TRUE;
     return info;
 }
 
-// False if there is nothing to show on at present.
+// Returns false if the surface has no area (minimised).
 bool Swapchain::build(int width, int height) {
     const VulkanFunctions& vk = device_->vk();
     device_->wait_idle();
@@ -97,15 +97,15 @@ bool Swapchain::build(int width, int height) {
     const VkResult asked = vk.vkGetPhysicalDeviceSurfaceCapabilitiesKHR(device_->physical(), surface_, &can);
     if (asked == VK_ERROR_SURFACE_LOST_KHR) lost_ = true;
     if (lost_) return false;
-    check(asked, "what the display can show");
+    check(asked, "surface capabilities");
     const VkSwapchainCreateInfoKHR info = shape(can, width, height);
     if (info.imageExtent.width == 0 || info.imageExtent.height == 0) return false;
-    check(vk.vkCreateSwapchainKHR(device_->handle(), &info, nullptr, &swapchain_), "making the pictures of the window");
+    check(vk.vkCreateSwapchainKHR(device_->handle(), &info, nullptr, &swapchain_), "creating the swapchain");
     extent_ = info.imageExtent;
     std::uint32_t count = 0;
-    check(vk.vkGetSwapchainImagesKHR(device_->handle(), swapchain_, &count, nullptr), "the pictures of the window");
+    check(vk.vkGetSwapchainImagesKHR(device_->handle(), swapchain_, &count, nullptr), "swapchain images");
     std::vector<VkImage> images(count);
-    check(vk.vkGetSwapchainImagesKHR(device_->handle(), swapchain_, &count, images.data()), "the pictures of the window");
+    check(vk.vkGetSwapchainImagesKHR(device_->handle(), swapchain_, &count, images.data()), "swapchain images");
     objects_ = std::make_unique<VulkanObjectPool>(device_);
     VkSemaphoreCreateInfo semaphore{};
     semaphore.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO;
@@ -141,11 +141,11 @@ std::optional<Swapchain::Target> Swapchain::acquire(int width, int height) {
         return std::nullopt;
     }
     if (result == VK_SUBOPTIMAL_KHR)
-        stale_ = true;  // shown all the same
+        stale_ = true;  // suboptimal: present, then rebuild
     else
-        check(result, "the next picture of the window");
+        check(result, "acquiring a swapchain image");
     spare_.pop_back();
-    // The semaphore that this picture was acquired with the last time is free: its picture has been written since.
+    // The semaphore of this image's previous acquisition is free, since that image has been written and presented.
     if (targets_[index_].acquired) spare_.insert(spare_.begin(), targets_[index_].acquired);
     targets_[index_].acquired = acquired;
     return targets_[index_];

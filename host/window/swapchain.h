@@ -1,4 +1,4 @@
-// The pictures that a window shows in turn: made for its size, and anew when that changes or the surface is lost.
+// The swapchain of a window, rebuilt when the size changes or the surface is lost.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ namespace scree::host {
 
 class Swapchain {
 public:
-    // `make_surface` is called now, and again when the surface is lost. Throws DeviceError.
+    // Calls `make_surface` now, and again when the surface is lost. Throws DeviceError.
     Swapchain(std::shared_ptr<Device> device, std::function<VkSurfaceKHR()> make_surface);
     ~Swapchain();
     Swapchain(const Swapchain&) = delete;
@@ -27,12 +27,13 @@ public:
     struct Target {
         VkImage image = VK_NULL_HANDLE;
         VkImageView view = VK_NULL_HANDLE;
-        VkSemaphore acquired = VK_NULL_HANDLE;  // to wait for before writing
-        VkSemaphore written = VK_NULL_HANDLE;   // to be signalled by the writing
+        VkSemaphore acquired = VK_NULL_HANDLE;  // wait for this before writing
+        VkSemaphore written = VK_NULL_HANDLE;   // signal this when written
     };
-    // The picture to write next, for a window of that size; nothing if none is to be had now (minimised, or just changed).
+    // Acquires the next image for a window of that size, pixels; nothing if none is available (minimised, or just
+    // resized).
     std::optional<Target> acquire(int width, int height);
-    void present();  // what was acquired last
+    void present();  // presents the image acquired last
 
 private:
     void make_surface();
@@ -47,7 +48,7 @@ private:
     VkSurfaceFormatKHR format_{};
     VkSwapchainKHR swapchain_ = VK_NULL_HANDLE;
     VkExtent2D extent_{};
-    std::unique_ptr<VulkanObjectPool> objects_;  // views and semaphores of the present pictures
+    std::unique_ptr<VulkanObjectPool> objects_;  // views and semaphores of the current swapchain images
     std::vector<Target> targets_;
     std::vector<VkSemaphore> spare_;
     std::uint32_t index_ = 0;

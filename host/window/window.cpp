@@ -1,4 +1,4 @@
-// The window on GLFW: its events, Dear ImGui's context, and what is shown.
+// The window on GLFW: events, Dear ImGui's context, presentation.
 #define GLFW_INCLUDE_NONE
 #include "host/window/window.h"
 
@@ -13,7 +13,7 @@
 #include "host/window/imgui_pass.h"
 #include "host/window/swapchain.h"
 
-// After the Vulkan headers, so that it knows their types.
+// After the Vulkan headers, whose types GLFW needs.
 #include <GLFW/glfw3.h>
 
 namespace scree::host {
@@ -81,7 +81,7 @@ struct Window::Impl {
     std::shared_ptr<Device> device;
     GLFWwindow* handle;
     std::vector<Event> events;
-    double x = 0, y = 0;  // of the pointer, pixels
+    double x = 0, y = 0;  // pointer position, pixels
     std::unique_ptr<Swapchain> swapchain;
     std::unique_ptr<PanelPass> panel;
     VulkanObjectPool objects;
@@ -103,7 +103,7 @@ struct Window::Impl {
 Window::Impl::Impl(std::shared_ptr<Device> opened, GLFWwindow* window)
     : device(std::move(opened)), handle(window), objects(device) {
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // leaves no file behind
+    ImGui::GetIO().IniFilename = nullptr;  // do not write imgui.ini
     if (std::filesystem::exists(SCREE_FONT)) ImGui::GetIO().Fonts->AddFontFromFileTTF(SCREE_FONT, 15);
     ImGui::GetStyle().WindowRounding = 5;
     ImGui::GetStyle().FrameRounding = 3;
@@ -115,7 +115,7 @@ Window::Impl::Impl(std::shared_ptr<Device> opened, GLFWwindow* window)
     panel = std::make_unique<PanelPass>(device, swapchain->format());
     make_commands();
     listen();
-    ImGui_ImplGlfw_InitForVulkan(handle, true);  // calls those that listen already
+    ImGui_ImplGlfw_InitForVulkan(handle, true);  // chains to the callbacks installed above
 }
 
 Window::Impl::~Impl() {
@@ -145,7 +145,7 @@ void Window::Impl::make_commands() {
     fence = objects.make(vk.vkCreateFence, vk.vkDestroyFence, fence_info, "vkCreateFence");
 }
 
-// Positions come in the window's own units, which are not pixels on every display.
+// Converts the pointer position from screen units to pixels, which differ on some displays.
 void Window::Impl::moved(double to_x, double to_y) {
     int width = 0, height = 0, across = 0, down = 0;
     glfwGetWindowSize(handle, &width, &height);
@@ -233,7 +233,7 @@ void Window::end_panel() {
     ImGui::Render();
 }
 
-// The picture over the whole of the target, and the panel over that.
+// Copies the picture to the whole target and draws the panel over it.
 void Window::Impl::record(VkImage picture, const Swapchain::Target& target, int width, int height) {
     const VulkanFunctions& vk = device->vk();
     VkCommandBufferBeginInfo begin{};

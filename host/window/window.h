@@ -1,4 +1,4 @@
-// A window: shows what a Vulkan canvas has drawn, with a panel of Dear ImGui over it, and tells what is done at it.
+// A window that shows the pictures of a Vulkan canvas with a Dear ImGui panel over them, and reports user input.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,8 @@ namespace scree::host {
 
 class Device;
 
-// The connection to the window system. One at a time; before the device that shows something, and outliving it.
+// The connection to the window system. At most one at a time; create it before the device that presents, and destroy
+// it after.
 class Display {
 public:
     Display();  // throws DeviceError when there is no display, with the window system's reason
@@ -23,7 +24,7 @@ public:
     std::vector<const char*> extensions() const;  // for DeviceOptions::window_extensions; throws DeviceError without Vulkan
 };
 
-// What a picture shows; see Canvas::draw.
+// Arguments of Canvas::draw.
 struct View {
     Camera camera;
     ColorScale scale;
@@ -33,24 +34,25 @@ struct View {
 
 class Window {
 public:
-    // On a device that was opened with the display's extensions. Throws DeviceError.
+    // `device` must have been opened with the display's extensions. width and height in screen units. Throws
+    // DeviceError.
     Window(const Display& display, std::shared_ptr<Device> device, const std::string& title, int width, int height);
     ~Window();
     Window(const Window&) = delete;
     Window& operator=(const Window&) = delete;
 
-    int width() const;  // of what can be drawn on, pixels; 0 while minimised
+    int width() const;  // of the framebuffer, pixels; 0 while minimised
     int height() const;
     bool wants_to_close() const;
     void set_title(const std::string& title);
-    // What happened since the last call, less what the panel took. Waits up to `seconds` if nothing has.
+    // Events since the last call, without those that the panel consumed. Blocks up to `seconds` for the first one.
     std::vector<Event> poll(double seconds);
 
-    // Between these two calls ImGui's functions lay out the panel.
+    // Call ImGui's functions for the panel between these two.
     void begin_panel();
     void end_panel();
-    // Draws with the canvas, which must be a Vulkan canvas on this device and of this size, and shows that with the panel over
-    // it. False if the window shows nothing at present or is of another size by now.
+    // Draws with the canvas (a Vulkan canvas on this device, of this size) and presents the picture with the panel
+    // over it. Returns false if nothing was presented: minimised, or resized meanwhile.
     bool show(Canvas& canvas, const View& view);
 
 private:

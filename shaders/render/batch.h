@@ -1,4 +1,4 @@
-// Which body a vertex shader draws, and which corner of it: instances hold several bodies.
+// Body and vertex of a shader invocation, since an instance holds several bodies.
 #ifndef SCREE_RENDER_BATCH_H
 #define SCREE_RENDER_BATCH_H
 
@@ -11,13 +11,13 @@ layout(std430, set = 0, binding = 20) readonly buffer TintTable {
     vec4 tints[];  // see tint.comp
 };
 layout(push_constant) uniform Pushed {
-    uint pushed;  // the run, and in the lowest byte what a pass wants to know
+    uint pushed;  // run << 8 | value for the pass
 };
 
 struct Corner {
     uint body;
     uint corner;
-    bool there;  // no: behind the last body
+    bool there;  // false past the last body of the run
 };
 Corner corner_of_body() {
     BodyRun run = runs[pushed >> 8];

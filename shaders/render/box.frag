@@ -1,4 +1,4 @@
-// Boxes: flat faces whose edges are shaded as if rounded, so that the light shows how the box is turned.
+// Boxes: flat faces with normals of rounded edges, so that highlights show the orientation.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/light.h"
@@ -16,10 +16,10 @@ void main() {
     vec3 size = size_axis.xyz;
     float smallest = min(size.x, min(size.y, size.z));
     float bevel = min(max(0.14 * smallest, 1.2 * pixel), 0.5 * smallest);
-    bevel = min(bevel, max(0.06, 1.2 * pixel));  // m; a long slab keeps a narrow edge
-    // The normal of a box with edges rounded by `bevel`, read on the flat face.
+    bevel = min(bevel, max(0.06, 1.2 * pixel));  // m; narrow on thin slabs
+    // Normal of a box with edges rounded by `bevel`, evaluated on the flat face.
     vec3 over = max(abs(own) - (size - bevel), 0.0) * sign(own);
-    // The side: where the point lies farthest out. At an edge either will do, for the normal is the same.
+    // The face with the largest signed distance. At an edge either will do, since the normals are equal.
     vec3 out_by = abs(own) - size;
     int axis = out_by.x > out_by.y ? (out_by.x > out_by.z ? 0 : 2) : (out_by.y > out_by.z ? 1 : 2);
     vec3 face = vec3(0);
@@ -27,7 +27,7 @@ void main() {
     vec3 rounded = over - face * dot(over, face) + face * bevel;
     vec3 normal = turned(turn, normalize(rounded));
     float edge = clamp(length(over - face * dot(over, face)) / bevel, 0.0, 1.0);
-    // Worn, lighter edges; the two tones of a cube's sides tell them apart in the shade.
+    // Lighter edges, and a tone per axis that distinguishes faces in the shade.
     float tone = (axis == 1 ? 1.0 : (axis == 0 ? 0.95 : 0.90)) * (1.0 + 0.22 * edge * edge);
     vec3 shaded = lit(color.rgb * tone, point, normal, d, 0.6) + color.rgb * (0.12 * color.a * color.a);
     out_color = finished(hazed(shaded, length(point)));

@@ -1,4 +1,4 @@
-// Boxes: the seven corners of the three sides towards the eye.
+// Boxes: the seven vertices of the three faces towards the eye.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
@@ -9,9 +9,9 @@ layout(location = 0) out vec3 out_point;      // relative to the eye
 layout(location = 1) out vec3 out_own;        // in the body's frame
 layout(location = 2) flat out vec4 out_size;  // half extents
 layout(location = 3) flat out vec4 out_turn;
-layout(location = 4) flat out vec4 out_color;  // w: how far up the colour scale
+layout(location = 4) flat out vec4 out_color;  // w: position on the colour scale
 
-// Depths and colours are drawn one after the other, and must lie in the same places.
+// The depth prepass and the shading pass must give equal positions.
 invariant gl_Position;
 
 void main() {
@@ -20,7 +20,7 @@ void main() {
     if (!at.there) return;
     Pose pose = poses[at.body];
     vec3 center = pose.position - frame.eye.xyz;
-    // What is thinner than a pixel would flicker.
+    // At least a pixel wide, to avoid flicker.
     vec3 size = max(properties[at.body].size, vec3(0.5 * pixel_at(center)));
     vec3 toward = turned_back(pose.orientation, orthographic() ? -frame.forward.xyz : -center);
     vec3 own = near_corner(at.corner, toward) * size;

@@ -1,4 +1,4 @@
-// Shadows of boxes: the sides towards the light.
+// Shadows of boxes: the faces towards the light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES

@@ -1,4 +1,4 @@
-// The colour map.
+// Lookup in the colour map.
 #ifndef SCREE_RENDER_COLORING_H
 #define SCREE_RENDER_COLORING_H
 

@@ -1,4 +1,4 @@
-// Sorting the bodies that are seen by how finely they shall be drawn, on the device.
+// Sorting of visible bodies by level of detail, on the device.
 #ifndef SCREE_RENDER_DETAIL_H
 #define SCREE_RENDER_DETAIL_H
 
@@ -14,7 +14,7 @@ layout(std430, set = 0, binding = 1) readonly buffer PoseTable {
     Pose poses[];
 };
 layout(std430, set = 0, binding = 3) buffer InstanceTable {
-    uint instances[];  // all, by shape, then those that are seen, by run
+    uint instances[];  // all bodies grouped by shape, then the visible ones grouped by run
 };
 layout(std430, set = 0, binding = 4) readonly buffer FrameBlock {
     Frame frame;
@@ -22,7 +22,7 @@ layout(std430, set = 0, binding = 4) readonly buffer FrameBlock {
 layout(std430, set = 0, binding = 13) buffer RunTable {
     BodyRun runs[];
 };
-struct Arguments {  // of an indexed draw
+struct Arguments {  // VkDrawIndexedIndirectCommand
     uint indices;
     uint instances;
     uint first_index;
@@ -49,7 +49,9 @@ uint run_of_place(uint place) {
                  : place >= runs[RUN_ALL_BOXES].first    ? RUN_ALL_BOXES
                  : place >= runs[RUN_ALL_CAPSULES].first ? RUN_ALL_CAPSULES
                                                          : RUN_ALL_SPHERES;
-    float reach = t.shape == SHAPE_TRIANGLE ? 1e9 : bounding_radius(t.shape, t.size);  // a triangle's mesh is a whole patch
+    float reach = t.shape == SHAPE_TRIANGLE
+                      ? 1e9
+                      : bounding_radius(t.shape, t.size);  // a triangle row draws a whole patch of its mesh: never cull
     return run_of(frame, shape, poses[body].position - frame.eye.xyz, reach, shape == RUN_ALL_SPHERES ? reach : t.size.x);
 }
 

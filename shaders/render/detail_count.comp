@@ -1,4 +1,4 @@
-// Counts the bodies that are seen in each group of bodies, by how finely they are drawn.
+// Counts visible bodies by level of detail in each workgroup.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/detail.h"

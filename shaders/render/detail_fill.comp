@@ -1,4 +1,4 @@
-// Lists the bodies that are seen, by how finely they are drawn.
+// Fills the list of visible bodies, sorted by level of detail.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/detail.h"
@@ -11,7 +11,7 @@ void main() {
     found[own] = run;
     barrier();
     if (run == NOT_SEEN) return;
-    // Behind those of the same run that come before, so that bodies are drawn in one order on every device.
+    // Stable within a run, so that bodies are drawn in the same order on every device.
     uint before = 0u;
     for (uint k = 0u; k < own; ++k) before += found[k] == run ? 1u : 0u;
     instances[runs[run].first + group_counts[group * SEEN_RUNS + run] + before] = instances[place];

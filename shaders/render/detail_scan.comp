@@ -1,4 +1,4 @@
-// From counts of groups to places in the list: one thread for each run walks over the groups.
+// Prefix sums of the workgroups' counts; one thread per run.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/detail.h"

@@ -1,6 +1,6 @@
-// What every picture shader knows of the frame: camera, light, colour scale. In memory alike for C++ and for std430.
+// The uniform block of the render shaders: camera, light, colour scale. C++ and std430 layouts are equal.
 //
-// Positions in these shaders are relative to the eye, so that scenes far from the origin do not tremble.
+// Positions in these shaders are relative to the eye, which avoids jitter of scenes far from the origin.
 #ifndef SCREE_RENDER_FRAME_H
 #define SCREE_RENDER_FRAME_H
 
@@ -35,41 +35,41 @@ RENDER_CONSTANT uint MAP_ENTRIES = 64u;
 RENDER_CONSTANT uint MOST_MATERIALS = 8u;
 
 struct Frame {
-    mat4 view_projection;  // to clip space; depth runs from 1 at the near plane to 0 at infinity
-    mat4 sun_map;          // to the sun's shadow map: xy in 0..1, z in 0..1
-    mat4 sky_map;          // to the map of heights seen from above
-    vec4 forward;          // the camera's axis, unit; w: 1 if orthographic, when rays do not spread but start side by side
-    vec4 ray_corner;       // direction (orthographic: start) of the ray through the upper left corner, 1 m (0 m) along the axis;
+    mat4 view_projection;  // eye-relative to clip space; reversed depth, 1 at the near plane and 0 at infinity
+    mat4 sun_map;          // to the sun's shadow map: x, y, z in 0..1
+    mat4 sky_map;          // to the height map seen from above, likewise
+    vec4 forward;          // viewing direction, unit; w: 1 if orthographic (parallel rays from different origins)
+    vec4 ray_corner;       // direction (orthographic: origin) of the upper left corner's ray, at 1 m (0 m) along the axis;
                            // w: near plane, m
     vec4 ray_right;        // step per pixel to the right; w: width, pixels
     vec4 ray_down;         // step per pixel downwards; w: height, pixels
-    vec4 eye;              // world position, m; w: distance over which the ground fades, m
-    vec4 toward_sun;       // unit; w: 1 with shadows
-    vec4 toward_sky;       // unit, up; w: samples per pixel
+    vec4 eye;              // world position, m; w: fading distance of the ground grid, m
+    vec4 toward_sun;       // direction to the sun, unit; w: 1 with shadows
+    vec4 toward_sky;       // direction up, unit; w: samples per pixel
     vec4 scale;            // low, high (logarithms when logarithmic), 1 when logarithmic, COLOR_BY_*
-    vec4 maps;             // shadow map texel, m; sky map texel, m; the same as parts of the maps
-    vec4 pixel;            // width of a pixel at 1 m, m; depth of the sky map, m; height over which its darkening halves, m;
-                           // orthographic: depth for each m towards the eye, 1/m
-    vec4 marks;            // 1 with marks, else 0; push whose line is half the thinner body's half width, m/s; materials; 1 to
-                           // tint sleepers
-    vec4 rest;             // steps after which a body sleeps, 0 for never; of a step, s; grid's finest cell, m; length of an
-                           // arrow for each m/s, s
-    vec4 joints;           // acceleration by which a joint's force on the lighter body is coloured, m/s^2; 0; 0; 0
-    vec4 sides[4];         // of what is seen: unit normals inwards; w: the eye's distance from them, m
+    vec4 maps;             // texel sizes of shadow map and sky map, m; the same as fractions of the maps
+    vec4 pixel;   // pixel width at distance 1 m (orthographic: everywhere), m; depth of the sky map, m; height at which occlusion
+                  // halves, m; orthographic: clip depth per m towards the eye, 1/m
+    vec4 marks;   // 1 with contact marks; velocity change of CanvasOptions::mark_push, m/s; number of materials; 1 to tint
+                  // sleeping bodies
+    vec4 rest;    // still steps before sleep, 0: never; duration of a step, s; finest grid cell, m; arrow length per m/s, s
+    vec4 joints;  // acceleration of the lighter body that is the unit of a joint's colour, m/s^2; 0; 0; 0
+    vec4 sides[4];                   // sides of the view frustum: unit normals inwards; w: distance of the eye inside, m
     vec4 materials[MOST_MATERIALS];  // friction, restitution, density in kg/m^3
-    vec4 colors[MAP_ENTRIES];        // the colour map, linear light
+    vec4 colors[MAP_ENTRIES];        // the colour map, linear RGB
 };
 
-// Bodies that one draw draws, several in each instance: a processor takes longer to begin an instance than to draw a far body.
+// The bodies of one draw call, batched several to an instance: on software renderers starting an instance costs more
+// than drawing a distant body.
 struct BodyRun {
-    uint first;       // of the bodies, in the table of instances
+    uint first;       // begin of the run in the table of instances
     uint count;       // bodies
-    uint corners;     // of a body
-    uint together;    // bodies in an instance
-    uint directions;  // where the mesh's corners begin in the table of directions
+    uint corners;     // vertices of a body
+    uint together;    // bodies per instance
+    uint directions;  // begin of the mesh's vertices in the table of directions
     uint pad0, pad1, pad2;
 };
-// Those that are seen, by how finely they are drawn; then all of a shape, for shadows; then planes.
+// Runs: visible bodies by level of detail; all bodies of a shape, for shadows; planes; all but planes, for lines.
 RENDER_CONSTANT uint SPHERE_DETAILS = 4u;
 RENDER_CONSTANT uint CAPSULE_DETAILS = 3u;
 RENDER_CONSTANT uint RUN_SPHERES = 0u;
@@ -82,13 +82,13 @@ RENDER_CONSTANT uint RUN_ALL_CAPSULES = 10u;
 RENDER_CONSTANT uint RUN_ALL_BOXES = 11u;
 RENDER_CONSTANT uint RUN_ALL_SOLIDS = 12u;
 RENDER_CONSTANT uint RUN_PLANES = 13u;
-RENDER_CONSTANT uint RUN_ARROWS = 14u;  // all but planes, for lines
+RENDER_CONSTANT uint RUN_ARROWS = 14u;  // velocity arrows
 RENDER_CONSTANT uint RUN_CUBES = 15u;
 RENDER_CONSTANT uint RUNS = 16u;
-RENDER_CONSTANT uint NOT_SEEN = 9u;        // instead of a run
-RENDER_CONSTANT uint DETAIL_GROUP = 128u;  // bodies that a workgroup sorts by detail
+RENDER_CONSTANT uint NOT_SEEN = 9u;        // culled: in no run
+RENDER_CONSTANT uint DETAIL_GROUP = 128u;  // bodies per workgroup of the level-of-detail shaders
 
-// Where the vertices of round bodies are: the mesh whose outline is nowhere more than a third of a pixel inside the circle.
+// Level of detail by radius in pixels: the coarsest mesh whose outline stays within a third of a pixel of the circle.
 RENDER_LAW uint sphere_run(float pixels) {
     return pixels > 25.0f ? RUN_SPHERES
                           : (pixels > 5.0f ? RUN_SPHERES + 1u : (pixels > 1.5f ? RUN_SPHERES + 2u : RUN_SPHERES + 3u));
@@ -96,8 +96,8 @@ RENDER_LAW uint sphere_run(float pixels) {
 RENDER_LAW uint capsule_run(float pixels) {
     return pixels > 25.0f ? RUN_CAPSULES : (pixels > 4.0f ? RUN_CAPSULES + 1u : RUN_CAPSULES + 2u);
 }
-// `shape`: the run of all bodies of that shape. `center` relative to the eye; `reach` from it to the body's end, `radius` of a
-// round one, m.
+// Frustum culling and level of detail of a body. `shape`: RUN_ALL_* of its shape; `center` relative to the eye, m;
+// `reach`: bounding radius, m; `radius` of spheres and capsules, m. Returns a run or NOT_SEEN.
 RENDER_LAW uint run_of(Frame frame, uint shape, vec3 center, float reach, float radius) {
     for (int k = 0; k < 4; ++k) {
         vec4 side = frame.sides[k];
@@ -114,24 +114,24 @@ RENDER_LAW uint run_of(Frame frame, uint shape, vec3 center, float reach, float 
     return shape == RUN_ALL_SPHERES ? sphere_run(pixels) : capsule_run(pixels);
 }
 
-// Kinds of lines: in the lowest byte of what is pushed.
+// Kinds of lines, in the lowest byte of the push constant.
 RENDER_CONSTANT uint LINES_VELOCITIES = 0u;
 RENDER_CONSTANT uint LINES_BOXES = 1u;
 RENDER_CONSTANT uint LINES_CELLS = 2u;
 RENDER_CONSTANT uint ARROW_CORNERS = 9u;
 RENDER_CONSTANT uint CUBE_CORNERS = 72u;  // twelve edges of two triangles
 
-// Of a joint: two triangles each for three lines, its axis and two dots.
+// Vertices of a joint: two triangles for each of three lines, the axis and two dots.
 RENDER_CONSTANT uint JOINT_CORNERS = 36u;
 
-// One rectangle of the legend or the caption.
+// Quads of legend and caption.
 RENDER_CONSTANT uint OVERLAY_PANEL = 0u;  // a rounded rectangle; extra: radius, pixels
-RENDER_CONSTANT uint OVERLAY_GLYPH = 1u;  // texture: its rectangle in the atlas; extra: atlas texels per pixel
+RENDER_CONSTANT uint OVERLAY_GLYPH = 1u;  // texture_rectangle in the atlas; extra: atlas texels per pixel
 RENDER_CONSTANT uint OVERLAY_BAR = 2u;    // the colour map from left to right
 struct OverlayQuad {
     vec4 rectangle;          // left, top, right, bottom, pixels
     vec4 texture_rectangle;  // left, top, right, bottom, texels
-    vec4 color;              // linear light, straight alpha
+    vec4 color;              // linear RGB, straight alpha
     uint kind;               // OVERLAY_*
     float extra;             // see OVERLAY_*
     float pad0, pad1;

@@ -1,4 +1,4 @@
-// Joints over the picture: lines with round ends and a dark rim, so that they are seen on bodies of any colour.
+// Joints over the picture: lines with round ends and a dark rim, visible on any colour.
 #version 460
 
 layout(location = 0) in vec2 at;  // see joint.vert

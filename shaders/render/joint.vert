@@ -8,28 +8,28 @@ layout(std430, set = 0, binding = 21) readonly buffer JointTable {
     Joint joints[];
 };
 layout(push_constant) uniform Pass {
-    uint hidden;  // 1 for what lies behind bodies, drawn faintly
+    uint hidden;  // 1 to draw what bodies hide, faintly
 };
 layout(location = 0) out vec2 out_at;          // along the line from its start and across it, pixels
-layout(location = 1) flat out vec3 out_shape;  // of the line: length, half width, rim; pixels
+layout(location = 1) flat out vec3 out_shape;  // line: length, half width, rim; pixels
 layout(location = 2) flat out vec4 out_color;
 
-// The force, from none by way of about ten times the lighter body's weight to a hundred times.
+// Colours of the joint force: none, about 10 times and about 100 times the lighter body's weight.
 const vec3 LIGHT = vec3(0.02, 0.78, 1.0);
 const vec3 LADEN = vec3(1.0, 0.80, 0.04);
 const vec3 HEAVY = vec3(1.0, 0.03, 0.05);
-const float DOUBLINGS = 7.0;  // of 1 + the force in such weights, from LIGHT to HEAVY
+const float DOUBLINGS = 7.0;  // log2(1 + force / weight) between LIGHT and HEAVY
 const vec3 AXIS = vec3(0.95, 0.95, 1.0);
 
 struct End {
-    vec3 middle;  // of the body, relative to the eye, m
-    float reach;  // of the body, m
+    vec3 middle;  // centre of the body, relative to the eye, m
+    float reach;  // bounding radius of the body, m
     vec3 anchor;
     float inverse_mass;
-    bool is_body;  // and has a middle
+    bool is_body;  // false: the world, which has no centre
 };
 
-// Of the world, if there is no body.
+// The end of a joint at a body, or at the world if there is none.
 End end_of(uint body, vec3 anchor) {
     End end = End(anchor - frame.eye.xyz, 0.0, anchor - frame.eye.xyz, 0.0, false);
     if (body == NONE) return end;
@@ -44,7 +44,7 @@ bool is_gone(uint body) {
     return body != NONE && is_absent(properties[body].motion);
 }
 
-// Whether the x axis matters: it does not where nothing moves, or where B turns every way alike about a point.
+// Whether to draw the joint's x axis; not for fixed, ball and distance joints.
 bool has_axis(uint i) {
     uint flags = joints[i].flags;
     if ((flags & JOINT_RADIAL) != 0u) return false;
@@ -63,12 +63,12 @@ vec3 color_of(vec3 force, float inverse_mass) {
     return part < 0.5 ? mix(LIGHT, LADEN, 2.0 * part) : mix(LADEN, HEAVY, 2.0 * part - 1.0);
 }
 
-// As if it lay nearer to the eye by `lift`: before its own body, behind others.
+// Depth of the point moved towards the eye by `lift`, m: before its own body, behind others.
 float lifted_depth(vec4 clip, float lift) {
     return orthographic() ? clip.z + lift * frame.pixel.w : near_plane() / max(clip.w - lift, 0.5 * clip.w);
 }
 
-// With round ends.
+// A line with round ends.
 void draw_line(vec3 start, vec3 end, float half_width, float lift, vec2 side) {
     vec4 from = frame.view_projection * vec4(start, 1.0), to = frame.view_projection * vec4(end, 1.0);
     if (!clip_line(from, to)) return;
@@ -82,15 +82,15 @@ void draw_line(vec3 start, vec3 end, float half_width, float lift, vec2 side) {
 }
 
 void main() {
-    gl_Position = vec4(0, 0, -1, 1);  // outside, until there is something to draw
+    gl_Position = vec4(0, 0, -1, 1);  // outside the clip volume, unless something is drawn
     out_at = vec2(0.0);
     out_shape = vec3(0.0);
     out_color = vec4(0.0);
     uint i = uint(gl_InstanceIndex), body_a = joints[i].a, body_b = joints[i].b;
-    // A record that holds a body of its block, but no joint, names the same twice.
+    // Records of a block that hold a body instead of a joint name the same body twice.
     if (body_a == body_b || joints[i].broken != 0u || is_gone(body_a) || is_gone(body_b)) return;
     End a = end_of(body_a, joints[i].anchor_a), b = end_of(body_b, joints[i].anchor_b);
-    // Dots and axes lie before the smaller of the bodies that move, but not before all of a large one.
+    // Dots and axes are drawn before the smaller of the moving bodies, but behind parts of a large one.
     float lift = min(a.inverse_mass > 0.0 ? a.reach : 1e30, b.inverse_mass > 0.0 ? b.reach : 1e30);
     if (lift > 1e29) lift = 0.0;
 

@@ -1,4 +1,4 @@
-// Lines over the picture: smooth along their sides.
+// Lines over the picture, antialiased.
 #version 460
 
 layout(location = 0) in float across;

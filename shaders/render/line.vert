@@ -1,4 +1,4 @@
-// Lines over the picture: velocities as arrows, bounding boxes, and the cells of the grid in which bodies are.
+// Lines over the picture: velocity arrows, bounding boxes and occupied cells of the broadphase grid.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
@@ -9,14 +9,14 @@
 layout(std430, set = 0, binding = 19) readonly buffer BoundsTable {
     Bounds bounds[];
 };
-layout(location = 0) out float out_across;  // pixels from the middle of the line
+layout(location = 0) out float out_across;  // pixels from the line's centre
 layout(location = 1) flat out vec4 out_color;
 layout(location = 2) flat out float out_half_width;  // pixels
 
 const vec3 VELOCITY = vec3(0.95, 0.95, 1.0);
 const vec3 BOX = vec3(1.0, 0.50, 0.05);
 const vec3 CELL = vec3(0.05, 0.62, 1.0);
-const float SLOWEST = 1e-3;  // m/s; what is slower gets no arrow
+const float SLOWEST = 1e-3;  // m/s; slower bodies have no arrow
 
 void draw_line(vec3 start, vec3 end, uint corner) {
     vec4 from = frame.view_projection * vec4(start, 1.0), to = frame.view_projection * vec4(end, 1.0);
@@ -28,7 +28,7 @@ void draw_line(vec3 start, vec3 end, uint corner) {
     place(mix(a, b, side.x) + vec2(-along.y, along.x) * out_across, side.x < 0.5 ? depth_of(from) : depth_of(to));
 }
 
-// The ends of an edge of the unit cube.
+// An edge of a box.
 void draw_edge(vec3 low, vec3 high, uint corner) {
     uint edge = corner / 6u, axis = edge / 4u;
     float u = (edge & 1u) != 0u ? 1.0 : 0.0, v = (edge & 2u) != 0u ? 1.0 : 0.0;
@@ -37,7 +37,8 @@ void draw_edge(vec3 low, vec3 high, uint corner) {
     draw_line(low + (high - low) * from, low + (high - low) * to, corner % 6u);
 }
 
-// A shaft of two triangles and a head of one, as deep as the body's near side: before its own body, behind others.
+// An arrow: a shaft of two triangles and a head of one, at the depth of the body's near side: before its own body,
+// behind others.
 void draw_arrow(vec3 center, vec3 velocity, float reach, uint corner) {
     vec4 from = frame.view_projection * vec4(center, 1.0);
     vec4 to = frame.view_projection * vec4(center + velocity * frame.rest.w, 1.0);
@@ -59,7 +60,7 @@ void draw_arrow(vec3 center, vec3 velocity, float reach, uint corner) {
 }
 
 void main() {
-    gl_Position = vec4(0, 0, -1, 1);  // outside, until there is something to draw
+    gl_Position = vec4(0, 0, -1, 1);  // outside the clip volume, unless something is drawn
     out_across = 0.0;
     out_color = vec4(0.0);
     float unit = frame.ray_down.w / 720.0;
@@ -78,7 +79,7 @@ void main() {
     }
     Bounds around = bounds[at.body];
     uint level = around.level & ~INACTIVE;
-    // Before the first step nobody has bounds.
+    // Bounds are empty before the first step.
     if (!(around.upper.x > around.lower.x) || (t.motion & 3u) == MOTION_FIXED) return;
     if (kind == LINES_BOXES) {
         out_color = vec4(BOX, 0.85);

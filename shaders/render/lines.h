@@ -1,10 +1,10 @@
-// What lines over the picture share: ends that are cut off where the eye is, and corners of a line in pixels.
+// Lines over the picture: clipping at the near plane, and vertices of screen-space lines.
 #ifndef SCREE_RENDER_LINES_H
 #define SCREE_RENDER_LINES_H
 
 #include "shaders/render/scene.h"
 
-// Of two triangles: 0 or 1 along the line, and the side.
+// Vertices of two triangles: 0 or 1 along the line, -1 or 1 across it.
 const vec2 SIDES[6] = vec2[](vec2(0, -1), vec2(1, -1), vec2(1, 1), vec2(0, -1), vec2(1, 1), vec2(0, 1));
 
 float near_plane() {
@@ -20,7 +20,7 @@ void place(vec2 pixel, float depth) {
     gl_Position = vec4(pixel / vec2(frame.ray_right.w, frame.ray_down.w) * 2.0 - 1.0, clamp(depth, 0.0, 1.0), 1.0);
 }
 
-// What of a line lies before the eye. False: nothing.
+// Clips a line at the near plane. Returns false if nothing is left.
 bool clip_line(inout vec4 from, inout vec4 to) {
     float near = near_plane();
     if (from.w < near && to.w < near) return false;

@@ -1,4 +1,4 @@
-// Marks on the points where bodies touch: a disc and a line through it, with one dark rim around both.
+// Contact marks: a disc and a line through it, with one dark rim around both.
 #version 460
 
 layout(location = 0) in vec2 at;
@@ -14,7 +14,7 @@ void main() {
     float outside = min(from_disc, from_line);
     float inner = clamp(0.5 - outside, 0.0, 1.0);
     float all = clamp(0.5 - (outside - shape.w), 0.0, 1.0);
-    // A lighter middle makes the disc stand out from its line.
+    // A lighter centre distinguishes the disc from its line.
     vec3 bright = mix(color.rgb, vec3(1.0), 0.55 * clamp(-from_disc / shape.y, 0.0, 1.0));
     out_color = vec4(mix(RIM, bright, inner), all * color.a);
 }

@@ -1,4 +1,4 @@
-// Marks on the points where bodies touch: squares in pixels, stretched along the normal by the line that tells the push.
+// Contact marks: screen-space quads, stretched along the normal by the impulse's line.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
@@ -11,29 +11,30 @@ layout(std430, set = 0, binding = 12) readonly buffer PushTable {
     Impulse pushes[];
 };
 layout(push_constant) uniform Pass {
-    uint hidden;  // 1 for what lies behind bodies, drawn faintly
+    uint hidden;  // 1 to draw what bodies hide, faintly
 };
-layout(location = 0) out vec2 out_at;          // along the line and across it, pixels from the point
-layout(location = 1) flat out vec4 out_shape;  // half the line; radius of the disc; half width of the line; rim; pixels
+layout(location = 0) out vec2 out_at;          // along and across the line, pixels from the contact point
+layout(location = 1) flat out vec4 out_shape;  // half length of the line; radius of the disc; half width of the line; rim; pixels
 layout(location = 2) flat out vec4 out_color;
 
 const vec3 PUSHING = vec3(0.16, 1.0, 0.42);
 const vec3 IDLE = vec3(0.42, 0.55, 0.62);
-const float LONGEST = 0.95;  // half a line, of the thinner body's half width: lines of a stack do not meet
+const float LONGEST = 0.95;  // half length as a fraction of the thinner body's half width, so that lines of a stack do not meet
 
 bool is_round(BodyProperties t) {
     return has_round_core(t.shape);
 }
-// The body that a row is a part of.
+// The body of a part's row.
 uint body_of(uint row) {
     return (properties[row].motion & MOTION_OF_PART) != 0u ? properties[row].owner : row;
 }
-// By how much a body has turned since.
+// Rotates an arm from the orientation `before` to `now`.
 vec3 turned_on(vec4 before, vec4 now, vec3 arm) {
     return turned(now, turned_back(before, arm));
 }
 
-// Where the point is now, relative to the eye. It rides on both bodies, but does not roll with a round one.
+// The contact point at the bodies' present poses, relative to the eye. The point moves with both bodies, but does not
+// roll with round ones.
 vec3 point_now(Contact touch, uint k, BodyProperties a, BodyProperties b) {
     vec3 arm = touch.points[k].xyz;
     uint of_a = body_of(touch.a), of_b = body_of(touch.b);
@@ -50,7 +51,7 @@ vec2 pixels_of(vec4 clip) {
 }
 
 void main() {
-    gl_Position = vec4(0, 0, -1, 1);  // outside, until there is something to draw
+    gl_Position = vec4(0, 0, -1, 1);  // outside the clip volume, unless something is drawn
     out_at = vec2(0.0);
     out_shape = out_color = vec4(0.0);
     Contact touch = touches[gl_InstanceIndex / 4];
@@ -66,7 +67,7 @@ void main() {
     float size = min(min_half_width(a.shape, a.size), min_half_width(b.shape, b.size));
     float push = pushes[gl_InstanceIndex / 4].normal[k] *
                  max(properties[body_of(touch.a)].inverse_mass, properties[body_of(touch.b)].inverse_mass);
-    // Lengths grow as the square root: a heap's lowest points bear hundreds of times what its highest do.
+    // Length grows with the square root, since impulses in a pile differ by a factor of hundreds from top to bottom.
     float half_length = size * min(0.25 * sqrt(push / frame.marks.y), LONGEST);
     vec4 end_clip = frame.view_projection * vec4(point + touch.normal * half_length, 1.0);
     vec2 line = end_clip.w < near ? vec2(0.0) : pixels_of(end_clip) - middle;
@@ -75,7 +76,7 @@ void main() {
 
     bool pushing = push > 0.0;
     float disc = clamp(0.15 * size / (clip.w * frame.pixel.x), 1.3 * unit, 5.5 * unit) * (pushing ? 1.0 : 0.75);
-    // The disc covers nothing of the line, unless one looks along it.
+    // Extend the line by the disc, except when looking along the line.
     float seen = clamp(length(line) * clip.w * frame.pixel.x / max(half_length, 1e-6), 0.0, 1.0);
     float half_line = min(length(line) + disc * seen, 0.25 * frame.ray_down.w);
     float rim = clamp(0.35 * disc, 0.7, 1.6 * unit);
@@ -86,7 +87,7 @@ void main() {
     vec2 reach = vec2(max(half_line + out_shape.z, disc), disc) + rim + 1.0;
     out_at = corner * reach;
     vec2 at = middle + along * out_at.x + vec2(-along.y, along.x) * out_at.y;
-    // In front of the bodies that touch here, as deep as the point lies between them; behind all others.
+    // Depth before the two bodies in contact, behind all others.
     float nearer = max(length(point) - 0.4 * size, 0.5 * length(point)) / length(point);
     float depth = orthographic() ? clip.z + 0.4 * size * frame.pixel.w : near / (clip.w * nearer);
     gl_Position = vec4(at / vec2(frame.ray_right.w, frame.ray_down.w) * 2.0 - 1.0, min(depth, 1.0), 1.0);

@@ -1,4 +1,4 @@
-// The legend and the caption: rounded panels, the colour bar, and letters from the atlas of distances to their outlines.
+// Legend and caption: rounded panels, the colour bar, and text from the signed distance field atlas.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/coloring.h"
@@ -18,7 +18,7 @@ void main() {
     if (quad.kind == OVERLAY_GLYPH) {
         vec4 r = quad.texture_rectangle;
         vec2 at = mix(r.xy, r.zw, pixel / size) / vec2(textureSize(glyphs, 0));
-        // The atlas holds 128 at the outline and 255/GLYPH_PADDING levels a texel; a pixel is `extra` texels.
+        // The atlas has level 128 at the outline and 32 levels per texel of distance; a pixel is `extra` texels.
         float texels = (textureLod(glyphs, at, 0.0).r * 255.0 - 128.0) / 32.0;
         color.a *= clamp(texels / quad.extra + 0.5, 0.0, 1.0);
     } else if (quad.kind == OVERLAY_BAR) {

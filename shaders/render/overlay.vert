@@ -1,4 +1,4 @@
-// The legend and the caption: rectangles in pixels.
+// Legend and caption: quads in pixels.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/scene.h"
@@ -6,7 +6,7 @@
 layout(std430, set = 0, binding = 7) readonly buffer OverlayTable {
     OverlayQuad quads[];
 };
-layout(location = 0) out vec2 out_pixel;  // from the upper left corner of the rectangle
+layout(location = 0) out vec2 out_pixel;  // from the upper left corner of the quad
 layout(location = 1) flat out uint out_quad;
 
 void main() {

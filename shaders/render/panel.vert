@@ -1,8 +1,8 @@
-// The panel of a window: triangles in pixels, with colours as a screen shows them.
+// Dear ImGui panel: triangles in pixels, with sRGB colours.
 #version 460
 
 layout(push_constant) uniform Push {
-    vec2 scale;  // from pixels to the picture, -1 to 1
+    vec2 scale;  // from pixels to clip space
     vec2 shift;
 }
 push;

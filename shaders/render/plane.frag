@@ -8,7 +8,7 @@ layout(location = 1) flat in vec4 axis_u;
 layout(location = 2) flat in vec4 axis_v;
 layout(location = 0) out vec4 out_color;
 
-// Share of [x - w/2, x + w/2] that lies within `half_width` of a whole number: an exactly filtered grid line.
+// Integral of a grid line of `half_width` around every integer, from 0 to x: differences give box-filtered lines.
 float covered_up_to(float x, float half_width) {
     return floor(x + 0.5) * 2.0 * half_width + clamp(fract(x + 0.5) - 0.5, -half_width, half_width);
 }
@@ -23,7 +23,7 @@ void main() {
     vec3 point = start + ray * t;
     float distance = length(point);
     vec2 at = vec2(axis_u.w + dot(axis_u.xyz, point), axis_v.w + dot(axis_v.xyz, point));
-    // How far the next pixels are on the plane.
+    // Distances to the neighbouring pixels on the plane.
     float spread = orthographic() ? 1.0 : t;
     vec3 to_right = (frame.ray_right.xyz + ray * (dot(plane.xyz, frame.ray_right.xyz) / max(sinking, 1e-6))) * spread;
     vec3 to_below = (frame.ray_down.xyz + ray * (dot(plane.xyz, frame.ray_down.xyz) / max(sinking, 1e-6))) * spread;

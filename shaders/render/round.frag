@@ -1,4 +1,4 @@
-// Balls, perhaps stretched along their axes, and capsules: smooth, because the normal comes from the shape and not from the mesh.
+// Spheres, ellipsoids and capsules, with the analytic normal of the shape instead of the mesh's.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/light.h"
@@ -15,7 +15,7 @@ void main() {
     float s = clamp(dot(axis_height.xyz, from_center), -axis_height.w, axis_height.w);
     vec3 normal = normalize(from_center - axis_height.xyz * s);
     vec3 point = center_radius.xyz + axis_height.xyz * s + normal * center_radius.w;
-    // Two tones in the body's own octants, so that rolling is seen.
+    // Two tones by octant of the body frame, to make rolling visible.
     vec3 own = turned_back(turn, normal);
     float radius = center_radius.w;
     if (axis_height.w < 0.0) {

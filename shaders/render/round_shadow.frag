@@ -1,4 +1,4 @@
-// Shadows of spheres and capsules: cuts the discs out of their squares.
+// Shadows of spheres, ellipsoids and capsules: discards fragments outside the disc.
 #version 460
 
 layout(location = 0) in vec2 place;

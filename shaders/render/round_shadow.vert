@@ -1,14 +1,14 @@
-// Shadows of balls, perhaps stretched along their axes, and capsules: discs through the caps' centres and a ribbon along the
-// axis, all towards the light.
+// Shadows of spheres, ellipsoids and capsules: discs through the caps' centres and a ribbon along the axis, facing
+// the light.
 //
-// These flat shapes cast what the body casts, and lie behind all of it that the light reaches: no body speckles itself.
+// These flat shapes cast the body's exact shadow and are behind its lit surface, so there is no shadow acne.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
 #include "shaders/render/batch.h"
 #include "shaders/render/shadow_map.h"
 
-layout(location = 0) out vec2 out_place;  // radii from the nearest cap's centre
+layout(location = 0) out vec2 out_place;  // position in radii from the nearest cap's centre
 
 const vec2 CORNERS[4] = vec2[](vec2(-1, -1), vec2(1, -1), vec2(1, 1), vec2(-1, 1));
 
@@ -33,7 +33,7 @@ void main() {
     vec3 at = pose.position - frame.eye.xyz;
     vec3 radii = ball_radii(t.shape, t.size);
     if (radii.y != radii.x || radii.z != radii.x) {
-        // In units of its radii it is a ball, and what casts is the disc across the light.
+        // Scaled by its radii an ellipsoid is a sphere, whose caster is the disc perpendicular to the light.
         vec3 local = normalize(turned_back(pose.orientation, w) / radii);
         vec3 across = normalize(cross(local, abs(local.y) < 0.9 ? vec3(0, 1, 0) : vec3(1, 0, 0)));
         at += turned(pose.orientation, radii * (across * corner.x + cross(local, across) * corner.y));

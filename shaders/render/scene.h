@@ -1,4 +1,4 @@
-// The buffers that the picture shaders read: bodies straight from the simulation, the frame, and turning by a quaternion.
+// Buffers of the render shaders (the simulation's body tables, the frame) and functions of the camera.
 #ifndef SCREE_RENDER_SCENE_H
 #define SCREE_RENDER_SCENE_H
 
@@ -24,7 +24,7 @@ layout(std430, set = 0, binding = 3) readonly buffer InstanceTable {
 };
 #endif
 
-// The ray through a place in the picture, pixels: where it starts, relative to the eye, and where it goes, not of unit length.
+// The viewing ray through a pixel position: origin relative to the eye, and direction, not normalised.
 vec3 ray_offset(vec2 pixel) {
     return frame.ray_corner.xyz + frame.ray_right.xyz * pixel.x + frame.ray_down.xyz * pixel.y;
 }
@@ -37,7 +37,7 @@ vec3 ray_start(vec2 pixel) {
 vec3 ray_direction(vec2 pixel) {
     return orthographic() ? frame.forward.xyz : ray_offset(pixel);
 }
-// From the eye to a point, unit; and how wide a pixel is there, m.
+// Viewing direction to a point, unit; and the width of a pixel there, m.
 vec3 sight_to(vec3 point) {
     return orthographic() ? frame.forward.xyz : normalize(point);
 }

@@ -1,10 +1,10 @@
-// Which light a shadow map is drawn for.
+// Projection of the shadow map being drawn.
 #ifndef SCREE_RENDER_SHADOW_MAP_H
 #define SCREE_RENDER_SHADOW_MAP_H
 
 #include "shaders/render/batch.h"
 
-// In the lowest byte of what is pushed: 0 the sun, 1 the sky straight above.
+// Lowest byte of the push constant: 0 the sun, 1 the sky straight above.
 bool is_sun() {
     return (pushed & 255u) == 0u;
 }
@@ -13,7 +13,7 @@ vec3 toward_light() {
 }
 vec4 light_position(vec3 point) {
     vec3 at = is_sun() ? (frame.sun_map * vec4(point, 1.0)).xyz : (frame.sky_map * vec4(point, 1.0)).xyz;
-    // What stands between the map's box and the light still casts.
+    // Depth clamping: casters between the map's box and the light still cast shadows.
     return vec4(at.xy * 2.0 - 1.0, max(at.z, 0.0), 1.0);
 }
 

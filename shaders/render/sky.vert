@@ -1,4 +1,4 @@
-// The sky: one triangle over the whole picture, infinitely far.
+// The sky: one triangle over the whole picture, at infinity.
 #version 460
 
 void main() {

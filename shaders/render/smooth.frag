@@ -1,11 +1,12 @@
-// Smooths stairs along edges: finds how far each runs, as in FXAA (Lottes 2009), and moves the look across the edge by as much.
+// Antialiasing by FXAA (Lottes 2009): finds the extent of each edge and shifts the sample across the edge
+// accordingly.
 //
-// Software devices draw with one sample a pixel and this pass: four samples take them four times as long.
+// Used by software devices, where multisampling with four samples takes four times as long.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/scene.h"
 
-// Alpha holds how bright the pixel seems.
+// Alpha holds the perceived luminance.
 layout(set = 0, binding = 10) uniform sampler2D scene;
 layout(location = 0) out vec4 out_color;
 
@@ -20,7 +21,7 @@ void main() {
     vec2 at = gl_FragCoord.xy * texel;
     vec4 here = textureLod(scene, at, 0.0);
     float m = here.a;
-    // Pixels of the 3 x 3 around: two gathers that share the middle.
+    // The 3 x 3 neighbourhood: two gathers that share the centre.
     vec4 low = textureGather(scene, at - 0.5 * texel, 3);   // w: -1 -1, z: 0 -1, x: -1 0, y: 0 0
     vec4 high = textureGather(scene, at + 0.5 * texel, 3);  // w: 0 0, z: 1 0, x: 0 1, y: 1 1
     float n = low.z, w = low.x, e = high.z, s = high.x;
@@ -44,7 +45,7 @@ void main() {
     vec2 across = (horizontal ? vec2(0.0, texel.y) : vec2(texel.x, 0.0)) * (to_before ? -1.0 : 1.0);
     vec2 along = horizontal ? vec2(texel.x, 0.0) : vec2(0.0, texel.y);
 
-    // Walk on the edge, between the two rows, until it ends on either side.
+    // Search along the edge, between the two pixel rows, for its ends.
     vec2 start = at + 0.5 * across;
     float left = 0.0, right = 0.0, left_end = 0.0, right_end = 0.0;
     bool left_done = false, right_done = false;
@@ -64,7 +65,7 @@ void main() {
     float nearest_end = left < right ? left_end : right_end;
     bool towards = (m < between) != (nearest_end < 0.0);
     float shift = towards ? 0.5 - min(left, right) / max(left + right, 1.0) : 0.0;
-    // Single bright or dark pixels: towards the mean of the neighbours.
+    // Blend isolated bright or dark pixels with the mean of their neighbours.
     float mean = (2.0 * (n + s + w + e) + low.w + high.y) / 10.0;
     float single = clamp(abs(mean - m) / max(range, 1e-4), 0.0, 1.0);
     single = single * single * (3.0 - 2.0 * single);

@@ -1,4 +1,4 @@
-// Cylinders, cones and hulls: sides round, faces flat.
+// Cylinders, cones, hulls and meshes: shading.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/light.h"
@@ -12,7 +12,7 @@ layout(location = 0) out vec4 out_color;
 
 void main() {
     vec3 local = normalize(normal);
-    // Two tones in quarters about the axis, so that rolling is seen; a hull's faces differ by where they look.
+    // Two tones by quadrant about the axis, to make rolling visible; a hull's faces differ by their normals.
     vec2 halves = clamp(own.xz / 0.02, -1.0, 1.0);
     float tone = 0.9 + 0.1 * halves.x * halves.y + 0.05 * local.x * (own.x == 0.0 && own.z == 0.0 ? 1.0 : 0.0);
     vec3 shaded =

@@ -1,4 +1,4 @@
-// Cylinders, cones and hulls: their triangles, with a normal at each corner.
+// Cylinders, cones, hulls and meshes: triangles with vertex normals.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
@@ -8,9 +8,9 @@ layout(location = 0) out vec3 out_point;   // relative to the eye
 layout(location = 1) out vec3 out_normal;  // in the body's frame
 layout(location = 2) out vec3 out_own;     // in the body's frame, in half sizes
 layout(location = 3) flat out vec4 out_turn;
-layout(location = 4) flat out vec4 out_color;  // w: how far up the colour scale
+layout(location = 4) flat out vec4 out_color;  // w: position on the colour scale
 
-// Depths and colours are drawn one after the other, and must lie in the same places.
+// The depth prepass and the shading pass must give equal positions.
 invariant gl_Position;
 
 void main() {

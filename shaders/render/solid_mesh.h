@@ -1,12 +1,12 @@
-// A corner of the mesh of a cylinder, cone or hull.
+// Vertices of cylinder, cone, hull and triangle meshes.
 #ifndef SCREE_RENDER_SOLID_MESH_H
 #define SCREE_RENDER_SOLID_MESH_H
 
 #include "shaders/render/batch.h"
 
 layout(std430, set = 0, binding = 9) readonly buffer DirectionTable {
-    // From where the run's directions begin: for each body where its mesh begins (x), how many corners it has (y), and whether it
-    // is stretched by radius and height (z); then the meshes: for each corner its place (xyz) and its normal.
+    // From run.directions: per body the begin of its mesh (x), its vertex count (y), and whether it is scaled by
+    // radius and height (z); then the meshes: per vertex position (xyz) and normal.
     vec4 directions[];
 };
 
@@ -17,7 +17,7 @@ struct MeshCorner {
 };
 MeshCorner mesh_corner(Corner at, vec3 size) {
     uint first = runs[pushed >> 8].directions;
-    // The runs of all bodies and of those that are seen have the same meshes.
+    // The runs of all bodies and of the visible ones share the meshes.
     vec4 mesh = directions[first + at.body];
     uint k = at.corner - first;
     MeshCorner corner;

@@ -1,4 +1,4 @@
-// Shadows of cylinders, cones and hulls: the sides towards the light.
+// Shadows of cylinders, cones, hulls and meshes: the triangles towards the light.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES

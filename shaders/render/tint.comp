@@ -1,4 +1,4 @@
-// The colour of each body, from what it is and how it moves: once, and not for each corner that is drawn.
+// Body colours from the selected quantity, computed once per body instead of per vertex.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #define READS_BODIES
@@ -11,7 +11,7 @@ layout(std430, set = 0, binding = 13) readonly buffer RunTable {
     BodyRun runs[];
 };
 layout(std430, set = 0, binding = 20) writeonly buffer TintTable {
-    vec4 tints[];  // rgb: the colour; a: how far up the scale, from 0 to 1
+    vec4 tints[];  // rgb: linear colour; a: position on the colour scale, 0..1
 };
 const vec3 STONE = vec3(0.40, 0.385, 0.36);
 const vec3 KINEMATIC = vec3(0.30, 0.34, 0.40);
@@ -21,10 +21,10 @@ layout(std430, set = 0, binding = 12) readonly buffer ImpulseTable {
     Impulse impulses[];
 };
 layout(std430, set = 0, binding = 16) readonly buffer SlotEndTable {
-    uint slot_ends[];  // of each body's slots, which begin where those of the body before end
+    uint slot_ends[];  // end of each body's slots, which is the begin of the next body's
 };
 layout(std430, set = 0, binding = 17) readonly buffer SlotSideTable {
-    uint slot_sides[];  // 2 * contact + side, or with OF_JOINT a joint's record
+    uint slot_sides[];  // 2 * contact + side, or a joint record with OF_JOINT
 };
 layout(std430, set = 0, binding = 18) readonly buffer RestTable {
     uint sleep_states[];
@@ -38,7 +38,7 @@ bool sleeps(uint body) {
     return steps > 0u && has_slept(sleep_states[body], steps);
 }
 
-// The sum of what its contacts push in a substep, N s.
+// Sum of the normal impulses of the body's contacts in a substep, N s.
 float contact_impulse(uint body) {
     float sum = 0.0;
     for (uint k = body == 0u ? 0u : slot_ends[body - 1u]; k < slot_ends[body]; ++k) {
@@ -66,21 +66,21 @@ float quantity(uint by, uint body) {
     if (by == COLOR_BY_SPEED) return length(v.linear);
     if (by == COLOR_BY_SPIN) return length(v.angular);
     if (by == COLOR_BY_HEIGHT) return poses[body].position.y;
-    // Angular momentum and kinetic energy, from the spin about the principal axes.
+    // Angular momentum and kinetic energy in the principal frame.
     vec3 spin = turned_back(poses[body].orientation, v.angular);
     vec3 turning = spin * spin / max(t.inverse_inertia, vec3(1e-30));
     if (by == COLOR_BY_ANGULAR_MOMENTUM) return length(spin / max(t.inverse_inertia, vec3(1e-30)));
     return 0.5 * (dot(v.linear, v.linear) / t.inverse_mass + turning.x + turning.y + turning.z);
 }
 
-// Colours that tell bodies apart: hues a golden ratio apart, all about as light.
+// Distinct colours for ids: hues spaced by the golden ratio, of similar lightness.
 vec3 name_color(uint id) {
     float hue = fract(float(id % 4096u) * 0.61803399);
     vec3 c = 0.5 + 0.5 * cos(6.2831853 * (hue + vec3(0.0, 0.33, 0.67)));
     return mix(vec3(0.10), vec3(0.75), c * c);
 }
 
-// The material of the frame's list that is most alike.
+// Index of the nearest material in the frame's list, by friction, restitution and log density.
 uint material_of(uint body) {
     BodyProperties t = properties[body];
     vec3 own = vec3(t.friction, t.restitution, log(1.0 / (t.inverse_mass * volume_of(t.shape, t.size))));
@@ -111,8 +111,8 @@ vec4 full_color(uint body) {
     return vec4(map_color(t), t);
 }
 
-// rgb: the colour; a: how far up the scale, from 0 to 1. Under marks all are paler, so that those stand out; sleepers, when they
-// shall be known, are dull and blue.
+// rgb: linear colour; a: position on the colour scale, 0..1. Bodies are paler with contact marks; sleeping bodies are
+// dull and blue with the sleep option.
 vec4 body_color(uint body) {
     vec4 color = full_color(body);
     if (frame.marks.w > 0.5 && properties[body].motion == MOTION_DYNAMIC && sleeps(body)) {
@@ -127,7 +127,7 @@ void main() {
     uint place = gl_GlobalInvocationID.x;
     if (place >= runs[RUN_PLANES].first) return;
     uint body = instances[place];
-    // A part looks as the body does that it belongs to.
+    // Parts of a compound take the colour of their body.
     bool part = (properties[body].motion & MOTION_OF_PART) != 0u;
     tints[body] = body_color(part ? properties[body].owner : body);
 }

@@ -1,4 +1,4 @@
-// The claims against closed forms, on made-up traces: what the formula says passes, and what is a little off does not.
+// Analytic checks on synthetic traces: exact motion passes, slightly wrong motion fails.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -16,7 +16,7 @@ BodyState at(vec3 position, vec3 velocity = vec3(0)) {
     return {.position = position, .orientation = {0, 0, 0, 1}, .velocity = velocity, .angular_velocity = vec3(0)};
 }
 
-// One body's way, sixty times a second; `state` says where it is at a time.
+// A trace of one body at 60 Hz; `state` gives its state at a time (s).
 template <class State>
 Trace trace_of(double seconds, State state) {
     Trace trace;
@@ -28,7 +28,7 @@ Trace trace_of(double seconds, State state) {
     return trace;
 }
 
-// Drops from `height` and bounces, each time to the next of the tops.
+// A body dropped from `height` that bounces to each of `tops`, m.
 BodyState bouncing(double time, double height, const std::vector<double>& tops) {
     double left = time - std::sqrt(2 * height / g);
     if (left < 0) return at({0, 3 + height - g / 2 * time * time, 0});
@@ -112,7 +112,7 @@ TEST_CASE("lost or gained momentum, angular momentum and energy are seen") {
     CHECK_FALSE(passes(each_keeps_energy(it, 0.01), spun));
     CHECK_FALSE(passes(each_keeps_energy(it, 0.01), slowed));
     CHECK_FALSE(passes(together_keep_momentum(it, 1e-5), slowed));
-    CHECK_FALSE(passes(together_keep_angular_momentum(it, 1e-5), slowed));  // its orbit about the origin
+    CHECK_FALSE(passes(together_keep_angular_momentum(it, 1e-5), slowed));  // changes its orbital angular momentum
     CHECK_FALSE(passes(together_keep_angular_momentum(it, 1e-5), spun));
     CHECK_FALSE(passes(together_keep_momentum(it, 1e-5), moving(std::nanf(""), 2)));
     CHECK(passes(energy_left_below(it, 0.5), moving(0.1f, 0.2f)));
@@ -158,7 +158,7 @@ TEST_CASE("a shot behind what it was aimed at is counted, in the target's own ax
     CHECK(went_through(1, false) == 0);
     CHECK(went_through(2, false) == 1);
     CHECK(went_through(3, true) == 1);
-    trace.end[0].orientation = turned({0, 1, 0}, 90 * degrees);  // its front looks along x now
+    trace.end[0].orientation = turned({0, 1, 0}, 90 * degrees);  // its front faces x now
     CHECK(went_through(3, true) == 0);
     CHECK(went_through(1, true) == 1);
     CHECK(went_through(1, false) == 0);

@@ -1,4 +1,4 @@
-// Documents that the program prints: the table of promises in tests/README.md.
+// Generated documents: the table of promises in tests/README.md is current.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>

@@ -1,4 +1,4 @@
-// How keys drive a vehicle, how the camera chases it, and that a recording of it leads to the same bits.
+// Driving a vehicle by keys, the chase camera, and bit-exact replay of driving.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -53,7 +53,7 @@ TEST_CASE("keys take the car over from its driver: they accelerate, steer, brake
     played.pass(0.1);
     REQUIRE(played.car().controls.brake == 1);
     played.pass(2);
-    REQUIRE(played.car().controls.throttle == -1);  // it stands, so the key drives it backwards
+    REQUIRE(played.car().controls.throttle == -1);  // at rest, so the key reverses
     REQUIRE(played.car().speed < -0.5f);
     played.release(Key::down);
     played.press(Key::space);

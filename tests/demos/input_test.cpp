@@ -1,4 +1,4 @@
-// What a user did, written down and done again.
+// Recording and replay of user input.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -20,13 +20,13 @@ std::unique_ptr<Runner> on_cpu() {
     return make_reference_runner(1);
 }
 
-// A run of 90 steps in which everything is done that can be done.
+// A run of 90 steps with every user command.
 void play(Session& session) {
     for (int step = 0; step < 90; ++step) {
         if (step == 0) session.perform(Turn{.sleeping = true});
         if (step == 4) session.perform(Grab{0, 5, vec3(0.1f, 0.2f, 0.3f), vec3(1.0f / 3, 2, 0)});
         if (step > 4 && step < 30) {
-            session.perform(Drag{0, vec3(0, 2, 0)});  // of these only the second counts
+            session.perform(Drag{0, vec3(0, 2, 0)});  // of these two drags only the second counts
             session.perform(Drag{0, vec3(0.1f * static_cast<float>(step), 2.7182818f, 1e-9f)});
         }
         if (step == 30) session.perform(Release{0});
@@ -80,7 +80,7 @@ std::string wrong(const std::string& acts, const std::string& rest = "") {
 }  // namespace
 
 TEST_CASE("what a user did, written as JSON and read again, leads to the same state") {
-    for (const char* name : {"stack", "dominoes"}) {  // a script acts in the second
+    for (const char* name : {"stack", "dominoes"}) {  // the second has a script
         Session session(options_of(name), on_cpu);
         play(session);
         const Input input = session.input();
@@ -122,10 +122,10 @@ TEST_CASE("an act that the world refuses is not recorded") {
     Session session(options_of("stack"), on_cpu);
     REQUIRE_THROWS_AS(session.perform(Drag{0, vec3(0)}), std::out_of_range);
     REQUIRE_THROWS_AS(session.perform(Push{999, vec3(0)}), std::out_of_range);
-    REQUIRE_THROWS_AS(session.perform(Grab{1, 5, vec3(0), vec3(0)}), std::invalid_argument);  // 0 is free
+    REQUIRE_THROWS_AS(session.perform(Grab{1, 5, vec3(0), vec3(0)}), std::invalid_argument);  // slot 0 is free
     REQUIRE_THROWS_AS(session.perform(Turn{.substeps = 65}), std::invalid_argument);
     REQUIRE(session.input().acts.empty());
-    session.perform(Grab{0, 5, vec3(0), vec3(0)});  // the wrong one has let go
+    session.perform(Grab{0, 5, vec3(0), vec3(0)});  // the other slot was released
 }
 
 TEST_CASE("to begin again is a new recording of the same scene, to open another one a recording of that") {

@@ -1,4 +1,4 @@
-// What hands do at a window, without one: looks, grips, pushes, throws and the clock.
+// User interaction without a window: camera, grabbing, pushing, throwing and the clock.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -17,7 +17,7 @@ namespace {
 
 constexpr Extent extent{640, 360};
 
-// A scene file's session, on the CPU.
+// A session of a scene file, on the CPU.
 struct Played {
     Session session;
     Interaction hands;
@@ -61,7 +61,7 @@ TEST_CASE("a ray through a pixel meets what is seen there") {
     REQUIRE(middle.x == Approx(319.5f));
     REQUIRE(middle.y == Approx(179.5f));
     REQUIRE(glm::length(eye.position() - vec3(3, 5, 8)) < 1e-5f);
-    REQUIRE_FALSE(eye.pixel_of(vec3(6, 9, 17), extent));  // behind
+    REQUIRE_FALSE(eye.pixel_of(vec3(6, 9, 17), extent));  // behind the eye
     const Ray upper = eye.ray(319.5, 0, extent);
     REQUIRE(upper.along.y > eye.forward().y);
 }
@@ -102,7 +102,7 @@ TEST_CASE("a ray meets cylinders, cones and hulls where their surface is") {
     CHECK_FALSE(distance_to(cone, vec3(0, 0, 0.55f), upright, down));
     CHECK_FALSE(distance_to(cone, vec3(0, 9, 0), upright, down));  // behind
     Scene scene;
-    Hull cube;  // not about the body's own origin
+    Hull cube;  // not centred at the body's origin
     for (int k = 0; k < 8; ++k) cube.points.emplace_back(k & 1 ? 9 : 11, k & 2 ? -1 : 1, k & 4 ? -1 : 1);
     scene.bodies.emplace_back().shape = cube;
     const World world(scene, {}, 1);
@@ -129,8 +129,8 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
     REQUIRE(played.hands.pull()->strength > 0);
     played.pass(2);
     const Pull pull = played.hands.pull().value();
-    REQUIRE(glm::length(pull.to - pull.from) < 0.03f);  // it hangs from the spring by so much
-    // 60 pixels to the right and up, in the plane of the point that was taken hold of.
+    REQUIRE(glm::length(pull.to - pull.from) < 0.03f);  // sag of the grab spring
+    // 60 pixels to the right and up, in the view plane of the grabbed point.
     const OrbitCamera& eye = played.hands.eye();
     const glm::vec2 now = eye.pixel_of(pull.from, extent).value();
     REQUIRE(now.x == Approx(pixel.x + 60).margin(1.5));
@@ -178,7 +178,7 @@ TEST_CASE("beside bodies a drag looks round, and with the middle button it moves
     played.at(EventKind::pressed, {55, 5}, Button::middle);
     played.at(EventKind::moved, {75, 15});
     played.at(EventKind::released, {75, 15}, Button::middle);
-    // What was in the middle went with the pointer.
+    // The point at the centre moved with the pointer.
     const glm::vec2 now = played.hands.eye().pixel_of(turned.target(), extent).value();
     REQUIRE(now.x - pixel.x == Approx(20).margin(0.1));
     REQUIRE(now.y - pixel.y == Approx(10).margin(0.1));

@@ -1,4 +1,4 @@
-// Bodies made of parts as the demos show them: picked through any part, and each part drawn from its own row.
+// Compounds and meshes in the program: picking through any part, drawing each part from its own row.
 #include <catch2/catch.hpp>
 
 #include "compute/step/state.h"
@@ -9,7 +9,7 @@ using namespace scree;
 
 namespace {
 
-// A ground of two height field cells, a dumbbell across x, a ball, and a box and a cylinder on one body.
+// A ground of two height field cells, a dumbbell along x, a ball, and a compound of a box and a cylinder.
 Scene three_bodies() {
     Scene scene;
     scene.bodies.resize(4);

@@ -1,4 +1,4 @@
-// Every demo is held to its promise on the CPU, small where it may be small.
+// Every demo's promise on the CPU, with few bodies where possible.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <string>
@@ -22,7 +22,7 @@ const std::vector<std::string> jointed = {"chain", "bridge", "machine", "pendulu
 const std::vector<std::string> driven = {"drive", "cars", "roadtest"};
 const std::vector<std::string> breaking = {"thresholds", "wrecking"};
 const std::vector<std::string> splintering = {"glass", "shatter", "fragments"};
-const std::vector<std::string> large = {"pyramid100", "tray", "hulls1m"};  // take minutes: `scree check` holds them
+const std::vector<std::string> large = {"pyramid100", "tray", "hulls1m"};  // take minutes: left to `scree check`
 
 std::vector<demos::Row> verdict_of(const std::string& name, float offset) {
     const demos::Demo* demo = demos::find_demo(name);
@@ -36,7 +36,7 @@ std::vector<demos::Row> verdict_of(const std::string& name, float offset) {
 void check_kept(const std::vector<std::string>& names, float offset = 0) {
     for (const std::string& name : names) {
         for (const demos::Row& row : verdict_of(name, offset)) {
-            if (row.by_clock) continue;  // tests run beside others; `scree check` holds it
+            if (row.by_clock) continue;  // timing is left to `scree check`, since tests run concurrently
             INFO(name << ": " << row.what << ": promised " << row.promised << ", measured " << row.measured);
             CHECK(row.pass);
         }

@@ -1,4 +1,4 @@
-// The suite's own workings: claims, what a recorder looks at, scripts, choosing scenes, the table and the JSON report.
+// The suite itself: claims, recorder, scripts, selection of scenes, the table and the JSON report.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -83,16 +83,16 @@ TEST_CASE("suite: a claim holds within its limits and at them, and a value that 
 TEST_CASE("suite: energy that rises misses, however much was lost before") {
     CHECK(demos::energy_never_rises(0.01)(with_energies({100, 60, 40, 40.5, 0})).pass);
     CHECK_FALSE(demos::energy_never_rises(0.01)(with_energies({100, 60, 40, 42, 0})).pass);
-    CHECK_FALSE(demos::energy_never_rises(0.01)(with_energies({100, 40, 40.6, 41.2, 0})).pass);  // in small steps
+    CHECK_FALSE(demos::energy_never_rises(0.01)(with_energies({100, 40, 40.6, 41.2, 0})).pass);  // rises in small steps
     CHECK_FALSE(demos::energy_never_rises(0.01)(with_energies({100, no_number, 0})).pass);
-    CHECK_FALSE(demos::energy_never_rises(0.01)(Trace()).pass);  // nobody looked
+    CHECK_FALSE(demos::energy_never_rises(0.01)(Trace()).pass);  // no samples
 }
 
 TEST_CASE("suite: the cost of a span is its middle step's, and times are found among the samples") {
     Trace trace;
     trace.rate = 10;
     for (int i = 0; i < 40; ++i) trace.step_seconds.push_back(i < 20 ? 1.0f : 0.1f);
-    trace.step_seconds[5] = 1000;  // one slow step changes nothing
+    trace.step_seconds[5] = 1000;  // one slow step does not change the median
     CHECK(demos::median_step(trace, 0, 2) == Approx(1));
     CHECK(demos::median_step(trace, 2, 4) == Approx(0.1));
     CHECK(std::isnan(demos::median_step(trace, 9, 10)));

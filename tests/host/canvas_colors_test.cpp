@@ -1,4 +1,4 @@
-// What pictures are made of: colour maps, ticks, text and meshes.
+// Colour maps, scale ticks, text and meshes of pictures.
 #include "host/canvas/colors.h"
 
 #include <algorithm>
@@ -17,7 +17,7 @@ using glm::vec3;
 TEST_CASE("perceptual colour maps grow lighter", "[canvas]") {
     for (const std::string& name : color_map_names()) {
         CAPTURE(name);
-        if (name == "turbo") continue;  // a rainbow, for those who ask for it
+        if (name == "turbo") continue;  // a rainbow map, not monotonic in lightness
         float before = -1;
         for (int i = 0; i <= 100; ++i) {
             const vec3 c = map_color(*color_map_named(name), static_cast<float>(i) / 100.0f);
@@ -64,9 +64,9 @@ TEST_CASE("the words of a legend lie beside each other on their panel", "[canvas
     const int width = height * 16 / 9;
     const BarPlace bar = legend_bar(width, height);
     std::vector<OverlayQuad> quads = overlay_quads(width, height, true, scale, "");
-    const float rim = 0.2f * std::max(9.0f, static_cast<float>(height) / 45);  // of a letter's rectangle, without ink
+    const float rim = 0.2f * std::max(9.0f, static_cast<float>(height) / 45);  // margin of a glyph's quad without ink
     const glm::vec4 panel = quads.front().rectangle;
-    for (const bool below : {false, true}) {  // the ticks' labels, the title and the unit
+    for (const bool below : {false, true}) {  // tick labels; title and unit
         float end = panel.x;
         for (const OverlayQuad& quad : quads) {
             if (quad.kind != OVERLAY_GLYPH || (quad.rectangle.y >= static_cast<float>(bar.bottom)) != below) continue;
@@ -83,7 +83,8 @@ TEST_CASE("meshes of round bodies are closed", "[canvas]") {
     const RoundMesh sphere = sphere_mesh(corners);
     const RoundMesh capsule = capsule_mesh(corners / 2 < 6 ? 6 : corners / 2);
     for (const RoundMesh* mesh : {&sphere, &capsule}) {
-        // Every edge is walked both ways, but for the silhouette of the sphere. At the poles several corners are one point.
+        // Every edge occurs in both directions, but for the silhouette of a sphere. At the poles several vertices
+        // coincide.
         const auto point = [&](std::uint32_t index) {
             const auto& all = mesh->directions;
             return std::find(all.begin(), all.end(), all[index]) - all.begin();

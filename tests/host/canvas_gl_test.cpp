@@ -1,4 +1,4 @@
-// The OpenGL ES canvas: draws without a window, from host memory, from any thread. It needs no Vulkan, and neither does this.
+// The OpenGL ES canvas: offscreen, from host memory, on any thread. Canvas and test need no Vulkan.
 #include <catch2/catch.hpp>
 #include <stdexcept>
 #include <thread>
@@ -66,7 +66,7 @@ TEST_CASE("gl: a box is drawn where it is, its upper side up", "[canvas][gl]") {
     REQUIRE(with.rgba.size() == std::size_t{160} * 100 * 4);
     bodies.poses[1].position.x = 100;
     const Image without = picture(*canvas);
-    // A metre is 50 / (10 tan 20) = 13.7 pixels: the middle of the box is 14 to the right and 19 above that of the picture.
+    // A metre is 50 / (10 tan 20) = 13.7 pixels: the box's centre is 14 to the right of and 19 above the picture's.
     const auto change = [&](int x, int y) { return std::abs(brightness(with, x, y) - brightness(without, x, y)); };
     CHECK(change(94, 31) > 60);
     CHECK(change(94, 69) < 10);
@@ -110,6 +110,6 @@ TEST_CASE("gl: a canvas refuses what it cannot draw", "[canvas][gl]") {
     marks.marks = true;
     CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, marks)->set_tables(bodies.tables()), Catch::Contains("touches"));
     BodyTables on_device = bodies.tables();
-    on_device.poses = TableView(reinterpret_cast<const Buffer*>(&bodies));  // never looked into
+    on_device.poses = TableView(reinterpret_cast<const Buffer*>(&bodies));  // never dereferenced
     CHECK_THROWS_WITH(make_gl_canvas(bodies.shapes, small())->set_tables(on_device), Catch::Contains("host memory"));
 }

@@ -1,4 +1,4 @@
-// Files are written whole or not at all.
+// Atomic file output.
 #include <sys/stat.h>
 
 #include <catch2/catch.hpp>

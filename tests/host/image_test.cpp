@@ -1,4 +1,4 @@
-// Pictures, PNG files, frames and videos on disk.
+// Images, PNG files, frames and videos on disk.
 #include "host/pictures/image.h"
 
 #include <unistd.h>
@@ -45,7 +45,7 @@ std::string output_of(const std::string& command) {
     return text;
 }
 
-// Another PATH while the object lives.
+// Replaces PATH for the object's lifetime.
 class OtherPath {
 public:
     explicit OtherPath(const std::string& path) : before_(std::getenv("PATH")) { ::setenv("PATH", path.c_str(), 1); }
@@ -73,7 +73,7 @@ TEST_CASE("a PNG gives back the pixels it was made from", "[image]") {
 
 TEST_CASE("a PNG of 16 bits gives back all of them", "[image]") {
     const TemporaryFolder folder;
-    Image image = pattern(74, 23, 1, GENERATE(true, false));  // every other byte is the upper half of a channel
+    Image image = pattern(74, 23, 1, GENERATE(true, false));  // two bytes per channel if 16 bits
     image.width = 37;
     image.bits = 16;
     write_png(folder.path() / "a.png", image);
@@ -84,7 +84,7 @@ TEST_CASE("a PNG of 16 bits gives back all of them", "[image]") {
 }
 
 TEST_CASE("half floats of linear light become sRGB of 16 bits", "[image]") {
-    // 0, 1, 1/2, 2^-14, -1, infinity, 2; the fourth channel is opaque whatever it says.
+    // 0, 1, 1/2, 2^-14, -1, infinity, 2; alpha becomes opaque.
     const std::vector<std::uint16_t> halves{0x0000, 0x3C00, 0x3800, 0, 0x0400, 0xBC00, 0x7C00, 0x4000};
     const Image image = image_of_halves(2, 1, halves);
     const auto level = [&](std::size_t i) {
@@ -161,7 +161,7 @@ TEST_CASE("a preview is a small animated picture, of a kind that its name says",
             path.string());
         CHECK_THAT(seen, Catch::Contains("width=480") && Catch::Contains("height=72") && Catch::Contains("nb_read_frames=10"));
     } else {
-        const std::string bytes = read_text(path);  // RIFF....WEBPVP8X, and a chunk for each frame
+        const std::string bytes = read_text(path);  // RIFF....WEBPVP8X, then a chunk per frame
         CHECK(bytes.substr(8, 4) == "WEBP");
         CHECK(bytes.find("ANIM") != std::string::npos);
         CHECK(bytes.find("ANMF") != bytes.rfind("ANMF"));

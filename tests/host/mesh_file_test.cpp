@@ -1,4 +1,4 @@
-// Meshes from files: what is read, and what is refused by name and place.
+// Mesh files: valid files, and errors with name and place.
 #include <catch2/catch.hpp>
 #include <cstdint>
 #include <cstring>
@@ -21,7 +21,7 @@ bool says(const std::string& text, const std::string& part) {
     return text.find(part) != text.npos;
 }
 
-// A triangle in a GLB file; `indices` of shorts behind three vertices.
+// A triangle in a GLB file: three vertices, then `indices` as unsigned shorts.
 std::string glb(std::string json, const std::vector<std::uint16_t>& indices) {
     const float corners[] = {0, 0, 0, 1, 0, 0, 0, 0, 1};
     std::string binary(sizeof corners + 2 * indices.size(), '\0');
@@ -89,7 +89,7 @@ TEST_CASE("a glTF file that is nested deeper than the loader's stack is refused 
     const std::string deep = "lies in more than 256 arrays and objects";
     REQUIRE(says(refusal(with_extras(triangle_json, arrays), "a.gltf"), "a.gltf: /nodes/0/extras/0/0/0/0/0/...: " + deep));
     REQUIRE(says(refusal(glb(with_extras(triangle_json, objects), {0, 2, 1}), "a.glb"), "a.glb: /nodes/0/extras/a~1b/a~1b"));
-    // Brackets in strings count for nothing, and some depth is usual.
+    // Brackets in strings do not count, and moderate depth is valid.
     const std::string shallow =
         "[" + std::string(200, '[') + "\"\\\"" + std::string(300, '{') + "\"" + std::string(200, ']') + "]";
     REQUIRE(refusal(glb(with_extras(triangle_json, shallow), {0, 2, 1}), "a.glb").empty());

@@ -13,7 +13,7 @@ std::string text_of(const std::filesystem::path& path) {
     return text.str();
 }
 
-// The first block of code in this language, without its fence.
+// The first code block in a language, without its fence.
 std::string first_block(const std::string& markdown, const std::string& language) {
     const std::string fence = "```" + language + "\n";
     const std::size_t begin = markdown.find(fence);

@@ -1,4 +1,4 @@
-// The reading of records.h, from which the readers of the shaders are made.
+// The parser of records.h, from which the shaders' record readers are generated.
 #include <catch2/catch.hpp>
 #include <string>
 #include <vector>

@@ -1,4 +1,4 @@
-// What each room may include and may say; see the table of the rooms in README.md.
+// Allowed includes and forbidden words of each room; see the table of rooms in README.md.
 #include <catch2/catch.hpp>
 #include <regex>
 #include <sstream>
@@ -18,12 +18,12 @@ bool begins(const std::string& text, const std::string& start) {
     return text.compare(0, start.size(), start) == 0;
 }
 
-// The only folder of compute that knows the machine.
+// The only folder of compute that may use Vulkan.
 bool knows_the_device(const SourceFile& file) {
     return file.in("compute/device/");
 }
 
-// What the files of a folder may include, by the beginning of its path. The first folder that fits counts.
+// Path prefixes that the files of a folder may include. The first matching folder counts.
 struct Room {
     std::string folder;
     std::vector<std::string> may_include;
@@ -35,7 +35,7 @@ const std::vector<Room> rooms = {
     {"shaders/", {"shaders/"}},
     {"host/", {"host/", "shaders/embedded.h", "shaders/render/"}},
     {"compute/device/", {"compute/", "host/", "shaders/"}},
-    // A scene file names meshes in other files: this one file of the library reads them, and knows no more of the host.
+    // Scene files reference mesh files: this is the only file of the library that reads them.
     {"compute/scene_file/load_scene.cpp", {"compute/", "host/files/"}},
     {"compute/", {"compute/", "shaders/physics/", "shaders/stages/"}},
     {"demos/", {"demos/", "compute/", "host/", "shaders/physics/"}},
@@ -58,7 +58,7 @@ std::string wrong_way(const SourceFile& file, const Include& include) {
     return "belongs to no room";
 }
 
-// Words that a room never says. Comments may say some of them.
+// Words forbidden in a room; some are allowed in comments.
 struct Silence {
     std::string folder;
     std::regex word;

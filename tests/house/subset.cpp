@@ -1,4 +1,4 @@
-// The rules of the common subset of GLSL and C++, read off the text of the laws and the stages.
+// Rules of the common subset of GLSL and C++, checked on the text of laws and stages.
 #include <catch2/catch.hpp>
 #include <cstddef>
 #include <set>
@@ -13,7 +13,7 @@ using scree::house::at;
 using scree::house::SourceFile;
 using scree::house::Token;
 
-// What Vulkan does not round correctly, or what processors do differently.
+// Functions without correct rounding in Vulkan, or with results that vary between processors.
 const std::set<std::string> forbidden_calls = {
     "sqrt",        "inversesqrt", "normalize",    "length",    "distance", "dot",     "cross",      "mix",         "fma",
     "min",         "max",         "clamp",        "pow",       "exp",      "exp2",    "log",        "log2",        "sin",
@@ -28,13 +28,12 @@ bool is_swizzle(const Token& before, const Token& token) {
     if (token.text.size() < 2 || token.text.size() > 4) return false;
     const bool letters =
         token.text.find_first_not_of("xyzw") == std::string::npos || token.text.find_first_not_of("rgba") == std::string::npos;
-    // Mass has members xx to zz: on a vector these would not compile in C++.
+    // Symmetric matrices have members xx to zz, which as swizzles would not compile in C++.
     static const std::set<std::string> members = {"xx", "xy", "xz", "yy", "yz", "zz"};
     return letters && (members.count(token.text) == 0 || before.text.compare(0, 3, "gl_") == 0);
 }
 
-// Names that files give to floats. (In GLSL a constant may keep the digits of its literal until it is used: the compiler reckons
-// with constants in double precision, and 0.05f * 0.05f came out other than in C++.)
+// Names of float constants. (GLSL compilers may fold constants in double precision: 0.05f * 0.05f differed from C++.)
 std::set<std::string> constants_of(const SourceFile& file) {
     std::set<std::string> names;
     const std::vector<Token> tokens = scree::house::tokens_of(file.text);
@@ -56,7 +55,7 @@ std::vector<std::string> breaches(const SourceFile& file, const std::set<std::st
         const std::string next = i + 1 < tokens.size() ? tokens[i + 1].text : "";
         const std::string previous = i > 0 ? tokens[i - 1].text : "";
         if (token.text == "/") found.push_back(at(file, token.line, "division; multiply by reciprocal()"));
-        // Stages use these on integers, which is exact; tests/house/vulkan/spirv.cpp sees them on floats.
+        // Stages use these on integers, which is exact; tests/house/vulkan/spirv.cpp detects uses on floats.
         const bool on_integers =
             file.in("shaders/stages/") && (token.text == "min" || token.text == "max" || token.text == "clamp");
         if (token.identifier() && !on_integers && next == "(" && previous != "." && forbidden_calls.count(token.text) != 0) {
@@ -69,7 +68,7 @@ std::vector<std::string> breaches(const SourceFile& file, const std::set<std::st
             if (fraction && !ends_in_f) found.push_back(at(file, token.line, token.text + " is a double in C++; write an f"));
         }
         if (i > 0 && i + 1 < tokens.size() && is_constant(tokens[i - 1], constants) && is_constant(tokens[i + 1], constants)) {
-            // Whether the two meet before anything else does.
+            // Whether the two operands combine first.
             const std::string before = i > 1 ? tokens[i - 2].text : "", after = i + 2 < tokens.size() ? tokens[i + 2].text : "";
             const bool product = token.text == "*" && before != "*";
             const bool sum =

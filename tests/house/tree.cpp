@@ -1,4 +1,4 @@
-// Reading the tree, and as much of the language of its files as the rules need.
+// Reads the source tree and tokenises its files.
 #include "tests/house/tree.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ bool in_word(char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
 }
 
-// Where the string, character or raw string that begins at `i` ends; `i` itself if none begins there.
+// End of the string, character or raw string literal that begins at `i`; `i` if there is none.
 std::size_t end_of_quote(const std::string& text, std::size_t i) {
     const char quote = text[i];
     if (quote != '"' && quote != '\'') return i;

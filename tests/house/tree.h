@@ -14,22 +14,22 @@ struct SourceFile {
     bool ends_with(const std::string& ending) const;
 };
 
-// Every file of C++, GLSL, CMake and shell in the rooms, in the order of their paths.
+// Every C++, GLSL, CMake and shell file of the rooms, sorted by path.
 const std::vector<SourceFile>& source_files();
-// Those of C++ and GLSL.
+// The C++ and GLSL files.
 std::vector<SourceFile> code_files();
 
-// The text with comments blanked out (newlines stay), and with strings blanked out as well.
+// The text with comments (and string literals) replaced by blanks; newlines stay.
 std::string without_comments(const std::string& text);
 std::string without_comments_and_strings(const std::string& text);
 
 struct Token {
-    std::string text;  // an identifier, a number, or one sign
+    std::string text;  // an identifier, a number, or one punctuation character
     std::size_t line = 0;
     bool identifier() const;
     bool number() const;
 };
-// Preprocessor lines are left out, but for what #define defines.
+// Tokens without preprocessor lines, except the replacement texts of #define.
 std::vector<Token> tokens_of(const std::string& text);
 
 struct Include {

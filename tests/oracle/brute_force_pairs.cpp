@@ -1,4 +1,4 @@
-// Bounds from the support of each shape along the three axes, and the double loop over them.
+// AABBs from the shapes' supports along the axes, and the double loop over pairs.
 #include "tests/oracle/brute_force_pairs.h"
 
 #include <cmath>

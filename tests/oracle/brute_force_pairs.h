@@ -1,4 +1,4 @@
-// Every overlapping pair of axis-aligned boxes by comparing each with each, in double precision: what a broadphase must find.
+// Brute-force pairs of overlapping AABBs in double precision, the reference of the broadphase.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,7 @@ struct Bounds {
     glm::dvec3 high;  // m
 };
 
-// The smallest box around a body where it stands in the scene, widened by `margin` (m) on every side. A plane's is infinite.
+// AABB of a body at its pose in the scene, widened by `margin` (m) on every side; infinite for planes.
 Bounds bounds_of(const Body& body, double margin = 0);
 std::vector<Bounds> bounds_of(const Scene& scene, double margin = 0);
 

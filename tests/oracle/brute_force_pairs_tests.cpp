@@ -1,4 +1,4 @@
-// The brute-force pairs on bounds whose answer is plain.
+// Tests of the brute-force pairs on simple cases.
 #include "tests/oracle/brute_force_pairs.h"
 
 #include <catch2/catch.hpp>
@@ -36,7 +36,7 @@ TEST_CASE("oracle: a plane pairs with everything", "[oracle]") {
 TEST_CASE("oracle: bounds follow the turn of a box and of a capsule", "[oracle]") {
     const float half_root = std::sqrt(0.5f);
     scree::Body box = at(scree::Box{scree::vec3(1, 2, 3)}, scree::vec3(10, 0, 0));
-    box.orientation = scree::vec4(0, 0, half_root, half_root);  // a quarter turn about z: x becomes y
+    box.orientation = scree::vec4(0, 0, half_root, half_root);  // a quarter turn about z: maps x to y
     REQUIRE(scree::oracle::bounds_of(box).low.x == Approx(8));
     REQUIRE(scree::oracle::bounds_of(box).high.y == Approx(1));
     REQUIRE(scree::oracle::bounds_of(box).high.z == Approx(3));

@@ -1,4 +1,4 @@
-// Coordinates of joints and their derivatives.
+// Joint coordinates and their numerical derivatives.
 #include "tests/oracle/dense_joint_rows.h"
 
 #include <algorithm>
@@ -14,13 +14,13 @@ using glm::dmat3;
 using glm::dquat;
 using glm::dvec3;
 
-constexpr double full_drift = 0.0025, no_drift = 0.01;  // rad^2, turn of a body in a substep
+constexpr double full_drift = 0.0025, no_drift = 0.01;  // rad^2, rotation of a body in a substep
 
 DenseBody body_at(const std::vector<DenseBody>& bodies, std::size_t index) {
     return index == no_dense_body ? DenseBody{} : bodies[index];
 }
 
-// The body after a small displacement and turn (the exponential map).
+// The body after a small displacement and rotation (exponential map).
 DenseBody displaced(DenseBody body, const dvec3& by, const dvec3& turn) {
     body.position += by;
     const double angle = glm::length(turn);
@@ -61,7 +61,7 @@ DenseJacobian row_by_differences(const DenseJoint& joint, std::size_t axis, cons
     return row;
 }
 
-// The swing's two components about A's own y and z axes: exact where there is no swing, and by choice elsewhere.
+// Rows of the two swing components about A's y and z axes: exact without swing, a convention elsewhere.
 DenseJacobian swing_row(const DenseJoint& joint, std::size_t axis, const DenseBody& a) {
     const dvec3 about = axes_in_world(a.orientation, joint.frame_a)[static_cast<int>(axis) - 3];
     DenseJacobian row;
@@ -78,7 +78,8 @@ std::array<double, 6> coordinates(const DenseJoint& joint, const DenseBody& a, c
     std::array<double, 6> place{};
     for (int i = 0; i < 3; ++i) place[static_cast<std::size_t>(i)] = glm::dot(axes[i], gap);
     if (joint.radial) place[0] = glm::length(gap);
-    // Swing after twist (Dobrowolski, Swing-twist decomposition in Clifford algebra, 2015): q = swing * twist about x.
+    // Swing-twist decomposition (Dobrowolski, Swing-twist decomposition in Clifford algebra, 2015): q = swing * twist
+    // about x.
     dquat q = glm::inverse(a.orientation * joint.frame_a) * (b.orientation * joint.frame_b);
     if (q.w < 0) q = -q;
     place[3] = 2 * std::atan2(q.x, q.w);
@@ -107,7 +108,7 @@ DenseRow dense_row(const std::vector<DenseBody>& bodies, const DenseJoint& joint
         row.jacobian.angular_a = -about;
     }
     row.speed = row.jacobian.speed(a, b);
-    // Half of what the row's speed gains in the substep while the bodies go on as they do.
+    // Half of the change of the row's velocity over the substep at constant body velocities.
     double gain = 0;
     if (axis < 3)
         gain = second_derivative([&](double t) {

@@ -1,4 +1,4 @@
-// Rows of the dense joint problem: Jacobians and drifts, by differences of the joints' coordinates, and the matrix J M^-1 J^T.
+// Rows of the dense joint problem: Jacobians and drifts by numerical differentiation, and the matrix J M^-1 J^T.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace scree::oracle {
 
-// A row of J: for body A and body B, what multiplies velocity and spin.
+// A row of the Jacobian J: coefficients of linear and angular velocity of both bodies.
 struct DenseJacobian {
     glm::dvec3 linear_a{0}, angular_a{0}, linear_b{0}, angular_b{0};
     double speed(const DenseBody& a, const DenseBody& b) const {
@@ -22,18 +22,18 @@ struct DenseRow {
     std::size_t joint = 0, axis = 0;
     DenseJacobian jacobian;
     double place = 0, drift = 0, speed = 0;
-    double give = 0;  // its own entry of J M^-1 J^T
+    double give = 0;  // diagonal entry of J M^-1 J^T
 };
 
 DenseRow dense_row(const std::vector<DenseBody>& bodies, const DenseJoint& joint, std::size_t index, std::size_t axis, double h);
 
-// M^-1 for one body, of what a row pushes.
+// M^-1 J^T of a row, for one body.
 struct DensePush {
     glm::dvec3 velocity{0}, spin{0};
 };
 DensePush dense_response(const DenseBody& body, const glm::dvec3& linear, const glm::dvec3& angular);
 
-// Of J M^-1 J^T, the bodies' masses split.
+// An entry of J M^-1 J^T, with split masses.
 double dense_entry(const std::vector<DenseBody>& bodies, const std::vector<DenseJoint>& joints, const DenseRow& left,
                    const DenseRow& right);
 

@@ -1,4 +1,4 @@
-// The laws of rows, and the dense complementarity problem that they make.
+// Laws of the rows and the dense complementarity problem.
 #include "tests/oracle/dense_joints.h"
 
 #include <algorithm>
@@ -13,15 +13,15 @@ namespace {
 
 using glm::dvec3;
 
-// What the step promises of joints (shaders/physics/solve/joint_axis.h states the same numbers, with reasons).
-constexpr double closed_part = 0.25;      // of a gap, in a substep
-constexpr double max_turn_speed = 6;      // rad/s, at which turned axes are brought back
-constexpr double compliance_part = 1e-3;  // of a rigid row, of what its bodies give
-constexpr double gentle = 0.25;           // springs below this act as plain forces
+// Parameters of the joint solver (explained in shaders/physics/solve/joint_axis.h).
+constexpr double closed_part = 0.25;      // fraction of drift corrected per substep
+constexpr double max_turn_speed = 6;      // rad/s, maximum speed of angular drift correction
+constexpr double compliance_part = 1e-3;  // compliance of rigid rows, as a fraction of their inverse effective mass
+constexpr double gentle = 0.25;           // softer springs act as explicit forces
 
 using Matrix = std::vector<std::vector<double>>;
 
-// A x = y by Gaussian elimination with row exchanges.
+// Solves A x = y by Gaussian elimination with partial pivoting.
 std::vector<double> solve_linear(Matrix a, std::vector<double> y) {
     const std::size_t n = y.size();
     for (std::size_t k = 0; k < n; ++k) {
@@ -49,7 +49,7 @@ bool is_stop(Branch branch) {
     return branch == Branch::stop_low || branch == Branch::stop_high;
 }
 
-// The laws of the rows: J v + bias + compliance * (change of the impulse) = 0 on the branch that it is on.
+// The linear equation of a row on its branch: J v + bias + compliance * (change of the impulse) = 0.
 struct Equation {
     double bias = 0, compliance = 0;
 };
@@ -69,8 +69,8 @@ public:
         if (axis_.drive == DenseAxis::Drive::spring) return pass_.biased && !is_gentle();
         return axis_.drive == DenseAxis::Drive::motor;
     }
-    // The drive's impulse where it is not: at its greatest, a weak spring's force as it is when the pass begins, a spring at a
-    // stop that lets nothing move; and in the pass without bias springs keep what they have.
+    // The drive's impulse where it is no unknown: at its maximum; a soft spring's explicit force; a spring at a stop
+    // without play. In the relax pass springs keep their impulse.
     double given_drive(Branch branch) const {
         if (axis_.drive == DenseAxis::Drive::spring) {
             if (!pass_.biased) return axis_.drive_impulse;
@@ -93,7 +93,7 @@ public:
                 if (!pass_.biased) return {0, soft_};
                 return {closing(row_.place - axis_.rest) + row_.drift + soft_ * axis_.drive_impulse, soft_};
             case DenseAxis::Drive::spring: {
-                // l = -h (k (place + h v - rest) + c (v - speed)), solved for v
+                // implicit Euler: l = -h (k (place + h v - rest) + c (v - speed)), solved for v
                 const double resistance = axis_.damping + pass_.h * axis_.stiffness;
                 const double compliance = 1 / (pass_.h * resistance);
                 const double force = axis_.stiffness * (row_.place - axis_.rest) - axis_.damping * axis_.speed;
@@ -103,7 +103,7 @@ public:
                 return {-axis_.speed, soft_};
         }
     }
-    // Of the lower limit, or seen from the other side of the upper one.
+    // The equation of a limit: the lower one, or the upper one mirrored.
     Equation stop(bool low) const {
         const double room = low ? row_.place - axis_.lower : axis_.upper - row_.place;
         const double drift = low ? row_.drift : -row_.drift;
@@ -114,7 +114,7 @@ public:
         return equation;
     }
 
-    // Given the impulses' changes and the row's speed afterwards: the branch on which the law would be met.
+    // The branch on which the row's law would hold, given the change of its impulse and its velocity afterwards.
     Branch better(Branch branch, double change, double speed) const {
         if (branch == Branch::stop_low) return axis_.stop_impulse + change < 0 ? Branch::drive : branch;
         if (branch == Branch::stop_high) return axis_.stop_impulse + change > 0 ? Branch::drive : branch;
@@ -128,7 +128,7 @@ public:
             if (axis_.drive_impulse + change < -most_) return Branch::drive_low;
             return axis_.drive_impulse + change > most_ ? Branch::drive_high : branch;
         }
-        // At its greatest it stays only while the row goes the other way.
+        // A saturated drive stays saturated only while the row lags behind.
         const double error = speed + drive().bias + drive().compliance * (given_drive(branch) - axis_.drive_impulse);
         if (branch == Branch::drive_low) return error < 0 ? Branch::drive : branch;
         return error > 0 ? Branch::drive : branch;
@@ -151,7 +151,7 @@ struct Problem {
     Matrix gives;
 };
 
-// The changes of drive and stop on given branches.
+// Changes of drive and stop impulses on given branches.
 struct Changes {
     std::vector<double> drive, stop, speed;
 };
@@ -206,7 +206,8 @@ Problem problem_of(const std::vector<DenseBody>& bodies, const std::vector<Dense
     return problem;
 }
 
-// Puts rows whose law is not met on a better branch: all of them, or that of the least index. True if there are none.
+// Moves rows whose law does not hold to a better branch: all of them, or the one of least index. Returns true if
+// there are none.
 bool exchange(const Problem& problem, const Changes& changes, std::vector<Branch>& branches, bool only_one) {
     bool met = true;
     for (std::size_t i = 0; i < branches.size() && (met || !only_one); ++i) {

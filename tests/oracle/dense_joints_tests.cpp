@@ -1,4 +1,4 @@
-// The dense oracle of joints, held to closed forms and then the judge of the joint solver on the CPU.
+// The dense oracle of joints against closed forms, and the joint solver on the CPU against the oracle.
 #include "tests/oracle/dense_joints.h"
 
 #include <catch2/catch.hpp>
@@ -21,7 +21,7 @@ DenseAxis lock() {
     return axis;
 }
 
-// A body of 2 kg on an axis of its own, moving along it at `speed`.
+// A body of 2 kg on a single axis, moving along it at `speed` (m/s).
 DenseSolution slid(const DenseAxis& axis, double speed, double place = 0) {
     DenseBody body;
     body.inverse_mass = 0.5;
@@ -39,7 +39,7 @@ JointTablesNow tables_of(const State& state) {
     return {state.poses, state.velocities, state.joints, state.slots, state.slot_ends};
 }
 
-// Walks the plan on the CPU; every pass over the joints is judged.
+// Walks the plan on the CPU and judges every joint pass.
 void judge_steps(const Scene& scene, JointVerdicts& verdicts) {
     const Settings settings = joint_settings();
     State state(scene, settings, 64, true);
@@ -71,7 +71,7 @@ TEST_CASE("oracle: a bob on a rigid rod keeps the speed around its pivot and los
     const DenseSolution told = solve_densely({bob}, {rod}, {true, 0.001});
     REQUIRE(told.solved);
     CHECK(told.velocity[0].x == Approx(0).margin(1e-9));
-    // And half a substep's centripetal acceleration v^2 / r inwards; a rigid row yields by a thousandth.
+    // Half a substep of centripetal acceleration v^2 / r inwards; the compliance of rigid rows is a thousandth.
     CHECK(told.velocity[0].y == Approx((-1 + 0.5 * 0.001 * 9 / 2) / 1.001).epsilon(1e-6));
 }
 

@@ -1,4 +1,4 @@
-// Scenes and records translated for the dense oracle, and its word on a pass.
+// Conversion of scenes and records for the dense oracle, and its verdict on a pass.
 #include "tests/oracle/joint_judge.h"
 
 #include <algorithm>
@@ -167,7 +167,7 @@ struct Change {
     dvec3 velocity{0}, spin{0};
 };
 
-// What a pass tells a body to change, in its slots.
+// The velocity change of a body by a pass, from its slots.
 Change change_of(std::size_t body, const JointTablesNow& tables) {
     Change change;
     for (std::size_t k = body == 0 ? 0 : tables.slot_ends[body - 1]; k < tables.slot_ends[body]; ++k) {
@@ -222,7 +222,7 @@ JointVerdict judge_joints(const Scene& scene, std::span<const std::uint32_t> rec
                                static_cast<double>(parameters.push_speed)};
     const auto error = [&](DenseSolution solution) {
         if (pass == JointPass::unbiased) {
-            // With the warm start of the next substep: all impulses once more.
+            // Includes the warm start of the next substep: all impulses once more.
             const DenseSolution warm = push_densely(bodies, joints, solution.joints);
             for (std::size_t i = 0; i < bodies.size(); ++i) {
                 solution.velocity[i] += warm.velocity[i];
@@ -239,7 +239,7 @@ JointVerdict judge_joints(const Scene& scene, std::span<const std::uint32_t> rec
 double JointVerdicts::worst() const {
     double worst = 0;
     for (const JointVerdict& verdict : all_)
-        worst = verdict.on_branches <= worst ? worst : verdict.on_branches;  // what is no number is the worst
+        worst = verdict.on_branches <= worst ? worst : verdict.on_branches;  // NaN counts as the worst
     return worst;
 }
 

@@ -1,4 +1,4 @@
-// What the dense oracle says of the passes that a step makes over its joints.
+// The dense oracle as the judge of a step's joint passes.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace scree::oracle {
 
-// The tables that a pass over the joints reads and writes.
+// Tables that a joint pass reads and writes.
 struct JointTablesNow {
     std::vector<physics::Pose> poses;
     std::vector<physics::Velocity> velocities;
@@ -25,23 +25,24 @@ struct JointTablesNow {
 
 enum class JointPass { warm_start, biased, unbiased, last_unbiased };
 
-// The pass of a stage, if it is one over the joints.
+// The joint pass of a stage, if it is one.
 std::optional<JointPass> joint_pass_of(const std::string& stage, std::uint32_t pass);
 
 constexpr int judged_steps = 2;
-Settings joint_settings();  // two substeps, in which a pass without bias hands on a warm start and one does not
+Settings joint_settings();  // two substeps: one relax pass precedes a warm start, the other does not
 
-// Differences of the bodies' changes from the oracle's, of the greatest change; of spins at half of what the bodies measure.
+// Relative errors of the bodies' velocity changes against the oracle's largest change; angular velocities count at
+// half the bodies' size.
 struct JointVerdict {
-    double on_branches = 0;  // from the dense equations, bounds acting as the block solver says
-    double of_law = 0;       // from the solution of the complementarity problem; not a number where the oracle found none
+    double on_branches = 0;  // against the dense equations with the block solver's active set
+    double of_law = 0;       // against the solution of the complementarity problem; NaN where the oracle found none
 };
-// All passes judged so far, against what a float can do. A rigid row yields by a thousandth of what its bodies give, so where
-// rows repeat each other (rings, ladders) the equations are conditioned by some 3e4, and 6e-8 in a float becomes 2e-3 in the
-// solution: no pass may be further off. Most blocks are far better conditioned, so half of all passes must be within 1e-4
-// (measured: 9e-4 and 2e-5). Which bounds act is the block solver's own matter, within its rounds (JOINT_ROUNDS, SETTLING_ROUND):
-// after the second it lets bounds go and takes up none, which leaves some laws unmet; nine passes in ten must meet them all
-// (measured: 92 of 100).
+// Statistics of all judged passes, with tolerances for single precision. Rigid rows have a compliance of a thousandth
+// of their inverse effective mass, so with redundant rows (rings, ladders) the condition number is about 3e4, and
+// 6e-8 in a float becomes 2e-3 in the solution: the limit for every pass. Most blocks are better conditioned, so half
+// of all passes must be within 1e-4 (measured: 9e-4 and 2e-5). The block solver chooses its active set in a limited
+// number of rounds (JOINT_ROUNDS, SETTLING_ROUND); after the second it only releases bounds, which leaves some laws
+// unmet: nine of ten passes must satisfy all (measured: 92 of 100).
 class JointVerdicts {
 public:
     static constexpr double worst_allowed = 2e-3, median_allowed = 1e-4, part_meeting_laws = 0.85;
@@ -55,8 +56,8 @@ private:
     std::vector<JointVerdict> all_;
 };
 
-// `before`, `after`: the tables as the stage begins and as it has ended; `records`: of each joint of the scene (State), whose
-// bodies lie in the tables from `first_body` on.
+// `before`, `after`: tables before and after the stage; `records`: record of each joint of the scene (State); the
+// scene's bodies begin at row `first_body`.
 JointVerdict judge_joints(const Scene& scene, std::span<const std::uint32_t> records, const physics::Parameters& parameters,
                           const JointTablesNow& before, const JointTablesNow& after, JointPass pass, std::size_t first_body = 0);
 

@@ -121,7 +121,7 @@ JointKind random_kind(JointCase::Kinds kinds, Random& random) {
     return random_kind(static_cast<Kinds>(random.below(7)), random);
 }
 
-// The body that body `i` hangs on, a third one that a ladder ties to it; where it is.
+// Edges of the block: each body with its parent, and the cross links of rings and ladders.
 std::vector<std::pair<std::size_t, std::size_t>> edges_of(const JointCase& what, Random& random) {
     std::vector<std::pair<std::size_t, std::size_t>> edges;
     for (std::size_t i = 1; i < what.bodies; ++i) {

@@ -1,4 +1,4 @@
-// Scenes of joints that hang together at random, for the judge of the joint solver.
+// Random joint blocks for the judge of the joint solver.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,7 @@
 
 namespace scree::oracle {
 
-// How a random block hangs together, and what its joints are.
+// Topology and joint kinds of a random block.
 struct JointCase {
     std::string name;
     enum class Graph { chain, ring, tree, ladder } graph = Graph::chain;
@@ -18,7 +18,7 @@ struct JointCase {
     std::size_t bodies = 8;
 };
 const std::vector<JointCase>& joint_cases();
-// Bodies some way from where their joints want them, and moving; too far apart to touch each other.
+// Moving bodies with joint drift, too far apart for contacts.
 Scene random_block(const JointCase& what, std::uint32_t seed);
 
 }  // namespace scree::oracle

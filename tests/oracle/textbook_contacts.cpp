@@ -1,5 +1,4 @@
-// Contact points of round shapes from nearest points, found by search where that is plainest, and of boxes on planes from
-// vertices.
+// Contact points of round shapes from nearest points, partly found by search, and of boxes on planes from vertices.
 #include "tests/oracle/textbook_contacts.h"
 
 #include <algorithm>
@@ -41,7 +40,7 @@ dmat3 rotation_matrix(dvec4 q) {
 
 namespace {
 
-// A round shape is a segment (of length 0 for a sphere) with a radius.
+// A sphere or capsule: a segment (of length 0 for a sphere) with a radius.
 struct Round {
     dvec3 start, end;
     double radius;
@@ -56,7 +55,7 @@ Round round_of(const Shape& shape, const TextbookPose& pose) {
     return {pose.position - half, pose.position + half, capsule.radius};
 }
 
-// The t in 0 to 1 at which a convex function is least, by narrowing the interval by thirds.
+// Minimiser of a convex function on 0..1 by ternary search.
 template <typename Function>
 double least(Function distance) {
     double low = 0, high = 1;
@@ -90,14 +89,14 @@ void round_with_round(const Round& a, const Round& b, double reach, std::vector<
     add_round_point(on_a, a.radius, nearest_on(b, on_a), b.radius, reach, points);
 }
 
-// The plane is A: its solid side is behind the normal.
+// Contact of a plane (A) with a sphere; the solid side is behind the normal.
 void plane_with_point(const Plane& plane, dvec3 point, double radius, double reach, std::vector<TextbookPoint>& points) {
     const dvec3 normal = dvec3(plane.normal) / magnitude(dvec3(plane.normal));
     const double separation = dot_product(normal, point) - plane.offset - radius;
     if (separation < reach) points.push_back({point - normal * (radius + separation / 2), normal, separation});
 }
 
-// The box is A; `point` is a sphere of this radius.
+// Contact of a box (A) with a sphere of this radius at `point`.
 void box_with_point(const Box& box, const TextbookPose& pose, dvec3 point, double radius, double reach,
                     std::vector<TextbookPoint>& points) {
     const dmat3 turn = rotation_matrix(pose.orientation);

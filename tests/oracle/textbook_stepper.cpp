@@ -1,4 +1,4 @@
-// The impulse formulas, one after the other, as a textbook writes them.
+// The textbook stepper: impulse formulas in order.
 #include "tests/oracle/textbook_stepper.h"
 
 #include <algorithm>
@@ -27,7 +27,7 @@ void set_mass(const Shape& shape, double density, TextbookBody& body) {
     } else if (const auto* capsule = std::get_if<Capsule>(&shape)) {
         const double r = capsule->radius, length = 2.0 * capsule->half_height;
         const double cylinder = density * pi * r * r * length, caps = density * 4 / 3 * pi * r * r * r;
-        // Each half ball's centre of mass lies 3/8 r beyond the cylinder's end; parallel axes.
+        // The hemispheres' centres of mass are 3/8 r beyond the cylinder's ends; parallel axis theorem.
         const double across =
             cylinder * (r * r / 4 + length * length / 12) + caps * (0.4 * r * r + length * length / 4 + 0.375 * length * r);
         body.mass = cylinder + caps;
@@ -108,7 +108,7 @@ std::vector<TextbookStepper::Contact> TextbookStepper::find_contacts() const {
                 contact.arm_b = point.position - bodies_[b].pose.position;
                 contact.friction = std::sqrt(double(body_a.friction) * double(body_b.friction));
                 const double speed = dot_product(relative_velocity(contact), point.normal);
-                // Touching now, or before this substep ends.
+                // In contact now or before the end of this substep.
                 if (point.separation + speed * options_.substep > 0) continue;
                 contact.least_speed = -std::max(point.separation, 0.0) / options_.substep;
                 if (speed < -options_.restitution_threshold && restitution > 0) contact.least_speed = -restitution * speed;
@@ -119,7 +119,7 @@ std::vector<TextbookStepper::Contact> TextbookStepper::find_contacts() const {
     return contacts;
 }
 
-// One Gauss-Seidel visit; true if it changed an impulse.
+// One Gauss-Seidel update of a contact. Returns true if an impulse changed.
 bool TextbookStepper::solve(Contact& contact) {
     const double speed = dot_product(relative_velocity(contact), contact.normal);
     const double before = contact.impulse;
@@ -154,7 +154,8 @@ void TextbookStepper::move() {
             body.pose.orientation = turned(body.pose.orientation, body.angular_velocity * options_.substep);
             continue;
         }
-        // Without torque the angular momentum stays; the velocity follows the orientation (taken at the middle of the substep).
+        // Torque-free motion conserves angular momentum; the angular velocity follows from the orientation (at
+        // mid-substep).
         const dvec3 inverse(1 / body.inertia[0], 1 / body.inertia[1], 1 / body.inertia[2]);
         const dvec3 momentum = in_body_axes(body.pose.orientation, body.inertia, body.angular_velocity);
         const dvec4 middle = turned(body.pose.orientation, body.angular_velocity * (options_.substep / 2));
@@ -164,7 +165,7 @@ void TextbookStepper::move() {
     }
 }
 
-// What still overlaps is moved apart, by mass, along the normal.
+// Projects remaining penetration along the normal, weighted by inverse mass.
 void TextbookStepper::separate() {
     for (std::size_t a = 0; a < bodies_.size(); ++a) {
         for (std::size_t b = a + 1; b < bodies_.size(); ++b) {

@@ -1,8 +1,8 @@
-// A slow and plain rigid body stepper in double precision, written from the textbook impulse formulas: the simulator's judge.
+// A simple rigid body stepper in double precision from textbook impulse formulas, the simulator's oracle.
 //
-// Semi-implicit Euler in small substeps; contacts by projected Gauss-Seidel until nothing changes; restitution by
-// j = -(1+e) v_rel.n / (1/m_a + 1/m_b + n.[(I_a^-1 (r_a x n)) x r_a + (I_b^-1 (r_b x n)) x r_b]) and Coulomb friction |j_t| <= mu
-// j.
+// Semi-implicit Euler in small substeps; contacts by projected Gauss-Seidel to convergence; restitution by j = -(1+e)
+// v_rel.n / (1/m_a + 1/m_b + n.[(I_a^-1 (r_a x n)) x r_a + (I_b^-1 (r_b x n)) x r_b]) and Coulomb friction |j_t| <=
+// mu j.
 #pragma once
 
 #include <cstddef>
@@ -16,24 +16,24 @@ namespace scree::oracle {
 
 struct TextbookOptions {
     double substep = 1.0 / 2000;       // s
-    int iterations = 400;              // of Gauss-Seidel at most; it stops when no impulse changes any more
-    double restitution_threshold = 1;  // m/s, slower impacts do not bounce (Settings::restitution_threshold)
+    int iterations = 400;              // maximum Gauss-Seidel iterations; ends early when no impulse changes
+    double restitution_threshold = 1;  // m/s, no restitution below (Settings::restitution_threshold)
 };
 
 struct TextbookBody {
     TextbookPose pose;
     glm::dvec3 velocity{0};          // m/s
     glm::dvec3 angular_velocity{0};  // rad/s, world
-    double mass = 0;                 // kg; 0 if not dynamic
+    double mass = 0;                 // kg; 0 unless dynamic
     glm::dvec3 inertia{0};           // principal, body frame, kg m^2
 };
 
 class TextbookStepper {
 public:
-    // Throws std::invalid_argument for what it does not know: damping, rolling resistance.
+    // Throws std::invalid_argument for unsupported features: damping, rolling resistance.
     explicit TextbookStepper(const Scene& scene, const TextbookOptions& options = {});
 
-    // Simulates on for `seconds`, rounded to whole substeps.
+    // Simulates `seconds`, rounded to whole substeps.
     void run(double seconds);
 
     const std::vector<TextbookBody>& bodies() const { return bodies_; }
@@ -42,12 +42,12 @@ public:
     glm::dvec3 angular_momentum() const;  // kg m^2/s, about the origin
 
 private:
-    // One contact point with what the solver gathers on it.
+    // A contact point with its accumulated impulses.
     struct Contact {
         std::size_t a, b;
         glm::dvec3 normal, arm_a, arm_b;
         double friction;
-        double least_speed;      // m/s, along the normal, that the bodies must separate with
+        double least_speed;      // m/s, minimum separating speed along the normal
         double impulse = 0;      // N s
         glm::dvec3 sideways{0};  // N s, friction
     };
@@ -61,8 +61,8 @@ private:
 
     double inverse_mass(std::size_t body) const;
     glm::dvec3 turn_by(std::size_t body, glm::dvec3 angular_impulse) const;  // I^-1 L
-    glm::dvec3 relative_velocity(const Contact& contact) const;              // of B at the point, seen from A
-    double response(const Contact& contact, glm::dvec3 direction) const;     // 1/kg
+    glm::dvec3 relative_velocity(const Contact& contact) const;              // velocity of B relative to A at the point
+    double response(const Contact& contact, glm::dvec3 direction) const;     // inverse effective mass, 1/kg
 
     Scene scene_;
     TextbookOptions options_;

@@ -1,4 +1,4 @@
-// Closed forms of mechanics, to which the textbook stepper is held before it judges anything.
+// The textbook stepper against closed forms of mechanics.
 #include "tests/oracle/textbook_stepper.h"
 
 #include <algorithm>
@@ -28,7 +28,7 @@ scree::Body body(scree::Shape shape, scree::vec3 position, scree::vec3 velocity 
     return made;
 }
 
-// A plane through the origin that falls off towards +x at this angle.
+// A plane through the origin that slopes down towards +x at `angle` (rad).
 scree::Body slope(double angle, float friction) {
     scree::Body plane;
     plane.motion = scree::Motion::fixed;
@@ -37,7 +37,7 @@ scree::Body slope(double angle, float friction) {
     return plane;
 }
 
-// A body of this height over the slope, turned to lie on it.
+// A body at `height` over the slope, aligned with it.
 scree::Body on_slope(scree::Shape shape, double height, double angle, float friction) {
     scree::Body made = body(shape, scree::vec3(float(height * std::sin(angle)), float(height * std::cos(angle)), 0));
     made.orientation = scree::vec4(0, 0, float(-std::sin(angle / 2)), float(std::cos(angle / 2)));
@@ -134,7 +134,7 @@ TEST_CASE("oracle: an off-centre hit keeps momentum, angular momentum and, if el
     const double size = magnitude(momentum);
     REQUIRE(magnitude(stepper.bodies()[0].angular_velocity) > 0.3);
     require_near(stepper.momentum(), momentum, 1e-9 * size);
-    require_near(stepper.angular_momentum(), angular, 2e-3 * size);  // the bodies turn in substeps
+    require_near(stepper.angular_momentum(), angular, 2e-3 * size);  // error of the rotation by substeps
     REQUIRE(stepper.kinetic_energy() == Approx(energy).epsilon(1e-6));
 }
 
@@ -148,7 +148,7 @@ TEST_CASE("oracle: a turning box keeps its angular momentum and energy", "[oracl
     stepper.run(5);
     require_near(stepper.angular_momentum(), angular, 1e-8 * magnitude(angular));
     REQUIRE(stepper.kinetic_energy() == Approx(energy).epsilon(1e-4));
-    // About the middle axis it tumbles (Dzhanibekov): by now it has turned over at least once.
+    // Unstable about the intermediate axis (Dzhanibekov effect): it has flipped at least once by now.
     REQUIRE(stepper.bodies()[0].pose.orientation.w < 0.999);
 }
 

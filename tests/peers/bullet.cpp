@@ -1,8 +1,7 @@
-// Bullet in the race: its own solver at its usual settings (10 sequential impulse iterations, warm start, one thread), with the
-// scene's shapes, masses, inertias, friction, restitution and damping. Pairs take their friction, restitution and rolling
-// resistance as scree's do; Bullet's product of both would make other piles. Its resistance to rolling costs it what it costs,
-// but is next to nothing for what is heavier than some kilograms: it is bounded by an impulse of as many N m s as the arm has
-// metres.
+// Bullet in the race: its solver at default settings (10 sequential impulse iterations, warm starting, one thread),
+// with the scene's shapes, masses, inertias, friction, restitution and damping. Friction, restitution and rolling
+// resistance of pairs are combined as in scree; Bullet's products would give other piles. Bullet's rolling resistance
+// is almost nothing for bodies over some kilograms, since its impulse (N m s) is bounded by the resistance arm (m).
 #include <btBulletDynamicsCommon.h>
 
 #include <algorithm>
@@ -28,7 +27,7 @@ std::unique_ptr<btCollisionShape> shape_of(const Shape& shape) {
     throw Unsupported("a cylinder, cone or hull, which the race does not translate");
 }
 
-// The part of its velocity that a body loses in a second.
+// Fraction of velocity lost per second, from a damping rate (1/s).
 btScalar damping_of(float rate) {
     return 1 - std::exp(-rate);
 }
@@ -99,7 +98,7 @@ private:
             added.setAngularVelocity(vector_of(body.angular_velocity));
         }
         world_.addRigidBody(&added);
-        if (moves) added.setGravity(vector_of(gravity * body.gravity_scale));  // after adding, which sets the world's
+        if (moves) added.setGravity(vector_of(gravity * body.gravity_scale));  // after adding, which sets the world's gravity
     }
 
     btDefaultCollisionConfiguration configuration_;

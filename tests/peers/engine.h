@@ -1,4 +1,4 @@
-// A simulator that runs a scree scene, as the race sees it: Bullet, MuJoCo, and scree itself.
+// The race's interface to a simulator of scree scenes: Bullet, MuJoCo, scree.
 #pragma once
 
 #include <cstddef>
@@ -11,23 +11,23 @@
 
 namespace scree::peers {
 
-constexpr float step_seconds = 1.0f / 60;  // of every engine
+constexpr float step_seconds = 1.0f / 60;  // s, time step of every engine
 
 class Engine {
 public:
     virtual ~Engine() = default;
-    virtual std::string name() const = 0;             // with its version, and on what it runs
-    virtual void step() = 0;                          // one step of step_seconds; nothing sleeps
-    virtual std::vector<vec3> positions() const = 0;  // m, of the bodies in the scene's order
+    virtual std::string name() const = 0;             // name, version and device
+    virtual void step() = 0;                          // one step of step_seconds, sleep off
+    virtual std::vector<vec3> positions() const = 0;  // m, centres of bodies in the scene's order
     virtual std::size_t points() const = 0;           // contact points after the last step
 };
 
-// A scene that an engine's model does not hold. The message says what is missing.
+// A scene that an engine cannot represent. The message says what is missing.
 struct Unsupported : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// `scene` is a checked one (compute/scene.h). What a factory cannot translate exactly it refuses with Unsupported.
+// `scene` must be validated (compute/scene.h). Throw Unsupported for scenes that cannot be translated exactly.
 std::unique_ptr<Engine> make_scree_on_processor(const Scene& scene, int threads);
 std::unique_ptr<Engine> make_scree_on_device(const Scene& scene);  // the first Vulkan device
 std::unique_ptr<Engine> make_bullet(const Scene& scene);

@@ -1,6 +1,6 @@
-// MuJoCo in the race, at its own settings (Newton's method, pyramidal cones, 100 iterations at most, which it seldom needs), one
-// thread. It is built for robots: constraints fill matrices of rows by degrees of freedom, whose size it counts in 32 bits, so
-// piles of more than some hundreds of bodies do not fit. It knows no restitution and no damping of a body's own.
+// MuJoCo in the race, at default settings (Newton solver, pyramidal cones, at most 100 iterations, seldom reached),
+// one thread. MuJoCo is built for robots: its constraint matrices (rows by degrees of freedom) are sized with 32
+// bits, so piles of more than some hundreds of bodies do not fit. It has no restitution and no damping per body.
 #include <mujoco/mujoco.h>
 
 #include <cstring>
@@ -30,7 +30,7 @@ std::ostream& operator<<(std::ostream& text, vec3 v) {
     return text << v.x << ' ' << v.y << ' ' << v.z;
 }
 
-// MuJoCo's planes and capsules look along z, scree's capsules along y.
+// The axis of MuJoCo's planes and capsules is z, that of scree's capsules y.
 void write_geom(std::ostream& text, const Body& body) {
     text << "<geom density='" << body.density << "' condim='" << (body.rolling_resistance > 0 ? 6 : 3) << "' friction='"
          << body.friction << " 0 " << body.rolling_resistance << "' ";
@@ -88,11 +88,12 @@ public:
     explicit Mujoco(const Scene& scene) : scene_(scene) {
         for (const Body& body : scene.bodies) moving_ += body.motion == Motion::dynamic;
         require_room();
-        mju_user_warning = [](const char*) {};  // else it writes a file into the working folder; what matters is looked at here
+        mju_user_warning = [](const char*) {};  // suppresses MuJoCo's log file; relevant warnings are checked here
         model_ = load(model_text(scene));
-        // It allocates for a number of contacts that it is told; more are left out, which would make it faster than it is.
+        // MuJoCo drops contacts beyond its preallocated number, which would make it look faster; so grow until all
+        // fit.
         for (begin(); overflowed(); begin()) rows_of_a_body_ *= 1.3;
-        rows_of_a_body_ *= 1.5;  // for what comes to touch on the way
+        rows_of_a_body_ *= 1.5;  // room for further contacts during the run
         begin();
     }
 
@@ -103,7 +104,7 @@ public:
     }
     std::vector<vec3> positions() const override {
         std::vector<vec3> all;
-        for (int i = 1; i < model_->nbody; ++i)  // the first is the world
+        for (int i = 1; i < model_->nbody; ++i)  // body 0 is the world
             all.emplace_back(data_->xpos[3 * i], data_->xpos[3 * i + 1], data_->xpos[3 * i + 2]);
         return all;
     }
@@ -116,7 +117,7 @@ private:
     void require_room() const {
         const double freedoms = 6.0 * static_cast<double>(moving_);
         const double bytes = 24 * rows() * freedoms + 12 * rows() * rows();
-        constexpr double most_bytes = 2147483647.0;  // an int counts them
+        constexpr double most_bytes = 2147483647.0;  // limit of int
         if (bytes <= most_bytes) return;
         std::ostringstream text;
         text.precision(3);
@@ -128,7 +129,7 @@ private:
         require_room();
         model_->njmax = static_cast<int>(rows());
         model_->nconmax = static_cast<int>(rows() / 3);
-        model_->nstack = 128 * 1024 * 1024;  // numbers
+        model_->nstack = 128 * 1024 * 1024;  // in doubles
         data_.reset();
         data_.reset(mj_makeData(model_.get()));
         if (!data_) throw Unsupported("beyond memory");
@@ -140,7 +141,7 @@ private:
         return data_->warning[mjWARN_CONTACTFULL].number > 0 || data_->warning[mjWARN_CNSTRFULL].number > 0;
     }
 
-    // Free bodies: linear velocity in the world's axes, spin in the body's.
+    // qvel of free bodies: linear velocity in world axes, angular velocity in body axes.
     void set_velocities() {
         mjtNum* speed = data_->qvel;
         for (const Body& body : scene_.bodies) {
@@ -156,7 +157,7 @@ private:
 
     Scene scene_;
     std::size_t moving_ = 0;
-    double rows_of_a_body_ = 8;  // of constraints, at first
+    double rows_of_a_body_ = 8;  // constraint rows per body, initial estimate
     std::unique_ptr<mjModel, Release> model_;
     std::unique_ptr<mjData, Release> data_;
 };

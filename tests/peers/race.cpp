@@ -1,4 +1,4 @@
-// Turns, times and tables of the race.
+// The race: turns, timing and tables.
 #include "tests/peers/race.h"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ Entrant entrant(const std::string& name, const std::function<std::unique_ptr<Eng
     }
 }
 
-// Of those bodies that the scene lets move.
+// Displacements of dynamic bodies.
 void measure_ways(const Scene& scene, const std::vector<vec3>& now, Lap& lap) {
     std::vector<double> ways;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
@@ -37,7 +37,7 @@ void measure_ways(const Scene& scene, const std::vector<vec3>& now, Lap& lap) {
     lap.moved_max = ways.back();
 }
 
-// Steps one engine; what it throws leaves it out of the rest.
+// Steps one engine; an exception excludes the engine from the rest.
 void turn(Entrant& entrant, Lap& lap, int steps, bool counts) {
     if (!entrant.engine) return;
     try {

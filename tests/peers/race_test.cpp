@@ -1,4 +1,4 @@
-// The race at small size: every engine has its row, and simulates the same scene.
+// The race at small size: every engine has a row and simulates the same scene.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -19,7 +19,8 @@ Scene settled_mix(std::size_t bodies) {
     return world.snapshot();
 }
 
-// Things apart from each other, each of which shows one part of a translation: its end would be decimetres elsewhere without it.
+// Isolated bodies that each test one aspect of the translation: without it the final position would be off by
+// decimetres.
 Scene exhibits() {
     Scene scene;
     scene.gravity = {0.5f, -9.81f, 0};
@@ -30,24 +31,24 @@ Scene exhibits() {
         body.velocity = velocity;
         return body;
     };
-    add(Plane{{0, 1, 0}, -0.5f}, {0, 7, 0}).motion = Motion::fixed;  // where its offset says, not its position
+    add(Plane{{0, 1, 0}, -0.5f}, {0, 7, 0}).motion = Motion::fixed;  // placed by its offset, not its position
     add(Box{{0.5f, 0.5f, 0.5f}}, {0, 0, 0}, {6, 0, 0});              // slides: the pair's friction
     add(Box{{0.5f, 0.5f, 0.5f}}, {0, 0, 4}, {6, 0, 0}).friction = 0.1f;
     add(Sphere{0.3f}, {0, 1.5f, 8}).gravity_scale = 0.5f;          // falls half as fast
     add(Sphere{0.3f}, {0, 1, 12}, {0, -6, 0}).restitution = 0.8f;  // bounces
     add(Sphere{0.3f}, {0, -0.2f, 16}, {8, 0, 0}).linear_damping = 2;
-    Body& lying = add(Capsule{0.2f, 0.5f}, {0, -0.3f, 20}, {2, 0, 0});  // rolls across its axis, which is y and lies along z
+    Body& lying = add(Capsule{0.2f, 0.5f}, {0, -0.3f, 20}, {2, 0, 0});  // rolls; its axis y points along z
     lying.orientation = {std::sqrt(0.5f), 0, 0, std::sqrt(0.5f)};
     lying.angular_velocity = {0, 0, -10};
-    add(Box{{0.5f, 0.25f, 0.5f}}, {-3, 4, 24}, {6, 0, 0}).density = 4000;  // pushes a light one along, in the air
+    add(Box{{0.5f, 0.25f, 0.5f}}, {-3, 4, 24}, {6, 0, 0}).density = 4000;  // pushes a light body in the air
     add(Box{{0.5f, 0.25f, 0.5f}}, {-1, 4, 24}).density = 250;
-    add(Box{{0.5f, 0.2f, 0.5f}}, {0, 1, 28}).motion = Motion::fixed;  // carries another
+    add(Box{{0.5f, 0.2f, 0.5f}}, {0, 1, 28}).motion = Motion::fixed;  // supports another
     add(Box{{0.2f, 0.3f, 0.2f}}, {0, 1.5f, 28});
-    add(Capsule{0.2f, 0.8f}, {0, 0.51f, 32});  // stands, for so long, on one cap
+    add(Capsule{0.2f, 0.8f}, {0, 0.51f, 32});  // stands on one cap for the test's duration
     Body& braked = add(Sphere{0.3f}, {0, -0.2f, 36}, {4, 0, 0});
     braked.angular_velocity = {0, 0, -4 / 0.3f};
     braked.rolling_resistance = 0.15f;
-    braked.density = 5;  // Bullet resists rolling with an impulse of at most this many N m s, whatever weighs on the body
+    braked.density = 5;  // Bullet's rolling resistance impulse is at most that many N m s, at any load
     return scene;
 }
 
@@ -106,12 +107,12 @@ TEST_CASE("an engine in the race refuses a shape that is not translated for it")
 TEST_CASE("MuJoCo in the race is told shapes, masses and friction as scree has them, and refuses what it does not know") {
     Scene scene = checked(exhibits());
     REQUIRE_THROWS_AS(make_mujoco(scene), Unsupported);
-    scene.bodies.pop_back();  // the braked one: such soft contacts brake it less
+    scene.bodies.pop_back();  // without the braked one: soft contacts brake it less
     for (Body& body : scene.bodies) {
         body.restitution = body.linear_damping = 0;
         body.gravity_scale = 1;
         body.friction = 0.6f;
-        // Boxes that slide faster trip over its soft contacts.
+        // Faster sliding boxes would tip over in MuJoCo's soft contacts.
         if (body.position.y == 0) body.velocity = {2, 0, 0};
     }
     require_same_ends(scene, *make_mujoco(scene));

@@ -1,4 +1,4 @@
-// The step's own arithmetic against double precision: reciprocals and roots, directions, turns.
+// The step's arithmetic against double precision: reciprocals, square roots, directions, rotations.
 #include "shaders/physics/base/arithmetic.h"
 
 #include <algorithm>
@@ -31,7 +31,7 @@ double inverse_square_root_off(float x) {
     return off(inverse_square_root(x), 1.0 / std::sqrt(static_cast<double>(x)));
 }
 
-// Axes, diagonals, what lies next to the poles, and any direction.
+// Directions: axes, diagonals, neighbourhoods of the poles, random ones.
 std::vector<vec3> directions() {
     std::vector<glm::dvec3> found;
     for (int x = -1; x <= 1; ++x) {
@@ -78,8 +78,8 @@ double apart(vec3 a, glm::dvec3 b) {
 }  // namespace
 
 TEST_CASE("reciprocal and inverse square root are as near as they say, over their whole range") {
-    // The seed moves with the exponent, so the error of a mantissa is that of all exponents (for the root: of all odd or even
-    // ones). Every seventh mantissa here; the exponents, with fewer, below.
+    // The Newton seed scales with the exponent, so errors depend on the mantissa alone (for the root also on the
+    // exponent's parity). Tests every seventh mantissa; exponents, with fewer mantissas, below.
     double worst = 0, worst_root = 0;
     for (std::uint32_t mantissa = 0; mantissa < 1u << 23; mantissa += 7) {
         worst = std::max(worst, reciprocal_off(from_bits(127, mantissa)));

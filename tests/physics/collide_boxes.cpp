@@ -1,4 +1,4 @@
-// Where boxes touch boxes and planes: closed forms, and that resting, sliding and turning boxes keep their points.
+// Manifolds of boxes with boxes and planes: closed forms, and stable points of resting, sliding and rotating boxes.
 #include <catch2/catch.hpp>
 #include <set>
 
@@ -15,7 +15,7 @@ void check_near(vec3 a, vec3 b, float tolerance = 1e-5f) {
     CAPTURE(a.x, a.y, a.z, b.x, b.y, b.z);
     CHECK(glm::length(a - b) <= tolerance);
 }
-// Each of the points is there once, in whatever order, with this separation.
+// Requires each point once, in any order, with this separation.
 void check_points(const ManifoldBuffer& touch, const std::vector<vec3>& points, float separation) {
     REQUIRE(touch.count == points.size());
     std::set<uint> features;
@@ -157,7 +157,7 @@ TEST_CASE("a box turning on a larger one moves its points continuously", "[colli
         const Pose pose = at(0.2f, 0.999f, 0.1f, turn(vec3(0, 1, 0), 0.00174533f * float(k)));
         const ManifoldBuffer touch = collide(slab, at(0, 0, 0), cube, pose, margin);
         REQUIRE(touch.count == 4u);
-        // The corners are 0.71 m from the axis.
+        // The vertices are 0.71 m from the axis.
         REQUIRE(greatest_distance(before, touch) < 0.0014f);
         before = touch;
     }
@@ -168,13 +168,13 @@ TEST_CASE("a box turned on an equal one holds by four points that surround its c
         const Pose pose = at(0, 0.999f, 0, turn(vec3(0, 1, 0), 0.00174533f * float(k)));
         const ManifoldBuffer touch = collide(cube, at(0, 0, 0), cube, pose, margin);
         REQUIRE(touch.count == 4u);
-        float area = 0;  // of the four points about their middle, m^2
+        float area = 0;  // area spanned by the four points, m^2
         for (const vec3 corner : {vec3(1, 0, 1), vec3(1, 0, -1), vec3(-1, 0, 1), vec3(-1, 0, -1)}) {
             float reach = -1;
             for (uint j = 0; j < 4; ++j) reach = std::max(reach, glm::dot(corner, point_of(touch, j)));
             area += reach;
         }
-        // The octagon's width is at least 1 m; no side of it may be left without a point.
+        // The octagon's width is at least 1 m; every side needs a point.
         REQUIRE(area > 4 * 0.35f);
         for (uint j = 0; j < 4; ++j) REQUIRE(glm::length(vec3(point_of(touch, j).x, 0, point_of(touch, j).z)) > 0.49f);
     }
@@ -189,7 +189,7 @@ TEST_CASE("the deepest of many points is kept", "[collide]") {
         const ManifoldBuffer few = collide(cube, at(0, 0, 0), cube, pose, margin);
         const ManifoldBuffer wide = collide(cube, at(0, 0, 0), box(0.5f, 0.5f, 0.5f), pose, 10.0f);
         REQUIRE(few.count > 0u);
-        // More points in reach, the same deepest one, to within a tenth of the slop.
+        // More points within the margin, the same deepest one, within a tenth of the slop.
         CHECK(deepest_of(few) == Approx(deepest_of(wide)).margin(5.1e-4));
     }
 }
@@ -214,7 +214,7 @@ TEST_CASE("equal boxes turned by a fraction of a degree hold by all four corners
 }
 
 TEST_CASE("corners that touch are kept before corners further out in the air", "[collide]") {
-    // Eight corners in common; of a box that leans to +x, the four with x > 0 lie within the other.
+    // The overlap is an octagon; with a tilt to +x, the four vertices with x > 0 penetrate.
     const vec4 leaning = physics::compose(turn(vec3(0, 0, 1), -0.01f), turn(vec3(0, 1, 0), 0.78539816f));
     const ManifoldBuffer touch = collide(cube, at(0, 0, 0), cube, at(0, 1.001f, 0, leaning), margin);
     int touching = 0;
@@ -223,7 +223,7 @@ TEST_CASE("corners that touch are kept before corners further out in the air", "
 }
 
 TEST_CASE("boxes that fly at each other face to face will meet in four points", "[collide]") {
-    // As far apart as fast ones may be when their contact is made: all eight corners are in the air.
+    // Speculative contacts at the distances of fast bodies: all eight vertices are separated.
     for (const float gap : {0.001f, 0.01f, 0.1f, 0.5f}) {
         CAPTURE(gap);
         const vec4 turned = turn(vec3(0, 1, 0), 0.3f);

@@ -1,4 +1,4 @@
-// Bullet, and separating axes in double precision, as judges of where shapes touch.
+// Narrowphase against Bullet, and against separating axes in double precision.
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkPairDetector.h>
 #include <BulletCollision/NarrowPhaseCollision/btPointCollector.h>
@@ -33,7 +33,7 @@ struct Verdict {
     vec3 normal{0};        // from A to B
 };
 
-// GJK between the bare shapes; EPA where they overlap.
+// Bullet's GJK between the shapes without margins; EPA where they overlap.
 Verdict judge_by_gjk(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b) {
     const auto shape_a = bullet_shape(a);
     const auto shape_b = bullet_shape(b);
@@ -62,7 +62,7 @@ struct Deepest : btCollisionWorld::ContactResultCallback {
     }
 };
 
-// Bullet's own algorithm for the pair of shapes, as its world would call it.
+// Bullet's own algorithm for the pair of shapes, as its world calls it.
 class BulletWorld {
 public:
     Verdict judge(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b) {
@@ -93,7 +93,7 @@ float degrees_between(vec3 a, vec3 b) {
 
 constexpr float margin = 0.05f;  // m
 
-// Two bodies; the second has come along a random line until `gap` (m) remained, or, where it is negative, that much farther.
+// Two bodies; the second has been moved along a random line until the distance is `gap` (m; negative: penetration).
 struct Meeting {
     BodyProperties a, b;
     Pose pose_a, pose_b;
@@ -116,7 +116,8 @@ bool meet(Chance& chance, const ShapePair& pair, float gap, Meeting& meeting) {
     return true;
 }
 
-// How often the law and the judge differ. Distances: by more than 1 mm; normals: by more than two degrees where distances agree.
+// Counts of disagreements between law and judge: distances by more than 1 mm; normals by more than two degrees where
+// distances agree.
 struct Tally {
     int cases = 0, missed = 0, nearer = 0, farther = 0, askew = 0;
     float worst = 0;  // m
@@ -164,7 +165,8 @@ TEST_CASE("Bullet finds the same distance and normal between round shapes that a
 }
 
 TEST_CASE("Bullet finds the same distance between boxes that are apart, save where edges and corners pass", "[collide]") {
-    // A face is preferred by up to 5 mm, and boxes whose nearest parts lie beside each other's faces may have no contact yet.
+    // Faces are preferred by up to 5 mm, and boxes whose nearest features are beside each other's faces may have no
+    // contact yet.
     Chance chance(7);
     Tally tally;
     Meeting m;
@@ -192,7 +194,7 @@ TEST_CASE("Bullet's world finds the same depth and normal where spheres and caps
         for (int k = 0; k < 4000; ++k) {
             if (!meet(chance, pair, -chance.between(0.001f, 0.3f), m)) continue;
             const Verdict judge = world.judge(m.a, m.pose_a, m.b, m.pose_b);
-            // EPA, which takes over when the sphere's centre is in the box, is not good to a millimetre.
+            // EPA, used when the sphere's centre is inside the box, is not accurate to 1 mm.
             if (!judge.found || judge.separation < -0.95f * m.a.size.x) continue;
             tally.count(collide(m.a, m.pose_a, m.b, m.pose_b, margin), judge.separation, judge.normal);
         }
@@ -214,11 +216,11 @@ TEST_CASE("a capsule that overlaps a capsule or a box is as deep as Bullet or th
             if (!meet(chance, {SHAPE_CAPSULE, second, ""}, -chance.between(0.001f, 0.6f), m)) continue;
             const ManifoldBuffer touch = collide(m.a, m.pose_a, m.b, m.pose_b, margin);
             const Verdict judge = world.judge(m.a, m.pose_a, m.b, m.pose_b);
-            // A capsule is a box without width, grown by its radius.
+            // A capsule is a box of zero width, inflated by its radius.
             const auto core = [](const BodyProperties& t) { return t.shape == SHAPE_CAPSULE ? box(0, t.size.y, 0) : t; };
             const float radii = m.a.size.x + (second == SHAPE_CAPSULE ? m.b.size.x : 0.0f);
             if (!judge.found || judge.separation > 0) continue;
-            // Bullet's normal is that of the way between the cores, and loses its meaning as they come to touch.
+            // Bullet's normal is the direction between the cores, which is undefined when they touch.
             if (judge.separation > -0.8f * radii) {
                 shallow.count(touch, judge.separation, judge.normal);
             } else if (second == SHAPE_BOX) {

@@ -1,4 +1,4 @@
-// Bullet as the judge of cylinders, cones, hulls and triangles: how far apart, and along which normal, in thousands of random
+// Narrowphase of cylinders, cones, hulls and triangles against Bullet: distance and normal in thousands of random
 // poses.
 #include <BulletCollision/CollisionShapes/btTriangleShape.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpaPenetrationDepthSolver.h>
@@ -51,7 +51,7 @@ Shape any_shape(Kind kind, Chance& chance) {
     return made;
 }
 
-// The shape about its centre of mass, with `shift` (m, along its y axis) from there to where Bullet has the origin.
+// Bullet's shape; `shift` (m, along y) is the offset from the centre of mass to Bullet's origin.
 std::unique_ptr<btConvexShape> bullet_shape(const Shape& shape, float& shift) {
     shift = 0;
     std::unique_ptr<btConvexShape> made;
@@ -106,8 +106,8 @@ Verdict judge(const Body& a, const Body& b) {
     return {collector.m_hasResult, float(collector.m_distance), vec3(-n.x(), -n.y(), -n.z())};
 }
 
-// Two bodies whose surfaces are a few centimetres apart, or inside each other: B is moved along the line of centres by what
-// Bullet measures.
+// Two bodies separated or penetrating by a few centimetres: B is moved along the line of centres by Bullet's
+// distance.
 Scene any_pair(Kind kind_a, Kind kind_b, float apart, Chance& chance) {
     Scene scene;
     scene.bodies.resize(2);
@@ -128,7 +128,7 @@ Scene any_pair(Kind kind_a, Kind kind_b, float apart, Chance& chance) {
     return scene;
 }
 
-// As the step would find it: the simpler shape is A.
+// The manifold of the step, where the simpler shape is A.
 physics::ManifoldBuffer found(const Scene& scene, float margin) {
     const State state(scene, {}, 128, true);
     const std::uint32_t b = state.properties[1].shape == physics::SHAPE_NONE ? 2 : 1;
@@ -142,7 +142,7 @@ struct Tally {
     int cases = 0, missed = 0, off = 0, askew = 0;
     float worst = 0;
 };
-// The step prefers a face to an edge that is better by a hundredth of the thinner one's half width, 6 mm of these.
+// The step prefers a face to an edge that is better by up to a hundredth of the thinner body's half width, here 6 mm.
 constexpr float preference = 0.006f;
 
 Tally compare(Kind kind_a, Kind kind_b, float apart, int poses, unsigned seed) {
@@ -152,7 +152,7 @@ Tally compare(Kind kind_a, Kind kind_b, float apart, int poses, unsigned seed) {
         const Scene scene = any_pair(kind_a, kind_b, apart, chance);
         const Verdict judged = judge(scene.bodies[0], scene.bodies[1]);
         if (!judged.found || std::abs(judged.separation - apart) > 0.02f) continue;
-        if (kind_b == triangle) {  // behind its face and beside its edges there is nothing to touch
+        if (kind_b == triangle) {  // no contacts behind the face and beside the edges
             const auto& form = *std::get<Mesh>(scene.bodies[1].shape).form;
             const vec3 face = physics::rotate(scene.bodies[1].orientation, form.triangles[0].normal);
             const vec3 corner = scene.bodies[1].position +
@@ -199,7 +199,7 @@ TEST_CASE("Bullet finds the same depth and normal where cylinders, cones, hulls 
         INFO(names[a] << " and " << names[b] << ": " << tally.cases << " cases, " << tally.missed << " missed, " << tally.off
                       << " off, " << tally.askew << " askew, worst " << tally.worst << " m");
         CHECK(tally.cases > (b == triangle ? 60 : 200));
-        CHECK(tally.missed <= tally.cases / 50);  // over the rim of the triangle
+        CHECK(tally.missed <= tally.cases / 50);  // beyond the triangle's boundary
         CHECK(tally.off <= tally.cases / 25);
         CHECK(tally.askew <= tally.cases / 25);
     }

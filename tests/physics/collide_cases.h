@@ -1,4 +1,4 @@
-// Bodies, poses and plain measurements for the tests of where shapes touch.
+// Bodies, poses and reference measurements for narrowphase tests.
 #pragma once
 
 #include <algorithm>
@@ -54,7 +54,7 @@ inline Pose at(float x, float y, float z, vec4 orientation = vec4(0, 0, 0, 1)) {
     return Pose{vec3(x, y, z), 0.0f, orientation};
 }
 
-// The law for this pair of shapes, first <= second.
+// The collide law of a pair type, first <= second.
 inline ManifoldBuffer collide(const BodyProperties& a, const Pose& pose_a, const BodyProperties& b, const Pose& pose_b,
                               float margin) {
     using namespace physics;
@@ -86,7 +86,8 @@ inline vec3 point_of(const ManifoldBuffer& touch, uint k) {
     return vec3(touch.manifold.points[k]);
 }
 
-// The signed distance (m) from the body's surface to a point given from its centre, negative inside, in double precision.
+// Signed distance (m) of a point from the body's surface, negative inside, in double precision; `from_centre` is
+// relative to the body's centre.
 inline double signed_distance(const BodyProperties& properties, const Pose& pose, glm::dvec3 from_centre) {
     if (properties.shape == physics::SHAPE_PLANE) return glm::dot(glm::dvec3(properties.size), from_centre);
     const glm::dvec3 u(-pose.orientation.x, -pose.orientation.y, -pose.orientation.z);
@@ -101,8 +102,8 @@ inline double signed_distance(const BodyProperties& properties, const Pose& pose
     return glm::length(glm::max(q, 0.0)) + std::min(0.0, std::max(q.x, std::max(q.y, q.z)));
 }
 
-// The greatest separation (m) over the fifteen axes of two boxes, plainly, in double precision: its axis from A to B, and the
-// greatest along any axis that is more than two degrees from it.
+// Separating axis test of two boxes (15 axes) in double precision: the largest separation (m) with its axis from A to
+// B, and the largest along axes more than two degrees from that.
 struct Separation {
     double greatest = -INFINITY, second = -INFINITY;
     glm::dvec3 axis{0};
@@ -143,7 +144,7 @@ inline Separation separation_by_axes(const BodyProperties& a, const Pose& pose_a
     return result;
 }
 
-// Random bodies of half a metre or so, the same in every run.
+// Random bodies of about half a metre, equal in every run.
 class Chance {
 public:
     explicit Chance(unsigned seed) : engine_(seed) {}

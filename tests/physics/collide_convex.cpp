@@ -1,5 +1,4 @@
-// Cylinders, cones, hulls and ellipsoids against each other and all other shapes: an independent search over directions says how
-// far apart.
+// Distances of cylinders, cones, hulls and ellipsoids to all shapes, against an independent search over directions.
 #include <algorithm>
 #include <array>
 #include <catch2/catch.hpp>
@@ -39,7 +38,7 @@ Shape any_shape(std::size_t kind, Chance& chance) {
     return hull;
 }
 
-// How far a body reaches along a unit direction from its centre, by the plainest formula.
+// Support of a body along a unit direction from its centre, m.
 double reach(const Body& body, dvec3 direction) {
     const glm::dquat q(body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z);
     const dvec3 d = glm::conjugate(q) * direction;
@@ -59,7 +58,7 @@ double separation(const Body& a, const Body& b, dvec3 n) {
     return glm::dot(n, dvec3(b.position) - dvec3(a.position)) - reach(a, n) - reach(b, -n);
 }
 
-// The largest separation over all directions: many tried, the best of them climbed from.
+// The largest separation over all directions: sampling, then hill climbing from the best samples.
 double largest_separation(const Body& a, const Body& b) {
     std::array<std::pair<double, dvec3>, 6> best;
     best.fill({-1e300, dvec3(0)});
@@ -102,7 +101,7 @@ Pair any_pair(std::size_t kind_a, std::size_t kind_b, Chance& chance) {
     for (Body& body : scene.bodies) body.orientation = any_turn(chance);
     scene = checked(scene);
     const dvec3 way = glm::normalize(dvec3(between(chance, -1, 1), between(chance, -1, 1), between(chance, -1, 1.01f)));
-    // So that the reaches along the way leave a gap, or overlap.
+    // Distance at which the supports along the line of centres leave a gap or overlap.
     const double apart = reach(scene.bodies[0], way) + reach(scene.bodies[1], -way) - between(chance, -0.1f, 0.15f);
     scene.bodies[0].position = vec3(0.3f, -0.2f, 0.1f);
     scene.bodies[1].position = scene.bodies[0].position + vec3(way * apart);
@@ -130,13 +129,13 @@ TEST_CASE("the separation of convex bodies is that of the best of all directions
                 physics::separation_of(a, b, pair.b.position - pair.a.position, 1e30f, pair.state.hull_table());
             const double truth = std::max(largest_separation(pair.a, pair.b), separation(pair.a, pair.b, dvec3(s.normal)));
             INFO("pose " << k << ": " << s.distance << " of " << truth);
-            // It belongs to a direction, so it is never more.
+            // The separation along a direction, hence at most the true distance.
             REQUIRE(s.distance <= separation(pair.a, pair.b, dvec3(s.normal)) + 2e-5);
             REQUIRE(s.distance < truth + 1e-4);
             if (truth > 0) REQUIRE(s.distance > truth - 1e-3);
             off += s.distance < truth - 2e-3;
         }
-        // Where bodies overlap, the way that parts them may be missed for one nearly as short.
+        // For overlapping bodies the minimal translation may be missed for one almost as short.
         CHECK(off <= 2);
     }
 }

@@ -1,4 +1,5 @@
-// What must hold wherever two shapes are: finite numbers, unit normals, points between the surfaces, and no preferred frame.
+// Invariants of manifolds at random poses: finite numbers, unit normals, points between the surfaces, frame
+// independence.
 #include <catch2/catch.hpp>
 
 #include "tests/physics/collide_cases.h"
@@ -113,7 +114,7 @@ TEST_CASE("a point lies midway between the two surfaces", "[collide]") {
                 const double from_b = signed_distance(c.b, c.pose_b, p - glm::dvec3(c.pose_b.position - c.pose_a.position));
                 ++points;
                 const bool beyond = from_a > half + 6e-4 || from_b > half + 6e-4;
-                // A capsule that leans has its second point below its skin.
+                // The second point of a tilted capsule is below its surface.
                 const bool below_a = from_a < -half - 6e-4 && c.a.shape != physics::SHAPE_CAPSULE;
                 const bool below_b = from_b < -half - 6e-4 && c.b.shape != physics::SHAPE_CAPSULE;
                 if (beyond || below_a || below_b) ++outside;
@@ -121,7 +122,7 @@ TEST_CASE("a point lies midway between the two surfaces", "[collide]") {
         }
         INFO(pair.name << ": " << outside << " of " << points);
         CHECK(points > 500);
-        // Where boxes' edges pass each other, a point may stand in that lies on neither surface.
+        // Between crossing box edges a point may be on neither surface.
         CHECK(outside <= (pair.b == physics::SHAPE_BOX ? points / 100 : 0));
     }
 }
@@ -140,7 +141,7 @@ TEST_CASE("a body and its mirror role feel the same touch", "[collide]") {
             ++touching;
             const bool alike = one.count == other.count && std::abs(deepest_of(one) - deepest_of(other)) < 2e-5f &&
                                glm::length(one.manifold.normal - other.manifold.normal) < 1e-3f;
-            // Boxes prefer a face of the first by half a millimetre, and faces to edges by five.
+            // Boxes prefer faces of the first body by 0.5 mm, and faces to edges by 5 mm.
             REQUIRE(std::abs(deepest_of(one) - deepest_of(other)) < 6e-3f);
             if (!alike) ++unlike;
         }
@@ -177,7 +178,7 @@ TEST_CASE("turning and shifting both bodies turns their touch", "[collide]") {
         }
         INFO(pair.name << ": " << unlike << " of " << touching);
         CHECK(touching > 500);
-        // Where two answers are equally good, rounding chooses.
+        // Between equally good answers rounding decides.
         CHECK(unlike <= touching / 200);
     }
 }

@@ -1,4 +1,4 @@
-// Where spheres and capsules touch each other, boxes and planes: closed forms and the degenerate cases.
+// Manifolds of spheres and capsules with each other, boxes and planes: closed forms and degenerate cases.
 #include <catch2/catch.hpp>
 
 #include "tests/physics/collide_cases.h"
@@ -98,13 +98,13 @@ TEST_CASE("capsules side by side touch in two points, at the ends of what they s
     const BodyProperties rod = capsule(0.25f, 1.0f), stub = capsule(0.25f, 0.5f);
     check_two(collide(rod, at(0, 0, 0), stub, at(0.5f, 0.7f, 0), margin), vec3(1, 0, 0), vec3(0.25f, 0.2f, 0), vec3(0.25f, 1, 0),
               0);
-    // Upside down, and turned by a hair.
+    // Upside down, and tilted by 0.01 rad.
     check_two(collide(rod, at(0, 0, 0), stub, at(0.5f, 0.7f, 0, turn(vec3(1, 0, 0), 3.14159265f)), margin), vec3(1, 0, 0),
               vec3(0.25f, 0.2f, 0), vec3(0.25f, 1, 0), 0);
     CHECK(collide(rod, at(0, 0, 0), stub, at(0.5f, 0, 0, turn(vec3(1, 0, 0), 0.01f)), margin).count == 2u);
-    // End to end there is one.
+    // End to end: one point.
     check_one(collide(rod, at(0, 0, 0), rod, at(0, 2.51f, 0), margin), vec3(0, 1, 0), vec3(0, 1.255f, 0), 0.01f);
-    // In one place they part sideways.
+    // Coincident capsules separate sideways.
     const ManifoldBuffer same = collide(rod, at(1, 1, 1), rod, at(1, 1, 1), margin);
     CHECK(same.count == 2u);
     CHECK(same.manifold.normal.y == Approx(0).margin(1e-6));
@@ -140,10 +140,10 @@ TEST_CASE("a capsule that lies on a box has two points, where it or the box ends
     const BodyProperties rod = capsule(0.25f, 1.0f), table = box(2, 0.5f, 2);
     check_two(collide(rod, at(0.5f, 0.74f, 1, lying), table, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(-1, -0.245f, 0),
               vec3(1, -0.245f, 0), -0.01f);
-    // Over the rim.
+    // Beyond the face's boundary.
     check_two(collide(rod, at(1.5f, 0.75f, 1, lying), table, at(0, 0, 0), margin), vec3(0, -1, 0), vec3(-1, -0.25f, 0),
               vec3(0.5f, -0.25f, 0), 0.0f);
-    // Along the rim, half a diagonal beyond it.
+    // Along an edge, half a diagonal beyond it.
     const float half = 0.70710678f;
     check_two(collide(rod, at(0, 0.5f + 0.25f * half, 2 + 0.25f * half, lying), table, at(0, 0, 0), margin),
               vec3(0, -half, -half), vec3(-1, -0.25f * half, -0.25f * half), vec3(1, -0.25f * half, -0.25f * half), 0.0f);
@@ -155,7 +155,7 @@ TEST_CASE("a capsule rolling on a box keeps two points and the face's normal", "
     for (int k = 0; k < 300; ++k) {
         const float solve_rolling = 0.005f * float(k);
         const vec4 orientation = physics::compose(turn(vec3(0, 0, 1), solve_rolling * 4.0f), turn(vec3(1, 0, 0), 1.5707963f));
-        // It trembles by a tenth of a millimetre and a milliradian, as bodies at rest do.
+        // Perturbed by 0.1 mm and 1 mrad, as resting bodies are.
         const vec4 tremble = turn(vec3(1, 0.3f, 0), 0.001f * float(k % 3 - 1));
         const Pose pose =
             at(-0.7f + solve_rolling, 0.7499f + 0.0001f * float(k % 2), 0.2f, physics::compose(tremble, orientation));
@@ -172,7 +172,7 @@ TEST_CASE("a capsule whose axis runs through a box leaves by the shortest way", 
     REQUIRE(upright.count == 2u);
     check_near(upright.manifold.normal, vec3(-1, 0, 0));
     CHECK(deepest_of(upright) == Approx(-0.2f).margin(1e-5));
-    // Through an edge, askew: out over the edge.
+    // Through an edge, tilted: pushed out over the edge.
     const vec4 leaning = physics::compose(turn(vec3(0, 0, 1), 0.78539816f), turn(vec3(1, 0, 0), 0));
     const ManifoldBuffer corner = collide(rod, at(0.45f, 0.95f, 0, leaning), block, at(0, 0, 0), margin);
     REQUIRE(corner.count == 1u);

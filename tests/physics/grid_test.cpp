@@ -1,4 +1,4 @@
-// The grid's levels and cells: a body is small enough for its level, and whoever overlaps it looks into its cell.
+// Broadphase grid: a body fits its level, and every overlapping body looks up its cell.
 #include "shaders/physics/collide/grid.h"
 
 #include <catch2/catch.hpp>
@@ -27,7 +27,7 @@ struct Extent {
     vec3 lower, upper;
     uint level;
 };
-// A box of this size about a place; its level is that of its longest side.
+// Bounds of half extents `half` about `middle`, on the level of the longest side.
 Extent extent_of(vec3 middle, vec3 half, const Parameters& grid) {
     Extent box{middle - half, middle + half, 0};
     const vec3 size = box.upper - box.lower;
@@ -51,7 +51,7 @@ TEST_CASE("a level's cells are as wide as its bodies, and the level below is too
         }
     }
     REQUIRE(level_of(0, 1) == 0);
-    REQUIRE(level_of(1e30f, 1) == LEVELS - 1);  // whatever it is, a level that there is
+    REQUIRE(level_of(1e30f, 1) == LEVELS - 1);  // clamped to the coarsest level
 }
 
 TEST_CASE("a power of two is one") {
@@ -74,13 +74,13 @@ TEST_CASE("bounds that overlap are found in the cells in reach, two or three alo
     int met = 0, far_met = 0;
     for (int i = 0; i < 200000; ++i) {
         const Parameters grid = grid_of(i % 2 ? 0.7f : 1.0f);
-        // Up to 80,000 cells of the finest level away.
+        // Up to 80,000 of the finest cells from the origin.
         const float distance = i % 3 == 0 ? 0 : i % 3 == 1 ? 500.0f : 50000.0f;
         const vec3 where = noise.vector() * distance;
         const auto half = [&] { return (vec3(0.6f) + noise.vector() * 0.4f) * std::exp2(3.0f * noise()); };
         const Extent a = extent_of(where, half(), grid);
         const vec3 other = half();
-        // About as far as they reach together: some touch by a hair.
+        // Distances close to the sum of extents, so that some barely touch.
         const vec3 reach = (a.upper - a.lower) * 0.5f + other;
         const Extent b = extent_of(where + noise.vector() * reach * 1.05f, other, grid);
         const Extent &fine = a.level <= b.level ? a : b, &coarse = a.level <= b.level ? b : a;

@@ -1,4 +1,4 @@
-// The cells of hulls: what they list is what looking at everything finds.
+// Direction cells of hulls: lookups find the same supports and faces as exhaustive search.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -40,13 +40,13 @@ LoadedScene subject_of(const Hull& hull) {
     return {std::move(state), solid};
 }
 
-// A hull whose corners lie on an ellipsoid.
+// A hull with vertices on an ellipsoid.
 LoadedScene hull_of(int corners, vec3 half, Chance& chance) {
     Hull hull;
     for (int k = 0; k < corners; ++k) hull.points.push_back(half * any_direction(chance));
     return subject_of(hull);
 }
-// A disc with a rim in steps: its two broad faces look one way, all others another.
+// A bevelled disc: two broad faces, and many narrow ones around the rim.
 Hull bevelled_disc() {
     Hull disc;
     for (int k = 0; k < 12; ++k) {
@@ -58,7 +58,7 @@ Hull bevelled_disc() {
     return disc;
 }
 
-// Any direction, one along an edge or through a corner of the cells' cube, or one that two corners share.
+// Test directions: random, along an edge or through a vertex of the cells' cube, or one with two equal supports.
 vec3 telling_direction(const LoadedScene& hull, int k, Chance& chance) {
     if (k % 3 == 0) return any_direction(chance);
     if (k % 3 == 1) {
@@ -145,7 +145,7 @@ TEST_CASE("a hull's cell lists what reaches farthest in directions near it, and 
             }
         }
     }
-    CHECK(static_cast<double>(listed) / static_cast<double>(asked) < 9);  // else cells save nothing
+    CHECK(static_cast<double>(listed) / static_cast<double>(asked) < 9);  // else cells would not save work
 }
 
 TEST_CASE("the best of two hulls' faces is the best of all of them, however deep they overlap") {

@@ -1,4 +1,4 @@
-// When two bodies meet on their ways through a step, against closed forms.
+// Time of impact of two bodies moving through a step, against closed forms.
 #include "shaders/physics/extra/time_of_impact.h"
 
 #include <catch2/catch.hpp>
@@ -83,7 +83,7 @@ TEST_CASE("what flies past or away is not stopped, and what already touches goes
 
 TEST_CASE("a long box that turns strikes the ground with its end") {
     const BodyProperties rod = properties_of(SHAPE_BOX, vec3(1, 0.05f, 0.05f));
-    // Its centre stays at 0.6 m; the lower corner is at 0.6 - sin a - 0.05 cos a.
+    // The centre is fixed at 0.6 m; the lower vertex is at 0.6 - sin a - 0.05 cos a.
     for (const float whole : {0.8f, 1.2f}) {
         const MotionPath turning = from_to(rod, pose_at({0, 0.6f, 0}), pose_at({0, 0.6f, 0}, turn_about_z(whole)));
         const Impact impact = meet(rod, turning, ground, still(ground, pose_at(vec3(0))));
@@ -97,7 +97,7 @@ TEST_CASE("a long box that turns strikes the ground with its end") {
 }
 
 TEST_CASE("who follows a stopped body is stopped behind it") {
-    const MotionPath ahead = from_to(ball, pose_at({1, 0, 0}), pose_at({6, 0, 0}), 0.1f);  // ends at 1.5
+    const MotionPath ahead = from_to(ball, pose_at({1, 0, 0}), pose_at({6, 0, 0}), 0.1f);  // path ends at 1.5
     const MotionPath behind = from_to(ball, pose_at({0, 0, 0}), pose_at({5, 0, 0}));
     REQUIRE(meet(ball, behind, ball, ahead).fraction == Approx((1.3f - touch) / 5).margin(1e-4));
     const MotionPath free_ahead = from_to(ball, pose_at({1, 0, 0}), pose_at({6, 0, 0}));
@@ -126,7 +126,7 @@ TEST_CASE("no ways of random bodies through each other are missed, and none is s
         }
         CAPTURE(i, fraction);
         REQUIRE(least > -1.1f * limits_of(a, b, NO_CONTACT, parameters()).slop);
-        late += fraction < 1 && least < 0.9f * touch;  // out of rounds between touching and entering
+        late += fraction < 1 && least < 0.9f * touch;  // out of iterations between touching and penetrating
     }
     REQUIRE(met > 100);
     REQUIRE(late < 0.03 * met);
@@ -171,7 +171,7 @@ TEST_CASE("what is driven out of the bounds of its neighbours' search is stopped
     const Bounds bounds = bounds_of(ball, 0, start, flying, BodyForces{}, p);
     const auto part = [&](vec3 end) { return seen_part(ball, sweep_of(start), pose_at(end), bounds); };
     REQUIRE(part({1, 0, 0}) == 1);
-    REQUIRE(part({-1, 0, 0}) == Approx(0.07f));  // the speculative distance and half of its thickness
+    REQUIRE(part({-1, 0, 0}) == Approx(0.07f));  // speculative distance plus half the thickness
     REQUIRE(part({0.5f, 0.5f, 0}) == Approx(0.14f));
 }
 

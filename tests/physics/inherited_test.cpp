@@ -1,4 +1,4 @@
-// What a contact inherits from the one that it was in the last step.
+// Warm starting: impulses that a contact inherits from the previous step.
 #include <catch2/catch.hpp>
 
 #include "shaders/physics/solve/contact.h"
@@ -8,7 +8,7 @@ using namespace scree::physics;
 
 namespace {
 
-// A patch of so many points on a square, in one plane, unturned.
+// A planar manifold of `count` points on a square, without rotation.
 Contact patch(std::uint32_t count) {
     Contact contact{};
     contact.count = count;

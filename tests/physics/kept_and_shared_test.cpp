@@ -1,4 +1,4 @@
-// When a contact is kept, what its points resist, and among how many contacts a body's mass is shared.
+// Persistent manifolds, effective mass of contact points, and mass splitting.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -30,25 +30,25 @@ vec4 about_x(double degrees) {
     return {static_cast<float>(std::sin(half)), 0, 0, static_cast<float>(std::cos(half))};
 }
 
-// A box of 1 m on another, touching at four corners, and how both have turned since.
+// Whether the manifold of two stacked 1 m boxes with four points persists after both have rotated.
 bool kept(vec4 turn_a, vec4 turn_b, vec3 spin_b = vec3(0)) {
     Contact contact{};
     contact.count = 4;
     contact.normal = vec3(0, 1, 0);
     contact.center_offset = vec3(0, 1, 0);
     contact.orientation_a = contact.orientation_b = vec4(0, 0, 0, 1);
-    // Narrow along the axis of turning, so that slip lets it go no sooner.
+    // Narrow along the axis of rotation, so that slip does not end the manifold earlier.
     for (int k = 0; k < 4; ++k) contact.points[k] = vec4(k % 2 == 0 ? 0.5f : -0.5f, 0.5f, k < 2 ? 0.01f : -0.01f, 0);
     Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = vec4(1);
     Pose a{}, b{};
     a.orientation = turn_a;
     b.orientation = turn_b;
-    // B goes with A's face.
+    // B moves with A's face.
     b.position = rotate(turn_a, vec3(0, 0.5f, 0)) + rotate(turn_b, vec3(0, 0.5f, 0));
     Velocity va{}, vb{};
     vb.angular = spin_b;
-    vb.linear = cross3(spin_b, vec3(0, 0.5f, 0));  // about the middle of the contact
+    vb.linear = cross3(spin_b, vec3(0, 0.5f, 0));  // about the centre of the contact
     return is_persistent(contact, impulse, box(0.5f), a, va, box(0.5f), b, vb);
 }
 
@@ -89,10 +89,10 @@ TEST_CASE("a corner resists twisting as a patch of a hundredth of the body, a ba
 
 TEST_CASE("the count of contacts that share a body lags behind those that carry") {
     CHECK(counted(split_state_after(0, 1, 5)) == 1);
-    CHECK(counted(split_state_after(pack_split_state(4, 5), 1, 5)) == 1);  // a blow has the whole body
+    CHECK(counted(split_state_after(pack_split_state(4, 5), 1, 5)) == 1);  // an impact gets the whole mass
     float split_state = pack_split_state(2, 5);
     split_state = split_state_after(split_state, 3, 5);
-    CHECK(counted(split_state) == Approx(2.31f).margin(0.02));  // at once, what the iteration needs to converge
+    CHECK(counted(split_state) == Approx(2.31f).margin(0.02));  // at once, as convergence requires
     int rise = 0, fall = 0;
     while (counted(split_state) < 3 && rise < 1000)
         split_state = update_hysteresis(split_state, 3, static_cast<std::uint32_t>(++rise));
@@ -113,10 +113,10 @@ TEST_CASE("of a body's mass half is shared alike and half by what presses") {
     CHECK(parts[0] == Approx(1.5 * (0.5 / 3 + 0.25)).epsilon(0.01));
     CHECK(parts[2] == Approx(1.5 * (0.5 / 3)).epsilon(0.01));
     CHECK(parts[0] + parts[1] + parts[2] == Approx(1.5).epsilon(0.01));
-    // As many as the count may lag behind: the relaxation stays below 2.
+    // With the largest lag of the count the relaxation factor stays below 2.
     const float late = split_state_after(pack_split_state(2, 8), 4, 8);
     CHECK(4 / split_factor(late, 2, parameters) < 2);
     CHECK(4 / split_factor(late, 2, parameters) > 1.5f);
     CHECK(split_factor(pack_split_state(1, 8), 8, parameters) == 1);
-    CHECK(split_factor(0, 0, parameters) == 1);  // of a new body nothing is known
+    CHECK(split_factor(0, 0, parameters) == 1);  // no history for new bodies
 }

@@ -1,4 +1,4 @@
-// Scenes: what is refused, what mass a shape has, and text that reads back to the same bits.
+// Scenes: validation, mass properties, and lossless text.
 #include "compute/scene.h"
 
 #include <bit>
@@ -38,7 +38,7 @@ struct Moments {
     double mass, across, along;
 };
 
-// Mass and inertia of a solid of revolution about y, by summing thin discs: m = rho pi r^2 dy, I_y = m r^2 / 2,
+// Mass and inertia of a solid of revolution about y, by summation of thin discs: m = rho pi r^2 dy, I_y = m r^2 / 2,
 // I_x = m r^2 / 4 + m y^2.
 Moments by_discs(double (*radius_at)(double), double top, double density) {
     constexpr int discs = 200000;

@@ -1,4 +1,4 @@
-// --backend auto without a GPU: whichever measures faster, and what was measured is remembered.
+// --backend auto without a GPU: chooses the faster backend, and caches the measurement.
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
@@ -11,7 +11,7 @@ using scree::program::says;
 
 namespace {
 
-// A cache folder of its own, with the pipelines that are compiled already.
+// A separate cache folder with the compiled pipelines.
 std::string with_cache_in(const Place& place) {
     const std::string at = "'" + place.path().string() + "'";
     return "mkdir -p " + at + "/scree; cp -n \"${XDG_CACHE_HOME:-$HOME/.cache}\"/scree/*pipeline* " + at +
@@ -29,7 +29,7 @@ TEST_CASE("program: auto takes what measures faster, says so, and remembers it",
     const Outcome first = run_scree(run, with_cache_in(place));
     INFO(first.errors);
     REQUIRE(first.status == 0);
-    if (!says(first.errors, "simulating")) return;  // a GPU, or no Vulkan at all
+    if (!says(first.errors, "simulating")) return;  // a GPU, or no Vulkan
     REQUIRE(says(first.errors, "a step of 1000 resting boxes took"));
     const std::string hash = report()["state_hash"];
     nlohmann::json known = nlohmann::json::parse(place.read(paces));

@@ -1,4 +1,4 @@
-// What pictures and numbers are written to: nothing is lost, nothing is ignored, nothing is told wrongly.
+// Outputs of pictures and numbers: no loss of existing files, no ignored options, correct messages.
 #include <catch2/catch.hpp>
 
 #include "tests/program/program.h"
@@ -29,7 +29,7 @@ TEST_CASE("program: a run that is refused replaces no earlier file", "[program][
     const Place place;
     for (const std::string option : {"--raw", "--video"}) {
         const std::string file = place.write("earlier.mp4", "earlier");
-        // Known only after the outputs were opened: this canvas draws 8 bits.
+        // Detected only after the outputs were opened: this canvas draws 8 bits.
         require_refused(brief + "--canvas gl --png-depth 16 " + option + " '" + file + "'", {"8 bits"});
         REQUIRE(place.read("earlier.mp4") == "earlier");
     }
@@ -80,7 +80,7 @@ TEST_CASE("program: control characters of a name do not reach the terminal", "[p
 }
 
 TEST_CASE("program: a run that goes on after its promise is judged at its time", "[program]") {
-    // After 3 s the fastest box leaves its incline, and is no more what was promised.
+    // After 3 s the fastest box leaves its incline, beyond the promise's duration.
     const Outcome outcome = run_scree("run slopes --backend cpu --seconds 4");
     INFO(outcome.output);
     REQUIRE(outcome.status == 0);

@@ -1,4 +1,4 @@
-// Pictures as the program makes them: raw frames, previews, 16 bits, cameras, what is shown, and what is refused.
+// Pictures by the program: raw frames, previews, 16 bits, cameras, overlays, and refusals.
 #include <signal.h>
 
 #include <catch2/catch.hpp>
@@ -28,7 +28,7 @@ void require_refused(const std::string& arguments, const std::vector<std::string
     }
 }
 
-// Bytes of the only picture of a run.
+// The PNG bytes of a run's only picture.
 std::string picture_of(const std::string& arguments) {
     const Place place;
     const Outcome run = run_scree("run " + arguments + " --frames '" + place.path().string() + "/f' --quiet");
@@ -65,7 +65,7 @@ TEST_CASE("program: frames are the same bits from run to run, drawn beside the s
     const std::string once = run_scree(run).output;
     REQUIRE(once.size() == 11 * 96 * 64 * 3);
     REQUIRE(run_scree(run).output == once);
-    // The same moments with fewer steps between the pictures.
+    // Equal times with fewer steps between pictures.
     const std::string sparse = run_scree("run mix --bodies 60 --size 96x64 --steps 20 --fps 15 --quiet --raw -").output;
     REQUIRE(sparse.substr(0, 96 * 64 * 3) == once.substr(0, 96 * 64 * 3));
     REQUIRE(sparse.substr(96 * 64 * 3, 96 * 64 * 3) == once.substr(2 * 96 * 64 * 3, 96 * 64 * 3));
@@ -106,7 +106,7 @@ TEST_CASE("program: a second Ctrl-C leaves nothing half written", "[program]") {
         std::this_thread::sleep_for(std::chrono::milliseconds(250));
         ::kill(process, SIGINT);
     });
-    // The reader of the raw frames never reads, so the run cannot end by itself.
+    // The reader of the raw frames never reads, so the run blocks.
     REQUIRE(std::system(("mkfifo '" + at + "/pipe'").c_str()) == 0);
     const Outcome outcome = run_scree(
         "run dominoes --backend cpu --seconds 10000 --size 320x180 --video '" + at + "/clip.mp4' --raw '" + at + "/pipe' --quiet",
@@ -139,7 +139,7 @@ TEST_CASE("program: cameras change the picture, and a path in the scene file is 
     REQUIRE(a.size() == 3 * frame);
     REQUIRE(a.substr(0, frame) == b.substr(0, frame));
     REQUIRE(a.substr(2 * frame) != b.substr(2 * frame));
-    // Half a turn in half a second, and all of it in a second: the first and the last camera are one.
+    // A full orbit: the first and the last camera are equal.
     const std::string orbit =
         run_scree("run '" + still + "' " + small + "--steps 12 --fps 10 --quiet --no-caption --camera orbit:0.2 --raw -").output;
     REQUIRE(orbit.substr(frame, frame) != b.substr(frame, frame));

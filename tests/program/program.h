@@ -1,4 +1,4 @@
-// Running the program as a user does: its exit status and what it said.
+// Runs the program as a user does: exit status and output.
 #pragma once
 
 #include <sys/wait.h>
@@ -17,7 +17,7 @@ struct Outcome {
     std::string output, errors;
 };
 
-// A folder of its own for a test, gone with it.
+// A temporary folder, removed by the destructor.
 class Place {
 public:
     Place() {
@@ -47,7 +47,7 @@ private:
     std::filesystem::path path_;
 };
 
-// Runs `scree ARGUMENTS` through the shell; `before` is put in front (a limit, a variable).
+// Runs `scree ARGUMENTS` in a shell; `before` is prepended (a limit, a variable).
 inline Outcome run_scree(const std::string& arguments, const std::string& before = "") {
     const Place place;
     const std::string command = before + " '" + SCREE_PROGRAM_PATH + "' " + arguments + " >'" + (place / "output").string() +

@@ -1,4 +1,4 @@
-// The demos as the program gives them out: exported scenes run alike, reports are whole, nothing overlaps at the start.
+// Demos by the program: exported scenes run identically, reports are complete, no initial overlap.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,7 +18,7 @@ using scree::program::says;
 
 namespace {
 
-// Those made to be looked at; the trials are listed after an empty line.
+// Names of the gallery's demos; trials are listed after an empty line.
 std::vector<std::string> demo_names() {
     std::istringstream lines(run_scree("list").output);
     std::vector<std::string> names;
@@ -41,7 +41,7 @@ std::string hash_of_run(const std::string& scene) {
     return json::parse(outcome.output).at("state_hash");
 }
 
-// The farthest extent of a body along a unit direction, from its centre.
+// Support of a body along a unit direction, from its centre, m.
 double extent(const Body& body, vec3 along) {
     if (const auto* sphere = std::get_if<scree::Sphere>(&body.shape)) return sphere->radius;
     const vec3 inside = scree::physics::rotate_back(body.orientation, along);
@@ -71,8 +71,8 @@ double extent(const Body& body, vec3 along) {
     return std::abs(inside.x) * h.x + std::abs(inside.y) * h.y + std::abs(inside.z) * h.z;
 }
 
-// Whether some direction parts two bodies (or nearly so: they may touch). The candidates are the bodies' axes, the axes' cross
-// products and the line of centres, which suffices for boxes and is too strict for nothing that the demos place.
+// Separating axis test (with tolerance for touching bodies). Candidates are the bodies' axes, their cross products
+// and the line of centres, which suffices for boxes and for all placements of the demos.
 bool parted(const Body& a, const Body& b) {
     std::vector<vec3> directions = {b.position - a.position};
     const vec3 axes[3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
@@ -146,7 +146,7 @@ TEST_CASE("program: no bodies of a demo overlap at the start", "[program]") {
         const Outcome exported = run_scree("export " + name + few_bodies(name));
         REQUIRE(exported.status == 0);
         const scree::Scene told = scree::scene_from_json(exported.output).scene, scene = scree::checked(told);
-        const std::size_t count = told.bodies.size();  // behind them lie the pieces of what may break, not yet in the world
+        const std::size_t count = told.bodies.size();  // followed by pending fragments
         REQUIRE(count > 1);
         std::size_t overlaps = 0;
         for (std::size_t i = 0; i < count; ++i) {
@@ -156,7 +156,7 @@ TEST_CASE("program: no bodies of a demo overlap at the start", "[program]") {
                     return !joint.collide && std::minmax(joint.a, joint.b) == std::minmax(i, j);
                 });
                 if (joined || a.motion != scree::Motion::dynamic || (j <= i && b.motion == scree::Motion::dynamic)) continue;
-                // What begins inside triangles is found by tests/demos/vulkan/lockstep_test.cpp.
+                // Overlap with triangles is tested in tests/demos/vulkan/lockstep_test.cpp.
                 if (std::holds_alternative<scree::Mesh>(b.shape) || std::holds_alternative<scree::HeightField>(b.shape)) continue;
                 const auto* plane = std::get_if<scree::Plane>(&b.shape);
                 if (plane ? above(a, *plane) : parted(a, b)) continue;
@@ -206,7 +206,7 @@ TEST_CASE("program: a report has every key, and says the same on every run", "[p
     REQUIRE(report["first_step_seconds"].get<double>() > 0);
     REQUIRE(report["first_step_seconds"].get<double>() <= report["seconds_total"].get<double>());
     REQUIRE(report["peak_memory_per_body"].get<double>() == Approx(report["peak_memory_bytes"].get<double>() / 205));
-    REQUIRE(report["bodies"] == 205);  // and a ground and four walls
+    REQUIRE(report["bodies"] == 205);  // with a ground and four walls
     REQUIRE(report["steps"] == 30);
     REQUIRE(report["dt"].get<double>() == Approx(1.0 / 60));
     REQUIRE(report["stages"].size() > 5);
@@ -241,7 +241,7 @@ TEST_CASE("program: check holds a demo to its promise, and a run that is too sho
     const Outcome brief = run_scree("run stack --backend cpu --steps 10");
     REQUIRE(brief.status == 0);
     REQUIRE(says(brief.output, "not judged"));
-    // One substep cannot carry forty boxes: the promise is missed, and the status says so.
+    // With one substep forty boxes do not stand: the promise is missed, as the exit status shows.
     const Outcome missed = run_scree("run tower --backend cpu --substeps 1");
     INFO(missed.output);
     REQUIRE(missed.status == 1);
@@ -305,7 +305,7 @@ TEST_CASE("program: bench measures pairs of two kinds that touch, and refuses wh
         const std::size_t at = bench.output.find(kinds);
         REQUIRE(at != std::string::npos);
         const std::string row = bench.output.substr(at + std::string(kinds).size());
-        CHECK(std::stod(row) > 85);                           // per cent of the pairs touch: it is them that cost
+        CHECK(std::stod(row) > 85);                           // percentage of touching pairs, which dominate the cost
         CHECK(std::stod(row.substr(row.find(',') + 1)) > 0);  // ns
     }
     REQUIRE_FALSE(says(bench.output, "hull-hull"));

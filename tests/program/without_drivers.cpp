@@ -1,4 +1,4 @@
-// What the program does where Vulkan, or OpenGL ES as well, is not installed.
+// The program without installed Vulkan or OpenGL ES drivers.
 #include <catch2/catch.hpp>
 
 #include "host/pictures/image.h"
@@ -11,7 +11,7 @@ using scree::program::says;
 
 namespace {
 
-// Hides libraries: the dynamic loader meets these, which are none, before those of the system, and goes no further.
+// Hides libraries: invalid files of the same names come first in the dynamic loader's search path.
 class Without {
 public:
     explicit Without(const std::vector<std::string>& libraries) {
@@ -33,7 +33,7 @@ scree::host::Image upside_down(const scree::host::Image& image) {
     return turned;
 }
 
-// Of a channel, 1/255.
+// Mean channel difference, 1/255.
 double mean_difference(const scree::host::Image& a, const scree::host::Image& b) {
     REQUIRE(a.rgba.size() == b.rgba.size());
     double sum = 0;
@@ -41,7 +41,7 @@ double mean_difference(const scree::host::Image& a, const scree::host::Image& b)
     return sum / static_cast<double>(a.rgba.size());
 }
 
-// Share of the channels that differ by more than 24/255.
+// Fraction of channels that differ by more than 24/255.
 double strayed(const scree::host::Image& a, const scree::host::Image& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < a.rgba.size(); ++i) count += std::abs(a.rgba[i] - b.rgba[i]) > 24 ? 1 : 0;
@@ -56,7 +56,7 @@ const std::vector<std::string> vulkan_and_gl = {"libvulkan.so.1", "libvulkan.so"
 TEST_CASE("program: without the Vulkan loader a run has its pictures all the same", "[program][gl]") {
     const Without hidden(vulkan);
     const Outcome devices = hidden.run("devices");
-    REQUIRE(devices.status == 2);  // it is hidden indeed
+    REQUIRE(devices.status == 2);  // Vulkan is hidden
     REQUIRE((says(devices.errors, "no Vulkan loader") || says(devices.errors, "built without Vulkan")));
     const std::string backend = GENERATE("--backend cpu", "");
     const Place place;
@@ -69,7 +69,7 @@ TEST_CASE("program: without the Vulkan loader a run has its pictures all the sam
     for (const char* const name : {"frame_000000.png", "frame_000001.png", "frame_000002.png"}) {
         const scree::host::Image image = scree::host::read_png(place / "frames" / name);
         REQUIRE(image.width == 320);
-        REQUIRE(mean_difference(image, upside_down(image)) > 20);  // the sky, the ground and what stands on it
+        REQUIRE(mean_difference(image, upside_down(image)) > 20);  // the picture is not blank
     }
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("program: without Vulkan and OpenGL ES pictures are refused before the
     const Outcome gl = hidden.run("run rest --canvas gl" + frames);
     REQUIRE(gl.status == 2);
     REQUIRE(says(gl.errors, "libegl1"));
-    REQUIRE(hidden.run("run rest --steps 2 --backend cpu").status == 0);  // no pictures, no need
+    REQUIRE(hidden.run("run rest --steps 2 --backend cpu").status == 0);  // no canvas needed without pictures
 }
 
 TEST_CASE("program: the canvas draws alike whether or not depth in clip space can be as in Vulkan", "[program][gl]") {

@@ -1,4 +1,4 @@
-// What the program says to wrong usage and wrong input: the place, the cause, the cure; status 2; and nothing left behind.
+// Wrong usage and input: messages with place, cause and remedy; exit status 2; no files left behind.
 #include <signal.h>
 #include <sys/stat.h>
 
@@ -39,7 +39,7 @@ std::string scene_with(const std::string& body) {
     return "{\"bodies\": [{\"shape\": {\"sphere\": {\"radius\": 1}}},\n" + body + "]}";
 }
 
-// An encoder in the place of ffmpeg, found first.
+// Writes a fake ffmpeg that is found first.
 void write_encoder(const Place& place, const std::string& script) {
     std::filesystem::permissions(place.write("ffmpeg", "#!/bin/sh\n" + script + "\n"), std::filesystem::perms::owner_all);
 }
@@ -47,12 +47,12 @@ std::string with_encoder_of(const Place& place) {
     return "PATH='" + place.path().string() + "':\"$PATH\"; export PATH;";
 }
 
-// A long run with frames, a video and a report, ended by Ctrl-C when some pictures are there.
+// A long run with frames, a video and a report, interrupted after some pictures.
 Outcome run_until_pictures(const Place& place, const std::string& before = "") {
     const std::string at = place.path().string();
     const std::string start =
         "--seconds 10000 --size 320x180 --frames '" + at + "/frames' --video '" + at + "/clip.mp4' --report '" + at + "/r.json'";
-    // The shell gives the program's number to the file, so that it can be sent the signal.
+    // The shell writes the program's process id to a file.
     std::thread interrupter([&] {
         for (int i = 0; i < 600 && !std::filesystem::exists(place / "frames/frame_000003.png"); ++i) {
             std::this_thread::sleep_for(std::chrono::milliseconds(100));
@@ -137,7 +137,7 @@ TEST_CASE("program: a scene file with a wrong key or value is refused with its J
 
 TEST_CASE("program: more bodies than fit into memory are refused before they are made, with what would fit", "[program]") {
     require_refused(run_scree("run pile --bodies 900G"), {"--bodies 900000000000", "beyond memory", "GB", "enough for about"});
-    // Five pieces each: the bodies alone would fit.
+    // Five fragments each: the bodies alone would fit.
     require_refused(run_scree("run shatter --bodies 20000 --backend cpu", "ulimit -v 400000;"),
                     {"--bodies 20000", "beyond memory", "20005 bodies and the 100000 pieces"});
     const Place place;
@@ -272,7 +272,7 @@ TEST_CASE("program: Ctrl-C ends a long run with whole pictures, no report, and s
         INFO(entry.path());
         const std::string name = entry.path().filename().string();
         REQUIRE((name == "frames" || name == "pid" || name == "clip.mp4"));
-        if (name == "clip.mp4") REQUIRE(says(place.read(name), "moov"));  // the index, written last
+        if (name == "clip.mp4") REQUIRE(says(place.read(name), "moov"));  // the index, which is written last
     }
     for (const auto& entry : std::filesystem::directory_iterator(place / "frames")) {
         INFO(entry.path());

@@ -1,4 +1,4 @@
-// What an edit of a running world sends to a device: what has changed, not the world.
+// Uploads of edits to a running world: only changed data, not the whole world.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -10,7 +10,7 @@ using namespace scree;
 
 namespace {
 
-// A heap with a few compounds in it, and two bodies on a hinge.
+// A pile with a few compounds, and two bodies on a hinge.
 Scene mixed(int bodies) {
     Scene scene = tests::heap(bodies);
     const auto high = [&](Shape shape, float x, float y) {
@@ -53,11 +53,11 @@ TEST_CASE("an edit of a running world sends what changed, however large the worl
     World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
     for (World* world : {&cpu, &there}) {
         world->step(3);
-        // The parts move up once, to leave rows for half as many bodies again.
+        // The first addition moves the parts up once, to leave rows for half as many bodies again.
         REQUIRE(bytes_of_an_edit(*world, [](World& w) { w.add_body(ball(0)); }) > 10'000);
         for (int k = 1; k < 20; ++k)
             REQUIRE(bytes_of_an_edit(*world, [&](World& w) { w.add_body(ball(static_cast<float>(k))); }) < 1000);
-        const std::size_t joint = scene.joints.size() - 1;  // a record of joints is 2 kB; each body has one, too
+        const std::size_t joint = scene.joints.size() - 1;  // a joint record has 2 kB; each body has one, too
         REQUIRE(bytes_of_an_edit(*world, [&](World& w) { w.set_motor(joint, JointAxis::twist, {1, 10}); }) < 3000);
         REQUIRE(bytes_of_an_edit(*world, [](World& w) { w.set_gravity({0, -5, 0}); }) == 0);
         REQUIRE(bytes_of_an_edit(*world, [](World& w) {

@@ -1,4 +1,4 @@
-// Every stage with ellipsoids among all other shapes, on the device and on the CPU.
+// Lockstep of every stage on device and CPU, with ellipsoids among all other shapes.
 #include <catch2/catch.hpp>
 #include <random>
 

@@ -1,4 +1,4 @@
-// Stages that run as one in a small world: the same bits, and no others when the world is small no more.
+// Fused stages of small worlds: equal bits, also after the world outgrows fusion.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <functional>

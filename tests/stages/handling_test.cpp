@@ -1,4 +1,4 @@
-// What a user does to a world does the same to the last bit on the device and on the CPU.
+// User actions in lockstep: equal bits on device and CPU.
 #include <catch2/catch.hpp>
 
 #include "compute/device/device_runner.h"
@@ -45,7 +45,7 @@ Body thrown(Shape shape, vec3 from, vec3 velocity) {
     return body;
 }
 
-// Everything that a user can do, at fixed steps of a run of 90.
+// All user actions, at fixed steps of a run of 90.
 void act(World& world, std::size_t& grip) {
     switch (world.steps()) {
         case 5:
@@ -89,7 +89,7 @@ TEST_CASE("every stage gives the same bits on both processors while bodies are h
             p.held = static_cast<physics::uint>(step % 5);
             p.grips[0] = hold(5, vec3(0.1f, 0.2f, 0), vec3(0, 3, 0.1f * static_cast<float>(step)));
             p.grips[1] = hold(9, vec3(0), vec3(2, 1, 0));
-            p.grips[2] = hold(5, vec3(-0.1f, 0, 0.1f), vec3(0, -3, 0));  // another hand on the first
+            p.grips[2] = hold(5, vec3(-0.1f, 0, 0.1f), vec3(0, -3, 0));  // a second grab of the same body
             p.grips[3] = hold(31, vec3(0.05f, 0, 0), vec3(1e5f, 0, 0));
         });
         lockstep.step();

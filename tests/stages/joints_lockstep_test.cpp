@@ -1,4 +1,4 @@
-// Joints of every kind: the same bits on both processors.
+// Joints of every kind in lockstep: equal bits on device and CPU.
 #include <catch2/catch.hpp>
 
 #include "compute/device/device_runner.h"
@@ -14,7 +14,7 @@ using namespace scree;
 
 namespace {
 
-// Rows of capsules that hang from the world, fall on a ground and fall asleep; each row with other kinds between them.
+// Rows of capsules that hang from the world, fall to the ground and fall asleep; each row has different joint kinds.
 Scene all_kinds() {
     Scene scene;
     Body ground;
@@ -24,7 +24,7 @@ Scene all_kinds() {
     Hinge limited, driven, sprung;
     limited.turn.limits = Limits{-0.3f, 0.5f};
     driven.turn.motor = Motor{2, 3};
-    sprung.turn.spring = Spring{2000, 5, 0.3f};  // too stiff to be a mere force
+    sprung.turn.spring = Spring{2000, 5, 0.3f};  // too stiff to act as an explicit force
     Slider damped;
     damped.slide.spring = Spring{500, 5, 0};
     SixDof wheel;
@@ -55,8 +55,8 @@ Scene all_kinds() {
     return scene;
 }
 
-// A wheel on a motor with six spokes, the last of them held twice and driven by a far body as hard as it goes: seven joints that
-// all share the hub, whose bounds are found in several rounds.
+// A wheel on a motor with six spokes, the last of them with two joints and driven by a distant body at maximum force:
+// seven joints that share the hub, whose active set takes several rounds.
 Scene spokes() {
     Scene scene;
     const auto add = [&](Shape shape, vec3 position) {
@@ -85,7 +85,7 @@ Scene spokes() {
     return scene;
 }
 
-// As many joints as a block takes, each entangled with as many others as it may be: four between each two plates of a row.
+// As many joints as a block holds, with the maximum fill-in: four between consecutive plates of a row.
 Scene entangled() {
     Scene scene;
     SixDof loose;
@@ -124,7 +124,7 @@ std::uint32_t rounds_at_once(const Scene& scene) {
 }  // namespace
 
 TEST_CASE("joints that entangle, more than a device's loops have rounds for, give the same bits on both processors") {
-    // Lavapipe ends a shader's loops after 65,535 rounds in all.
+    // Lavapipe ends a shader's loops after 65,535 iterations in all.
     REQUIRE(rounds_at_once(all_kinds()) == physics::JOINT_ROUNDS);
     REQUIRE(rounds_at_once(spokes()) == physics::JOINT_ROUNDS);
     REQUIRE(rounds_at_once(entangled()) < physics::JOINT_ROUNDS);
@@ -157,7 +157,7 @@ TEST_CASE("joints that come and go while a world runs give the same bits on both
     World cpu(bare, {}, 2), there(bare, {}, make_device_runner(host::Device::open(options)));
     for (int step = 0; step < 30; ++step) {
         for (World* world : {&cpu, &there}) {
-            // None, then all, then every second one goes, and two chains are tied together where they are.
+            // No joints, then all; later every second one is removed, and two chains are joined in place.
             if (step == 3)
                 for (const Joint& joint : joints) world->add_joint(joint);
             if (step == 12)

@@ -1,4 +1,4 @@
-// The dense oracle of joints as the judge of the joint solver on a device.
+// The dense oracle of joints judges the joint solver on a device.
 #include <catch2/catch.hpp>
 
 #include "compute/device/device_runner.h"
@@ -28,7 +28,7 @@ JointTablesNow tables_of(const DeviceRunner& runner, const State& state) {
     return tables;
 }
 
-// One of each case, side by side in one scene: pipelines for a scene take longer to compile than all else here.
+// One block of each case in a single scene, since compiling a scene's pipelines takes longest here.
 struct Blocks {
     std::vector<Scene> each;
     Scene all;
@@ -49,7 +49,7 @@ Blocks one_of_each() {
             joint.b += first;
             blocks.all.joints.push_back(joint);
         }
-        // The oracle is told of this one, too.
+        // Keep the oracle's copy in step.
         for (Joint& joint : blocks.each.back().joints)
             if (joint.a == the_world) joint.anchor_a += at;
     }

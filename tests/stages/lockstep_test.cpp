@@ -1,4 +1,4 @@
-// Every stage, on the device and on the CPU, from the same tables to the same bits; outputs are poisoned first.
+// Lockstep: every stage on device and CPU, from equal tables to equal bits, with poisoned outputs.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -35,7 +35,7 @@ void require_equal(const LockstepResult& result) {
     REQUIRE(result.equal);
 }
 
-// Walks `steps` steps of a scene that touches from the first on; tells how many contacts there were in the first.
+// Compares `steps` steps of a scene with initial contacts. Returns the number of contacts in the first step.
 std::uint32_t contacts_walked(const Scene& scene, const Watched& watched, int steps) {
     Lockstep lockstep(scene, {}, watched.device, 1);
     std::vector<physics::Counts> counts(1);

@@ -1,4 +1,4 @@
-// Every stage with compounds, meshes and height fields, on the device and on the CPU.
+// Lockstep of every stage on device and CPU, with compounds, meshes and height fields.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <random>
@@ -76,7 +76,7 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
     Scene more;
     more.bodies.push_back({.shape = hammer(), .position = {0.1f, 2, 0.1f}});
     const Body added = checked(more).bodies[0];
-    // The first finds no row before those of parts, which move; those behind it do.
+    // The first addition finds no free row before the parts, so these move; later ones find a row.
     for (int k = 0; k < 4; ++k) {
         lockstep.edit(&StateEditor::needed_to_add, [&](StateEditor& editor) { return editor.add(added); });
         go(15);

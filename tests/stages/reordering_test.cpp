@@ -1,4 +1,4 @@
-// Bodies that change their rows in memory: the same bits on both processors, and those of a world that is left as it is.
+// Memory order: permuted rows give equal bits on device and CPU, and the bits of an unpermuted world.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
@@ -21,7 +21,7 @@ std::shared_ptr<host::Device> watched() {
     return host::Device::open({.which = "", .validation = true, .on_message = {}});
 }
 
-// Any rows for all but pieces.
+// A random permutation of all rows but those of fragments.
 std::vector<std::uint32_t> shuffled(const Scene& scene, std::mt19937& chance) {
     std::vector<std::uint32_t> free;
     for (std::uint32_t id = 0; id < scene.bodies.size(); ++id)
@@ -33,7 +33,7 @@ std::vector<std::uint32_t> shuffled(const Scene& scene, std::mt19937& chance) {
     return rows;
 }
 
-// Says how many slept at once.
+// Returns the largest number of bodies asleep at once.
 std::size_t check_shuffled(const Scene& given, std::shared_ptr<host::Device> device, int steps, const Settings& settings = {}) {
     const Scene scene = checked(given);
     World plain(scene, settings, 1);

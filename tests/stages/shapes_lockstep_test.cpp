@@ -1,4 +1,4 @@
-// Every stage with all shapes mixed, on the device and on the CPU.
+// Lockstep of every stage on device and CPU, with all shapes mixed.
 #include <catch2/catch.hpp>
 #include <random>
 

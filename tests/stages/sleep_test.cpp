@@ -1,4 +1,4 @@
-// Sleep and waking on both processors: the same bits while bodies fall asleep, are struck, and lose what they lie on.
+// Sleep and waking in lockstep: equal bits while bodies fall asleep, are hit, and lose their support.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <span>
@@ -27,7 +27,7 @@ struct Watched {
     }
 };
 
-// Small bodies at rest, and from some steps on a large ball and a moving box among them.
+// Small bodies at rest, which a large ball and a kinematic box hit after some steps.
 Scene struck(Scene scene) {
     Body ball;
     ball.shape = Sphere{0.8f};
@@ -43,7 +43,7 @@ Scene struck(Scene scene) {
     return scene;
 }
 
-// Columns of three boxes each, beside one another at a centimetre: a blow runs through all of them.
+// Columns of three boxes, 1 cm apart, so that an impact propagates through all of them.
 Scene columns(unsigned boxes) {
     Scene scene;
     scene.bodies.push_back({.motion = Motion::fixed, .shape = Plane{}});
@@ -56,8 +56,8 @@ Scene columns(unsigned boxes) {
 }
 
 struct Seen {
-    std::size_t asleep = 0;             // most at any time
-    std::size_t woken = 0, shaken = 0;  // all in all
+    std::size_t asleep = 0;             // maximum at any time
+    std::size_t woken = 0, shaken = 0;  // totals
 };
 
 Seen walk(const Scene& scene, const Settings& settings, const Watched& watched, int steps) {

@@ -1,4 +1,4 @@
-// The tables of a step in the buffers of a device: each in memory of its own, or in that of one that is dead by then.
+// Tables in device buffers: memory of their own, or shared with a table that is dead by then.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
@@ -22,14 +22,14 @@ Scene everything_that_has_tables() {
     return scene;
 }
 
-// Whether one of the two lies, at last, in the memory of the other.
+// Whether the two tables share memory, directly or through others.
 bool take_turns(const std::string& one, const std::string& other) {
     static const auto turns = [] {
         std::set<std::pair<std::string, std::string>> all;
 #define SCREE_SHARE(later, earlier) all.insert({#later, #earlier});
         SCREE_SHARES(SCREE_SHARE)
 #undef SCREE_SHARE
-        // carried lies where contact_starts lies, and so where pair_type_starts does.
+        // Transitive: carried shares with contact_starts, and that with pair_type_starts.
         for (const auto& [later, middle] : std::set(all))
             for (const auto& [between, earlier] : std::set(all))
                 if (middle == between) all.insert({later, earlier});

@@ -1,4 +1,4 @@
-// Vehicles: the same bits on both processors, whoever drives them.
+// Vehicles in lockstep: equal bits on device and CPU, driven by the user or by routes.
 #include <catch2/catch.hpp>
 
 #include "compute/device/lockstep.h"
@@ -25,7 +25,7 @@ TEST_CASE("cars that brake, drift, follow a route, turn on the spot and sleep gi
     scene.vehicles[routed].route = {{{-6, 0, 0}, 6}, {{-5, 0, 4}, 8}, {{-8, 0, 8}, 3}};
     Settings settings;
     settings.sleep_time = 0.2f;
-    settings.pairs_at_first = 40;  // so that the first step is done again
+    settings.pairs_at_first = 40;  // so that the first step overflows and is repeated
     Lockstep lockstep(scene, settings, device, 2);
     for (int i = 0; i < 60 && lockstep.step(); ++i) continue;
     const LockstepResult& result = lockstep.result();

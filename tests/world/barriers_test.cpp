@@ -1,4 +1,4 @@
-// What follows from the declarations of the stages: where a step waits, and what outlasts it.
+// Barriers and persistent tables, as derived from the stage declarations.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <set>
@@ -51,7 +51,7 @@ TEST_CASE("barriers: only stages that do not disturb each other run side by side
     Names joined;
     for (const std::string& names : without_barrier(plan(3, SceneFeatures::everything())))
         if (!names.starts_with("collide_")) joined.insert(names);
-    CHECK(joined == Names{"prepare_contacts | prepare_joints"});  // others share the buffer of words
+    CHECK(joined == Names{"prepare_contacts | prepare_joints"});  // other stages share the buffer of words
 }
 
 TEST_CASE("barriers: stages that are several in turn wait for each other") {

@@ -1,4 +1,4 @@
-// Bounces: what a blow leaves of speed and height, over many blows, and on many points at once.
+// Restitution: speed and height after impacts, repeated and with many contact points.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -9,7 +9,7 @@ using namespace scree;
 
 namespace {
 
-// The ground, and a body whose underside hangs `height` above it.
+// The ground, and a body whose underside is `height` (m) above it.
 Scene falling(const Shape& shape, float under, float height, float restitution) {
     Scene scene;
     Body ground, body;
@@ -57,7 +57,7 @@ TEST_CASE("a box that falls flat leaves with its share of the speed, straight up
                             << glm::length(box.angular_velocity) << " rad/s");
         const float out = restitution * std::sqrt(2 * 9.81f * 2);
         CHECK(box.velocity.y < 1.01f * out);
-        CHECK(box.velocity.y > 0.99f * out - 9.81f / 60);  // it has risen for up to a step
+        CHECK(box.velocity.y > 0.99f * out - 9.81f / 60);  // after rising for up to a step
         CHECK(glm::length(box.angular_velocity) < 1e-3f);
         CHECK(std::abs(box.velocity.x) + std::abs(box.velocity.z) < 1e-3f);
     }

@@ -1,4 +1,4 @@
-// Ellipsoids in the world, against closed forms: mass, rest, rocking, rolling, tumbling, and what else a convex shape can do.
+// Ellipsoids in the world, against closed forms: mass, rest, rocking, rolling, tumbling, rays, scene files.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -65,7 +65,8 @@ TEST_CASE("an ellipsoid rests at the height of its smallest radius, wherever it 
     }
 }
 
-// It rolls about its lowest point: V = m g h, h = b + (a^2 - b^2) / (2 b) angle^2, T = (I + m b^2) spin^2 / 2.
+// Small oscillations of a rolling ellipsoid: V = m g h, h = b + (a^2 - b^2) / (2 b) angle^2, T = (I + m b^2) spin^2 /
+// 2.
 TEST_CASE("an ellipsoid rocks with the period of the textbook, and never more than it did") {
     for (const vec3 radii : {vec3(0.5f, 0.3f, 0.4f), vec3(0.3f, 0.25f, 0.5f)}) {
         const float angle = 0.03f, a2 = radii.x * radii.x, b2 = radii.y * radii.y;
@@ -111,7 +112,7 @@ TEST_CASE("an ellipsoid that tumbles freely keeps its angular momentum and its e
     Scene scene;
     scene.gravity = vec3(0);
     scene.bodies = {body_of(Ellipsoid{{0.5f, 0.3f, 0.4f}}, {})};
-    scene.bodies[0].angular_velocity = {0.05f, 0.02f, 4};  // about the middle axis, which does not stay
+    scene.bodies[0].angular_velocity = {0.05f, 0.02f, 4};  // about the intermediate axis, which is unstable
     const MassProperties mass = mass_properties(scene.bodies[0].shape, 1000);
     World world(scene, {}, 1);
     const vec3 before = angular_momentum(world.body(0), mass);
@@ -170,7 +171,7 @@ TEST_CASE("an ellipsoid is met by a ray where its surface is, and breaks into pi
     CHECK(ray_distance(stone, vec3(0), lying, {0, 5, 0}, {0, -1, 0}).value() == Approx(4));
     CHECK(ray_distance(stone, vec3(0), upright, {0.6f, 5, 0}, {0, -1, 0}).value() == Approx(5 - 0.4f));
     CHECK_FALSE(ray_distance(stone, vec3(0), upright, {1.01f, 5, 0}, {0, -1, 0}));
-    CHECK_FALSE(ray_distance(stone, vec3(0), upright, {0, 0.4f, 0}, {0, -1, 0}));  // begins inside
+    CHECK_FALSE(ray_distance(stone, vec3(0), upright, {0, 0.4f, 0}, {0, -1, 0}));  // origin inside
     Scene scene;
     scene.bodies = {body_of(stone, {})};
     scene.bodies[0].fracture = Fracture{.impulse = 10, .pieces = 20};

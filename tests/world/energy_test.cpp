@@ -1,4 +1,4 @@
-// Energy: contacts take it or hand it on, whatever the speed; nothing explodes.
+// Energy: contacts dissipate or transfer kinetic energy at any speed, and never create it.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -24,7 +24,7 @@ TEST_CASE("bodies that fly past and into each other fast never gain energy") {
                 INFO("speed " << speed << ", restitution " << restitution << ", step " << step << ": " << last << " J to "
                               << now.kinetic_energy << " J");
                 REQUIRE(now.not_finite == 0);
-                // Bodies that a fast one has entered are pushed apart: that much may come back, in all and not in every step.
+                // Depenetration after deep impacts may return some energy: bounded in total, not per step.
                 last = now.kinetic_energy;
                 least = std::min(least, last);
                 REQUIRE(last < least + 1e-3 * start);
@@ -34,8 +34,8 @@ TEST_CASE("bodies that fly past and into each other fast never gain energy") {
     }
 }
 
-// But for a tenth of a thousandth: a body that an impact pressed deep into another is pushed out again, and one pass cannot take
-// back all of that speed. In one of these steps 1,320 J are lost so, and 109 of them come back.
+// Tolerance 1e-4: a body pressed deep into another by an impact is pushed out, and one relax pass does not remove all
+// of that speed. In one of these steps 1,320 J are lost, of which 109 come back.
 TEST_CASE("a heap that collapses never gains energy") {
     World world(tests::heap(200), {}, 1);
     Statistics before = world.statistics();

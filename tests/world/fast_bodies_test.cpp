@@ -1,5 +1,5 @@
-// Fast bodies: they pass through nothing that moves either, bounce with what speed they had, and push nothing that they do not
-// touch.
+// Continuous collision of fast bodies: no tunnelling through moving bodies, full rebound speed, no impulses without
+// contact.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -74,8 +74,7 @@ TEST_CASE("fast balls drive thin plates and small balls before them and pass non
             if (i % 2) bullet.shape = Box{vec3(0.08f)};
             const Scene scene = in_space({target, bullet});
             Settings settings;
-            settings.max_speed =
-                2000;  // what a blow is guessed to be goes beyond 400 m/s for a moment, and the limit takes momentum
+            settings.max_speed = 2000;  // intermediate velocities exceed 400 m/s, and the speed limit would remove momentum
             World world(scene, settings, 1);
             const double before = momentum_along_x(scene, world);
             CAPTURE(speed, i);
@@ -83,7 +82,7 @@ TEST_CASE("fast balls drive thin plates and small balls before them and pass non
                 world.step();
                 const std::vector<BodyState> now = world.bodies();
                 const vec3 apart = now[1].position - now[0].position;
-                // Struck off centre a small target goes aside, and the bullet overtakes it there.
+                // Hit off centre, a small target moves aside and the bullet overtakes it.
                 const bool beside = i % 3 != 0 && std::max(std::abs(apart.y), std::abs(apart.z)) > 0.08f;
                 REQUIRE((apart.x < 0 || beside));
             }

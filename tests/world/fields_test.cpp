@@ -1,4 +1,4 @@
-// The field tables: what one line in a table gives, and that reading, writing, validation and schema say the same.
+// Field tables: everything that follows from a line of a table; reading, writing, validation and schema agree.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace {
 
-// A struct with a property, which is all that is said of it: a member and a line.
+// A struct with one property, declared by a member and a line of a table.
 struct Lamp {
     float brightness = 5;  // lx
 };
@@ -39,7 +39,7 @@ Scene brick() {
     return scene;
 }
 
-// A scene that says something of everything.
+// A scene that sets every field.
 Scene of_all() {
     Scene scene = brick();
     scene.bodies[0].tyre.emplace();
@@ -68,7 +68,7 @@ json at_ref(const json& schema, const json& found) {
     return schema.at(json::json_pointer(found["$ref"].get<std::string>().substr(1)));
 }
 
-// Goes through a value and its schema side by side.
+// Walks a value and its schema in parallel.
 void require_known(const json& schema, const json& known, const json& value, const std::string& place) {
     INFO(place);
     const json type = at_ref(schema, known);

@@ -1,4 +1,4 @@
-// Bodies that break: what their pieces come to, what breaks them, and what they keep.
+// Fracture: mass of the fragments, thresholds, and conservation.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <functional>
@@ -59,7 +59,7 @@ const Hull hull{{{-0.5f, -0.3f, -0.4f}, {0.6f, -0.3f, -0.5f}, {0.1f, 0.7f, -0.1f
 double length_of(const double (&v)[3]) {
     return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
-// kg m^2/s, about the origin: of its way and of its spin, added up as lengths.
+// kg m^2/s, about the origin: magnitudes of orbital and spin angular momentum, added.
 double moment_of(const Body& body) {
     const MassProperties mass = mass_properties(body.shape, body.density);
     return static_cast<double>(mass.mass * glm::length(glm::cross(body.position, body.velocity)) +
@@ -92,7 +92,7 @@ TEST_CASE("the pieces of a body have its mass, its centre and its inertia to 1e-
                 scene.bodies[0].fracture->seed = seed;
                 scene = checked(scene);
                 REQUIRE(scene.bodies.size() == 1 + pieces);
-                // Of the body where it is: a hull is brought to its centre.
+                // Masses in world coordinates, since validation moves a hull's origin to its centre of mass.
                 Sum whole, parts;
                 const vec3 centre = scene.bodies[0].position;
                 for (Body& body : scene.bodies) body.position -= centre;
@@ -123,7 +123,7 @@ TEST_CASE("a body that breaks keeps linear and angular momentum to 1e-5, the str
                 scene.bodies[0].angular_velocity = vec3(0.3f, 1, -0.6f) * (spin * speed);
                 scene.bodies[0].fracture = broken_by(6 * speed, cutting, 12);
                 scene.bodies.push_back(body_of(Sphere{0.3f}, {-1.5f, 0.2f, 0.1f}, {speed, 0, 0}));
-                // Of what the two have about the origin, added up as lengths.
+                // Relative to the sum of both magnitudes about the origin.
                 const double moment = moment_of(scene.bodies[0]) + moment_of(scene.bodies[1]);
                 World world(scene, {}, 1);
                 const Statistics start = world.statistics();
@@ -138,8 +138,8 @@ TEST_CASE("a body that breaks keeps linear and angular momentum to 1e-5, the str
                 REQUIRE(after.pieces == 12);
                 CHECK(change_of(before.momentum, after.momentum) < 1e-5 * length_of(start.momentum));
                 CHECK(change_of(before.angular_momentum, after.angular_momentum) < 1e-5 * moment);
-                if (speed > 1) continue;  // what is fast is set back on its way (sweep.h), which changes its moment
-                world.step(90);           // the pieces meet each other and the ball, side by side and in the way
+                if (speed > 1) continue;  // clamping fast bodies to the time of impact (sweep.h) changes their angular momentum
+                world.step(90);           // the fragments collide with each other and the ball
                 const Statistics end = world.statistics();
                 CHECK(change_of(start.momentum, end.momentum) < 1e-5 * length_of(start.momentum));
                 CHECK(change_of(start.angular_momentum, end.angular_momentum) < 1e-5 * moment);
@@ -221,7 +221,7 @@ TEST_CASE("pieces that lie side by side do not push each other apart") {
         const Statistics after = world.statistics();
         INFO("cutting " << static_cast<int>(cutting));
         REQUIRE(after.broken == 1);
-        CHECK(after.kinetic_energy < 0.16);  // the ball's own at the start: 0.15 J
+        CHECK(after.kinetic_energy < 0.16);  // the ball's initial energy: 0.15 J
         CHECK(after.penetration_max < 0.001);
     }
 }
@@ -241,7 +241,7 @@ TEST_CASE("the pieces of a body of depth 2 break in their turn") {
     CHECK(after.broken > 1);
     CHECK(after.bodies == 2 - after.broken + 4 * after.broken);
     CHECK(after.pieces == after.bodies - 1);
-    const Scene later = world.snapshot();  // of what is there
+    const Scene later = world.snapshot();  // existing bodies only
     std::size_t there = 0;
     for (const Body& one : later.bodies) there += one.piece_of == no_body;
     CHECK(there == after.bodies);
@@ -345,7 +345,7 @@ TEST_CASE("a scene file says how a body breaks, and what was written is read aga
     CHECK(f.pieces == 5);
     CHECK(f.depth == 2);
     CHECK(f.seed == 9);
-    const std::string again = scene_to_json(checked(scene), std::nullopt);  // without the pieces
+    const std::string again = scene_to_json(checked(scene), std::nullopt);  // without fragments
     CHECK(scene_to_json(checked(scene_from_json(again).scene), std::nullopt) == again);
     CHECK(scene_from_json(again).scene.bodies.size() == 1);
     const auto refused = [&](const std::string& from, const std::string& to) -> std::string {

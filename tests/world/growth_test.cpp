@@ -1,4 +1,4 @@
-// No list drops an entry: whatever room the buffers begin with, the step is the same to the last bit.
+// Buffer growth: no list drops an entry, and the result is bit-identical for every initial capacity.
 #include <catch2/catch.hpp>
 #include <memory>
 #include <new>
@@ -45,7 +45,7 @@ TEST_CASE("an impulse is applied once, also when its step had to be done again")
 
 namespace {
 
-// Has no memory for a second room.
+// A runner that fails to allocate on growth.
 class Poor : public ReferenceRunner {
 public:
     Poor() : ReferenceRunner(1) {}

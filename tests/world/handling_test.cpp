@@ -1,4 +1,4 @@
-// Taking hold of bodies, turning the dials and adding bodies while a world runs.
+// Grabbing and adding bodies and changing settings while a world runs.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -75,7 +75,7 @@ TEST_CASE("a held body hangs by the point where it is held, g / w^2 below the ta
     const float w = 2 * 3.14159265f * 5;
     REQUIRE(glm::length(point_of(body, anchor) - vec3(0, 5 - 9.81f / (w * w), 0)) < 2e-3f);
     REQUIRE(glm::length(body.velocity) < 0.01f);
-    REQUIRE(body.position.y < 5 - 0.5f);  // its centre under the corner
+    REQUIRE(body.position.y < 5 - 0.5f);  // its centre below the grabbed corner
     world.release(grip);
     world.step(30);
     REQUIRE(world.body(0).velocity.y < -4.5f);

@@ -1,4 +1,4 @@
-// The heap, the swarm, the packed lattice and the bodies apart.
+// Scenes for tests of whole worlds.
 #include "tests/world/heaps.h"
 
 #include <cmath>
@@ -23,7 +23,7 @@ Body ground() {
     return body;
 }
 
-// As wide as it is high, 2 * half in every direction.
+// A sphere, capsule or box of extent 2 * half in every direction.
 Body even_body(int i, float half) {
     Body body;
     if (i % 3 == 0) body.shape = Box{vec3(half)};

@@ -1,5 +1,4 @@
-// Scenes for tests of whole worlds: heaps of mixed bodies on the ground, bodies apart, bodies flying into each other in free
-// space.
+// Scenes for tests of whole worlds: piles of mixed bodies, isolated bodies, and swarms colliding in free space.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +7,7 @@
 
 namespace scree::tests {
 
-// Uniform in [-1, 1]; the same on every machine.
+// Pseudo-random numbers, uniform in [-1, 1] and equal on every machine.
 class Noise {
 public:
     explicit Noise(std::uint32_t seed) : state_(seed) {}
@@ -25,19 +24,19 @@ private:
     std::uint32_t state_;
 };
 
-// `count` spheres, capsules and boxes of several sizes and materials above a plane, none touching; some bounce, some resist
-// rolling.
+// `count` spheres, capsules and boxes of several sizes and materials above a plane, not touching; some have
+// restitution, some rolling resistance.
 Scene heap(int count, std::uint32_t seed = 1);
 
-// `count` bodies flying towards a common centre without gravity, bouncing with the given restitution.
+// `count` bodies flying towards a common centre without gravity, with the given restitution.
 Scene swarm(int count, float restitution, std::uint32_t seed = 1);
 
-// `count` boxes, spheres and capsules in a lattice on the ground that touch all their neighbours, by up to a few millimetres too
-// much: as many contacts as bodies and more, from the first step on.
+// `count` boxes, spheres and capsules in a lattice on the ground that penetrate their neighbours by up to a few
+// millimetres: more contacts than bodies from the first step on.
 Scene packed(int count, std::uint32_t seed = 1);
 
-// `count` such bodies side by side on the ground, a metre from each other and `height` (m) above it, each alone with the ground.
-// At height 0: exactly `count` contacts from the first step on.
+// `count` such bodies a metre apart and `height` (m) above the ground, touching nothing but the ground. At height 0:
+// exactly `count` contacts from the first step on.
 Scene apart(int count, float height = 0, std::uint32_t seed = 1);
 
 }  // namespace scree::tests

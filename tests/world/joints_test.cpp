@@ -1,4 +1,4 @@
-// Joints: what they hold, drive, stop and bear, when they tear, and what is refused.
+// Joints: constraints, motors, limits, forces, breaking, and validation.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <numbers>
@@ -12,7 +12,7 @@ namespace {
 
 constexpr auto twist = static_cast<std::size_t>(JointAxis::twist);
 
-// One box at a place, joined to the world at an anchor.
+// One box, joined to the world at an anchor.
 Scene hung(vec3 position, vec3 anchor, const JointKind& kind, vec3 axis = {0, 0, 1}) {
     Scene scene;
     Body body;
@@ -111,7 +111,7 @@ TEST_CASE("a body on a spring swings with the period of theory and keeps its swi
 TEST_CASE("friction holds a hinge up to its torque") {
     const float weight = mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass * 9.81f;
     Hinge hinge;
-    hinge.turn.friction = 0.55f * weight;  // the weight turns with half a metre
+    hinge.turn.friction = 0.55f * weight;  // the weight's lever arm is half a metre
     World holds(hung({0.5f, 0, 0}, {0, 0, 0}, hinge), awake(), 1);
     holds.step(120);
     CHECK(std::abs(holds.body(0).position.y) < 0.005f);
@@ -234,7 +234,7 @@ TEST_CASE("joints that are added while a world runs hold, those beside them go o
     world.step(240);
     const float greatest = world.joint(0).max_force;
     const vec3 low = world.body(1).position;
-    // From where the upper one has come to rest to where the lower one has.
+    // Between the resting positions of the upper and the lower body.
     REQUIRE(world.add_joint(world.joint_at(Fixed{}, 0, 1, 0.5f * (world.body(0).position + low), {0, 1, 0})) == 2);
     CHECK(world.joint(0).max_force == greatest);
     CHECK(world.scene().joints.size() == 3);
@@ -245,7 +245,7 @@ TEST_CASE("joints that are added while a world runs hold, those beside them go o
     world.step(120);
     const float weight = 2 * mass_properties(Box{{0.5f, 0.1f, 0.1f}}, 1000).mass * 9.81f;
     CHECK(world.joint(1).gap < 2e-3f);
-    CHECK(world.joint(0).max_force > 0.9f * weight);  // it bears both now
+    CHECK(world.joint(0).max_force > 0.9f * weight);  // it carries both now
     CHECK(world.body(1).position.y > -3);
     world.remove_joint(0);
     world.remove_joint(0);

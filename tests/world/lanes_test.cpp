@@ -1,4 +1,4 @@
-// The stages of a substep for several contacts and bodies at once leave the bits that the plain loops leave.
+// SIMD substep stages write the same bits as the scalar loops.
 #include <catch2/catch.hpp>
 #include <cstring>
 #include <string>
@@ -17,7 +17,7 @@ std::span<const std::byte> live_bytes(const State& state, Table table) {
     return state.raw(table).first(state.live(info.length) * info.record_bytes);
 }
 
-// What the stages of a step wrote, one after the other.
+// Tables written by the stages of a step, in order.
 using Written = std::vector<std::vector<std::byte>>;
 
 struct Walker {
@@ -28,7 +28,7 @@ struct Walker {
         runner.attach(state);
     }
 
-    // A step; look(stage, table, bytes) at all that the stages write.
+    // Makes a step and calls look(stage, table, bytes) for every table that a stage writes.
     template <typename Look>
     void step(const Look& look) {
         state.fixed().redo = 0;
@@ -43,7 +43,8 @@ struct Walker {
     }
 };
 
-// Requires that `steps` steps with so many lanes write what the plain loops write; tells the contacts of the last step.
+// Requires that `steps` steps with `lanes` lanes write the bits of the scalar loops. Returns the contacts of the last
+// step.
 std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
     Settings settings;
     settings.sleep_time = 0.2f;

@@ -1,4 +1,4 @@
-// What compute/world.h promises to those who call it: forces and impulses act as mechanics says, mistakes are named.
+// The public API, compute/world.h: forces and impulses follow mechanics, errors are named.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
@@ -26,7 +26,7 @@ scree::Body body(scree::Shape shape, vec3 position, scree::Motion motion = scree
     return made;
 }
 
-// A box of 1 x 2 x 3 m far from a ball, without weight.
+// A box of 1 x 2 x 3 m far from a ball, without gravity.
 scree::Scene free_space() {
     scree::Scene scene;
     scene.gravity = vec3(0);
@@ -34,7 +34,7 @@ scree::Scene free_space() {
     return scene;
 }
 
-// Floats are right to a few units in the last place after the additions of a step.
+// Within the rounding of a step: a few units in the last place.
 void require_near(vec3 value, vec3 expected, float tolerance) {
     INFO("is " << value.x << " " << value.y << " " << value.z << ", expected " << expected.x << " " << expected.y << " "
                << expected.z);
@@ -136,7 +136,7 @@ TEST_CASE("a kinematic body keeps its velocity and pushes what is in its way", "
     world.set_velocity(1, vec3(0, 0, 0), vec3(0));
     world.step(60);
     require_near(world.bodies()[1].position, vec3(2, 0.5f, 0), 1e-4f);
-    // It slides on by v^2 / (2 mu g).
+    // Stopping distance v^2 / (2 mu g).
     REQUIRE(world.bodies()[2].position.x == Approx(3 + 1 / (2 * 0.6 * 9.81)).margin(0.02));
     REQUIRE_THROWS_AS(world.apply_force(1, vec3(1)), std::invalid_argument);
 }
@@ -160,7 +160,7 @@ TEST_CASE("a wrong index, a value that is not finite and a body that is not dyna
     REQUIRE_THROWS_AS(world.apply_force(2, vec3(1)), std::invalid_argument);
     REQUIRE_THROWS_AS(world.set_velocity(2, vec3(1), vec3(0)), std::invalid_argument);
 
-    // What was refused has left no trace.
+    // Refused calls have no effect.
     world.step();
     require_near(world.bodies()[0].velocity, vec3(0), 0);
     require_near(world.bodies()[0].angular_velocity, vec3(0), 0);

@@ -1,4 +1,4 @@
-// Momentum: what contacts do to one body they take from the other.
+// Conservation of momentum: contacts apply equal and opposite impulses.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <utility>
@@ -12,7 +12,7 @@ namespace {
 
 using glm::dvec3;
 
-// Sum of |m v| and of |x x m v| + |L| over the bodies: what the totals are measured against.
+// Sum of |m v| and of |x x m v| + |L| over the bodies: the scale of tolerances.
 struct Scale {
     double linear = 0, angular = 0;
 };
@@ -41,7 +41,7 @@ TEST_CASE("free collisions keep linear and angular momentum to 1e-5 of the scene
         const Statistics before = world.statistics();
         const Scale scale = scale_of(world);
         world.step(60);
-        REQUIRE(world.statistics().kinetic_energy < 0.9 * before.kinetic_energy);  // they did collide
+        REQUIRE(world.statistics().kinetic_energy < 0.9 * before.kinetic_energy);  // collisions did happen
         world.step(940);
         const Statistics after = world.statistics();
         const double linear = glm::length(vector(after.momentum) - vector(before.momentum)) / scale.linear;
@@ -57,18 +57,18 @@ TEST_CASE("a freely tumbling body keeps its angular momentum and its energy") {
     scene.gravity = vec3(0);
     Body body;
     body.shape = Box{vec3(0.2f, 0.5f, 0.9f)};
-    body.angular_velocity = vec3(0.05f, 6, 0.05f);  // about the middle axis: it flips over and over
+    body.angular_velocity = vec3(0.05f, 6, 0.05f);  // about the intermediate axis: the body flips repeatedly
     scene.bodies = {body};
     World world(scene, {}, 1);
     const Statistics before = world.statistics();
-    double lowest = 1;  // of the body's middle axis against where it pointed
+    double lowest = 1;  // cosine between the body's intermediate axis and its initial direction
     for (int i = 0; i < 1800; ++i) {
         world.step();
         const vec4 q = world.bodies()[0].orientation;
         lowest = std::min(lowest, 1.0 - 2.0 * double(q.x * q.x + q.z * q.z));
     }
     const Statistics after = world.statistics();
-    REQUIRE(lowest < -0.5);  // it did flip
+    REQUIRE(lowest < -0.5);  // the body did flip
     REQUIRE(glm::length(vector(after.angular_momentum) - vector(before.angular_momentum)) <
             0.01 * glm::length(vector(before.angular_momentum)));
     REQUIRE(after.kinetic_energy == Approx(before.kinetic_energy).epsilon(0.01));

@@ -1,7 +1,7 @@
-// The simulator against the textbook stepper, which shares no code with it, in scenes whose outcome hangs on no detail.
+// The simulator against the textbook stepper, which shares no code with it, in scenes with a robust outcome.
 //
-// The tolerances are those of the step: contacts are soft springs (a millimetre or two of penetration under a metre's weight) and
-// an impact is seen to within a substep of 1/480 s.
+// Tolerances follow from the method: soft contacts (1 to 2 mm of penetration under a 1 m cube) and impact times
+// resolved to a substep of 1/480 s.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <cstddef>
@@ -33,7 +33,7 @@ scree::Body ground(float friction, double angle = 0) {
     return plane;
 }
 
-// A body of this height over the slope, turned to lie on it.
+// A body at `height` over the slope, aligned with it.
 scree::Body on_slope(scree::Shape shape, double height, double angle, float friction) {
     scree::Body made = body(shape, vec3(float(height * std::sin(angle)), float(height * std::cos(angle)), 0));
     made.orientation = vec4(0, 0, float(-std::sin(angle / 2)), float(std::cos(angle / 2)));
@@ -71,7 +71,7 @@ void require_agreement(const scree::Scene& scene, double seconds, Tolerance tole
     }
 }
 
-// Two balls that meet off their centres.
+// Oblique impact of two balls.
 scree::Scene oblique_collision(float restitution, float friction) {
     scree::Scene scene;
     scene.gravity = vec3(0);
@@ -90,7 +90,7 @@ TEST_CASE("the textbook agrees: two balls collide off centre, in short steps", "
     const float restitution = GENERATE(0.0f, 0.5f, 1.0f);
     const float friction = GENERATE(0.0f, 0.1f, 0.9f);
     INFO("restitution " << restitution << ", friction " << friction);
-    // A contact keeps the normal of the start of its step, in which the balls still move: 6 mm here.
+    // A contact's normal is that of the start of the step, in which the balls still move: 6 mm here.
     scree::Settings settings;
     settings.rate = 960;
     settings.substeps = 1;
@@ -133,7 +133,7 @@ TEST_CASE("the textbook agrees: a capsule rolls down a slope on its side", "[wor
     const double angle = 0.2;
     scree::Scene scene;
     scene.bodies = {ground(0.8f, angle), on_slope(scree::Capsule{0.3f, 0.6f}, 0.3, angle, 0.8f)};
-    scene.bodies[1].orientation = vec4(float(std::sqrt(0.5)), 0, 0, float(std::sqrt(0.5)));  // its axis along z
+    scene.bodies[1].orientation = vec4(float(std::sqrt(0.5)), 0, 0, float(std::sqrt(0.5)));  // axis along z
     require_agreement(scene, 1.5, {0.05, 0.05, 0.15});
 }
 

@@ -1,4 +1,4 @@
-// What a result must not depend on: the number of threads, the run, the order in which bodies are named.
+// Determinism: results do not depend on the number of threads, the run, or the order of bodies in the scene.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -37,7 +37,7 @@ Scene reversed(Scene scene) {
 TEST_CASE("bodies named in another order land alike, body by body, where each falls alone") {
     Scene scene = tests::apart(40, 0.7f);
     tests::Noise noise(5);
-    for (Body& body : scene.bodies) {  // on a corner, an end, or rolling on
+    for (Body& body : scene.bodies) {  // on a vertex or an end, or rolling
         body.orientation = vec4(noise.vector() * 0.2f, 1);
         body.rolling_resistance = 0.02f;
     }
@@ -50,13 +50,13 @@ TEST_CASE("bodies named in another order land alike, body by body, where each fa
         worst = std::max<double>(worst, glm::length(bodies[i].position - others[others.size() - 1 - i].position));
         fastest = std::max<double>(fastest, glm::length(bodies[i].velocity));
     }
-    REQUIRE(fastest < 1e-3);  // landed
+    REQUIRE(fastest < 1e-3);  // has landed
     REQUIRE(worst < 1e-3);
 }
 
 TEST_CASE("bodies named in another order come to rest in a heap of the same height and energy") {
     Scene scene = tests::heap(150);
-    for (Body& body : scene.bodies) {  // so that none rolls away
+    for (Body& body : scene.bodies) {  // prevents rolling
         body.restitution = 0;
         body.rolling_resistance = 0.05f;
         body.angular_damping = 1;
@@ -70,7 +70,7 @@ TEST_CASE("bodies named in another order come to rest in a heap of the same heig
         REQUIRE(statistics->penetration_max < 0.02);
         REQUIRE(statistics->below_ground == 0);
     }
-    // What collapses is chaotic: only its shape as a whole is the same.
+    // A collapse is chaotic: compare aggregates only.
     REQUIRE(other.potential_energy == Approx(one.potential_energy).epsilon(0.1));
     REQUIRE(static_cast<double>(other.manifolds) == Approx(static_cast<double>(one.manifolds)).epsilon(0.1));
 }

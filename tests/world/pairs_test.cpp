@@ -1,4 +1,4 @@
-// The broadphase finds every pair that brute force finds, once, whatever the sizes.
+// Broadphase: finds every pair that brute force finds, exactly once, for all sizes.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace scree;
 
 namespace {
 
-// Bodies of sizes over three decades, some fixed, some fast, round the origin and far from it; planes among them.
+// Bodies of sizes over three decades, some fixed, some fast, near `where`; planes included.
 Scene motley(int count, vec3 where, std::uint32_t seed) {
     tests::Noise noise(seed);
     Scene scene;
@@ -40,7 +40,7 @@ Scene motley(int count, vec3 where, std::uint32_t seed) {
     return checked(scene);
 }
 
-// How deep the deepest corner of a body's bounds lies in front of a plane, m; at most 0: it reaches it.
+// Signed distance of a body's bounds from a plane, m; at most 0 if they reach the plane.
 double in_front(const oracle::Bounds& bounds, const Plane& plane) {
     double least = std::numeric_limits<double>::infinity();
     for (int corner = 0; corner < 8; ++corner) {
@@ -59,7 +59,7 @@ TEST_CASE("every overlapping pair is found once, and no pair of two that cannot 
         State state(scene, {}, 128, true);
         ReferenceRunner runner(1);
         runner.attach(state);
-        while (!runner.step()) state.grow();  // on overflow nothing has moved
+        while (!runner.step()) state.grow();  // a step that overflows changes nothing
 
         std::set<std::pair<std::size_t, std::size_t>> found;
         for (std::size_t i = 0; i < state.counted().pairs; ++i) {
@@ -74,11 +74,11 @@ TEST_CASE("every overlapping pair is found once, and no pair of two that cannot 
             if (scene.bodies[a].motion != Motion::dynamic && scene.bodies[b].motion != Motion::dynamic) continue;
             CAPTURE(a, b);
             const bool first = std::holds_alternative<Plane>(scene.bodies[a].shape);
-            if (first || std::holds_alternative<Plane>(scene.bodies[b].shape)) {  // whose bounds are all of space
+            if (first || std::holds_alternative<Plane>(scene.bodies[b].shape)) {  // planes have infinite bounds
                 const Body &plane = scene.bodies[first ? a : b], &body = scene.bodies[first ? b : a];
                 const double front = in_front(oracle::bounds_of(body), std::get<Plane>(plane.shape));
                 if (front <= 0) REQUIRE(found.contains({a, b}));
-                // The way of a step, the distance ahead and rounding.
+                // Motion per step, speculative distance and rounding.
                 if (front > 0.1 + glm::length(body.velocity) / 60) REQUIRE_FALSE(found.contains({a, b}));
                 ++(front <= 0 ? planes_reached : planes_missed);
                 continue;
@@ -89,7 +89,7 @@ TEST_CASE("every overlapping pair is found once, and no pair of two that cannot 
         REQUIRE(expected > 1000);
         REQUIRE(planes_reached > 1000);
         REQUIRE(planes_missed > 1000);
-        // What is found beyond that overlaps once bounds are widened by the way of a step and the distance ahead.
+        // Further pairs overlap only with bounds widened by the motion per step and the speculative distance.
         REQUIRE(found.size() < 6 * (expected + planes_reached));
     }
 }
@@ -101,7 +101,7 @@ TEST_CASE("of the overlapping pairs those are found once in which one body stirs
     runner.attach(state);
     while (!runner.step()) state.grow();
 
-    // Three in four sleep, and half of the kinematic bodies stand.
+    // Three of four dynamic bodies sleep, and half of the kinematic bodies stand still.
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].motion == Motion::dynamic && i % 4 != 0) state.sleep_states[i] = state.fixed().sleep_steps;
         const bool stands = scene.bodies[i].motion == Motion::dynamic ? i % 4 != 0 : i % 2 == 0;

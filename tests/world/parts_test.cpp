@@ -1,4 +1,4 @@
-// Compounds, meshes and height fields in the world: mass, how they move and are touched, and what is refused.
+// Compounds, meshes and height fields in the world: mass, motion, contacts, and validation.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -21,7 +21,7 @@ Body body_of(Shape shape, vec3 position, Motion motion = Motion::dynamic) {
     return body;
 }
 
-// A box of 1 by 0.5 by 0.6 m in two unequal pieces, off its centre.
+// A box of 1 x 0.5 x 0.6 m as two unequal parts, displaced by `shift`.
 Compound two_pieces(vec3 shift = vec3(0)) {
     Compound compound;
     compound.parts.push_back({.shape = Box{{0.2f, 0.25f, 0.3f}}, .position = vec3(-0.3f, 0, 0) + shift});
@@ -30,7 +30,7 @@ Compound two_pieces(vec3 shift = vec3(0)) {
 }
 const Box whole{{0.5f, 0.25f, 0.3f}};
 
-// The plane y = 0 as triangles, `cells` by `cells` of them, each two.
+// The plane y = 0 as a mesh of `cells` x `cells` squares of two triangles.
 Mesh floor_mesh(float half, std::uint32_t cells) {
     Mesh mesh;
     for (std::uint32_t i = 0; i <= cells; ++i)
@@ -68,7 +68,7 @@ TEST_CASE("two boxes side by side have the mass and inertia of the one box that 
     const MassProperties box = mass_properties(whole, 700), pieces = mass_properties(two_pieces({3, -2, 1}), 700);
     REQUIRE(pieces.mass == Approx(box.mass));
     for (int k = 0; k < 3; ++k) REQUIRE(pieces.inertia[k] == Approx(box.inertia[k]).epsilon(1e-5));
-    // A dumbbell by the textbook: two balls at a distance r, m r^2 more each about the axes across.
+    // A dumbbell: two balls at distance r, each with m r^2 more about the transverse axes (parallel axis theorem).
     Compound dumbbell;
     for (const float side : {-1.0f, 1.0f})
         dumbbell.parts.push_back({.shape = Sphere{0.1f}, .position = {0, side, 0}, .density = 500});
@@ -112,7 +112,7 @@ TEST_CASE("a box of two pieces flies, turns and lands as the whole one does") {
     const BodyState one = world.body(1), other = world.body(2);
     REQUIRE(glm::length(other.position - one.position - vec3(5, 0, 0)) < 1e-4f);
     REQUIRE(glm::length(other.angular_velocity - one.angular_velocity) < 1e-3f);
-    REQUIRE(one.position.y > 0.6f);  // neither has landed yet
+    REQUIRE(one.position.y > 0.6f);  // still in free fall
     world.step(550);
     for (const std::size_t i : {1u, 2u}) {
         REQUIRE(world.body(i).asleep);
@@ -202,14 +202,14 @@ TEST_CASE("a body that is added while parts lie about leaves them as they are, a
     REQUIRE(std::abs(world.body(3).position.y - 0.25f) < 0.003f);
     REQUIRE(std::abs(world.body(4).position.y - 0.2f) < 0.003f);
     REQUIRE(world.statistics().bodies == 5);
-    // A blow wakes them through their parts.
+    // An impulse wakes them through their parts.
     world.apply_impulse(3, {-2000, 0, -2000});
     world.step(60);
     REQUIRE(glm::length(world.body(1).position - before[1].position) > 0.01f);
 }
 
 TEST_CASE("a mesh is cleaned, and each triangle knows how its neighbours go on") {
-    // A ridge, a flat seam and an open edge; one triangle has no area and one is there twice.
+    // A ridge, a flat inner edge and an open edge; one triangle is degenerate and one is a duplicate.
     const std::vector<vec3> vertices{{0, 0, 0}, {1, 0, 0}, {0, 0, 1}, {1, 0, 1}, {2, -1, 0}, {2, -1, 1}, {1, 0, 1}};
     const std::vector<glm::uvec3> triangles{{0, 2, 1}, {1, 2, 3}, {1, 6, 4}, {4, 3, 5}, {0, 2, 1}, {3, 6, 5}};
     const MeshForm form = mesh_form(vertices, triangles);
@@ -224,7 +224,7 @@ TEST_CASE("a mesh is cleaned, and each triangle knows how its neighbours go on")
     REQUIRE(glm::length(flat.limits[2] - form.triangles[2].normal) < 1e-6f);
     REQUIRE(says(oddities(form), "2 triangles without area"));
     REQUIRE(crossing_triangles(form) == 0);
-    // A fin through the first two, which cuts one of them and touches none of their corners.
+    // A fin through the first two, which intersects one of them without touching their vertices.
     std::vector<vec3> crossed = vertices;
     crossed.insert(crossed.end(), {{0.2f, -1, 0.3f}, {0.3f, -1, 0.3f}, {0.25f, 1, 0.2f}});
     std::vector<glm::uvec3> with_fin = triangles;
@@ -277,7 +277,7 @@ TEST_CASE("compounds, meshes and height fields are read from a scene file and wr
     };
     REQUIRE(says(refused(R"({"compound": {"parts": [{"shape": {"compound": {"parts": []}}}]}})"),
                  "/bodies/0/shape/compound/parts/0/shape: a part must be one convex shape"));
-    // Deeper than a stack would reach.
+    // Nested deeper than the call stack.
     std::string nested;
     for (int depth = 0; depth < 100'000; ++depth) nested += R"({"compound": {"parts": [{"shape": )";
     nested += R"({"sphere": {"radius": 1}})";

@@ -1,4 +1,4 @@
-// Contacts that are kept from step to step: what rests keeps its own, what slides, tips or is struck lets go.
+// Persistent manifolds: resting bodies keep them; sliding, tipping and impacts discard them.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <optional>
@@ -13,11 +13,11 @@ namespace {
 
 Settings awake() {
     Settings settings;
-    settings.sleeping = false;  // a sleeper's contact is kept whatever it is
+    settings.sleeping = false;  // sleeping bodies keep every manifold
     return settings;
 }
 
-// A scene walked on the CPU with its tables in reach, nobody asleep.
+// A scene stepped on the CPU with access to its tables, sleep off.
 class Walk {
 public:
     explicit Walk(const Scene& scene) : state(checked(scene), awake(), 64, true), runner_(1) { runner_.attach(state); }
@@ -30,7 +30,7 @@ public:
         }
         return nullptr;
     }
-    // Steps since the contact was made; none where they do not touch.
+    // Age of the manifold, steps; none without a contact.
     std::optional<unsigned> age(std::uint32_t a, std::uint32_t b) const {
         const physics::Contact* contact = between(a, b);
         return contact ? std::optional<unsigned>(contact->age) : std::nullopt;
@@ -92,7 +92,7 @@ TEST_CASE("a box that creeps lets go once the marks lie too far apart") {
     Scene scene;
     scene.bodies = {ground(), resting(Box{}, 0.5f)};
     scene.bodies[0].friction = 0.0f;
-    scene.bodies[1].velocity = {0.02f, 0, 0};  // half a second for 1% of the half width, less fast than what slides
+    scene.bodies[1].velocity = {0.02f, 0, 0};  // 1% of the half width in half a second, below the speed that counts as sliding
     Walk walk(scene);
     unsigned oldest = 0;
     int let_go = 0;
@@ -115,7 +115,7 @@ TEST_CASE("a box that tips lets go of its contact, and makes a lasting one once 
     Walk walk(scene);
     walk.step(30);
     REQUIRE(walk.age(0, 1) > 20u);
-    walk.state.velocities[1].angular = {0, 0, -1.2f};  // about its right foot
+    walk.state.velocities[1].angular = {0, 0, -1.2f};  // about its right lower edge
     walk.state.velocities[1].linear = {1.2f, 0.24f, 0};
     walk.step();
     int upright = 0, made_anew = 0;
@@ -124,13 +124,13 @@ TEST_CASE("a box that tips lets go of its contact, and makes a lasting one once 
         if (walk.state.poses[1].position.y < 0.3f) break;
         ++upright;
         const unsigned age = walk.age(0, 1).value_or(0);
-        REQUIRE(age <= 6);  // its foot is still, but after 5 degrees, at 1 rad/s, the contact is made anew
+        REQUIRE(age <= 6);  // its edge is at rest, but the manifold is recomputed after 5 degrees, at 1 rad/s
         made_anew += age == 0;
     }
     REQUIRE(upright > 10);
     REQUIRE(made_anew >= 3);
     walk.step(240);
-    REQUIRE(walk.state.poses[1].position.y < 0.21f);  // it lies
+    REQUIRE(walk.state.poses[1].position.y < 0.21f);  // it has fallen over
     REQUIRE(walk.age(0, 1) > 60u);
 }
 
@@ -142,7 +142,7 @@ TEST_CASE("a box that is struck lets go of its contact, and only it does") {
     hammer.gravity_scale = 0;
     scene.bodies.push_back(hammer);
     Walk walk(scene);
-    // Its surface has 1.1 m to go, 16.5 steps.
+    // Its surface is 1.1 m away, 16.5 steps.
     walk.step(12);
     REQUIRE(walk.age(0, 1) >= 8u);
     walk.step(8);

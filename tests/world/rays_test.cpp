@@ -1,4 +1,4 @@
-// Rays into a world: which body they meet, where, and which way its surface faces there.
+// Ray casts: body, point and normal of the hit.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <limits>
@@ -50,7 +50,7 @@ TEST_CASE("a ray meets the nearest body, at its surface, with the normal there")
 
 TEST_CASE("the normal where a ray meets a shape is that of the surface, however the body lies") {
     const float half = std::sqrt(0.5f);
-    const vec4 lying(0, 0, half, half);  // a quarter turn about z: its y is the world's -x
+    const vec4 lying(0, 0, half, half);  // a quarter turn about z: the body's y is the world's -x
     const auto normal_of = [](Shape shape, vec4 orientation, Ray ray) {
         Scene scene;
         add(scene, std::move(shape), vec3(0), orientation);

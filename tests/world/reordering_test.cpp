@@ -1,4 +1,4 @@
-// Bodies in another order in memory than in the scene: nobody who asks by index sees it.
+// Memory order: reordering rows is invisible to access by body index.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <random>
@@ -179,7 +179,7 @@ TEST_CASE("statistics and what touches a body are told alike, to the last bit an
             if (i == 6) one->remove_joint(0);
             if (i == 9) one->add_body(scene.bodies[7]);
         }
-        if (i % 3 == 0) require_told_alike();  // as the last step left them, whoever came since
+        if (i % 3 == 0) require_told_alike();  // states of the last step, with bodies added since
         if (i % 3 == 1) world.reorder();
         for (World* one : {&plain, &world}) one->step();
         require_alike(world, plain);

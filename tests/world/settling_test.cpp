@@ -1,4 +1,4 @@
-// Heaps of boxes come to true rest, awake: nothing rocks on between two choices of contact points.
+// Piles of boxes come to rest awake, without rocking between two sets of contact points.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -10,7 +10,7 @@ using namespace scree;
 
 namespace {
 
-// `count` cubes of 1 m, turned at random, in a lattice in which they do not touch, over a pit.
+// `count` randomly oriented 1 m cubes in a lattice over a pit, not touching.
 Scene cubes_over_pit(int count, std::uint32_t seed) {
     constexpr float cell = 1.75f;  // m
     const int side = static_cast<int>(std::ceil(std::cbrt(2.0 * count)));

@@ -1,4 +1,4 @@
-// The list of shapes against all that follows it: scene files, messages, the published schema, the ids of the step.
+// The list of shapes against everything derived from it: scene files, messages, the schema, shape ids.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,7 +18,7 @@ json published_schema() {
     return json::parse(scene_schema());
 }
 
-// What "$ref" stands for, with what is said beside it.
+// The schema that "$ref" names, merged with its siblings.
 json resolved(const json& schema, json value) {
     if (!value.contains("$ref")) return value;
     json made = schema.at(json::json_pointer(value["$ref"].get<std::string>().substr(1)));
@@ -33,7 +33,7 @@ json json_of(vec3 v) {
     return {v.x, v.y, v.z};
 }
 
-// A field's numbers, wherever they are: of an array of arrays those of the innermost.
+// The numeric schema of a field; the innermost one of nested arrays.
 json numbers_of(const json& schema, json value) {
     value = resolved(schema, value);
     while (value.contains("items")) value = resolved(schema, value["items"]);
@@ -54,7 +54,7 @@ TEST_CASE("the published schema says of each shape what the list of shapes says"
             std::find_if(known.begin(), known.end(), [&](const json& one) { return one["required"] == json::array({name}); });
         REQUIRE(entry != known.end());
         json fields = (*entry)["properties"][name];
-        if (std::is_same_v<Kind, Mesh>) fields = fields["oneOf"][1];  // the first names a file
+        if (std::is_same_v<Kind, Mesh>) fields = fields["oneOf"][1];  // the first alternative is a file
         REQUIRE(fields["additionalProperties"] == false);
         std::set<std::string> said, required;
         for (const auto& [key, value] : fields["properties"].items()) said.insert(key);

@@ -1,4 +1,4 @@
-// Cylinders, cones and hulls in the world: mass, rest, rolling, and what is refused.
+// Cylinders, cones and hulls in the world: mass, rest, rolling, and validation.
 #include <catch2/catch.hpp>
 #include <cmath>
 #include <glm/gtc/quaternion.hpp>
@@ -59,7 +59,7 @@ TEST_CASE("a hull is moved to its centre of mass and its own axes, and every poi
     const glm::quat tilt = glm::angleAxis(0.4f, glm::normalize(vec3(1, 2, -1)));
     Hull hull;
     for (const vec3& point : block) hull.points.push_back(tilt * point + vec3(3, -1, 2));
-    hull.points.push_back(tilt * vec3(0.1f) + vec3(3, -1, 2));  // inside
+    hull.points.push_back(tilt * vec3(0.1f) + vec3(3, -1, 2));  // an inner point
     hull.points.push_back(hull.points.front());
     Scene scene;
     scene.bodies = {body_of(hull, {1, 0, 0}, {0, 0.6f, 0, 0.8f})};
@@ -77,7 +77,7 @@ TEST_CASE("a hull is moved to its centre of mass and its own axes, and every poi
             nearest = std::min(nearest, glm::length(body.position + after * point - place));
         CHECK(nearest < 1e-5f);
     }
-    // Twice is as once.
+    // Validation is idempotent.
     const Scene again = checked(made);
     REQUIRE(again.bodies[0].position == body.position);
     REQUIRE(again.bodies[0].orientation == body.orientation);
@@ -181,7 +181,7 @@ TEST_CASE("cylinders, cones and hulls stand and lie still, on planes and on boxe
 TEST_CASE("a stack of ten hulls stands") {
     Scene scene;
     scene.bodies = {fixed_plane()};
-    Hull prism;  // of six sides
+    Hull prism;  // a hexagonal prism
     for (int k = 0; k < 6; ++k)
         for (const float y : {-0.25f, 0.25f})
             prism.points.emplace_back(0.5f * std::cos(1.0471976f * static_cast<float>(k)), y,

@@ -1,4 +1,4 @@
-// Shots at a thin wall: nothing goes through, at any speed, angle, spin and shape.
+// Continuous collision with a thin wall: no tunnelling at any speed, angle, spin and shape.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -20,7 +20,7 @@ Shape some_shape(int i) {
     return Box{vec3(0.1f, 0.03f, 0.06f)};
 }
 
-// A wall across x at 0, in one piece or in tiles of half a metre.
+// A wall at x = 0, in one piece or in tiles of half a metre.
 void build_wall(Scene& scene, bool tiles) {
     Body piece;
     piece.motion = Motion::fixed;
@@ -36,7 +36,8 @@ void build_wall(Scene& scene, bool tiles) {
     }
 }
 
-// `count` bodies of every shape before the wall, at most a step and a half from it, flying at it at up to 60 degrees.
+// `count` bodies of every shape, at most one and a half steps from the wall, with angles of incidence up to 60
+// degrees.
 Scene shots(int count, float speed, bool tiles, std::uint32_t seed) {
     tests::Noise noise(seed);
     Scene scene;
@@ -58,7 +59,8 @@ Scene shots(int count, float speed, bool tiles, std::uint32_t seed) {
     return scene;
 }
 
-// Bodies that have been deeper in the wall than its front, where there is a wall: beyond its edge they may go.
+// Counts bodies whose centre crossed the wall's front within `wall_reach` (m) of its centre; beyond its edge they
+// may.
 int entered(const Scene& scene, int steps, float wall_reach) {
     World world(scene, {}, 2);
     std::vector<bool> in(scene.bodies.size());

@@ -1,4 +1,4 @@
-// Bodies at rest sleep and keep every bit.
+// Sleep: resting bodies fall asleep and keep every bit of their state.
 #include <catch2/catch.hpp>
 #include <vector>
 
@@ -86,7 +86,7 @@ TEST_CASE("sleeping can be forbidden from the start and while a world runs") {
     REQUIRE(world.statistics().asleep == 0);
     world.set_sleeping(true);
     world.step(10);
-    REQUIRE(world.statistics().asleep == 0);  // the count begins anew
+    REQUIRE(world.statistics().asleep == 0);  // the count of still steps restarts
     require_sleep(world, 3, 60);
 }
 
@@ -94,7 +94,7 @@ TEST_CASE("no body sleeps in the air, however slow it is") {
     Scene scene;
     scene.gravity = vec3(0, -0.05f, 0);
     scene.bodies = {ground(), at(Box{}, vec3(0, 3, 0)), at(Sphere{}, vec3(5, 3, 0))};
-    scene.bodies[1].velocity = vec3(0, 0.04f, 0);  // for 1.6 s slower than what sleeps
+    scene.bodies[1].velocity = vec3(0, 0.04f, 0);  // below the sleep speed for 1.6 s
     scene.bodies[2].gravity_scale = 0;             // hovers
     scene.bodies[2].velocity = vec3(0.001f, 0, 0);
     World world(scene, {}, 1);

@@ -1,4 +1,4 @@
-// Scenes of sleepers, and how the tests look at them.
+// Scenes of sleeping bodies, and checks for them.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -41,7 +41,7 @@ inline bool same_pose(const BodyState& a, const BodyState& b) {
            std::memcmp(&a.orientation, &b.orientation, sizeof a.orientation) == 0;
 }
 
-// Steps until so many sleep, which they must within `steps`.
+// Steps until `sleepers` bodies sleep; requires that within `steps`.
 inline void require_sleep(World& world, std::size_t sleepers, int steps = 180) {
     for (int i = 0; i < steps && world.statistics().asleep < sleepers; ++i) world.step();
     REQUIRE(world.statistics().asleep == sleepers);

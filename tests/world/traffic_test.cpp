@@ -1,4 +1,4 @@
-// What a step is said to move: every stage has its tables, and bytes follow what is there.
+// Memory traffic estimates: every stage has tables, and bytes follow the scene.
 #include <algorithm>
 #include <catch2/catch.hpp>
 
@@ -10,7 +10,7 @@ namespace scree {
 
 namespace {
 
-// `pairs` times two spheres that rest on each other, in the air, without gravity.
+// `pairs` pairs of touching spheres, without gravity.
 Scene touching_pairs(int pairs) {
     Scene scene;
     scene.gravity = vec3(0);

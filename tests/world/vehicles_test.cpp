@@ -1,4 +1,4 @@
-// Vehicles through the library: what they are told, what is refused, and what a scene file keeps of them.
+// Vehicles through the API: controls, validation, scene files.
 #include <catch2/catch.hpp>
 #include <functional>
 
@@ -98,7 +98,7 @@ TEST_CASE("a car does what its driver is told, and wakes for it") {
     world.drive(0, {.throttle = -1, .steer = 1});
     world.step(90);
     REQUIRE(world.vehicle(0).speed < -1);
-    REQUIRE(world.body(1).angular_velocity.y < -0.2f);  // backwards, with the wheels to the left
+    REQUIRE(world.body(1).angular_velocity.y < -0.2f);  // reversing, with the wheels steered left
     REQUIRE_THROWS_AS(world.drive(1, {}), std::out_of_range);
     REQUIRE_THROWS_AS(world.drive(0, {.throttle = 1.5f}), std::invalid_argument);
     REQUIRE_THROWS_AS(world.drive(0, {.brake = std::nanf("")}), std::invalid_argument);
@@ -112,7 +112,7 @@ TEST_CASE("a car drives on while joints come and go, and keeps those of its whee
         ball.position = {x, 5, 0};
         return ball;
     };
-    Scene scene;  // the joint that goes comes before those of the wheels
+    Scene scene;  // the removed joint precedes those of the wheels
     scene.bodies = {swinging(-20), swinging(20)};
     scene.joints.push_back(joint_at(scene, Ball{}, 0, the_world, {-19, 5, 0}));
     Body ground;
@@ -126,7 +126,7 @@ TEST_CASE("a car drives on while joints come and go, and keeps those of its whee
     const float before = world.vehicle(0).speed;
     REQUIRE_THROWS_AS(world.remove_joint(1), std::invalid_argument);
     world.remove_joint(0);
-    REQUIRE_THROWS_AS(world.remove_joint(0), std::invalid_argument);  // a wheel's now
+    REQUIRE_THROWS_AS(world.remove_joint(0), std::invalid_argument);  // now the index of a wheel's joint
     world.add_joint(world.joint_at(Ball{}, 1, the_world, {19, 5, 0}));
     world.step(30);
     REQUIRE(before > 0.5f);

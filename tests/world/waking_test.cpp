@@ -1,4 +1,4 @@
-// Whatever ought to move sleepers wakes them.
+// Waking: everything that should move a sleeping body wakes it.
 #include <catch2/catch.hpp>
 #include <cmath>
 
@@ -36,7 +36,7 @@ TEST_CASE("a row of sleeping balls passes on a blow as it does awake") {
                 other.step(30);
                 const double mass = static_cast<double>(mass_properties(Sphere{}, 1000).mass);
                 const double momentum = mass * static_cast<double>(speed);
-                // Whom it shakes by less than a hundredth of the speed of sleep sleeps on (sleep.h).
+                // Bodies disturbed by less than a hundredth of the sleep speed stay asleep (sleep.h).
                 const double lost = 0.01 * static_cast<double>(settings.sleep_speed * static_cast<float>(row) / speed);
                 CHECK(std::abs(world.statistics().momentum[0] / momentum - 1) < 1e-5 + lost);
                 for (std::size_t i = 1; i <= static_cast<std::size_t>(row) + 1; ++i) {
@@ -93,7 +93,7 @@ TEST_CASE("a platform that starts takes its load along, and one that stops lets 
     world.set_velocity(0, vec3(0.5f, 0.25f, 0), vec3(0));
     for (int i = 0; i < 120; ++i) {
         world.step();
-        REQUIRE(world.statistics().asleep == 0);  // though slow against what moves it, and later at rest on it
+        REQUIRE(world.statistics().asleep == 0);  // though slow relative to its support, and later at rest on it
     }
     REQUIRE(place(world, 2).x == Approx(1).margin(0.1));
     REQUIRE(place(world, 2).y == Approx(2.5f).margin(0.02));
@@ -110,7 +110,7 @@ TEST_CASE("a weight laid gently on a sleeping see-saw tips it") {
     World world(scene, {}, 1);
     require_sleep(world, 3);
 
-    // The same, with a third weight just above the right end that floats until then.
+    // The same, with a third weight that floats just above the right end until then.
     scene.bodies.push_back(at(Box{vec3(0.3f)}, vec3(2, 1.71f, 0)));
     scene.bodies.back().gravity_scale = 0;
     World apply_forces(scene, {}, 1);
@@ -192,7 +192,7 @@ TEST_CASE("small sleepers are found by large bodies that come over them") {
         for (int i = 0; i < 100; ++i)
             scene.bodies.push_back(
                 at(Box{vec3(0.1f)}, vec3(0.5f * static_cast<float>(i % 10), 0.1f, 0.5f * static_cast<float>(i / 10))));
-        // One of a kind is large, many have a level of the grid of their own.
+        // A single one is in the list of large bodies; many have a grid level of their own.
         for (int i = 0; i < (giant ? 1 : 30); ++i)
             scene.bodies.push_back(at(Box{vec3(1)}, vec3(-8 - 2.5f * static_cast<float>(i), 1.02f, 2), Motion::kinematic));
         World world(scene, {}, 1);

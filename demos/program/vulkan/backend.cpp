@@ -1,4 +1,4 @@
-// Choosing where to simulate, with Vulkan.
+// Choice of the backend, with Vulkan.
 #include "demos/program/backend.h"
 
 #include <fmt/format.h>
@@ -30,7 +30,7 @@ void Backend::require_valid() const {
 
 namespace {
 
-// A software device shares the cores with the processor's own path: whichever is faster here.
+// Replaces a software device by the CPU backend if that is faster: both use the same cores.
 void take_the_faster(Backend& machine) {
     const host::DeviceReport& device = machine.device->report();
     const std::string key = fmt::format("{}, {}, {} threads", device.name, device.driver, machine.options.threads);

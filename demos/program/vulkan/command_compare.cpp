@@ -1,4 +1,4 @@
-// scree compare: processor and GPU in lockstep; the common hash, or the first stage that differs.
+// scree compare: CPU and device in lockstep; the common state hash, or the first stage that differs.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

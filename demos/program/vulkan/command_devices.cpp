@@ -1,4 +1,4 @@
-// scree devices: the Vulkan devices, and what each lacks.
+// scree devices: Vulkan devices and their missing requirements.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>

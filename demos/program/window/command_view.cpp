@@ -1,4 +1,4 @@
-// scree view: a demo or a scene file in a window, to be taken hold of.
+// scree view: a demo or a scene file in an interactive window.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -42,7 +42,7 @@ double seconds_between(Clock::time_point from, Clock::time_point to) {
     return std::chrono::duration<double>(to - from).count();
 }
 
-// A rate that follows what happens within about a second.
+// An event rate, averaged over about a second.
 class Meter {
 public:
     void count(std::uint64_t events, double seconds) {
@@ -67,7 +67,7 @@ host::Camera camera_of(const OrbitCamera& eye) {
     return camera;
 }
 
-// The window and what is in it.
+// The window with its session, interaction and drawing.
 class Viewer {
 public:
     Viewer(const ViewOptions& options, const host::Display& display, Backend machine);
@@ -93,7 +93,7 @@ private:
     std::string color_;
     Rates rates_;
     std::uint64_t pictures_ = 0;
-    std::optional<std::uint64_t> last_step_;  // where the window closes by itself
+    std::optional<std::uint64_t> last_step_;  // step at which the window closes by itself
     Clock::time_point started_ = Clock::now();
 };
 
@@ -120,7 +120,7 @@ void Viewer::take_events(double wait) {
     }
 }
 
-// Another world or another size needs another drawing.
+// Recreates the drawing for another world or another size.
 void Viewer::make_drawing() {
     const Extent extent{window_.width(), window_.height()};
     const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_extent_.width == extent.width &&
@@ -161,7 +161,7 @@ void Viewer::run() {
     Clock::time_point before = Clock::now(), reported = before;
     while (!is_over()) {
         const bool minimised = window_.width() == 0;
-        take_events(minimised ? 0.05 : interaction_.paused ? 0.02 : 0);  // a clock that stands needs no haste
+        take_events(minimised ? 0.05 : interaction_.paused ? 0.02 : 0);  // poll slowly while paused
         const Clock::time_point now = Clock::now();
         const double seconds = seconds_between(std::exchange(before, now), now);
         const std::uint64_t step = session_.world().steps(), picture = pictures_, beginning = session_.beginnings();
@@ -227,7 +227,7 @@ std::unique_ptr<host::Display> open_display(const ViewOptions& options) {
     try {
         return std::make_unique<host::Display>();
     } catch (const host::DeviceError& error) {
-        load_subject(options.scene);  // a wrong name is to be told first
+        load_subject(options.scene);  // report a wrong name before opening a window
         throw UsageError(fmt::format("view: {}; without a display, pictures come from: scree run {} --frames DIR", error.what(),
                                      options.scene.name));
     }

@@ -1,4 +1,4 @@
-// The panel of the window, in Dear ImGui.
+// The window's panel, in Dear ImGui.
 #include "demos/program/window/panel.h"
 
 #include <fmt/format.h>
@@ -133,14 +133,14 @@ void Panel::show_vehicle(Session& session, Interaction& interaction) {
     ImGui::Checkbox("chase", &interaction.chases);
 }
 
-// In the order of its strength from pale to red, and thicker.
+// The grab spring's line: redder and thicker with its force.
 void Panel::show_pull(Interaction& interaction) const {
     const std::optional<Pull> pull = interaction.pull();
     if (!pull) return;
     const std::optional<glm::vec2> from = interaction.eye().pixel_of(pull->from, interaction.extent());
     const std::optional<glm::vec2> to = interaction.eye().pixel_of(pull->to, interaction.extent());
     if (!from || !to) return;
-    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;  // pixels a unit of the window
+    const ImVec2 scale = ImGui::GetIO().DisplayFramebufferScale;  // pixels per screen unit
     const ImVec2 a(from->x / scale.x, from->y / scale.y), b(to->x / scale.x, to->y / scale.y);
     const ImU32 color = ImGui::ColorConvertFloat4ToU32(ImVec4(1, 0.9f - 0.8f * pull->strength, 0.3f - 0.3f * pull->strength, 1));
     ImDrawList& lines = *ImGui::GetBackgroundDrawList();

@@ -1,4 +1,4 @@
-// The panel of the window: the clock, the dials, what can be added, and what the selected body is about.
+// The window's panel: clock, rates, settings, and data of the selected body.
 #pragma once
 
 #include <string>
@@ -10,14 +10,14 @@
 namespace scree::demos {
 
 struct Rates {
-    double steps = 0;     // a second of the wall clock
-    double pictures = 0;  // a second
+    double steps = 0;     // steps per second of wall clock
+    double pictures = 0;  // pictures per second
 };
 
 class Panel {
 public:
-    // Lays out the panel and the line of a pull, in Dear ImGui's present frame. `color` is a word of color_words(), which the
-    // person may change.
+    // Lays out the panel and the line of the grab spring in Dear ImGui's current frame. `color` is one of
+    // color_words(), which the user may change.
     void lay_out(Session& session, Interaction& interaction, const Rates& rates, std::string& color);
 
     bool shown = true;
@@ -30,8 +30,8 @@ private:
     void show_vehicle(Session& session, Interaction& interaction);
     void show_pull(Interaction& interaction) const;
 
-    std::vector<BodyContact> touching_;  // of the selected body, looked at some times a second
-    double looked_at_ = -1;              // s, of Dear ImGui's clock
+    std::vector<BodyContact> touching_;  // contacts of the selected body, updated several times per second
+    double looked_at_ = -1;              // time of the update, s of Dear ImGui's clock
     std::size_t looked_body_ = 0;
 };
 

@@ -1,4 +1,4 @@
-// Choosing where to simulate, in a build without Vulkan: the processor.
+// Choice of the backend in a build without Vulkan: the CPU.
 #include "demos/program/backend.h"
 #include "demos/program/exit_status.h"
 #include "host/copy_speed.h"

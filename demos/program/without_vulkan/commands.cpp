@@ -1,4 +1,4 @@
-// The commands that need Vulkan, in a build without it: they say so.
+// Stand-ins for the commands that need Vulkan, which report that the build lacks it.
 #include <CLI/CLI.hpp>
 
 #include "demos/program/commands.h"

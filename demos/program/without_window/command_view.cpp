@@ -1,4 +1,4 @@
-// The command that needs a window, in a build without one: it says so.
+// Stand-in for the view command, which reports that the build lacks a window.
 #include <CLI/CLI.hpp>
 
 #include "demos/program/commands.h"

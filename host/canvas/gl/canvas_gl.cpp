@@ -1,4 +1,4 @@
-// The canvas that draws with OpenGL ES, from tables in host memory.
+// The OpenGL ES canvas, which draws from tables in host memory.
 #include "host/canvas/gl/canvas_gl.h"
 
 #include <algorithm>
@@ -29,7 +29,8 @@ constexpr GLenum function_of(Compare compare) {
 
 void GlCanvas::Impl::fill(Binding binding, const void* data, std::size_t bytes) const {
     gl.glBindBuffer(GL_SHADER_STORAGE_BUFFER, buffers[binding]);
-    // Memory anew: what the last picture is drawn from need not be waited for. A shader may look at a table without records.
+    // Orphan the buffer to avoid waiting for the previous picture. At least 16 bytes, since shaders may be bound to
+    // an empty table.
     gl.glBufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(bytes, 16)), nullptr, GL_STREAM_DRAW);
     gl.glBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), data);
 }
@@ -49,7 +50,7 @@ void GlCanvas::Impl::fill_tables(ColorBy by) const {
     }
 }
 
-// What colour bodies have, which of them are seen, and how finely they shall be drawn.
+// Computes body colours, frustum culling and level of detail.
 void GlCanvas::Impl::look() const {
     if (scenery.bodies() == 0) return;
     for (std::size_t i = 0; i < looks.size(); ++i) {
@@ -82,7 +83,7 @@ void GlCanvas::Impl::draw_all(Pass pass, std::uint32_t quad_count) const {
         std::uint32_t corners = draw.corners;
         if (draw.items == Items::bodies) {
             const BodyRun& run = scenery.runs[draw.run];
-            // Of those that are seen only the device knows how many there are.
+            // The number of visible bodies is known on the device only; this is an upper bound.
             items = {0, draw.run < SEEN_RUNS ? scenery.bodies() : instances_of(run)};
             corners *= run.together;
         }
@@ -117,7 +118,7 @@ void GlCanvas::Impl::draw_shadows(std::size_t light) const {
 void GlCanvas::Impl::draw_picture(std::uint32_t quad_count) const {
     begin(scene);
     gl.glDepthMask(GL_TRUE);
-    gl.glClearDepthf(0);  // infinitely far
+    gl.glClearDepthf(0);  // reversed depth: 0 is infinitely far
     gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw_all(Pass::picture, quad_count);
     if (options.samples == 1) begin(target);

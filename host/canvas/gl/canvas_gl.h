@@ -1,4 +1,4 @@
-// The canvas that draws with OpenGL ES, from tables in host memory.
+// The OpenGL ES canvas, which draws from tables in host memory.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace scree::host {
 
 class GlCanvas final : public Canvas {
 public:
-    // As make_gl_canvas.
+    // See make_gl_canvas().
     GlCanvas(const ShapeInstances& instances, const CanvasOptions& options);
     ~GlCanvas() override;
 

@@ -1,4 +1,4 @@
-// What the OpenGL ES canvas holds in its context: made once, before the first picture.
+// Construction of the OpenGL ES canvas.
 #include "host/canvas/gl/canvas_gl_impl.h"
 
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace scree::host {
 namespace {
 
-constexpr GLenum COLOR_FORMAT = GL_SRGB8_ALPHA8;  // the context encodes, so that samples are averaged as light
+constexpr GLenum COLOR_FORMAT = GL_SRGB8_ALPHA8;  // encoded on write, so samples are averaged in linear light
 constexpr GLenum DEPTH_FORMAT = GL_DEPTH_COMPONENT32F;
 
 CanvasOptions checked(CanvasOptions options, const GlContext& context) {
@@ -55,13 +55,14 @@ void GlCanvas::Impl::make_state() {
     }
     half_depth = gl.glClipControlEXT != nullptr && context.has("GL_EXT_clip_control");
     if (half_depth) gl.glClipControlEXT(GL_LOWER_LEFT_EXT, GL_ZERO_TO_ONE_EXT);
-    GLuint corners = 0;  // none: they come from the tables
+    GLuint corners = 0;  // an empty vertex array: vertices come from storage buffers
     gl.glGenVertexArrays(1, &corners);
     gl.glBindVertexArray(corners);
-    // Rows are counted from the top here and from the bottom there: what is drawn is the same, and turns the other way round.
+    // OpenGL's framebuffer origin is at the bottom, Vulkan's at the top; equal clip coordinates thus have the
+    // opposite winding.
     gl.glFrontFace(GL_CW);
     gl.glEnable(GL_DEPTH_TEST);
-    // The picture's alpha stays: what blends is smooth already, and smooth.frag looks for stairs in the alpha.
+    // Keep the destination's alpha: blended geometry is antialiased already, and smooth.frag detects edges in alpha.
     gl.glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     gl.glClearColor(0, 0, 0, 0);
     gl.glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
@@ -117,7 +118,7 @@ GLuint GlCanvas::Impl::linked(const std::vector<GLuint>& parts, const std::strin
     const GLuint name = gl.glCreateProgram();
     for (const GLuint part : parts) {
         gl.glAttachShader(name, part);
-        gl.glDeleteShader(part);  // with the program
+        gl.glDeleteShader(part);  // deleted along with the program
     }
     gl.glLinkProgram(name);
     GLint done = GL_FALSE;
@@ -132,7 +133,7 @@ GlCanvas::Impl::Program GlCanvas::Impl::linked(std::string_view vertex, std::str
     Program program{vertex, fragment};
     program.name = linked({shader(GL_VERTEX_SHADER, vertex), shader(GL_FRAGMENT_SHADER, fragment)},
                           std::string(vertex) + " with " + std::string(fragment));
-    // As scree_compile_shader and spirv-cross name them.
+    // Uniform names given by scree_compile_shader and SPIRV-Cross.
     program.pushed = gl.glGetUniformLocation(program.name, "pushed.value");
     program.first_instance = gl.glGetUniformLocation(program.name, "SPIRV_Cross_BaseInstance");
     return program;
@@ -181,10 +182,10 @@ void GlCanvas::Impl::make_shadow_maps() {
     for (std::size_t i = 0; i < shadow_maps.size(); ++i) {
         Target& map = shadow_maps[i];
         const std::uint32_t binding = i == 0 ? SUN_MAP : SKY_MAP;
-        // Without shadows the maps are never read, but a sampler must name something.
+        // Without shadows the maps are not read, but the samplers must be valid.
         map.width = map.height = !options.shadows ? 1 : i == 0 ? SUN_MAP_SIZE : SKY_MAP_SIZE;
         textures[binding] = texture(DEPTH_FORMAT, map.width, map.height, GL_NEAREST);
-        // Outside of them nothing casts.
+        // The border is unshadowed.
         const std::array<GLfloat, 4> far{1, 1, 1, 1};
         gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
         gl.glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);

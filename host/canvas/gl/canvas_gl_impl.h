@@ -1,4 +1,4 @@
-// What the OpenGL ES canvas holds in its context.
+// Internals of the OpenGL ES canvas.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace scree::host {
 struct GlCanvas::Impl {
     Impl(const ShapeInstances& shapes, const CanvasOptions& chosen);
 
-    // Shaders linked together, and where their values go; -1: they have none.
+    // A linked program with its uniform locations; -1: absent.
     struct Program {
         std::string_view vertex, fragment;
         GLuint name = 0;
@@ -25,19 +25,19 @@ struct GlCanvas::Impl {
         int width = 0, height = 0;  // pixels
     };
 
-    GlContext context;  // its end ends all objects in it
+    GlContext context;  // destroying the context destroys all objects in it
     const GlFunctions& gl;
     CanvasOptions options;
     Scenery scenery;
     std::vector<Draw> draws;
     std::vector<Program> programs;
-    std::vector<std::size_t> program_of;  // each draw
+    std::vector<std::size_t> program_of;  // program index of each draw
     std::array<GLuint, LOOKS.size()> looks{};
     BodyTables tables;
     std::array<GLuint, BINDINGS> buffers{}, textures{};
     std::array<Target, 2> shadow_maps;  // sun, sky
-    Target scene, target;               // the bodies, the picture
-    bool half_depth = false;            // clip space's depth runs from 0 to w, as in Vulkan
+    Target scene, target;               // the bodies with `samples` samples, the final picture
+    bool half_depth = false;            // clip space depth is 0..w, as in Vulkan
 
     void make_state();
     void make_buffers();

@@ -1,4 +1,4 @@
-// An OpenGL ES context without a window.
+// An offscreen OpenGL ES context.
 #include "host/canvas/gl/gl_context.h"
 
 #include <algorithm>
@@ -44,13 +44,13 @@ GlContext::GlContext() {
     version_ = text_of(gl_.glGetString(GL_VERSION));
 }
 
-// Displays are never ended: they are the process's, and drivers leave exit handlers behind in them.
+// Displays are never terminated: they are shared by the process, and drivers leave exit handlers in them.
 GlContext::~GlContext() {
     if (surface_ != EGL_NO_SURFACE) egl_.eglDestroySurface(display_, surface_);
     egl_.eglDestroyContext(display_, context_);
 }
 
-// GPUs first. Software stands behind Mesa's platform without a surface, and behind whatever the default display is.
+// Tries GPUs first, then software: Mesa's surfaceless platform, then the default display.
 bool GlContext::open_any() {
     if (open_devices()) return true;
     const char* const extensions = egl_.eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);

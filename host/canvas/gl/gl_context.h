@@ -1,4 +1,4 @@
-// An OpenGL ES context without a window.
+// An offscreen OpenGL ES context.
 #pragma once
 
 #include <string>
@@ -10,13 +10,14 @@ namespace scree::host {
 
 class GlContext {
 public:
-    // OpenGL ES 3.1 or later: on a GPU if EGL knows one, else in software. Throws DeviceError that says what to install.
+    // Opens OpenGL ES 3.1 or later, on a GPU if EGL lists one, else in software. Throws DeviceError naming the
+    // package to install.
     GlContext();
     ~GlContext();
     GlContext(const GlContext&) = delete;
     GlContext& operator=(const GlContext&) = delete;
 
-    // While this lives, the calling thread's commands go to the context; afterwards to the one before.
+    // Makes the context current on the calling thread for the object's lifetime, then restores the previous one.
     class Current {
     public:
         explicit Current(const GlContext& context);
@@ -35,7 +36,7 @@ public:
     const std::string& renderer() const { return renderer_; }  // "llvmpipe (LLVM 15.0.6, 256 bits)"
     const std::string& version() const { return version_; }    // "OpenGL ES 3.2 Mesa 22.3.6"
     bool is_processor() const;                                 // a software renderer
-    bool has(const std::string& extension) const;              // while it is current
+    bool has(const std::string& extension) const;              // requires the context to be current
 
 private:
     bool open(EGLDisplay display);
@@ -46,7 +47,7 @@ private:
     GlFunctions gl_;
     EGLDisplay display_ = EGL_NO_DISPLAY;
     EGLContext context_ = EGL_NO_CONTEXT;
-    EGLSurface surface_ = EGL_NO_SURFACE;  // of one pixel, where a context cannot do without
+    EGLSurface surface_ = EGL_NO_SURFACE;  // 1 x 1 pbuffer, where surfaceless contexts are not supported
     std::string renderer_, version_;
 };
 

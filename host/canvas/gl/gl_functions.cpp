@@ -1,4 +1,4 @@
-// The functions of EGL and OpenGL ES that are used, as pointers: looked up at run time.
+// EGL and OpenGL ES function pointers, loaded at run time.
 #include "host/canvas/gl/gl_functions.h"
 
 #include <dlfcn.h>
@@ -6,7 +6,7 @@
 namespace scree::host {
 namespace {
 
-// Never closed: drivers leave threads and exit handlers behind in them.
+// Never unloaded: drivers leave threads and exit handlers in the library.
 void* library(const char* name) {
     return dlopen(name, RTLD_NOW | RTLD_LOCAL);
 }
@@ -40,7 +40,7 @@ bool EglFunctions::load() {
 
 const char* GlFunctions::load(const EglFunctions& egl) {
     const char* missing = nullptr;
-    // From the library where it has them: an older EGL hands out extensions only.
+    // Prefer dlsym: before EGL 1.5 eglGetProcAddress returns extension functions only.
     const auto find = [&](const char* name) {
         void* const function = gles_library() ? dlsym(gles_library(), name) : nullptr;
         return function ? reinterpret_cast<void (*)()>(function) : reinterpret_cast<void (*)()>(egl.eglGetProcAddress(name));

@@ -1,5 +1,4 @@
-// The functions of EGL and OpenGL ES that are used, as pointers: looked up at run time, so that the program starts where there is
-// neither.
+// EGL and OpenGL ES function pointers, loaded at run time so that the program starts without either.
 #pragma once
 
 #ifndef EGL_NO_X11
@@ -14,7 +13,7 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GLES3/gl32.h>
-// Needs the types of the former.
+// Uses types of gl32.h, so must follow it.
 #include <GLES2/gl2ext.h>
 
 namespace scree::host {
@@ -57,23 +56,23 @@ struct EglFunctions {
 #define SCREE_EGL_POINTER(name, type) PFNEGL##type##PROC name = nullptr;
     SCREE_EGL_FUNCTIONS(SCREE_EGL_POINTER)
 #undef SCREE_EGL_POINTER
-    // Of extensions; null where there are none.
+    // Extension functions; null where not supported.
     PFNEGLGETPLATFORMDISPLAYEXTPROC eglGetPlatformDisplayEXT = nullptr;
     PFNEGLQUERYDEVICESEXTPROC eglQueryDevicesEXT = nullptr;
     PFNEGLQUERYDEVICESTRINGEXTPROC eglQueryDeviceStringEXT = nullptr;
 
-    // Finds libEGL.so.1, once for the whole program. False if there is none.
+    // Opens libEGL.so.1 (once per process). False if not found.
     bool load();
 };
 
-// A context must be current where these are called; the pointers are the same for all contexts.
+// Call these with a context current; the pointers are valid for all contexts.
 struct GlFunctions {
 #define SCREE_GL_POINTER(name, type) PFNGL##type##PROC name = nullptr;
     SCREE_GL_FUNCTIONS(SCREE_GL_POINTER)
 #undef SCREE_GL_POINTER
-    PFNGLCLIPCONTROLEXTPROC glClipControlEXT = nullptr;  // of an extension; may be null
+    PFNGLCLIPCONTROLEXTPROC glClipControlEXT = nullptr;  // EXT_clip_control; may be null
 
-    // Returns the name of a function that is missing, or null.
+    // Returns the name of a missing function, or null.
     const char* load(const EglFunctions& egl);
 };
 

@@ -1,4 +1,4 @@
-// Which buffers and images the picture shaders read.
+// Descriptor set of the render shaders.
 #include "host/canvas/vulkan/canvas_vulkan_impl.h"
 
 namespace scree::host {
@@ -53,7 +53,7 @@ void VulkanCanvas::Impl::make_layout() {
     check(vk.vkAllocateDescriptorSets(device->handle(), &allocation, &set), "vkAllocateDescriptorSets");
 }
 
-// The buffer that a shader reads, filled with what lies in host memory.
+// The buffer for a binding; uploads tables that are in host memory.
 VkDescriptorBufferInfo VulkanCanvas::Impl::table_of(std::uint32_t binding, ColorBy by) {
     const auto all_of = [](const Buffer& buffer) { return VkDescriptorBufferInfo{buffer.handle(), 0, VK_WHOLE_SIZE}; };
     switch (binding) {
@@ -77,7 +77,7 @@ VkDescriptorBufferInfo VulkanCanvas::Impl::table_of(std::uint32_t binding, Color
             break;
     }
     const BindingInfo& info = binding_infos()[binding];
-    // What nothing reads has a descriptor, which must name something.
+    // Unread bindings still need a valid descriptor.
     if (!reads(binding, options, by)) return all_of(instances);
     const TableView& table = tables.*info.table;
     if (table.buffer != nullptr) return {table.buffer->handle(), table.offset, table.size ? table.size : VK_WHOLE_SIZE};
@@ -96,7 +96,7 @@ void VulkanCanvas::Impl::write_set(ColorBy by) {
     image_infos[SUN_MAP] = {depth_sampler, shadow_maps[0].surface.view, depth_layout};
     image_infos[SKY_MAP] = {depth_sampler, shadow_maps[1].surface.view, depth_layout};
     image_infos[GLYPHS] = {linear_sampler, glyphs.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
-    // Without smoothing nothing reads the scene, but a descriptor must name something.
+    // Without smoothing no shader reads the scene, but the descriptor must be valid.
     image_infos[SCENE] = {linear_sampler, options.samples == 1 ? scene.view : glyphs.view,
                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {

@@ -1,4 +1,4 @@
-// The canvas that draws with Vulkan, on the device that simulates or another.
+// The Vulkan canvas: recording and submission.
 #include "host/canvas/vulkan/canvas_vulkan.h"
 
 #include <algorithm>
@@ -45,7 +45,7 @@ void VulkanCanvas::Impl::image_barrier(VkImage image, VkImageLayout from, VkImag
     device->vk().vkCmdPipelineBarrier(commands, before, after, 0, 0, nullptr, 0, nullptr, 1, &barrier);
 }
 
-// What colour bodies have, which of them are seen, and how finely they shall be drawn.
+// Computes body colours, frustum culling and level of detail.
 void VulkanCanvas::Impl::look() {
     if (scenery.bodies() == 0) return;
     const VulkanFunctions& vk = device->vk();
@@ -114,7 +114,7 @@ void VulkanCanvas::Impl::draw_shadows(std::size_t light) {
 
 void VulkanCanvas::Impl::draw_picture(std::uint32_t quad_count) {
     const VulkanFunctions& vk = device->vk();
-    std::array<VkClearValue, 2> clear{};  // black, and depth 0: infinitely far
+    std::array<VkClearValue, 2> clear{};  // black; reversed depth: 0 is infinitely far
     VkRenderPassBeginInfo info{};
     info.sType = VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO;
     info.renderPass = picture_pass;
@@ -195,7 +195,7 @@ void VulkanCanvas::begin(const Camera& camera, const ColorScale& scale, const st
     barrier.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER;
     barrier.srcAccessMask = VK_ACCESS_TRANSFER_WRITE_BIT;
     barrier.dstAccessMask = VK_ACCESS_HOST_READ_BIT;
-    // The host reads the picture; and a step that is submitted next may change the tables, but only now.
+    // Make the picture visible to the host, and order later steps' table writes after this picture's reads.
     vk.vkCmdPipelineBarrier(in.commands,
                             VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT | VK_PIPELINE_STAGE_VERTEX_SHADER_BIT |
                                 VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT | VK_PIPELINE_STAGE_TRANSFER_BIT,

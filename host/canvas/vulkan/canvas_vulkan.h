@@ -1,4 +1,4 @@
-// The canvas that draws with Vulkan, on the device that simulates or another.
+// The Vulkan canvas, which draws on the simulating device or another one.
 #pragma once
 
 #include <memory>
@@ -11,7 +11,7 @@ namespace scree::host {
 
 class VulkanCanvas final : public Canvas {
 public:
-    // As make_vulkan_canvas.
+    // See make_vulkan_canvas().
     VulkanCanvas(std::shared_ptr<Device> device, const ShapeInstances& instances, const CanvasOptions& options);
     ~VulkanCanvas() override;
 
@@ -21,8 +21,8 @@ public:
                vec3 scene_high) override;
     Image finish() override;
 
-    // As draw(), but the picture stays on the device: 8-bit sRGB, in the layout of a transfer's source, of the options' size,
-    // until the next one is drawn.
+    // As draw(), but leaves the picture on the device: 8-bit sRGB, of options().width x height pixels, in layout
+    // TRANSFER_SRC_OPTIMAL, valid until the next drawing.
     VkImage draw_there(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low,
                        vec3 scene_high);
     const CanvasOptions& options() const;

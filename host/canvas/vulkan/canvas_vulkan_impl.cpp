@@ -1,4 +1,4 @@
-// What the Vulkan canvas holds on the device: made once, before the first picture.
+// Construction of the Vulkan canvas.
 #include "host/canvas/vulkan/canvas_vulkan_impl.h"
 
 #include <algorithm>
@@ -41,7 +41,7 @@ VulkanCanvas::Impl::~Impl() {
     try {
         wait();
     } catch (const DeviceError&) {
-        // A lost device draws no more.
+        // Nothing to wait for on a lost device.
     }
 }
 
@@ -57,7 +57,7 @@ void VulkanCanvas::Impl::make_buffers() {
     const auto pixels = static_cast<std::size_t>(options.width) * static_cast<std::size_t>(options.height);
     frame = Buffer(device, "canvas frame", sizeof(Frame), BufferUse::upload);
     quads = Buffer(device, "canvas quads", MOST_QUADS * sizeof(OverlayQuad), BufferUse::upload);
-    // The device says which bodies are seen; how they are drawn is known.
+    // Instance counts are written on the device; all other draw arguments are fixed.
     runs = filled("canvas runs", scenery.runs);
     arguments = filled("canvas arguments", arguments_of(scenery, draws));
     const std::size_t groups = std::max(1u, groups_of_look(0, scenery.bodies()));
@@ -73,7 +73,7 @@ void VulkanCanvas::Impl::make_samplers() {
     info.magFilter = info.minFilter = VK_FILTER_LINEAR;
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_EDGE;
     linear_sampler = objects.make(vk.vkCreateSampler, vk.vkDestroySampler, info, "vkCreateSampler");
-    // The shadow maps: outside of them nothing casts.
+    // Shadow maps: the border is unshadowed.
     info.magFilter = info.minFilter = VK_FILTER_NEAREST;
     info.addressModeU = info.addressModeV = info.addressModeW = VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER;
     info.borderColor = VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE;
@@ -84,7 +84,7 @@ void VulkanCanvas::Impl::make_shadow_maps() {
     shadow_pass = make_shadow_pass(objects);
     for (std::size_t i = 0; i < shadow_maps.size(); ++i) {
         ShadowMap& map = shadow_maps[i];
-        // Without shadows the maps are never read, but a descriptor must name something.
+        // Without shadows the maps are not read, but the descriptors must be valid.
         map.size = !options.shadows ? 1 : i == 0 ? SUN_MAP_SIZE : SKY_MAP_SIZE;
         map.surface = objects.surface({DEPTH_FORMAT, map.size, map.size,
                                        VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT | VK_IMAGE_USAGE_SAMPLED_BIT,

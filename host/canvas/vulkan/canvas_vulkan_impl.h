@@ -1,4 +1,4 @@
-// What the Vulkan canvas holds on the device.
+// Internals of the Vulkan canvas.
 #pragma once
 
 #include <array>
@@ -28,10 +28,10 @@ struct VulkanCanvas::Impl {
     CanvasOptions options;
     Scenery scenery;
     std::vector<Draw> draws;
-    std::vector<VkPipeline> pipelines;  // of each draw
+    std::vector<VkPipeline> pipelines;  // one per draw
     std::array<VkPipeline, LOOKS.size()> looks{};
     BodyTables tables;
-    std::array<Buffer, BINDINGS> copies;  // of tables in host memory
+    std::array<Buffer, BINDINGS> copies;  // device copies of tables in host memory
     Buffer instances, frame, quads, picture, directions, indices, runs, arguments, group_counts, tints;
     VulkanObjectPool objects;
     VkDescriptorSetLayout set_layout = VK_NULL_HANDLE;
@@ -40,7 +40,7 @@ struct VulkanCanvas::Impl {
     VkSampler depth_sampler = VK_NULL_HANDLE, linear_sampler = VK_NULL_HANDLE;
     VkRenderPass shadow_pass = VK_NULL_HANDLE, picture_pass = VK_NULL_HANDLE, smoothing_pass = VK_NULL_HANDLE;
     std::array<ShadowMap, 2> shadow_maps;  // sun, sky
-    Surface scene, target, glyphs;         // the bodies with one sample, the picture, the letters
+    Surface scene, target, glyphs;         // single-sample rendering of the bodies, final picture, glyph atlas
     VkFramebuffer framebuffer = VK_NULL_HANDLE, smoothing_framebuffer = VK_NULL_HANDLE;
     VkCommandPool pool = VK_NULL_HANDLE;
     VkCommandBuffer commands = VK_NULL_HANDLE;
@@ -59,11 +59,11 @@ struct VulkanCanvas::Impl {
     VkDescriptorBufferInfo table_of(std::uint32_t binding, ColorBy by);
     void write_set(ColorBy by);
 
-    // All of a picture, up to `target`.
+    // Records all passes, with the result in `target`.
     void record(const Camera& camera, const ColorScale& scale, const std::string& caption, vec3 scene_low, vec3 scene_high);
     void begin();
     void end_and_wait();
-    void wait();  // for the picture that is being drawn, if there is one
+    void wait();  // for the pending picture, if any
     void look();
     void draw_all(Pass pass, std::uint32_t quad_count);
     void draw_bodies(const Draw& draw);

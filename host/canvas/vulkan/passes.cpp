@@ -57,9 +57,9 @@ constexpr VkCompareOp compare_op(Compare compare) {
     return VK_COMPARE_OP_ALWAYS;
 }
 
-// What all pipelines have alike, and what their shape says of the rest. Points to itself: not to be moved.
+// Pipeline state of a PipelineShape. Contains pointers to its own members, hence is not movable.
 struct FixedState {
-    VkPipelineVertexInputStateCreateInfo input{};  // empty: corners come from the body buffers
+    VkPipelineVertexInputStateCreateInfo input{};  // empty: vertices come from storage buffers
     VkPipelineInputAssemblyStateCreateInfo assembly{};
     VkViewport viewport{};
     VkRect2D scissor{};
@@ -95,7 +95,8 @@ struct FixedState {
         target.blendEnable = state.blends ? VK_TRUE : VK_FALSE;
         target.srcColorBlendFactor = VK_BLEND_FACTOR_SRC_ALPHA;
         target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA;
-        // The picture's alpha stays: what blends is smooth already, and smooth.frag looks for stairs in the alpha.
+        // Keep the destination's alpha: blended geometry is antialiased already, and smooth.frag detects edges in
+        // alpha.
         target.srcAlphaBlendFactor = VK_BLEND_FACTOR_ZERO;
         target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
         target.colorWriteMask = shape.state.fragment.empty() ? 0 : 0xF;

@@ -1,4 +1,4 @@
-// The render passes of the Vulkan canvas and the pipelines that draw in them.
+// Render passes and graphics pipelines of the Vulkan canvas.
 #pragma once
 
 #include "host/canvas/canvas_plan.h"
@@ -6,20 +6,20 @@
 
 namespace scree::host {
 
-// Of pictures with so many bits a channel. Both hold light as samples average it: the device encodes to sRGB, or the floats do
-// not.
+// Format of pictures with `bits` per channel. Blending and resolving happen in linear light with both: sRGB is
+// decoded and encoded by the device, half floats are linear.
 constexpr VkFormat color_format(int bits) {
     return bits == 16 ? VK_FORMAT_R16G16B16A16_SFLOAT : VK_FORMAT_R8G8B8A8_SRGB;
 }
 constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 
-// Depth only, left ready to be read by fragment shaders.
+// Depth only; final layout for sampling in fragment shaders.
 VkRenderPass make_shadow_pass(VulkanObjectPool& objects);
-// Attachments: colour, depth and, with more than one sample, the picture into which the colour is resolved, to be copied. With
-// one sample the colour is left ready to be read by the fragment shader that smooths it.
+// Attachments: colour, depth and, with more than one sample, the resolve target, ready to be copied. With one sample
+// the colour attachment is left ready for sampling by the smoothing shader.
 VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, VkFormat format);
 
-// One attachment: the picture, drawn over wholly and left ready to be copied.
+// One attachment: the picture, fully overwritten and left ready to be copied.
 VkRenderPass make_smoothing_pass(VulkanObjectPool& objects, VkFormat format);
 
 struct PipelineShape {

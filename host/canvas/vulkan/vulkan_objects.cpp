@@ -1,4 +1,4 @@
-// Vulkan objects that live and die together, and images with their memory.
+// A pool that owns Vulkan objects, and images with their memory.
 #include "host/canvas/vulkan/vulkan_objects.h"
 
 #include <string>

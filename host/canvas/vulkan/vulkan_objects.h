@@ -1,4 +1,4 @@
-// Vulkan objects that live and die together, and images with their memory.
+// A pool that owns Vulkan objects, and images with their memory.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace scree::host {
 
-// An image with its view; owned by the Objects that made it.
+// An image with its view, owned by the pool that created it.
 struct Surface {
     VkImage image = VK_NULL_HANDLE;
     VkImageView view = VK_NULL_HANDLE;
@@ -27,7 +27,7 @@ struct SurfaceShape {
 class VulkanObjectPool {
 public:
     explicit VulkanObjectPool(std::shared_ptr<Device> device) : device_(std::move(device)) {}
-    ~VulkanObjectPool();  // in the opposite order of their making
+    ~VulkanObjectPool();  // destroys in reverse order of creation
     VulkanObjectPool(const VulkanObjectPool&) = delete;
     VulkanObjectPool& operator=(const VulkanObjectPool&) = delete;
 
@@ -42,7 +42,7 @@ public:
     }
     Surface surface(const SurfaceShape& shape);
     VkFramebuffer framebuffer(VkRenderPass pass, std::span<const VkImageView> views, int width, int height);
-    VkShaderModule shader(const char* name);  // as embedded from shaders/render
+    VkShaderModule shader(const char* name);  // by file name in shaders/render
     void on_end(std::function<void()> action) { ends_.push_back(std::move(action)); }
     const std::shared_ptr<Device>& device() const { return device_; }
 

@@ -1,4 +1,4 @@
-// The two canvases check each other: the same state drawn by both looks the same.
+// The two canvases against each other: equal pictures of the same state.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -43,7 +43,7 @@ HeightField hills() {
     return field;
 }
 
-// Every shape, moving and fixed, in a heap that has just come down.
+// Every shape, moving and fixed, in a pile that has just collapsed.
 Scene heap() {
     Scene scene;
     Body ground;
@@ -60,7 +60,7 @@ Scene heap() {
     ridge.shape = hills();
     ridge.position = {1.5f, 0, 1.5f};
     scene.bodies.push_back(ridge);
-    for (int i = 0; i < 60; ++i) {  // of each size so many that they lie in the grid, whose cells are drawn
+    for (int i = 0; i < 60; ++i) {  // enough of each size to be in the grid, whose cells are drawn
         Body body;
         const Shape shapes[] = {
             Sphere{0.28f}, Capsule{0.2f, 0.25f}, Box{{0.3f, 0.2f, 0.25f}}, Cylinder{0.25f, 0.2f}, Cone{0.28f, 0.6f}, wedge(),
@@ -79,7 +79,7 @@ struct View {
     Camera camera{.eye = {3.5f, 3, 5}, .target = {0, 0.7f, 0}, .vertical_fov = 40};
     ColorScale scale;
     std::string caption = "both canvases\n60 bodies";
-    vec3 low{-3, 0, -3}, high{3, 3, 3};  // what casts shadows, m
+    vec3 low{-3, 0, -3}, high{3, 3, 3};  // shadow casting volume, m
 };
 
 Image picture(Canvas& canvas, const World& world, const View& view) {
@@ -87,14 +87,14 @@ Image picture(Canvas& canvas, const World& world, const View& view) {
     return canvas.draw(view.camera, view.scale, view.caption, view.low, view.high);
 }
 
-// The greatest difference of a channel between a pixel of one picture and one of another.
+// The largest channel difference between pixel i of `a` and pixel j of `b`.
 int difference(const Image& a, const Image& b, std::size_t i, std::size_t j) {
     int most = 0;
     for (std::size_t k = 0; k < 4; ++k) most = std::max(most, std::abs(a.rgba[4 * i + k] - b.rgba[4 * j + k]));
     return most;
 }
 
-// Whether a pixel of `a` is found in `b` where it is or, at an edge that falls a little otherwise, one pixel beside.
+// Whether a pixel of `a` occurs in `b` at its position or, for shifted edges, at a neighbouring one.
 bool found(const Image& a, const Image& b, int x, int y) {
     const auto at = [&](int column, int row) { return static_cast<std::size_t>(row * a.width + column); };
     for (int row = std::max(y - 1, 0); row <= std::min(y + 1, a.height - 1); ++row) {
@@ -106,9 +106,9 @@ bool found(const Image& a, const Image& b, int x, int y) {
 }
 
 struct Likeness {
-    double mean = 0;            // difference of a channel, 1/255
-    double strayed = 0;         // share of the pixels that differ by more than 24/255
-    std::size_t misshapen = 0;  // such pixels that are not found a pixel beside either: no matter of an edge
+    double mean = 0;            // mean channel difference, 1/255
+    double strayed = 0;         // fraction of pixels that differ by more than 24/255
+    std::size_t misshapen = 0;  // such pixels without a match in the neighbourhood, which no shifted edge explains
 };
 
 Likeness likeness(const Image& a, const Image& b) {
@@ -201,7 +201,7 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
 TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[canvas][gl]") {
     World world(heap(), {}, 1);
     CanvasOptions options = options_of(1, true, false);
-    options.sleep_steps = 12;  // so that some seem to sleep soon
+    options.sleep_steps = 12;  // so that some count as asleep soon
     options.cell = world.state().fixed().cell;
     const ShapeInstances instances = demos::instances_of(world);
     const View view;
@@ -210,7 +210,7 @@ TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[
          {&CanvasOptions::velocities, &CanvasOptions::boxes, &CanvasOptions::cells, &CanvasOptions::sleep}) {
         CanvasOptions shown = options;
         shown.*what = true;
-        world.step(what == &CanvasOptions::sleep ? 200 : 10);  // arrows want motion, sleepers have come to rest
+        world.step(what == &CanvasOptions::sleep ? 200 : 10);  // arrows need motion, sleep needs rest
         const Image without = picture(*plain, world, view);
         const auto vulkan = make_vulkan_canvas(validated_device(), instances, shown), gl = make_gl_canvas(instances, shown);
         const Image with = picture(*vulkan, world, view);

@@ -1,4 +1,4 @@
-// Every demo, small: the same bits on both processors, and nothing overlapping at its start.
+// Every demo, small: equal bits on CPU and device, and no initial overlap.
 #include <catch2/catch.hpp>
 
 #include "compute/device/lockstep.h"
@@ -22,8 +22,8 @@ void check_lockstep(bool trial, bool takes_bodies) {
     const auto device = host::Device::open(options);
     for (const demos::Demo& demo : demos::all_demos()) {
         if (demo.trial != trial || demo.takes_bodies != takes_bodies) continue;
-        if (demo.name == std::string("rollmesh")) continue;                   // its 10,000 triangles are those of others
-        if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and made of what the others are made of
+        if (demo.name == std::string("rollmesh")) continue;                   // its triangles are covered by other demos
+        if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and covered by other demos
         const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, device, 1, 40);
         INFO(demo.name << ": step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element
                        << "], " << result.detail);
@@ -52,12 +52,12 @@ TEST_CASE("every trial of any size gives the same bits on both processors, and v
 
 TEST_CASE("no demo but one begins with bodies inside each other or inside what holds them") {
     for (const demos::Demo& demo : demos::all_demos()) {
-        if (demo.name == std::string("overlap")) continue;  // that is what it is about
+        if (demo.name == std::string("overlap")) continue;  // overlaps on purpose
         for (const std::size_t bodies : {std::size_t{0}, std::size_t{2000}}) {
             demos::DemoOptions options;
             options.bodies = demo.takes_bodies ? bodies : 0;
             Scene scene = demos::build(demo, options).scene;
-            for (Body& body : scene.bodies) body.velocity = vec3(0);  // in a step a shot is far from where it began
+            for (Body& body : scene.bodies) body.velocity = vec3(0);  // projectiles move far in one step
             World world(scene, {}, 1);
             world.step();
             INFO(demo.name << " with " << world.scene().bodies.size() << " bodies");

@@ -1,4 +1,4 @@
-// How joints are shown: where their anchors are, in a colour of the force, and only those that hold.
+// Drawing of joints: positions of anchors, colour of the force, no broken joints.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -15,13 +15,13 @@ constexpr std::uint32_t world = physics::NONE;
 // At z = 0 a metre is 100 / (10 tan 20) = 27.5 pixels.
 constexpr int metre = 27;
 
-// Two small balls, left and right, 2 m above the ground, and a hinge between them in the middle, its axis upright.
+// Two small spheres, 2 m above the ground, with a hinge midway whose axis is vertical.
 physics::Joint& add_pair(Stage& stage) {
     stage.add(physics::SHAPE_SPHERE, vec3(0.2f), {-2, 2, 0});
     stage.add(physics::SHAPE_SPHERE, vec3(0.2f), {2, 2, 0});
     physics::Joint& joint = stage.add_hinge(0, {2, 0, 0}, 1, {-2, 0, 0});
     const float h = std::sqrt(0.5f);
-    joint.frame_a = joint.frame_b = {0, 0, h, h};  // x is turned to y
+    joint.frame_a = joint.frame_b = {0, 0, h, h};  // maps x to y
     return joint;
 }
 
@@ -50,7 +50,7 @@ TEST_CASE("a joint is drawn from its bodies to its anchor, with a dot there and 
     CHECK(blue(at(with, 160, 100)));
     for (const int side : {-1, 1}) {
         CHECK(blue(at(with, 160 + side * metre, 100)));
-        CHECK(blue(at(with, 160 + side * (2 * metre - 2), 100)));  // over the body
+        CHECK(blue(at(with, 160 + side * (2 * metre - 2), 100)));  // in front of the body
         CHECK_FALSE(drawn(160 + side * (2 * metre + 9), 100));
         CHECK_FALSE(drawn(160 + side * metre, 106));
         const Pixel axis = at(with, 160, 100 + side * 5);
@@ -62,7 +62,7 @@ TEST_CASE("a joint is drawn from its bodies to its anchor, with a dot there and 
 
 TEST_CASE("a joint's colour tells the force on the lighter body", "[canvas]") {
     Stage stage;
-    add_pair(stage).force = {0, 200 * 9.81f, 0};  // of bodies of 1 kg
+    add_pair(stage).force = {0, 200 * 9.81f, 0};  // 200 times the weight of 1 kg
     CHECK(red(at(stage.picture(with_joints(1), AHEAD), 160, 100)));
     CanvasOptions heavier = with_joints(1);
     heavier.joint_pull *= 1e5f;
@@ -94,7 +94,7 @@ TEST_CASE("of the world's side of a joint only the anchor is drawn, and ball joi
     const auto drawn = [&](int x, int y) { return differ(at(with, x, y), at(without, x, y)); };
     CHECK(blue(at(with, 160 + metre, 100)));
     CHECK(blue(at(with, 160, 100)));
-    CHECK_FALSE(drawn(160, 100 + metre));  // on the way to the world's origin
+    CHECK_FALSE(drawn(160, 100 + metre));  // no line to the world's origin
     CHECK_FALSE(drawn(160 + metre, 100 + 7));
     CHECK_FALSE(drawn(160 + metre + 7, 100));
     require_no_messages();

@@ -1,4 +1,4 @@
-// What pictures tell: quantities by colours that the legend explains to the pixel, what else can be shown, from which camera.
+// Pictures: colours of quantities that match the legend, overlays, cameras.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -18,14 +18,14 @@ vec3 light_of(const Pixel& pixel) {
     return {linear(pixel.r), linear(pixel.g), linear(pixel.b)};
 }
 
-// The sun where it lights the face towards the camera but is not mirrored in it.
+// Sun direction that lights the face towards the camera without a highlight.
 CanvasOptions lit_from_aside(bool shadows = false) {
     CanvasOptions options = small(4, shadows);
     options.toward_sun = {0.9f, 0.5f, 0.8f};
     return options;
 }
 
-// Whether a lit pixel has that colour, brighter or darker.
+// Whether a lit pixel has the expected hue, at any brightness.
 bool has_hue(const Pixel& seen, vec3 expected) {
     const vec3 shown = light_of(seen);
     const float strength = glm::length(shown) / glm::length(expected);
@@ -41,7 +41,7 @@ ColorScale scale_of(ColorBy by, float low, float high) {
     return scale;
 }
 
-// Two boxes beside each other, the first on the left.
+// Two boxes side by side, the first on the left.
 void add_two_boxes(Stage& stage) {
     stage.add(scree::physics::SHAPE_BOX, vec3(1), {-1.5f, 2, 0}, vec3(0), 8);
     stage.add(scree::physics::SHAPE_BOX, vec3(1), {1.5f, 2, 0}, vec3(0), 8);
@@ -76,7 +76,7 @@ TEST_CASE("a tick of the legend stands at the pixel that has the colour of its v
     Stage stage;
     const Image image = stage.picture(options, AHEAD, scale, "");
     const BarPlace bar = legend_bar(options.width, options.height);
-    // Ticks: runs of pixels in the row below the bar that are brighter than most of it.
+    // Ticks: runs of brighter pixels in the row below the bar.
     std::vector<int> row;
     for (int x = bar.left; x < bar.right; ++x) row.push_back(at(image, x, bar.bottom + 1).sum());
     std::nth_element(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(row.size() / 2), row.end());
@@ -103,7 +103,7 @@ TEST_CASE("a tick of the legend stands at the pixel that has the colour of its v
         int nearest = bar.left;
         for (int x = bar.left; x < bar.right; ++x) nearest = apart(x) < apart(nearest) ? x : nearest;
         CHECK(apart(nearest) <= 6);
-        // Several pixels beside each other may have one colour of 8 bits; the tick's middle lies at one of them.
+        // Adjacent pixels may have equal 8-bit colours; the tick's centre is at one of them.
         double off = 1e9;
         for (int x = bar.left; x < bar.right; ++x) off = apart(x) == apart(nearest) ? std::min(off, std::abs(ticks[i] - x)) : off;
         CHECK(off <= 1);
@@ -114,7 +114,7 @@ TEST_CASE("a body has the colour of what its contacts push, and of how many they
     Stage stage;
     add_two_boxes(stage);
     for (const float push : {3.0f, 5.0f, 100.0f}) stage.add_touch({0, 2, 0}, {1, 0, 0}, push);
-    // The first body has contacts 0 and 1, the second none; contact 2 is somebody else's.
+    // The first body has contacts 0 and 1, the second none; contact 2 is between others.
     stage.set_slots({2, 2}, {0, 2, 4});
     const Image pushed = stage.picture(lit_from_aside(), AHEAD, scale_of(ColorBy::contact_impulse, 0, 10));
     CHECK(has_hue(left_of(pushed), map_color(ColorMap::viridis, 0.8f)));
@@ -265,7 +265,7 @@ TEST_CASE("what is not seen is not drawn, and what is far is drawn with fewer tr
     const Scenery scenery(none);
     for (std::uint32_t k = 1; k < SPHERE_DETAILS; ++k)
         CHECK(scenery.runs[RUN_SPHERES + k].corners < scenery.runs[RUN_SPHERES + k - 1].corners);
-    // Each of the meshes draws its sphere to the size that geometry says: the same area in pixels.
+    // Every level of detail draws a sphere with the correct area in pixels.
     for (const float distance : {6.0f, 20.0f, 60.0f, 180.0f}) {
         CAPTURE(distance);
         const Camera camera{.eye = {0, 2, distance}, .target = {0, 2, 0}, .vertical_fov = 40};
@@ -277,7 +277,7 @@ TEST_CASE("what is not seen is not drawn, and what is far is drawn with fewer tr
         CHECK(static_cast<double>(seen) > 0.8 * area - 3);
         CHECK(static_cast<double>(seen) < 1.25 * area + 12);
     }
-    // Many bodies in every direction: from inside, those behind are left out and none in front.
+    // Frustum culling: bodies in every direction around the camera; those behind are culled, none in front.
     Stage around, ahead;
     for (int i = 0; i < 600; ++i) {
         const float angle = 0.0104719755f * static_cast<float>(i), height = static_cast<float>(i * 7 % 11) - 5;

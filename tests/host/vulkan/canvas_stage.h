@@ -1,4 +1,4 @@
-// Bodies for a test to draw, and the canvas that draws them.
+// A stage of bodies to draw in canvas tests.
 #pragma once
 
 #include <catch2/catch.hpp>
@@ -30,7 +30,7 @@ inline std::shared_ptr<Device> validated_device() {
     return device;
 }
 
-// Bodies, and the canvas that draws them.
+// Tables of bodies, and pictures of them by a canvas.
 class Stage {
 public:
     void add(scree::physics::uint shape, vec3 size, vec3 position, vec3 velocity = vec3(0), float mass = 1,
@@ -47,7 +47,7 @@ public:
         std::vector<std::uint32_t>* const lists[] = {&shapes_.spheres, &shapes_.capsules, &shapes_.boxes, &shapes_.planes};
         lists[shape]->push_back(index);
     }
-    // Between the last two bodies.
+    // Adds a contact between the last two bodies, with normal impulse `push`, N s.
     void add_touch(vec3 point, vec3 normal, float push) {
         Contact touch{};
         touch.b = static_cast<std::uint32_t>(traits_.size()) - 1;
@@ -63,7 +63,7 @@ public:
         impulse.normal.x = push;
         pushes_.push_back(impulse);
     }
-    // Where each body's slots end, and which side of which contact each slot is.
+    // Contacts of bodies: end of each body's slots, and 2 * contact + side of each slot.
     void set_slots(std::vector<std::uint32_t> ends, std::vector<std::uint32_t> sides) {
         slot_ends_ = std::move(ends);
         slot_sides_ = std::move(sides);
@@ -78,7 +78,7 @@ public:
         bounds_.resize(traits_.size());
         bounds_.at(body) = {lower, level, upper, 0};
     }
-    // Between two bodies, NONE for the world, at anchors in their frames: a hinge about the joint's x axis.
+    // Adds a hinge about the joint's x axis between two bodies (NONE: the world), at anchors in their frames.
     physics::Joint& add_hinge(std::uint32_t a, vec3 anchor_a, std::uint32_t b, vec3 anchor_b) {
         physics::Joint joint{};
         joint.a = a;
@@ -93,7 +93,7 @@ public:
 
     std::unique_ptr<Canvas> canvas(const CanvasOptions& options) {
         const std::shared_ptr<Device> device = validated_device();
-        traits_.resize(traits_.size() + 1);  // so that an empty stage has tables, too
+        traits_.resize(traits_.size() + 1);  // avoids empty tables
         poses_.resize(traits_.size());
         velocities_.resize(traits_.size());
         table(device, traits_table_, traits_);
@@ -117,13 +117,13 @@ public:
         tables.bounds = &bounds_table_;
         tables.ids = &ids_table_;
         tables.joint_count = static_cast<std::uint32_t>(joints_.size());
-        joints_.emplace_back().b = 1;  // behind the last one that means something
+        joints_.emplace_back().b = 1;  // past the valid records
         table(device, joints_table_, joints_);
         joints_.pop_back();
         tables.joints = &joints_table_;
         if (options.marks || !pushes_.empty()) {
             tables.touch_count = static_cast<std::uint32_t>(touches_.size());
-            touches_.emplace_back().count = 4;  // behind the last one that means something
+            touches_.emplace_back().count = 4;  // past the valid records
             pushes_.resize(touches_.size());
             table(device, touches_table_, touches_);
             table(device, pushes_table_, pushes_);
@@ -170,7 +170,7 @@ inline Pixel at(const Image& image, int x, int y) {
     return {image.rgba[i], image.rgba[i + 1], image.rgba[i + 2], image.rgba[i + 3]};
 }
 
-// Whether two pixels differ by more than rounding.
+// Whether two pixels differ by more than rounding errors.
 inline bool differ(const Pixel& a, const Pixel& b) {
     return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) > 24;
 }

@@ -1,4 +1,4 @@
-// What a picture shows: bodies where they are, in the colour of their motion, with shadows and a legend.
+// Pictures: positions and colours of bodies, shadows, legend.
 #include "host/canvas/canvas.h"
 
 #include <catch2/catch.hpp>
@@ -20,7 +20,7 @@ TEST_CASE("a body is drawn where it is and as large as it is", "[canvas]") {
     stage.add(shape, size, {0, 2, 0});
     const Image without = empty.picture(small(samples), AHEAD);
     const Image with = stage.picture(small(samples), AHEAD);
-    // The silhouette of a sphere of radius 1 at 10 m is 1/sqrt(99) off the axis; 1 m of a flat box 1/10.
+    // At 10 m the silhouette of a sphere of radius 1 is at slope 1/sqrt(99) off the axis; 1 m of a flat box is 1/10.
     const double scale = 100 / std::tan(glm::radians(20.0));
     const int reach = static_cast<int>(std::round(scale * (shape == scree::physics::SHAPE_BOX ? 0.1 : 1 / std::sqrt(99.0))));
     const auto drawn = [&](int x, int y) { return differ(at(with, x, y), at(without, x, y)); };
@@ -29,7 +29,7 @@ TEST_CASE("a body is drawn where it is and as large as it is", "[canvas]") {
     CHECK(drawn(160 - reach + 3, 100));
     CHECK_FALSE(drawn(160 + reach + 3, 100));
     CHECK_FALSE(drawn(160 - reach - 3, 100));
-    const int above = shape == scree::physics::SHAPE_CAPSULE ? 2 * reach : reach;  // a capsule reaches a half height further
+    const int above = shape == scree::physics::SHAPE_CAPSULE ? 2 * reach : reach;  // a capsule's half height adds
     if (above < 96) {
         CHECK(drawn(160, 100 - above + 4));
         CHECK_FALSE(drawn(160, 100 - above - 4));
@@ -49,7 +49,7 @@ TEST_CASE("a body of a millimetre is seen from nearby", "[canvas]") {
 TEST_CASE("a turned capsule lies as it is turned", "[canvas]") {
     const float h = std::sqrt(0.5f);
     Stage empty, stage;
-    stage.add(scree::physics::SHAPE_CAPSULE, {0.3f, 1.5f, 0}, {0, 2, 0}, vec3(0), 1, {0, 0, h, h});  // its axis along x
+    stage.add(scree::physics::SHAPE_CAPSULE, {0.3f, 1.5f, 0}, {0, 2, 0}, vec3(0), 1, {0, 0, h, h});  // axis along x
     const Image without = empty.picture(small(4), AHEAD);
     const Image with = stage.picture(small(4), AHEAD);
     CHECK(differ(at(with, 160 + 41, 100), at(without, 160 + 41, 100)));
@@ -65,7 +65,7 @@ TEST_CASE("a body has the colour of its momentum", "[canvas]") {
     CAPTURE(momentum);
     Stage stage;
     const float mass = 8;
-    // The sun where it lights the face but is not mirrored in it.
+    // The sun lights the face without a highlight.
     stage.add(scree::physics::SHAPE_BOX, vec3(1), {0, 2, 0}, {momentum / mass, 0, 0}, mass);
     CanvasOptions options = small(4, false);
     options.toward_sun = {0.9f, 0.5f, 0.8f};
@@ -117,7 +117,7 @@ TEST_CASE("a body's shadow darkens the ground on the side away from the sun", "[
     stage.add(shape, {0.4f, 0.4f, 0.4f}, {0.2f, 2, 0.2f});
     const Image without = empty.picture(options, above);
     const Image with = stage.picture(options, above);
-    // The sun at 45 degrees throws the shadow from (0.2, 2) to (2.2, 0); a metre is 100 / (12 tan 20) = 22.9 pixels.
+    // The sun at 45 degrees casts the shadow of (0.2, 2) at (2.2, 0); a metre is 100 / (12 tan 20) = 22.9 pixels.
     const int x = 160 + 50, y = 100 + 5;
     CHECK(at(with, x, y).sum() < 0.75 * at(without, x, y).sum());
     CHECK_FALSE(differ(at(with, 160 - 50, y), at(without, 160 - 50, y)));
@@ -165,7 +165,7 @@ TEST_CASE("a mark lies on the point where two bodies touch, and its line along t
         const Pixel a = at(with, x, y), b = at(without, x, y);
         return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
     };
-    // A metre at 9 m is 100 / (9 tan 20) = 30.5 pixels, and the line half a metre to either side.
+    // A metre at 9 m is 100 / (9 tan 20) = 30.5 pixels; the line is half a metre long to either side.
     const int x = 160, y = 100 - 15;
     const Pixel mark = at(with, x, y);
     CHECK(change(x, y) > (behind ? 10 : 100));
@@ -224,7 +224,7 @@ TEST_CASE("a picture that was begun is that of its moment", "[canvas]") {
     const Image before = canvas->draw(AHEAD, {}, "", low, high);
     canvas->begin(AHEAD, {}, "", low, high);
     CHECK(canvas->finish().rgba == before.rgba);
-    canvas->begin(AHEAD, {}, "", low, high);  // and is left alone
+    canvas->begin(AHEAD, {}, "", low, high);  // and never finish()
     CHECK(moved.picture(small(1), AHEAD).rgba != before.rgba);
     require_no_messages();
 }

@@ -1,4 +1,4 @@
-// Compute shaders written inside a test, compiled as the project compiles its own.
+// Compiles compute shaders of tests like those of the project.
 #include "tests/host/vulkan/compiled.h"
 
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-// Compute shaders written inside a test, compiled as the project compiles its own.
+// Compiles compute shaders of tests like those of the project.
 #pragma once
 
 #include <cstdint>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-// A folder that goes with the object.
+// A temporary folder, removed by the destructor.
 class TemporaryFolder {
 public:
     TemporaryFolder();
@@ -19,8 +19,8 @@ private:
     std::filesystem::path path_;
 };
 
-// The SPIR-V of a shader after `#version 460`, by glslc with these options besides.
+// SPIR-V of a shader; `body` follows `#version 460`, `options` are passed to glslc.
 std::vector<std::uint32_t> compiled(const std::string& body, const std::string& options = "--target-env=vulkan1.2");
 
-// Whether spirv-val takes it; true with a warning where it is not installed.
+// Whether spirv-val accepts the module; true with a warning where it is not installed.
 bool is_valid(const std::vector<std::uint32_t>& words, const std::string& environment = "vulkan1.2");

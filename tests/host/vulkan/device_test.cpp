@@ -1,4 +1,4 @@
-// Devices, buffers, pipelines and recordings, on every way a buffer is reached, with validation on.
+// Devices, buffers, pipelines and command buffers, for every kind of buffer access, with validation.
 #include <stdlib.h>
 
 #include <catch2/catch.hpp>
@@ -15,7 +15,7 @@ using namespace scree::host;
 
 namespace {
 
-// A device with validation that must stay silent for as long as the test lasts.
+// A device with validation; any message fails the test.
 class Watched {
 public:
     explicit Watched(bool staged = false)
@@ -96,7 +96,7 @@ TEST_CASE("validation notices a mistake and forwards it") {
                           forwarded += message;
                       }});
     VkBufferCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;  // of size 0, which is forbidden
+    info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;  // size 0, which is invalid
     info.usage = VK_BUFFER_USAGE_STORAGE_BUFFER_BIT;
     VkBuffer buffer = VK_NULL_HANDLE;
     device->vk().vkCreateBuffer(device->handle(), &info, nullptr, &buffer);

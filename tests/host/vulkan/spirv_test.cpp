@@ -1,4 +1,4 @@
-// The SPIR-V steps: NoContraction on everything that takes it, inexact instructions found, float controls asked for.
+// SPIR-V rewriting: NoContraction, inexact instructions, float controls.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>

@@ -1,4 +1,4 @@
-// Each stage is declared as its compiled shader is: the tables that it reads and writes, and the features that it tells apart.
+// Stage declarations match the compiled shaders: tables read and written, and features tested.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <map>
@@ -27,12 +27,12 @@ std::optional<Table> table_called(std::string_view name) {
     return std::nullopt;
 }
 
-// The table that has a buffer of its own; none for those of words and of quads.
+// The table with this buffer of its own; none for the shared buffers of words and quads.
 std::optional<Table> table_in(std::size_t buffer) {
     return table_called(buffer_infos()[buffer].name);
 }
 
-// The table that begins where a member of the parameters says.
+// The table whose offset is this member of the parameters.
 std::optional<Table> table_that_begins_at(std::uint32_t member) {
     static const std::vector<std::string> members = [] {
         std::vector<std::string> all;
@@ -50,7 +50,7 @@ std::optional<Table> table_that_begins_at(std::uint32_t member) {
     return table_called(std::string_view(name).substr(0, name.size() - ending.size()));
 }
 
-// By table, whether it comes as itself, as texels, or as texels that change.
+// Accesses per table, merged over storage buffer, uniform texels and storage texels.
 std::map<Table, house::BufferAccess> shader_accesses(const house::Accesses& accesses) {
     std::map<Table, house::BufferAccess> all;
     const auto add = [&](std::optional<Table> table, const house::BufferAccess& access) {
@@ -77,7 +77,7 @@ std::string name_of(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].name;
 }
 
-// What is declared must be accessed in one of the ways at least: by address, a few tables are reached under another name.
+// A declared access must occur in at least one variant, since with buffer addresses a few tables have other names.
 void require_as_compiled(const StageDeclaration& stage) {
     std::map<Table, house::BufferAccess> in_any;
     for (const std::string& way : ways) {
@@ -123,7 +123,7 @@ TEST_CASE("house: every shader of a stage is declared, and stands in a plan", "[
     const physics::Parameters small{};
     std::set<std::string> declared, planned, recorded, compiled;
     for (const StageDeclaration& stage : stage_declarations()) CHECK(declared.insert(stage.name).second);
-    // With joints the runs of stages that are one in a small world have others between them.
+    // With joints, stages that are fused in small worlds are separated by others.
     for (const SceneFeatures& features : {SceneFeatures::everything(), SceneFeatures{}}) {
         for (const Stage& stage : plan(2, features)) planned.insert(stage.name);
         for (const Stage& stage : fused(plan(2, features), small, 8)) recorded.insert(stage.name);

@@ -1,4 +1,4 @@
-// The compiled shaders: float arithmetic that every device does alike, and records that lie in memory as in C++.
+// The compiled shaders: exact float arithmetic, and record layouts equal to C++.
 #include <catch2/catch.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -24,7 +24,7 @@ bool is_by_address(std::string_view name) {
     return name.find(".bda") != std::string_view::npos;
 }
 
-// In every way of reaching the tables (shaders/stages/lib/stage.glsl).
+// Stages in every variant of table access (shaders/stages/lib/stage.glsl).
 std::vector<std::string_view> stage_names() {
     std::vector<std::string_view> names;
     for (const std::string_view name : shaders::names()) {
@@ -35,10 +35,10 @@ std::vector<std::string_view> stage_names() {
 
 struct Record {
     std::size_t size;
-    std::map<std::string, std::size_t> offsets;  // bytes, by member
+    std::map<std::string, std::size_t> offsets;  // bytes, per member
 };
 
-// Every record that there is, as it lies in C++.
+// Layouts of all records in C++.
 const std::map<std::string, Record>& records() {
     static const std::map<std::string, Record> table = [] {
         std::map<std::string, Record> all;
@@ -52,7 +52,7 @@ const std::map<std::string, Record>& records() {
     return table;
 }
 
-// The record and binding of each block, from the list that C++ and GLSL share.
+// Record and binding of each block, from the list of tables that C++ and GLSL share.
 struct TableEntry {
     std::uint32_t binding;
     std::string record;
@@ -63,7 +63,7 @@ std::map<std::string, TableEntry> tables() {
 #define SCREE_ENTRY(binding, name, block, record, length) {#block, {binding, #record, sizeof(record)}},
     std::map<std::string, TableEntry> all = {SCREE_BUFFERS(SCREE_ENTRY)};
 #undef SCREE_ENTRY
-    // What lies in the table of pairs until that is made (shaders/stages/lib/partner_cache.glsl).
+    // The table of pairs' memory before pairs are written (shaders/stages/lib/partner_cache.glsl).
     all["PartnerCacheTable"] = {all.at("PairsTable").binding, "uvec4", sizeof(uvec4)};
     return all;
 }
@@ -132,7 +132,7 @@ TEST_CASE("house: records lie in memory alike in C++ and in the shaders", "[hous
     CHECK(seen.size() > 8);
     for (const auto& [name, record] : records()) {
         INFO("record " << name);
-        // A record of nothing but words may be shorter: no vector aligns it.
+        // Records of words only may have other sizes, as no vector aligns them.
         CHECK((record.size % 16 == 0 || name == "Candidate"));
     }
 }
@@ -174,11 +174,11 @@ TEST_CASE("house: the host chooses the workgroup size of every stage", "[house]"
             if (i.opcode == op_decorate && i.words[2] == spec_id) ids.insert(i.words[3]);
         }
         INFO("shader " << name);
-        // And, of some, what there is in the scene (shaders/stages/lib/features.glsl).
+        // Some use the scene's features (shaders/stages/lib/features.glsl).
         ids.erase(1);
-        // And, of those that are several in turn, whether the workgroup is one subgroup (shaders/stages/lib/fused.glsl).
+        // Fused stages: whether the workgroup is one subgroup (shaders/stages/lib/fused.glsl).
         ids.erase(2);
-        // And, of those that share a module, which it is.
+        // Stages that share a module: VARIANT.
         ids.erase(3);
         CHECK(ids == std::set<std::uint32_t>{0});
     }

@@ -1,4 +1,5 @@
-// Follows pointers from variables to loads, stores and atomics (SPIR-V specification 1.5, sections 3.32.8, 3.32.10 and 3.32.18).
+// Pointer tracking from variables to loads, stores and atomics (SPIR-V specification 1.5, sections 3.32.8, 3.32.10
+// and 3.32.18).
 #include "tests/house/vulkan/spirv_access.h"
 
 #include <optional>
@@ -44,15 +45,16 @@ enum StorageClass : std::uint32_t { uniform = 2 };
 struct Reader {
     Accesses found;
     std::map<std::uint32_t, std::uint32_t> bindings, constants, spec_ids;
-    std::map<std::uint32_t, std::uint32_t> origins;  // binding of what a pointer, or an image, leads to
-    std::set<std::uint32_t> addresses;               // the uniform block of them: its members are other buffers
-    // Members of the parameters: what pointers to them, numbers that are read there, and pointers at such numbers, tell of.
+    std::map<std::uint32_t, std::uint32_t> origins;  // binding that a pointer or image originates from
+    std::set<std::uint32_t> addresses;               // the uniform block of buffer addresses
+    // Members of the parameters that ids refer to: pointers to members, values loaded from them, pointers at such
+    // offsets.
     std::map<std::uint32_t, std::uint32_t> member_pointers, begins, table_pointers;
 
     void follow(std::uint32_t result, std::uint32_t from) {
         if (const auto origin = origins.find(from); origin != origins.end()) origins[result] = origin->second;
     }
-    // Notes an access through a pointer.
+    // Records an access through a pointer.
     void note(std::uint32_t pointer, bool BufferAccess::*kind) {
         if (const auto origin = origins.find(pointer); origin != origins.end()) found.of[origin->second].*kind = true;
         if (const auto table = table_pointers.find(pointer); table != table_pointers.end())
@@ -75,7 +77,7 @@ struct Reader {
         for (const std::uint32_t index : w.subspan(4))
             if (const auto begin = begins.find(index); begin != begins.end()) table_pointers[w[2]] = begin->second;
     }
-    // Of an address itself nothing is read but where to go on.
+    // Records the load `w`; loading a buffer address is no access.
     void load(std::span<const std::uint32_t> w, bool is_address) {
         follow(w[2], w[3]);
         if (const auto member = member_pointers.find(w[3]); member != member_pointers.end()) begins[w[2]] = member->second;
@@ -132,7 +134,7 @@ struct Reader {
     }
 };
 
-// The blocks of code that are reached when the constant with SpecId 3 is `variant`.
+// Basic blocks that are reachable when the constant with SpecId 3 is `variant`.
 class Blocks {
 public:
     Blocks(const std::vector<host::SpirvInstruction>& instructions, std::uint32_t variant) {
@@ -148,7 +150,7 @@ public:
             if (each.opcode == op_spec_constant_op && w[3] == op_i_equal && constants.contains(w[4]) && constants.contains(w[5]))
                 known[w[2]] = constants[w[4]] == constants[w[5]];
             if (each.opcode == op_label) {
-                if (label == 0) reached_.insert(w[1]);  // all calls are unfolded: the first block is the entry point's
+                if (label == 0) reached_.insert(w[1]);  // all calls are inlined, so the first block is the entry point's
                 label = w[1];
             }
             if (each.opcode == op_branch) follows_[label] = {w[1]};
@@ -184,7 +186,7 @@ Accesses accesses_of(std::span<const std::uint32_t> words, std::uint32_t variant
         if (each.opcode == op_type_pointer) pointer_types.insert(each.words[1]);
     Reader reader;
     const Blocks blocks(instructions, variant);
-    bool reached = true;  // what stands before the code
+    bool reached = true;  // instructions before the first block
     for (const host::SpirvInstruction& each : instructions) {
         if (each.opcode == op_label) reached = blocks.reaches(each.words[1]);
         if (reached) reader.read(each, pointer_types);

@@ -1,4 +1,5 @@
-// Reads names, types and decorations of a SPIR-V module (SPIR-V specification 1.5, sections 3.20, 3.32.2, 3.32.3 and 3.32.6).
+// Parser of names, types and decorations of a SPIR-V module (SPIR-V specification 1.5, sections 3.20, 3.32.2, 3.32.3
+// and 3.32.6).
 #include "tests/house/vulkan/spirv_layout.h"
 
 #include <map>
@@ -26,7 +27,7 @@ enum Opcode : std::uint16_t {
 };
 enum Decoration : std::uint32_t { block = 2, array_stride = 6, binding = 33, offset = 35 };
 
-using Key = std::pair<std::uint32_t, std::uint32_t>;  // a type and a member
+using Key = std::pair<std::uint32_t, std::uint32_t>;  // type id and member index
 
 struct Module {
     std::map<std::uint32_t, std::string> names;
@@ -35,10 +36,10 @@ struct Module {
     std::map<std::uint32_t, std::uint32_t> strides, bindings;  // by array type; by variable
     std::map<std::uint32_t, bool> blocks;
     std::map<std::uint32_t, std::vector<std::uint32_t>> structs;         // member types
-    std::map<std::uint32_t, std::uint32_t> elements;                     // of array types
+    std::map<std::uint32_t, std::uint32_t> elements;                     // element types of array types
     std::map<std::uint32_t, std::pair<std::string, std::size_t>> plain;  // scalars and vectors: name, bytes
-    std::map<std::uint32_t, std::uint32_t> pointees;                     // of pointer types
-    std::map<std::uint32_t, std::uint32_t> struct_bindings;              // by the struct a variable points to
+    std::map<std::uint32_t, std::uint32_t> pointees;                     // types that pointer types point to
+    std::map<std::uint32_t, std::uint32_t> struct_bindings;              // binding of the variable that points to the struct
 };
 
 std::string text_at(std::span<const std::uint32_t> words) {
@@ -139,7 +140,7 @@ Layout layout_of(std::span<const std::uint32_t> words) {
     for (const host::SpirvInstruction& instruction : host::spirv_instructions(words)) read(module, instruction);
 
     Layout layout;
-    // A struct that only functions use has no offsets.
+    // Structs used only within functions have no offsets.
     for (const auto& [type, members] : module.structs) {
         if (module.offsets.count({type, 0}) != 0) layout.structs.push_back(struct_layout(module, type, members));
     }

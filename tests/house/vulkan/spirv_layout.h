@@ -1,4 +1,4 @@
-// The memory layout that a compiled shader declares: offsets of members, strides of arrays, bindings of blocks.
+// Memory layouts in a compiled shader: member offsets, array strides, bindings of blocks.
 #pragma once
 
 #include <cstddef>
@@ -14,22 +14,22 @@ inline constexpr std::uint32_t no_binding = 0xFFFFFFFF;
 struct MemberLayout {
     std::string name;
     std::size_t offset = 0;  // bytes
-    std::string element;     // of an array: the name of its type, else empty
+    std::string element;     // of an array: name of the element type; else empty
     std::size_t stride = 0;  // of an array, bytes
 };
 struct StructLayout {
     std::string name;
     bool is_block = false;
-    std::uint32_t binding = no_binding;  // of the variable of a block
+    std::uint32_t binding = no_binding;  // binding of the block's variable
     std::vector<MemberLayout> members;
 };
 struct ArrayLayout {
-    std::string element;            // the name of a struct; "uint", "float", "vec4" and the like
+    std::string element;            // name of a struct, or "uint", "float", "vec4", ...
     std::size_t element_bytes = 0;  // of a scalar or vector, else 0
     std::size_t stride = 0;         // bytes
 };
 struct Layout {
-    std::vector<StructLayout> structs;  // those that lie in buffers
+    std::vector<StructLayout> structs;  // structs in buffers
     std::vector<ArrayLayout> arrays;    // likewise
 };
 

@@ -1,4 +1,4 @@
-// The loops of the compiled shaders: what they leave to the code behind them.
+// Loops of the compiled shaders: values used after them.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdint>
@@ -17,11 +17,11 @@ namespace {
 using namespace scree;
 using Instructions = std::vector<host::SpirvInstruction>;
 
-// Numbers of the SPIR-V specification 1.6.
+// Opcodes of the SPIR-V specification 1.6.
 constexpr std::uint16_t op_phi = 245, op_loop_merge = 246, op_label = 248;
 const std::set<std::uint16_t> without_result = {8, 62, 63, 99, 224, 225, 228, 246, 247, 249, 250, 251, 252, 253, 254, 255, 317};
 
-// Of an instruction whose last words are no ids: how many come before them.
+// Number of leading words that may be ids, for instructions that end in literals.
 std::size_t words_of_ids(const host::SpirvInstruction& instruction) {
     static const std::map<std::uint16_t, std::size_t> fewer = {{61, 4}, {62, 3}, {79, 5}, {81, 4},
                                                                {82, 5}, {95, 5}, {98, 5}, {251, 2}};
@@ -29,12 +29,12 @@ std::size_t words_of_ids(const host::SpirvInstruction& instruction) {
     return found == fewer.end() ? instruction.words.size() : std::min(found->second, instruction.words.size());
 }
 
-// A word behind the head of an instruction that is the id of its result, if it has one.
+// Index of the word with the instruction's result id; 0 without a result.
 std::size_t result_of(const host::SpirvInstruction& instruction) {
     return instruction.opcode == op_label ? 1 : without_result.contains(instruction.opcode) ? 0 : 2;
 }
 
-// Where each id is computed (the instruction's index), of one function.
+// Index of the instruction that computes each id, in one function.
 std::map<std::uint32_t, std::size_t> results(const Instructions& function) {
     std::map<std::uint32_t, std::size_t> at;
     for (std::size_t i = 0; i < function.size(); ++i)
@@ -43,7 +43,7 @@ std::map<std::uint32_t, std::size_t> results(const Instructions& function) {
     return at;
 }
 
-// Values that are computed within a loop, not chosen by a phi, and used behind it.
+// Values that are computed inside a loop, not by a phi, and used after it.
 std::vector<std::string> leaks(const Instructions& function) {
     std::vector<std::string> found;
     const auto at = results(function);
@@ -51,7 +51,7 @@ std::vector<std::string> leaks(const Instructions& function) {
     for (std::size_t i = 0; i < function.size(); ++i) {
         if (function[i].opcode == op_label) label = i;
         if (function[i].opcode != op_loop_merge) continue;
-        const std::size_t end = at.at(function[i].words[1]);  // blocks of a loop lie between its head and what follows it
+        const std::size_t end = at.at(function[i].words[1]);  // a loop's blocks are between its header and its merge block
         for (std::size_t k = end; k < function.size(); ++k) {
             if (function[k].opcode == op_phi || function[k].opcode == op_label) continue;
             const std::size_t own = result_of(function[k]);
@@ -83,9 +83,9 @@ std::vector<std::string> leaks(std::span<const std::uint32_t> words) {
 
 }  // namespace
 
-// Where threads leave a loop in the middle of different rounds, lavapipe gives a value that was computed in the round of leaving,
-// and is used behind the loop, of the last round that any of them went through. What has to last goes through a phi: a variable
-// that the round before has set, as where loops are left at their head, or one that is set in different ways.
+// If threads leave a loop in different iterations, lavapipe returns for a value computed in the exit iteration that
+// of the last iteration of any thread. Values used after a loop must go through a phi: a variable set in an earlier
+// iteration, as in loops that end at their head, or one set on several paths.
 TEST_CASE("house: what a stage computes in a round of a loop is not used behind it", "[house]") {
     std::size_t stages = 0;
     for (const std::string_view name : shaders::names()) {

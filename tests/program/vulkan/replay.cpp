@@ -1,4 +1,4 @@
-// scree run --input: a recording says what is simulated, the program holds the run to it.
+// scree run --input: replays a recording and compares the final state hash.
 #include <catch2/catch.hpp>
 
 #include "tests/program/program.h"
@@ -40,7 +40,7 @@ TEST_CASE("a recording plays to the same state on both processors, and is held t
     }
     const std::string held = place.write("held.json", recording("\"end_hash\": \"" + hash + "\","));
     REQUIRE(run_scree("run --quiet --backend cpu --input '" + held + "'").status == 0);
-    REQUIRE(run_scree("run --quiet --backend cpu --steps 5 --input '" + held + "'").status == 0);  // not to its end
+    REQUIRE(run_scree("run --quiet --backend cpu --steps 5 --input '" + held + "'").status == 0);  // not to the recording's end
     const std::string wrong = place.write("wrong.json", recording("\"end_hash\": \"0123456789abcdef\","));
     const Outcome outcome = run_scree("run --quiet --backend cpu --input '" + wrong + "'");
     REQUIRE(outcome.status == 1);

@@ -1,4 +1,4 @@
-// A display without a screen, the program in a window on it, and a mouse and keys made by xdotool.
+// A virtual display (Xvfb), the program in a window on it, and mouse and keys by xdotool.
 #pragma once
 
 #include <fcntl.h>
@@ -29,12 +29,12 @@ inline bool is_installed(const std::string& program) {
     return std::system(("command -v " + program + " >/dev/null 2>&1").c_str()) == 0;
 }
 
-// A process that ends with the test.
+// A child process, ended by the destructor.
 class Process {
 public:
     explicit Process(const std::function<void()>& become) : id_(::fork()) {
         if (id_ != 0) return;
-        become();  // returns only if it failed
+        become();  // returns only on failure
         ::_exit(127);
     }
     ~Process() {
@@ -46,7 +46,7 @@ public:
     Process& operator=(const Process&) = delete;
     void signal(int number) const { ::kill(id_, number); }
     bool runs() const { return ::kill(id_, 0) == 0 && ::waitpid(id_, nullptr, WNOHANG) == 0; }
-    // Its exit status; -1 if it does not end within so long.
+    // Waits for the exit status; -1 if the process does not end within `seconds`.
     int end(double seconds) {
         for (double waited = 0; waited < seconds; waited += 0.05) {
             int code = 0;
@@ -63,7 +63,7 @@ private:
     pid_t id_;
 };
 
-// An X server of its own, under whatever number is free.
+// An X server on a free display number.
 class Screen {
 public:
     Screen() {
@@ -87,7 +87,7 @@ private:
     std::string name_;
 };
 
-// The program in a window, and the hands at it.
+// The program in a window, and user input to it.
 class Viewer {
 public:
     Viewer(const Screen& screen, const Place& place, const std::string& shots, std::vector<std::string> arguments)
@@ -108,7 +108,7 @@ public:
     json report() const { return json::parse(place_.read("report.json"), nullptr, false); }
     std::string errors() const { return place_.read("errors"); }
 
-    // True once the report says so; false if it does not within a time that even a busy machine keeps.
+    // Waits until the report satisfies `says_so`; false on a generous timeout.
     bool until(const std::function<bool(const json&)>& says_so) const {
         for (double waited = 0; waited < 60; waited += 0.1) {
             const json now = report();
@@ -118,7 +118,7 @@ public:
         }
         return false;
     }
-    // The report after it has been written anew.
+    // The next report.
     json next() const {
         const json before = report();
         until([&](const json& now) { return now.at("seconds") > before.at("seconds"); });

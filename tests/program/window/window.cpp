@@ -1,5 +1,4 @@
-// The window itself, on a display without a screen, with a mouse and keys made by xdotool; pictures of it stay in the build
-// folder.
+// The window on a virtual display, with mouse and keys by xdotool; screenshots are kept in the build folder.
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
@@ -25,7 +24,7 @@ bool can_show() {
     return true;
 }
 
-// A box of 1 m on the ground, in the middle of the window.
+// A 1 m box on the ground, in the centre of the window.
 constexpr const char* scene = R"({"bodies": [
   {"name": "ground", "motion": "fixed", "shape": {"plane": {}}},
   {"name": "box", "shape": {"box": {"half_extents": [0.5, 0.5, 0.5]}}, "position": [0, 0.5, 0]},
@@ -87,7 +86,7 @@ void change_the_size(const Viewer& viewer) {
     viewer.hand("windowfocus --sync " + viewer.window());
 }
 
-// A click on the panel is not one on the scene behind it.
+// Clicks on the panel do not reach the scene behind it.
 void use_the_panel(const Viewer& viewer) {
     const std::size_t grabbed = viewer.report().at("grabbed").size();
     viewer.point(38, 135);  // "Pause"
@@ -166,7 +165,7 @@ TEST_CASE("in the window keys drive a car and put it on its wheels, and a record
     REQUIRE(std::any_of(acts.begin(), acts.end(), [](const json& act) { return act.contains("righten"); }));
     const Outcome outcome = run_scree("run --input '" + recording + "' --backend cpu");
     INFO(outcome.output << outcome.errors);
-    REQUIRE(outcome.status != 2);  // a promise is no matter here
+    REQUIRE(outcome.status != 2);  // promises do not matter here
     REQUIRE(says(outcome.output, "as recorded"));
 }
 
@@ -183,7 +182,7 @@ TEST_CASE("the window goes through the demos, closes at a signal, and leaves its
     const std::string second = before.at("demo");
     viewer.strike("r");
     viewer.strike("3");
-    // The steps of a report without the new body may be those from before the demo began again.
+    // Reports without the new body may be from before the restart.
     const int bodies = before.at("bodies").get<int>() + 1;
     REQUIRE(viewer.until([&](const json& now) { return now.at("bodies") == bodies && now.at("steps") > 10; }));
     viewer.shoot("second");
@@ -197,7 +196,7 @@ TEST_CASE("the window goes through the demos, closes at a signal, and leaves its
 
 namespace {
 
-// Stand in for the functions of Vulkan: the call goes through, and its answer is that of a surface that was lost.
+// Replacements of Vulkan functions that forward the call and return VK_ERROR_SURFACE_LOST_KHR.
 PFN_vkQueuePresentKHR present = nullptr;
 PFN_vkAcquireNextImageKHR acquire = nullptr;
 int losses = 0;
@@ -244,7 +243,7 @@ TEST_CASE("a window whose surface is lost makes another and shows on") {
         auto& vulkan = const_cast<VulkanFunctions&>(device->vk());
         present = std::exchange(vulkan.vkQueuePresentKHR, present_and_lose);
         losses = 1;
-        REQUIRE(shown());  // as far as it knew
+        REQUIRE(shown());  // as far as the window knows
         for (int i = 0; i < 5; ++i) REQUIRE(shown());
         acquire = std::exchange(vulkan.vkAcquireNextImageKHR, lose_instead);
         losses = 1;
