@@ -14,6 +14,7 @@ namespace {
 
 physics::Impulse scaled(physics::Impulse impulse, float factor) {
     impulse.normal *= factor;
+    impulse.solved_normal *= factor;
     impulse.friction *= factor;
     impulse.twist *= factor;
     impulse.rolling *= factor;

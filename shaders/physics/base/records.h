@@ -183,7 +183,8 @@ struct Contact {
     vec4 orientation_b;  // of B when made
 };
 struct Impulse {
-    vec4 normal;           // accumulated, per point, of one substep, N s, >= 0
+    vec4 normal;           // per point, N s, >= 0; the next substep starts with these (contact_momentum.h)
+    vec4 solved_normal;    // per point, of the last relax pass, N s
     vec4 separation;       // per point, m
     vec4 impact_velocity;  // per point: normal velocity of an impact with restitution, m/s, < 0; else 0
     vec3 friction;         // in the tangent plane, world, on B, N s

@@ -21,6 +21,7 @@ LAW float match_radius(BodyProperties a, BodyProperties b) {
 LAW Impulse no_impulse(vec3 d) {
     Impulse impulse;
     impulse.normal = vec4(0.0f);
+    impulse.solved_normal = vec4(0.0f);
     impulse.separation = vec4(0.0f);
     impulse.impact_velocity = vec4(0.0f);
     impulse.friction = vec3(0.0f);
@@ -67,6 +68,7 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     for (uint k = 0u; k < 4u; ++k) {
         if (matches[k] == NONE) continue;
         impulse.normal[k] = was.normal[matches[k]];
+        impulse.solved_normal[k] = was.solved_normal[matches[k]];
     }
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {

@@ -33,6 +33,7 @@
 #ifndef SCREE_PHYSICS_CONTACT_SOLVER_H
 #define SCREE_PHYSICS_CONTACT_SOLVER_H
 
+#include "shaders/physics/solve/contact_momentum.h"
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"
 #include "shaders/physics/solve/restitution.h"
@@ -174,6 +175,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         impulse.impact_velocity =
             choose(bounces, impact_velocities(c, impulse, v, a, b, pull, parameters), impulse.impact_velocity);
     float normal = 0.0f;
+    float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(a, b));
     uint sweeps = sweeps_of(c, impulse);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         bool swept = uint(sweep) < sweeps;
@@ -192,7 +194,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;  // a third of all contacts are speculative and inactive
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
-            change = choose(separation <= 0.0f, change - parameters.impulse_scale * before, change);
+            change = choose(separation <= 0.0f, change - leak * before, change);
             float after = choose(gone, 0.0f, positive(before + change));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
@@ -248,7 +250,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         }
     }
     SolveResult result;
-    result.impulse = impulse;
+    result.impulse = with_momentum(impulse, c.count, contact_momentum(a, b));
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b);
 }

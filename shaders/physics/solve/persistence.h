@@ -117,6 +117,7 @@ LAW Contact carry_forward(Contact contact) {
 LAW Impulse carry_forward(Contact contact, Impulse was) {
     Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = was.normal;
+    impulse.solved_normal = was.solved_normal;
     impulse.friction = was.friction;
     impulse.twist = was.twist;
     impulse.rolling = was.rolling;

@@ -80,6 +80,7 @@ LAW Impulse clear_impacts(Impulse impulse, uint count) {
         if (none(there)) break;
         bool struck = there && impulse.impact_velocity[k] < 0.0f;
         impulse.normal[k] = choose(struck, 0.0f, impulse.normal[k]);
+        impulse.solved_normal[k] = choose(struck, 0.0f, impulse.solved_normal[k]);
         blow = blow || struck;
         normal = choose(there, normal + impulse.normal[k], normal);
     }

@@ -55,6 +55,7 @@ void relax_contact(uint place, uint pass) {
     impulse = clear_impacts(after.impulse, c.count);
     impulse.normal_sum = normal_impulse(impulse);
     impulses.at[i].normal = impulse.normal;
+    impulses.at[i].solved_normal = impulse.solved_normal;
     impulses.at[i].separation = impulse.separation;
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
