@@ -46,6 +46,7 @@ void add_motion(const Scene& scene, const State& state, std::size_t i, Statistic
     s.kinetic_energy += 0.5 * m * glm::dot(v, v) + 0.5 * glm::dot(w, own_spin);
     s.potential_energy -= m * scene.bodies[i].gravity_scale * glm::dot(dvec3(scene.gravity), x);
     s.max_speed = std::max(s.max_speed, glm::length(v));
+    s.max_spin = std::max(s.max_spin, glm::length(w));
     s.drift_max = std::max(s.drift_max, glm::length(x - dvec3(scene.bodies[i].position)));
 }
 
@@ -53,6 +54,7 @@ void add_contacts(const State& state, Statistics& s) {
     std::size_t inside = 0;
     double depth = 0;
     s.manifolds = state.counted().contacts;
+    s.spin_limited = state.counted().spin_limited;
     for (const std::uint32_t i : contacts_by_id(state)) {
         // Contacts that ended within the last step by sliding off (contact_solver.h).
         if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;

@@ -84,6 +84,8 @@ struct Statistics {
     double potential_energy = 0;             // J, -m g.x
     double momentum[3] = {0, 0, 0};          // kg m/s
     double angular_momentum[3] = {0, 0, 0};  // kg m^2/s, about the origin
+    double max_spin = 0;                     // of dynamic bodies, rad/s
+    std::size_t spin_limited = 0;            // bodies at the limit Settings::max_turn as a step ended, over all steps so far
     double drift_max = 0;                    // m, greatest distance of a dynamic body from its start
     std::size_t asleep = 0;                  // bodies
     std::size_t not_finite = 0;              // bodies

@@ -195,6 +195,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     ++state.counted().steps;
     std::atomic<bool> any_fast = false;
+    const std::atomic_ref spin_limited(state.counted().spin_limited);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (!moved_by_contacts(state, i)) return;
         const Sum sum = sum_of_slots(state, i);
@@ -202,6 +203,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         velocity.linear = physics::flush_tiny(velocity.linear + sum.change.linear);
         velocity.angular = physics::flush_tiny(velocity.angular + sum.change.angular);
         const physics::BodyProperties& properties = state.properties[i];
+        if (physics::is_spin_limited(velocity, state.fixed())) spin_limited.fetch_add(1, std::memory_order_relaxed);
         const float pace = physics::pace_of(properties, velocity, state.fixed());
         state.sleep_states[i] =
             physics::sleep_state_after(state.sleep_states[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);

@@ -39,7 +39,7 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         };
         if (state.point_counts[i] == 0 || !(fast(bodies[0]) || fast(bodies[1]))) return;
         const physics::Manifold& manifold = state.manifolds[i];
-        const bool holds = physics::is_near(manifold, state.point_counts[i], p) ||
+        const bool holds = physics::is_near(manifold, state.point_counts[i], state.properties[a], state.properties[b], p) ||
                            physics::will_meet(manifold.normal, state.properties[a], state.poses[a], state.velocities[a],
                                               state.forces[bodies[0]], state.properties[b], state.poses[b], state.velocities[b],
                                               state.forces[bodies[1]], p, state.hull_table());

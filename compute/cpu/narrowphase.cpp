@@ -82,16 +82,18 @@ void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
         const physics::BodyProperties &ta = state.properties[a], &tb = state.properties[b];
         const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
         physics::Pose pa = state.poses[a], pb = state.poses[b];
-        const float margin = physics::margin_of(ta, va, tb, vb, state.fixed());
+        const physics::Margin margin = physics::margin_of(ta, va, tb, vb, state.fixed());
+        const float most = physics::greatest_margin(margin);
         const float ahead = physics::time_ahead(ta, va, tb, vb, state.fixed());
         if (ahead > 0) {
             pa = physics::pose_ahead(pa, va, ahead);
             pb = physics::pose_ahead(pb, vb, ahead);
         }
         physics::ManifoldBuffer touch =
-            ta.shape > tb.shape ? physics::flipped(touch_of(pair_type, tb, pb, ta, pa, margin, state), pa.position - pb.position)
-                                : touch_of(pair_type, ta, pa, tb, pb, margin, state);
+            ta.shape > tb.shape ? physics::flipped(touch_of(pair_type, tb, pb, ta, pa, most, state), pa.position - pb.position)
+                                : touch_of(pair_type, ta, pa, tb, pb, most, state);
         if (ahead > 0) touch = physics::brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
+        touch = physics::within_margin(touch, margin);
         const std::size_t body = state.body_of(state.pairs[index].a);
         if (a != body) touch = physics::from_body(touch, state.poses[a].position - state.poses[body].position);
         state.manifolds[index] = touch.manifold;

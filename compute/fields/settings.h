@@ -17,7 +17,7 @@ inline constexpr auto table<Settings> = table_of(
     field("split_relaxation", &Settings::relaxation, from_to_below(1, 2), "",
           "Relaxation of mass splitting: split factor = contacts / this"),
     field("speculative_distance", &Settings::speculative_distance, above(0, 1), "m",
-          "Distance below which speculative contacts are made"),
+          "Greatest distance at which speculative contacts are made; 0.04 half widths if less"),
     field("restitution_threshold", &Settings::restitution_threshold, at_least(0), "m/s",
           "Impact speed below which restitution is 0"),
     field("max_speed", &Settings::max_speed, above(0, 1e4), "m/s", "Speed to which velocities are clamped"),

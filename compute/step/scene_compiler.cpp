@@ -27,17 +27,17 @@ float width_of(const physics::BodyProperties& properties) {
 
 // The finest cells fit the body at the tenth percentile of size: most bodies are then on the first levels, few per
 // cell.
-float cell_width(const std::vector<physics::BodyProperties>& properties, float speculative) {
+float cell_width(const std::vector<physics::BodyProperties>& properties, const physics::Parameters& p) {
     std::vector<float> widths;
     for (const physics::BodyProperties& body : properties)
         if (!physics::is_large(body) &&
             (body.motion == physics::MOTION_PENDING || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
             body.shape != physics::SHAPE_NONE)
-            widths.push_back(width_of(body));
+            widths.push_back(width_of(body) + physics::speculative_of(body, p));
     if (widths.empty()) return 1;
     const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
     std::nth_element(widths.begin(), tenth, widths.end());
-    return 1.25f * (*tenth + 2 * speculative);
+    return 1.25f * (*tenth + glm::length(p.gravity) * p.dt * p.dt);
 }
 
 // Bodies on grid levels with too few bodies join the planes in the list of large bodies.
@@ -103,7 +103,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
 
     state_.parameters.assign(1, tuned({}, scene.gravity, settings));
     physics::Parameters& p = state_.fixed();
-    p.cell = cell_width(properties, p.speculative);
+    p.cell = cell_width(properties, p);
     p.inverse_cell = 1 / p.cell;
     mark_large(properties, p.cell);
     JointTables joined = joint_tables(scene, properties);

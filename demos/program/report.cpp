@@ -60,6 +60,8 @@ std::string json_of(const RunReport& r) {
         {"points", s.points},
         {"penetration", {{"mean", s.penetration_mean}, {"max", s.penetration_max}}},
         {"max_speed", s.max_speed},
+        {"max_spin", s.max_spin},
+        {"spin_limited", s.spin_limited},
         {"kinetic_energy", s.kinetic_energy},
         {"potential_energy", s.potential_energy},
         {"momentum", s.momentum},
@@ -108,6 +110,8 @@ std::string summary_of(const RunReport& r) {
     if (s.broken || s.pieces) line("broken", fmt::format("{} bodies, into pieces of which {} are there", s.broken, s.pieces));
     line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
     line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
+    if (s.spin_limited > 0)
+        line("rotation limit", fmt::format("reached {} times; more substeps or max_turn raise the limit", s.spin_limited));
     line("greatest drift", fmt::format("{:.4g} m", s.drift_max));
     if (s.joints > 0)
         line("joints", fmt::format("{}, {} torn; at most {:.4g} N and {:.4g} N m carried", s.joints, s.joints_broken,

@@ -62,7 +62,7 @@ void main() {
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     Pose pa = READ(poses, a), pb = READ(poses, b);
     Velocity va = READ(velocities, a), vb = READ(velocities, b);
-    float margin = margin_of(ta, va, tb, vb, PARAMETERS);
+    Margin margin = margin_of(ta, va, tb, vb, PARAMETERS);
 #ifdef MAY_BE_SMOOTH
     float ahead = time_ahead(ta, va, tb, vb, PARAMETERS);
     if (ahead > 0.0f) {
@@ -76,11 +76,12 @@ void main() {
     BodyProperties second_traits = swap ? ta : tb;
     Pose first = swap ? pb : pa;
     Pose second = swap ? pa : pb;
-    ManifoldBuffer touch = COLLIDE(first_traits, first, second_traits, second, margin AND_HULLS);
+    ManifoldBuffer touch = COLLIDE(first_traits, first, second_traits, second, greatest_margin(margin) AND_HULLS);
     if (swap) touch = flipped(touch, second.position - first.position);
 #ifdef MAY_BE_SMOOTH
     if (ahead > 0.0f) touch = brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
 #endif
+    touch = within_margin(touch, margin);
     if (a >= PARAMETERS.first_part)
         touch = from_body(touch, READ(poses, a).position - READ(poses, READ(properties, a).owner).position);
     manifolds.at[pair] = touch.manifold;

@@ -19,7 +19,7 @@ void main() {
         !will_be_fast(READ(properties, of_b), READ(velocities, of_b), PARAMETERS))
         return;
     vec3 normal = READ(manifolds, i).normal;
-    if (!is_near(READ(manifolds, i), WORD(point_counts, i), PARAMETERS) &&
+    if (!is_near(READ(manifolds, i), WORD(point_counts, i), ta, tb, PARAMETERS) &&
         !will_meet(normal, ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb, READ(forces, of_b), PARAMETERS,
                    Hulls(0u))) {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;

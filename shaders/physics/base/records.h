@@ -462,7 +462,8 @@ struct Counts {  // counted on the device in a step
     uint pair_type_first[20];  // pairs of type k are [pair_type_first[k], pair_type_first[k + 1]) of pairs_by_type
     uint fast;                 // 1: some body is predicted to be fast (sweep.h)
     uint broken;               // number of bodies that break in this step
-    uint pad0, pad1;
+    uint spin_limited;         // bodies at the limit of rotation as a step ends, summed over the steps
+    uint pad0;
     uvec4 arguments[24];  // per WORK_*: workgroups x, y, z, and threads
 };
 

@@ -11,6 +11,7 @@
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/compound.h"
+#include "shaders/physics/collide/manifold.h"
 #include "shaders/physics/extra/sweep.h"
 
 LAWS_BEGIN
@@ -73,9 +74,8 @@ LAW bool is_large(BodyProperties properties) {
 // Level of rows that are not in the grid: bodies whose parts alone collide, and absent bodies.
 CONSTANT uint NOT_IN_GRID = 0x40u;
 
-// Swept AABB over the step: the shape, the speculative distance, and the unobstructed motion. Fast bodies are clamped
-// to their bounds, so for them the fall by gravity is included. `bend`: curvature of a part's path (bend_of_way); 0 for
-// bodies.
+// Swept AABB over the step: the shape, half the speculative distance (a pair's margin has the smaller of two), and the
+// unobstructed motion, gravity and forces included. `bend`: curvature of a part's path (bend_of_way); 0 for bodies.
 LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity velocity, BodyForces load,
                      Parameters parameters) {
     vec3 half_size = half_extents_of(properties, pose.orientation);
@@ -88,17 +88,15 @@ LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity 
         float arc = length3(velocity.angular) * parameters.dt * reach;
         half_size = smaller3(half_size + vec3(arc), larger3(half_size, vec3(reach)));
     }
-    half_size = half_size + vec3(parameters.speculative);
+    half_size = half_size + vec3(0.5f * speculative_of(properties, parameters));
     if (moves && is_part(properties)) half_size = half_size + vec3(bend);
     vec3 way = velocity.linear * parameters.dt;
     Bounds bounds;
     bounds.lower = pose.position - half_size + smaller3(way, vec3(0.0f));
     bounds.upper = pose.position + half_size + larger3(way, vec3(0.0f));
-    if (will_be_fast(properties, velocity, parameters)) {
-        vec3 fall = way + load.acceleration * (parameters.dt * parameters.dt);
-        bounds.lower = smaller3(bounds.lower, pose.position - half_size + fall);
-        bounds.upper = larger3(bounds.upper, pose.position + half_size + fall);
-    }
+    vec3 fall = way + shortened(load.acceleration * (parameters.dt * parameters.dt), length3(way));
+    bounds.lower = smaller3(bounds.lower, pose.position - half_size + fall);
+    bounds.upper = larger3(bounds.upper, pose.position + half_size + fall);
     bounds.level = 0u;
     bounds.bucket = parameters.buckets;
     bounds.sweep = sweep_of(pose);
@@ -195,12 +193,39 @@ LAW uint pair_type_of(uint shape_a, uint shape_b) {
     return low == SHAPE_SPHERE ? high : (low == SHAPE_CAPSULE ? 3u + high : 5u + high);
 }
 
-// Contact margin of a pair: the speculative distance plus the most by which the pair can close in a step. Speculative
+// Contact margin of a pair along a normal: the most by which velocities can close the gap in the step, plus the
+// speculative distance or, if that is more, the fall of a body in the step. A body at rest is held by something and
+// does not fall: else each small one would have contacts with all around it, within 2.7 mm at 60 Hz. Speculative
 // contacts of fast bodies that will not meet are dropped later (time_of_impact.h).
-LAW float margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, Parameters parameters) {
+struct Margin {
+    vec3 fall;      // by gravity in the step, at most `closing`, m
+    float closing;  // by the velocities, m
+    float least;    // speculative distance, m
+    float pad0, pad1, pad2;
+};
+LAW Margin margin_of(BodyProperties a, Velocity va, BodyProperties b, Velocity vb, Parameters parameters) {
     float turning = length3(va.angular) * (a.shape == SHAPE_SPHERE ? 0.0f : length3(a.size)) +
                     length3(vb.angular) * (b.shape == SHAPE_SPHERE ? 0.0f : length3(b.size));
-    return parameters.speculative + (length3(vb.linear - va.linear) + turning) * parameters.dt;
+    float weight = larger(abs(a.gravity_scale), abs(b.gravity_scale)) * (parameters.dt * parameters.dt);
+    Margin margin;
+    margin.closing = (length3(vb.linear - va.linear) + turning) * parameters.dt;
+    margin.fall = shortened(parameters.gravity * weight, margin.closing);
+    margin.least = speculative_of(a, b, parameters);
+    margin.pad0 = 0.0f;
+    margin.pad1 = 0.0f;
+    margin.pad2 = 0.0f;
+    return margin;
+}
+// For every normal.
+LAW float greatest_margin(Margin margin) {
+    return margin.closing + larger(margin.least, length3(margin.fall));
+}
+// Drops a manifold found with the greatest margin if that of its normal is less: bodies side by side, which do not fall
+// upon each other.
+LAW ManifoldBuffer within_margin(ManifoldBuffer touch, Margin margin) {
+    float fall = abs(dot3(touch.manifold.normal, margin.fall));
+    if (deepest_of(touch) < margin.closing + larger(margin.least, fall)) return touch;
+    return empty_manifold();
 }
 
 LAWS_END

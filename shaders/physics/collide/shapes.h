@@ -60,6 +60,10 @@ LAW bool has_straight_side(uint shape) {
 LAW bool has_side(uint shape) {
     return has_straight_side(shape) || is_smooth(shape);
 }
+// Has a curved side that is not swept by a sphere: its contact point moves over it as the body rocks.
+LAW bool has_curved_side(uint shape) {
+    return shape == SHAPE_CYLINDER || shape == SHAPE_CONE || is_smooth(shape);
+}
 // Number of flat faces that need no table.
 LAW uint flat_faces(uint shape) {
     return shape == SHAPE_BOX ? 6u : (shape == SHAPE_CYLINDER ? 2u : (shape == SHAPE_CONE ? 1u : 0u));

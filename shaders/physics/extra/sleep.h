@@ -107,16 +107,16 @@ LAW uint sleep_state_after(uint sleep_state, float pace, float carrying, float t
 }
 
 // ---- waking
-// Approach speed of two bodies where they touch within the step, m/s; < 0: no contact.
-LAW float approach_of(Manifold manifold, uint count, vec3 d, Velocity a, Velocity b, Parameters parameters) {
+// Approach speed of two bodies where they touch within the step, m/s; < 0: no contact. `touch`: their speculative
+// distance.
+LAW float approach_of(Manifold manifold, uint count, vec3 d, Velocity a, Velocity b, float touch, Parameters parameters) {
     float fastest = -1.0f;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= count) break;
         vec3 arm = xyz(manifold.points[k]);
         vec3 apart = (b.linear + cross3(b.angular, arm - d)) - (a.linear + cross3(a.angular, arm));
         float speed = dot3(apart, manifold.normal);
-        if (manifold.points[k].w + parameters.dt * speed < TOUCH_DISTANCE * parameters.speculative)
-            fastest = larger(fastest, positive(-speed));
+        if (manifold.points[k].w + parameters.dt * speed < TOUCH_DISTANCE * touch) fastest = larger(fastest, positive(-speed));
     }
     return fastest;
 }

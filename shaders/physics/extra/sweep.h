@@ -47,6 +47,18 @@ LAW bool will_be_fast(BodyProperties properties, Velocity velocity, Parameters p
     return properties.motion != MOTION_FIXED && way * parameters.dt > ccd_threshold(properties);
 }
 
+// Speculative distance relative to min_half_width: a box of 1 m has the default of Settings::speculative_distance, its
+// upper bound. With 2 cm for every size, a heap of 1 cm had ten times the contacts of one of 1 m, most of them between
+// bodies that never touch.
+CONSTANT float SPECULATIVE_PART = 0.04f;
+
+LAW float speculative_of(BodyProperties properties, Parameters parameters) {
+    return smaller(parameters.speculative, SPECULATIVE_PART * min_half_width(properties));
+}
+LAW float speculative_of(BodyProperties a, BodyProperties b, Parameters parameters) {
+    return smaller(speculative_of(a, parameters), speculative_of(b, parameters));
+}
+
 LAW vec3 half_extents_of(BodyProperties properties, vec4 orientation) {
     return world_half_extents(properties.shape, properties.size, orientation);
 }

@@ -86,13 +86,19 @@ LAW uint contact_state_of(uint contact_points, float stop_a, float stop_b) {
     if (contact_points == 0u) return NO_CONTACT;
     return stop_a < 1.0f || stop_b < 1.0f ? CONTACT_LOST : IN_CONTACT;
 }
+// Gap at which bodies are in contact, m: a tenth of the speculative distance of boxes of 1 m, and less for bodies
+// thinner than 4 cm.
+CONSTANT float TOUCH_PART = 0.1f;
+LAW float touch_of(BodyProperties a, BodyProperties b, Parameters parameters) {
+    return TOUCH_PART * smaller(parameters.speculative, smaller(min_half_width(a), min_half_width(b)));
+}
 LAW Limits limits_of(BodyProperties a, BodyProperties b, uint hold, Parameters parameters) {
     float of_a = min_half_width(a), of_b = min_half_width(b);
     float half_way = 0.5f * (of_a + of_b);
     if (a.shape == SHAPE_PLANE || a.shape == SHAPE_TRIANGLE) half_way = 0.5f * of_b;
     if (b.shape == SHAPE_PLANE || b.shape == SHAPE_TRIANGLE) half_way = 0.5f * of_a;
     Limits limits;
-    limits.touch = 0.1f * parameters.speculative;
+    limits.touch = touch_of(a, b, parameters);
     limits.slop = smaller(0.05f * smaller(of_a, of_b), limits.touch);
     limits.depth = limits.slop;
     if (hold == IN_CONTACT) limits.depth = half_way;
@@ -174,10 +180,10 @@ LAW Pose predict_pose(Pose pose, Velocity velocity, BodyForces load, Parameters 
     return end;
 }
 // Whether a contact is touching already, not speculative.
-LAW bool is_near(Manifold manifold, uint count, Parameters parameters) {
+LAW bool is_near(Manifold manifold, uint count, BodyProperties a, BodyProperties b, Parameters parameters) {
     bool near = false;
     for (uint k = 0u; k < 4u; ++k)
-        if (k < count && manifold.points[k].w <= 0.1f * parameters.speculative) near = true;
+        if (k < count && manifold.points[k].w <= touch_of(a, b, parameters)) near = true;
     return near;
 }
 // A speculative contact is doubtful if the predicted sweeps pass each other or meet elsewhere: it would push where

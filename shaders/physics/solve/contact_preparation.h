@@ -47,7 +47,7 @@ LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impul
     if (tyre_of(a) != 0u || tyre_of(b) != 0u)
         matches = matches_of_tyre(prepared.contact, before, tyre_of(a) != 0u, smaller(min_half_width(a), min_half_width(b)));
     else
-        matches = matches_of(prepared.contact, before, match_radius(a, b));
+        matches = matches_of(prepared.contact, before, match_radius(prepared.contact, before, a, b));
     vec4 separation = prepared.impulse.separation;
     prepared.impulse = warm_start_from(prepared.contact, was, matches);
     prepared.impulse.separation = separation;

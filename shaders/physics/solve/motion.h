@@ -55,6 +55,11 @@ LAW Velocity clamp_velocity(Velocity velocity, Parameters parameters) {
     return velocity;
 }
 
+// Whether a body rotates at the limit, or within 0.5% of it: gyroscopic torque changes a clamped velocity a little.
+LAW bool is_spin_limited(Velocity velocity, Parameters parameters) {
+    return dot3(velocity.angular, velocity.angular) > 0.99f * (parameters.max_spin * parameters.max_spin);
+}
+
 // Sets velocities and applies the user's impulses at the start of the step.
 LAW Velocity apply_impulses(Velocity velocity, Action action, Mass mass, Parameters parameters) {
     bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u;

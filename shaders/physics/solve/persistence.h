@@ -14,21 +14,25 @@
 
 LAWS_BEGIN
 
-CONSTANT float KEPT_SLIP = 0.01f;     // of the smaller min_half_width: anchors further apart end persistence
-CONSTANT float KEPT_SPEED = 0.1f;     // of the same per second: faster is sliding, rolling or tipping
+// Slip is measured along the contact plane, relative to the smaller width there. Compression does not count: the sag of
+// a column depends on gravity and the substep, not on size, and exceeds 1% of the thickness of coins and of boxes of 2
+// cm, which fell.
+CONSTANT float KEPT_SLIP = 0.01f;     // anchors further apart end persistence
+CONSTANT float KEPT_SPEED = 0.1f;     // per second: faster is sliding, rolling or tipping
 CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the rotation (5 degrees) of a body that ends persistence
 // The same for one or two points (0.6 degrees, about what the slip tolerance allows with more): a body rocks about them
 // without slip, and while the normal of two edges is frozen and they turn, the rocking never ends.
 CONSTANT float KEPT_ROCKING = 0.9999875f;
 
 // A body that tips over two of its four points falls upon a corner that manifold reduction left out and rebounds:
-// columns rocked on for ever. So persistence ends when B rotates relative to A faster than this (squared: 0.05 rad/s;
-// with 0.1, four heaps of 50 never came to rest),
-CONSTANT float KEPT_SPIN_SQUARED = 0.0025f;
-// or has rotated this far (sine of half the angle, squared: 0.4 degrees). With less, columns hop between two choices of
-// four points that shift them by more than that; with degrees, a corner falls 17 mm deep. (Preferring the corners
-// chosen before brought no more heaps to rest.)
-CONSTANT float KEPT_TILT_SQUARED = 1.225e-5f;
+// columns rocked on for ever. So persistence ends when B rotates relative to A faster than this (squared: 0.05 rad/s for
+// boxes of 1 m; with 0.1, four heaps of 50 never came to rest), or has rotated this far (sine of half the
+// angle, squared: 0.4 degrees there). With less, columns hop between two choices of four points that shift them by more
+// than that; with degrees, a corner falls 17 mm deep. (Preferring the corners chosen before brought no more heaps to
+// rest.) Both limits go with the inverse root of the size (Froude): what is small rotates faster under gravity, and
+// with one limit for all sizes ten boxes of 1 cm fell.
+CONSTANT float KEPT_SPIN_SQUARED = 0.00125f;   // (rad/s)^2 m
+CONSTANT float KEPT_TILT_SQUARED = 6.125e-6f;  // m
 
 // From the anchor of a point on A to its anchor on B at the present poses, world, m.
 LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
@@ -70,16 +74,18 @@ LAW bool is_persistent(Contact contact, Impulse impulse, BodyProperties ta, Pose
     vec4 since_a = turn_since(contact.orientation_a, a.orientation), since_b = turn_since(contact.orientation_b, b.orientation);
     vec3 tilt = xyz(since_a) - xyz(since_b);
     vec3 spin = vb.angular - va.angular;
-    if (dot3(tilt, tilt) > KEPT_TILT_SQUARED || dot3(spin, spin) > KEPT_SPIN_SQUARED) return false;
-    float size = smaller(min_half_width(ta), min_half_width(tb));
+    float size = smaller(patch_width(ta, a.orientation, contact.normal), patch_width(tb, b.orientation, contact.normal));
+    if (dot3(tilt, tilt) * size > KEPT_TILT_SQUARED || dot3(spin, spin) * size > KEPT_SPIN_SQUARED) return false;
     float tolerance = KEPT_SLIP * size;
     float fastest = KEPT_SPEED * size;
     for (uint k = 0u; k < 4u; ++k) {
         if (k >= contact.count) break;
         vec3 slip = gap_between_marks(contact, k, a, b) - contact.normal * contact.points[k].w;
+        slip = slip - contact.normal * dot3(slip, contact.normal);
         if (dot3(slip, slip) > tolerance * tolerance) return false;
         vec3 arm = xyz(contact.points[k]);
         vec3 speed = (vb.linear + cross3(vb.angular, arm - contact.center_offset)) - (va.linear + cross3(va.angular, arm));
+        speed = speed - contact.normal * dot3(speed, contact.normal);
         if (dot3(speed, speed) > fastest * fastest) return false;
     }
     return true;
