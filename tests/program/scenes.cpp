@@ -186,6 +186,8 @@ TEST_CASE("program: a report has every key, and says the same on every run", "[p
                             "points",
                             "penetration",
                             "max_speed",
+                            "max_spin",
+                            "spin_limited",
                             "kinetic_energy",
                             "momentum",
                             "drift_max",

@@ -1,0 +1,135 @@
+// Trials of small and of thin bodies: what stands at 1 m stands at 1 cm, coins and plates stack, and heaps of every
+// shape come to rest.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "demos/scenes/demos.h"
+#include "demos/scenes/random.h"
+#include "demos/scenes/scene_builder.h"
+#include "demos/suite/common_checks.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr float run_for = 20, last_part = 2;  // s
+
+Claim most_in_the_end(const char* what, double limit, const char* unit, double Statistics::*of) {
+    return at_most(what, limit, unit, "of any body, awake, at every step of the last two seconds", [of](const Trace& trace) {
+        double most = trace.samples.empty() ? no_number : 0;
+        for (const Trace::Sample& sample : trace.samples) most = std::max(most, sample.statistics.*of);
+        return most;
+    });
+}
+// Bodies of a stack, which must stay where they are.
+struct Stacked {
+    std::size_t body;
+    float half;  // half width, m
+};
+Claim none_fell(std::vector<Stacked> stacked) {
+    return at_most("bodies that fell off", 0, "", "moved sideways by more than half their half width",
+                   [stacked = std::move(stacked)](const Trace& trace) {
+                       double fallen = 0;
+                       for (const auto& [body, half] : stacked) {
+                           const vec3 way = trace.end[body].position - trace.start[body].position;
+                           fallen += !(std::hypot(way.x, way.z) < 0.5f * half);
+                       }
+                       return fallen;
+                   });
+}
+
+DemoScene resting(Scene scene, vec3 low, vec3 high, std::vector<Claim> more) {
+    Promise promise(most_in_the_end("greatest speed when at rest", 0.005, "m/s", &Statistics::max_speed),
+                    most_in_the_end("greatest spin when at rest", 0.01, "rad/s", &Statistics::max_spin));
+    for (Claim& claim : more) promise.also(std::move(claim));
+    return awake({std::move(scene), view_of(low, high, 25, 15), low, high, run_for,
+                  std::move(promise).sampling({every_step, run_for - last_part})});
+}
+
+// `count` bodies of one shape, one on the other, displaced at random by up to `shift` and turned by up to `turn`.
+struct Pile {
+    Shape shape;
+    int count;
+    float height, half;  // of one, m
+    float yaw, shift, turn;
+};
+void add_pile(Scene& scene, const Pile& pile, vec3 foot, Random& random, std::vector<Stacked>& stacked) {
+    for (int i = 0; i < pile.count; ++i) {
+        const vec3 place(random.between(-pile.shift, pile.shift), pile.height * (static_cast<float>(i) + 0.5f),
+                         random.between(-pile.shift, pile.shift));
+        const float yaw = pile.yaw + random.between(-pile.turn, pile.turn);
+        stacked.push_back({add_body(scene, pile.shape, foot + place, turned({0, 1, 0}, yaw)), pile.half});
+    }
+}
+
+Hull flat_prism(int sides, float radius, float half_height) {
+    Hull hull;
+    for (int k = 0; k < sides; ++k) {
+        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(sides);
+        for (const float y : {-half_height, half_height})
+            hull.points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+    }
+    return hull;
+}
+
+}  // namespace
+
+DemoScene scales(const DemoOptions& options) {
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Random random(options.seed);
+    std::vector<Stacked> stacked;
+    float x = 0;
+    for (const auto& [count, size] : {std::pair{5, 0.01f}, {10, 0.02f}, {10, 0.1f}}) {
+        for (const float yaw : {0.0f, 20 * degrees, 45 * degrees}) {
+            add_pile(scene, {Box{vec3(0.5f * size)}, count, size, 0.5f * size, yaw, 0.002f * size, 0.3f * degrees}, {x, 0, 0},
+                     random, stacked);
+            x += 5 * size;
+        }
+    }
+    constexpr float brick = 0.01f;
+    for (int row = 0; row < 10; ++row)
+        for (int column = 0; column < 10 - row; ++column)
+            stacked.push_back({add_body(scene, Box{vec3(0.5f * brick)},
+                                        vec3((static_cast<float>(column) - 0.5f * static_cast<float>(9 - row)) * 1.02f,
+                                             static_cast<float>(row) + 0.5f, 20) *
+                                            brick),
+                               0.5f * brick});
+    return resting(std::move(scene), {-0.2f, 0, -0.2f}, {x, 1, 0.3f}, {none_fell(std::move(stacked))});
+}
+
+DemoScene coins(const DemoOptions& options) {
+    Scene scene;
+    scene.bodies.push_back(ground());
+    Random random(options.seed);
+    std::vector<Stacked> stacked;
+    float x = 0;
+    for (const float radius : {0.5f, 0.05f}) {
+        const float half = 0.1f * radius;
+        std::vector<std::pair<Shape, int>> shapes = {{Cylinder{radius, half}, 10},
+                                                     {Cylinder{radius, half}, 20},
+                                                     {flat_prism(8, radius, half), 10},
+                                                     {Box{{radius, half, radius}}, 10}};
+        if (radius == 0.5f) shapes.push_back({flat_prism(5, radius, half), 10});
+        for (const auto& [shape, count] : shapes) {
+            add_pile(scene, {shape, count, 2 * half, radius, 0, 0.04f * radius, 180 * degrees}, {x, 0, 0}, random, stacked);
+            x += 3 * radius;
+        }
+    }
+    x += 1;
+    for (int i = 0; i < 10; ++i)  // plates of 4 cm, crosswise
+        add_pile(scene, {Box{{0.5f, 0.02f, 0.1f}}, 1, 0.04f, 0.1f, 90 * degrees * static_cast<float>(i % 2), 0.005f, degrees},
+                 {x, 0.04f * static_cast<float>(i), 0}, random, stacked);
+    return resting(std::move(scene), {-0.5f, 0, -1}, {x, 2, 1}, {none_fell(std::move(stacked))});
+}
+
+DemoScene calm(const DemoOptions& options) {
+    DemoOptions heap;
+    heap.bodies = options.bodies;
+    heap.seed = options.seed + 2;  // not those of `assortment`
+    DemoScene made = assortment(heap);
+    return resting(std::move(made.scene), made.low, made.high, {});
+}
+
+}  // namespace scree::demos
