@@ -76,88 +76,127 @@ LAW vec3 path_curvature(vec3 angular, vec3 arm, float h) {
     return acceleration * (0.5f * h) + cross3(angular, acceleration) * (0.16666667f * (h * h));
 }
 
-LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, Parameters parameters) {
-    float most = c.friction * normal;
-    vec3 t1 = tangent(c.normal);
-    vec3 t2 = cross3(c.normal, t1);
-    LeverArms r = lever_arms(c, c.centre, s.impulse.center_offset);
-    JacobianRow row1 = jacobian_row(r, t1, a, b);
-    JacobianRow row2 = jacobian_row(r, t2, a, b);
-    float k11 = row1.inverse_effective_mass_a * a.split + row1.inverse_effective_mass_b * b.split;
-    float k22 = row2.inverse_effective_mass_a * a.split + row2.inverse_effective_mass_b * b.split;
-    float unit = reciprocal(k11 + k22);
-    k11 = k11 * unit;
-    k22 = k22 * unit;
-    float k12 =
-        (dot3(row2.angular_a, row1.angular_response_a) * a.split + dot3(row2.angular_b, row1.angular_response_b) * b.split) *
-        unit;
-    float slip1 = speed_along(row1, s.pair_velocity) * unit, slip2 = speed_along(row2, s.pair_velocity) * unit;
-    vec3 wa = s.pair_velocity.a.angular, wb = s.pair_velocity.b.angular;
+// Both tangents as one 2x2 block, scaled by `unit` so that its trace is 1.
+struct FrictionBlock {
+    JacobianRow row1, row2;
+    float k11, k22, k12, unit;
+    float slip1, slip2;  // m/s, scaled
+    float pad0, pad1;
+};
+LAW FrictionBlock friction_block(LeverArms r, vec3 normal, VelocityPair v, Mass a, Mass b, Parameters parameters) {
+    FrictionBlock k;
+    vec3 t1 = tangent(normal), t2 = cross3(normal, t1);
+    k.row1 = jacobian_row(r, t1, a, b);
+    k.row2 = jacobian_row(r, t2, a, b);
+    float k11 = k.row1.inverse_effective_mass_a * a.split + k.row1.inverse_effective_mass_b * b.split;
+    float k22 = k.row2.inverse_effective_mass_a * a.split + k.row2.inverse_effective_mass_b * b.split;
+    k.unit = reciprocal(k11 + k22);
+    k.k11 = k11 * k.unit;
+    k.k22 = k22 * k.unit;
+    k.k12 = (dot3(k.row2.angular_a, k.row1.angular_response_a) * a.split +
+             dot3(k.row2.angular_b, k.row1.angular_response_b) * b.split) *
+            k.unit;
+    k.slip1 = speed_along(k.row1, v) * k.unit;
+    k.slip2 = speed_along(k.row2, v) * k.unit;
+    vec3 wa = v.a.angular, wb = v.b.angular;
     bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
     if (!none(turns)) {
-        vec3 drift = (path_curvature(wb, r.b, parameters.h) - path_curvature(wa, r.a, parameters.h)) * unit;
-        slip1 = choose(turns, slip1 + dot3(t1, drift), slip1);
-        slip2 = choose(turns, slip2 + dot3(t2, drift), slip2);
+        vec3 drift = (path_curvature(wb, r.b, parameters.h) - path_curvature(wa, r.a, parameters.h)) * k.unit;
+        k.slip1 = choose(turns, k.slip1 + dot3(t1, drift), k.slip1);
+        k.slip2 = choose(turns, k.slip2 + dot3(t2, drift), k.slip2);
     }
+    k.pad0 = 0.0f;
+    k.pad1 = 0.0f;
+    return k;
+}
+// Tyre compliance (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
+LAW FrictionBlock with_compliance(FrictionBlock k, bool slips, float compliance, vec3 friction) {
+    k.k11 = choose(slips, k.k11 + compliance, k.k11);
+    k.k22 = choose(slips, k.k22 + compliance, k.k22);
+    k.slip1 = choose(slips, k.slip1 + compliance * dot3(k.row1.direction, friction), k.slip1);
+    k.slip2 = choose(slips, k.slip2 + compliance * dot3(k.row2.direction, friction), k.slip2);
+    return k;
+}
+
+struct PatchImpulse {
+    vec3 friction;
+    float twist;
+};
+// The impulse of a patch that slides or spins: a step of projected gradient descent from `before`. `spin` and
+// `spin_mass` (rad/s; 1 / (kg m^2), 0 without torsional friction) are scaled as the block; F's terms by arm^2.
+LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold) {
+    float area = arm * arm, x = smaller(dot3(before.friction, before.friction) * hold * hold, 1.0f), y = before.twist * hold;
+    y = smaller(y * y, area);
+    float p = area + LIMIT_COUPLING * y, q = 1.0f + LIMIT_COUPLING * x;
+    float bound = area + LIMIT_COUPLING * x * y;
+    // Not below the block's greatest eigenvalue (Gershgorin).
+    float greatest = larger(k.k11, k.k22) + abs(k.k12);
+    float step = reciprocal(larger(greatest * q, spin_mass * p));
+    PatchImpulse after;
+    after.friction = before.friction - (k.row1.direction * k.slip1 + k.row2.direction * k.slip2) * (q * step);
+    after.twist = before.twist - spin * (p * step);
+    float squared = (p * dot3(after.friction, after.friction) + q * after.twist * after.twist) * hold * hold;
+    float scale = choose(squared > bound, bound * inverse_square_root(squared * bound), 1.0f);
+    after.friction = after.friction * scale;
+    after.twist = after.twist * scale;
+    return after;
+}
+
+LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, Parameters parameters) {
+    float most = c.friction * normal;
+    PatchImpulse before, after;
+    before.friction = s.impulse.friction;
+    before.twist = s.impulse.twist;
+    after.twist = before.twist;
+    VelocityPair v = s.pair_velocity;
+    // What stops the spin, then what stops the slip that is left; without a normal impulse, nothing.
+    bool holds = most > 0.0f, twists = c.twist_arm > 0.0f;
+    float spin = 0.0f, spin_mass = 0.0f, stopping = 0.0f;
+    vec3 response_a = c.normal, response_b = c.normal;
+    if (!none(twists)) {
+        response_a = turned_by(a, c.normal) * a.split;
+        response_b = turned_by(b, c.normal) * b.split;
+        spin = choose(twists, dot3(c.normal, v.b.angular - v.a.angular), 0.0f);
+        spin_mass = dot3(c.normal, response_a) + dot3(c.normal, response_b);
+        stopping = choose(holds, -spin * reciprocal(spin_mass), -before.twist);
+        spin_mass = choose(twists, spin_mass, 0.0f);
+        after.twist = before.twist + stopping;
+        v.a.angular = v.a.angular - response_a * stopping;
+        v.b.angular = v.b.angular + response_b * stopping;
+    }
+    FrictionBlock k = friction_block(lever_arms(c, c.centre, s.impulse.center_offset), c.normal, v, a, b, parameters);
     bool slips = c.radius_a > 0.0f;
     if (!none(slips)) {
-        // Tyre compliance (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
-        float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MAX_COMPLIANCE);
-        k11 = choose(slips, k11 + compliance, k11);
-        k22 = choose(slips, k22 + compliance, k22);
-        slip1 = choose(slips, slip1 + compliance * dot3(t1, s.impulse.friction), slip1);
-        slip2 = choose(slips, slip2 + compliance * dot3(t2, s.impulse.friction), slip2);
+        float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * k.unit, MAX_COMPLIANCE);
+        k = with_compliance(k, slips, compliance, before.friction);
     }
-    // What stops the spin, then what stops the slip that is left.
-    bool twists = c.twist_arm > 0.0f;
-    vec3 before = s.impulse.friction;
-    float twist = s.impulse.twist, twist_before = twist;
-    float spin = 0.0f, spin_mass = 0.0f, left1 = slip1, left2 = slip2;
-    if (!none(twists)) {
-        vec3 response_a = turned_by(a, c.normal) * a.split, response_b = turned_by(b, c.normal) * b.split;
-        spin = dot3(c.normal, wb - wa);
-        spin_mass = dot3(c.normal, response_a) + dot3(c.normal, response_b);
-        float change = choose(twists, -spin * reciprocal(spin_mass), 0.0f);
-        twist = twist + change;
-        change = change * unit;
-        left1 = left1 + (dot3(row1.angular_a, response_a) + dot3(row1.angular_b, response_b)) * change;
-        left2 = left2 + (dot3(row2.angular_a, response_a) + dot3(row2.angular_b, response_b)) * change;
-    }
-    float inverse = reciprocal(k11 * k22 - k12 * k12);
-    vec3 after = before - (t1 * ((k22 * left1 - k12 * left2) * inverse) + t2 * ((k11 * left2 - k12 * left1) * inverse));
+    float inverse = reciprocal(k.k11 * k.k22 - k.k12 * k.k12);
+    vec3 stop = k.row1.direction * ((k.k22 * k.slip1 - k.k12 * k.slip2) * inverse) +
+                k.row2.direction * ((k.k11 * k.slip2 - k.k12 * k.slip1) * inverse);
+    after.friction = before.friction - choose(holds, stop, before.friction);
     // Beyond the limit surface?
     float arm = choose(twists, c.twist_arm, 1.0f);
     float hold = reciprocal(larger(most, LEAST_HOLD));
-    float hold_twist = hold * reciprocal(arm);
-    float x = smaller(dot3(after, after) * hold * hold, 4.0f);
-    float y = smaller(twist * twist * hold_twist * hold_twist, 4.0f);
-    bool slides = x + y + LIMIT_COUPLING * x * y > 1.0f;
+    float x = dot3(after.friction, after.friction) * hold * hold, y = after.twist * hold;
+    y = smaller(y * y, 4.0f * arm * arm);
+    bool slides = holds && x * (arm * arm + LIMIT_COUPLING * y) + y > arm * arm;
     if (!none(slides)) {
-        x = smaller(dot3(before, before) * hold * hold, 1.0f);
-        y = choose(twists, smaller(twist_before * twist_before * hold_twist * hold_twist, 1.0f), 0.0f);
-        float p = 1.0f + LIMIT_COUPLING * y, q = 1.0f + LIMIT_COUPLING * x;
-        float bound = 1.0f + LIMIT_COUPLING * x * y;
-        float apart = k11 - k22;
-        float greatest = 0.5f * ((k11 + k22) + square_root(apart * apart + 4.0f * k12 * k12));
-        float turning = spin_mass * unit * arm * arm;
-        float step = reciprocal(larger(greatest * q, turning * p));
-        vec3 slipped = before - (t1 * slip1 + t2 * slip2) * (q * step);
-        float twisting = twist_before * reciprocal(arm) - spin * unit * arm * (p * step);
-        twisting = choose(twists, twisting, 0.0f);
-        float squared = p * dot3(slipped, slipped) + q * twisting * twisting;
-        float scale = choose(squared > bound * most * most, most * bound * inverse_square_root(squared * bound), 1.0f);
-        after = choose(slides, slipped * scale, after);
-        twist = choose(slides && twists, twisting * scale * arm, twist);
+        // The slip before the spin was stopped.
+        float undone = stopping * k.unit;
+        k.slip1 = k.slip1 - (dot3(k.row1.angular_a, response_a) + dot3(k.row1.angular_b, response_b)) * undone;
+        k.slip2 = k.slip2 - (dot3(k.row2.angular_a, response_a) + dot3(k.row2.angular_b, response_b)) * undone;
+        PatchImpulse sliding = slid(k, before, spin * k.unit, spin_mass * k.unit, arm, hold);
+        after.friction = choose(slides, sliding.friction, after.friction);
+        float turned_back = choose(slides && twists, sliding.twist - after.twist, 0.0f);
+        after.twist = after.twist + turned_back;
+        v.a.angular = v.a.angular - response_a * turned_back;
+        v.b.angular = v.b.angular + response_b * turned_back;
     }
-    s.impulse.friction = after;
-    if (!none(twists)) {
-        s.impulse.twist = choose(twists, twist, twist_before);
-        s.pair_velocity =
-            choose(twists, twisted(s.pair_velocity, c.normal * (twist - twist_before), a, a.split, b, b.split), s.pair_velocity);
-    }
-    vec3 change = after - before;
-    s.pair_velocity = pushed(s.pair_velocity, row1, dot3(t1, change), a, a.split, b, b.split);
-    s.pair_velocity = pushed(s.pair_velocity, row2, dot3(t2, change), a, a.split, b, b.split);
+    s.impulse.friction = after.friction;
+    s.impulse.twist = after.twist;
+    vec3 change = after.friction - before.friction;
+    s.pair_velocity = pushed(v, k.row1, dot3(k.row1.direction, change), a, a.split, b, b.split);
+    s.pair_velocity = pushed(s.pair_velocity, k.row2, dot3(k.row2.direction, change), a, a.split, b, b.split);
     return s;
 }
 
