@@ -207,7 +207,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
             physics::relax_contact(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
         physics::Impulse& impulse = state.impulses[i];
         if (felt) {
-            const float carried = physics::normal_impulse(after.impulse);
+            const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = first ? carried : state.carried[i] + carried;
         }
         impulse = physics::clear_impacts(after.impulse, c.count);

@@ -116,7 +116,7 @@ SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const
 
 // Adds this substep's normal impulses to the contacts' sums over the step.
 SCREE_INLINE void feel(const WideTables& tables, const Group& group, const Impulse& impulse, std::size_t items) {
-    const Float carried = normal_impulse(impulse);
+    const Float carried = solved_impulse(impulse);
     for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
         float& sum = tables.carried[group.contacts.of[lane]];
         sum = tables.first ? carried.v[lane] : sum + carried.v[lane];

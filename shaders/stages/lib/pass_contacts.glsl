@@ -48,7 +48,7 @@ void relax_contact(uint place, uint pass) {
     vec3 pull = c.restitution > 0.0f ? relative_acceleration(READ(forces, c.a), READ(forces, c.b)) : vec3(0.0f);
     SolveResult after = relax_contact(c, impulse, before, ma, mb, pull, PARAMETERS);
     if (BREAKING) {
-        float sum = normal_impulse(after.impulse);
+        float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
         SET_FLOAT(carried, i, sum);
     }
