@@ -40,6 +40,19 @@ Plot plot_of(const std::vector<Sample>& samples) {
     return plot;
 }
 
+constexpr int curve_points = 40;
+
+// Three to seven round numbers between two limits.
+std::vector<double> ticks(double low, double high) {
+    const double power = std::pow(10, std::floor(std::log10((high - low) / 3)));
+    double step = power;
+    for (const double part : {2.0, 5.0, 10.0})
+        if ((high - low) / step > 6) step = part * power;
+    std::vector<double> made;
+    for (double k = std::ceil(low / step); k * step <= high; ++k) made.push_back(std::abs(k) < 0.5 ? 0 : k * step);
+    return made;
+}
+
 std::string escaped(const std::string& text) {
     std::string made;
     for (const char c : text) made += c == '<' ? "&lt;" : c == '>' ? "&gt;" : c == '&' ? "&amp;" : std::string(1, c);
@@ -52,16 +65,17 @@ std::string svg_of(const Validation& validation) {
         fmt::format("<svg viewBox='0 0 {} {}' width='{}' height='{}'>\n", Plot::width, Plot::height, Plot::width, Plot::height);
     svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' class='frame'/>\n", Plot::left, Plot::top,
                        Plot::width - Plot::left - Plot::right, Plot::height - Plot::top - Plot::bottom);
-    for (int i = 0; i <= 4; ++i) {
-        const double x = plot.x0 + (plot.x1 - plot.x0) * i / 4, y = plot.y0 + (plot.y1 - plot.y0) * i / 4;
-        svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:.3g}</text>\n", plot.x(x), Plot::height - 26, x);
-        svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:.4g}</text>\n", Plot::left - 5, plot.y(y) + 4, y);
-    }
+    for (const double x : ticks(plot.x0, plot.x1))
+        svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{:g}</text>\n", plot.x(x), Plot::height - 26, x);
+    for (const double y : ticks(plot.y0, plot.y1))
+        svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='end'>{:g}</text>\n", Plot::left - 5, plot.y(y) + 4, y);
     svg += fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='middle'>{}</text>\n",
                        (Plot::left + Plot::width - Plot::right) / 2, Plot::height - 8, escaped(validation.experiment->parameter));
     svg += "<polyline class='theory' points='";
-    for (const Sample& sample : validation.samples)
-        svg += fmt::format("{:.1f},{:.1f} ", plot.x(sample.parameter), plot.y(sample.theory));
+    for (int i = 0; i <= curve_points; ++i) {
+        const double x = plot.x0 + (plot.x1 - plot.x0) * i / curve_points;
+        svg += fmt::format("{:.1f},{:.1f} ", plot.x(x), plot.y(validation.experiment->theory(x)));
+    }
     svg += "'/>\n";
     for (const Sample& sample : validation.samples)
         if (std::isfinite(sample.measured))
