@@ -208,7 +208,7 @@ struct Constraint {
     float friction;            // Coulomb coefficient of the pair
     vec4 arms[4];              // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature)
     vec3 centre;               // of the friction patch, m (ANCHOR_ROUND: from B's centre to its centre of curvature)
-    float twist_arm;           // of torsional friction, m: mean distance of the points from the patch's centre
+    float twist_arm;           // of torsional friction, m: mean distance of the patch from its centre
     float rolling_resistance;  // of the pair, m
     float restitution;         // of the pair
     uint count;                // points

@@ -33,6 +33,7 @@
 #define SCREE_PHYSICS_CONTACT_SOLVER_H
 
 #include "shaders/physics/solve/contact_momentum.h"
+#include "shaders/physics/solve/friction.h"
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"
 #include "shaders/physics/solve/restitution.h"
@@ -54,110 +55,6 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     c.anchor = choose(follows, ANCHOR_A, c.anchor);
     c.radius_a = choose(follows, 0.0f, c.radius_a);
     return c;
-}
-
-struct SolveResult {
-    Impulse impulse;
-    VelocityPair pair_velocity;  // of the split bodies, afterwards
-};
-
-// Rolling resistance: an angular impulse against the relative angular velocity, at most rolling_resistance times the
-// normal impulse.
-LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
-    Mass k;
-    k.xx = a.xx * a.split + b.xx * b.split;
-    k.xy = a.xy * a.split + b.xy * b.split;
-    k.xz = a.xz * a.split + b.xz * b.split;
-    k.yy = a.yy * a.split + b.yy * b.split;
-    k.yz = a.yz * a.split + b.yz * b.split;
-    k.zz = a.zz * a.split + b.zz * b.split;
-    // Scaled by the trace: the determinant of a small body's tensor leaves the range of a float.
-    float unit = reciprocal((k.xx + k.yy) + k.zz);
-    vec3 x = vec3(k.xx, k.xy, k.xz) * unit, y = vec3(k.xy, k.yy, k.yz) * unit, z = vec3(k.xz, k.yz, k.zz) * unit;
-    vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
-    float determinant = reciprocal(dot3(x, yz));
-    vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
-    vec3 wanted = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
-    vec3 before = s.impulse.rolling;
-    s.impulse.rolling = shortened(before - wanted, c.rolling_resistance * normal);
-    s.pair_velocity = twisted(s.pair_velocity, s.impulse.rolling - before, a, a.split, b, b.split);
-    return s;
-}
-
-// Bounds that keep a tyre's compliance within the range of a float while its normal impulse is near 0.
-CONSTANT float LEAST_HOLD = 1.0e-20f;    // N s
-CONSTANT float MAX_COMPLIANCE = 1.0e6f;  // times the inverse effective mass of the bodies
-
-// Coulomb friction of the patch: torsional friction about the normal, |t| <= mu n twist_arm, then both tangents as one
-// 2x2 block within the circular cone |f| <= mu n.
-LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
-    float most = c.friction * normal;
-    bool twists = c.twist_arm > 0.0f;
-    if (!none(twists)) {
-        float spin = dot3(c.normal, s.pair_velocity.b.angular - s.pair_velocity.a.angular);
-        float before = s.impulse.twist;
-        float inverse_effective_mass =
-            dot3(c.normal, turned_by(a, c.normal)) * a.split + dot3(c.normal, turned_by(b, c.normal)) * b.split;
-        float after = clamped(before - spin * reciprocal(inverse_effective_mass), -most * c.twist_arm, most * c.twist_arm);
-        s.impulse.twist = choose(twists, after, before);
-        s.pair_velocity =
-            choose(twists, twisted(s.pair_velocity, c.normal * (after - before), a, a.split, b, b.split), s.pair_velocity);
-    }
-    vec3 t1 = tangent(c.normal);
-    vec3 t2 = cross3(c.normal, t1);
-    LeverArms r = lever_arms(c, c.centre, s.impulse.center_offset);
-    JacobianRow row1 = jacobian_row(r, t1, a, b);
-    JacobianRow row2 = jacobian_row(r, t2, a, b);
-    float k11 = row1.inverse_effective_mass_a * a.split + row1.inverse_effective_mass_b * b.split;
-    float k22 = row2.inverse_effective_mass_a * a.split + row2.inverse_effective_mass_b * b.split;
-    float unit = reciprocal(k11 + k22);
-    k11 = k11 * unit;
-    k22 = k22 * unit;
-    float k12 =
-        (dot3(row2.angular_a, row1.angular_response_a) * a.split + dot3(row2.angular_b, row1.angular_response_b) * b.split) *
-        unit;
-    float slip1 = speed_along(row1, s.pair_velocity) * unit, slip2 = speed_along(row2, s.pair_velocity) * unit;
-    bool slips = c.radius_a > 0.0f;
-    if (!none(slips)) {
-        // Tyre compliance (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
-        float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MAX_COMPLIANCE);
-        k11 = choose(slips, k11 + compliance, k11);
-        k22 = choose(slips, k22 + compliance, k22);
-        slip1 = choose(slips, slip1 + compliance * dot3(t1, s.impulse.friction), slip1);
-        slip2 = choose(slips, slip2 + compliance * dot3(t2, s.impulse.friction), slip2);
-    }
-    float inverse = reciprocal(k11 * k22 - k12 * k12);
-    vec3 wanted = t1 * ((k22 * slip1 - k12 * slip2) * inverse) + t2 * ((k11 * slip2 - k12 * slip1) * inverse);
-    vec3 before = s.impulse.friction;
-    s.impulse.friction = shortened(before - wanted, most);
-    vec3 change = s.impulse.friction - before;
-    s.pair_velocity = pushed(s.pair_velocity, row1, dot3(t1, change), a, a.split, b, b.split);
-    s.pair_velocity = pushed(s.pair_velocity, row2, dot3(t2, change), a, a.split, b, b.split);
-    return s;
-}
-
-// Selects the friction impulses and velocities of `s`, or those of `t`; all else is that of `t`.
-LAW SolveResult choose(bool condition, SolveResult s, SolveResult t) {
-    t.impulse.friction = choose(condition, s.impulse.friction, t.impulse.friction);
-    t.impulse.twist = choose(condition, s.impulse.twist, t.impulse.twist);
-    t.impulse.rolling = choose(condition, s.impulse.rolling, t.impulse.rolling);
-    t.pair_velocity = choose(condition, s.pair_velocity, t.pair_velocity);
-    return t;
-}
-LAW bool has_friction(Impulse impulse) {
-    vec3 f = impulse.friction, r = impulse.rolling;
-    return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
-}
-
-// Friction acts in both passes. In the relax pass alone, which corrects a warm start only once, over-relaxed splitting
-// overshoots above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
-LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
-    bool acts = normal != 0.0f || has_friction(s.impulse);
-    if (none(acts)) return s;
-    bool resists = acts && c.rolling_resistance > 0.0f;
-    SolveResult after = s;
-    if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
-    return choose(acts, solve_friction(c, after, normal, a, b), s);
 }
 
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
@@ -203,7 +100,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b);
+    return solve_patch_friction(c, result, normal, a, b, parameters);
 }
 
 // The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
@@ -251,7 +148,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = with_momentum(impulse, c.count, contact_momentum(a, b));
     result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b);
+    return solve_patch_friction(c, result, normal, a, b, parameters);
 }
 
 // Warm start: `v` plus what the previous substep's impulses do to the whole (not split) bodies.
