@@ -69,6 +69,7 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
         if (matches[k] == NONE) continue;
         impulse.normal[k] = was.normal[matches[k]];
         impulse.solved_normal[k] = was.solved_normal[matches[k]];
+        impulse.impact_velocity[k] = was.impact_velocity[matches[k]];
     }
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {
