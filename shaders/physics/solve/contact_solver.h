@@ -70,7 +70,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         impulse.impact_velocity = vec4(0.0f);
     } else {
         Impulse lasting = impact_in_progress(c, impulse, v, state, parameters);
-        impulse.solved_normal = choose(bounces, lasting.solved_normal, impulse.solved_normal);
+        impulse.rebound_deficit = choose(bounces, lasting.rebound_deficit, impulse.rebound_deficit);
         impulse.impact_velocity =
             choose(bounces, impact_velocities(c, lasting, v, a, b, state, parameters), vec4(0.0f));
     }
@@ -159,7 +159,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     }
     SolveResult result;
     result.impulse = with_momentum(impulse, c.count, contact_momentum(a, b));
-    if (!none(struck)) result.impulse = rebounding(c, result.impulse, impulse.solved_normal, rebound, state, parameters);
+    if (!none(struck)) result.impulse = rebounding(c, result.impulse, rebound, state, parameters);
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, parameters);
 }

@@ -53,10 +53,10 @@ LAW float slowest_impact(vec3 normal, vec4 state, Parameters parameters) {
 
 // An impact on a body of a block of joints reaches only part of the rebound, because the block passes on the rest of the
 // impulse. So the impact lasts: in the next substeps the points are driven by what is missing. (Of two balls that are
-// welded one above the other the lower reaches half of the rebound, 3/4, 7/8 ...) Meanwhile solved_normal holds minus the
-// velocity that is missing. An impact ends as that no longer shrinks, for instance because the body has struck another.
-// All struck points of a contact are driven alike: where one of several was driven alone, it turned the body into the
-// others, and a rod that fell flat against a wall gained energy.
+// welded one above the other the lower reaches half of the rebound, 3/4, 7/8 ...) An impact ends as that no longer
+// shrinks, for instance because the body has struck another. All struck points of a contact are driven alike: where one
+// of several was driven alone, it turned the body into the others, and a rod that fell flat against a wall gained
+// energy.
 CONSTANT float REBOUND_LEFT = 0.005f;     // of the rebound velocity: missing at the end
 CONSTANT float REBOUND_PROGRESS = 0.97f;  // what is missing must shrink by this factor
 
@@ -71,22 +71,22 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
     bool lasts = true;
     float least = 1.0e30f;
     for (int k = 0; k < 4; ++k) {
-        bool struck = uint(k) < c.count && impulse.solved_normal[k] < 0.0f;
+        bool struck = uint(k) < c.count && impulse.rebound_deficit[k] > 0.0f;
         float impact_velocity = 0.0f;
         if (!none(struck)) {
             // By now gravity has changed the velocity that the rebound shall reach.
             impact_velocity = impulse.impact_velocity[k] - parameters.h * pull * reciprocal(c.restitution);
             float wanted = plain_rebound(c, impact_velocity, pull, parameters);
             float missing = wanted - dot3(c.normal, velocity_at(lever_arms(c, xyz(c.arms[k]), impulse.center_offset), v));
-            bool misses = missing > REBOUND_LEFT * wanted && missing < -REBOUND_PROGRESS * impulse.solved_normal[k];
+            bool misses = missing > REBOUND_LEFT * wanted && missing < REBOUND_PROGRESS * impulse.rebound_deficit[k];
             lasts = lasts && (!struck || (impact_velocity < 0.0f && misses));
             least = choose(struck, smaller(least, missing), least);
         }
         impulse.impact_velocity[k] = choose(struck, impact_velocity, 0.0f);
     }
     for (int k = 0; k < 4; ++k) {
-        bool struck = uint(k) < c.count && impulse.solved_normal[k] < 0.0f;
-        impulse.solved_normal[k] = choose(struck && lasts, -least, positive(impulse.solved_normal[k]));
+        bool struck = uint(k) < c.count && impulse.rebound_deficit[k] > 0.0f;
+        impulse.rebound_deficit[k] = choose(struck && lasts, least, 0.0f);
         impulse.impact_velocity[k] = choose(struck && lasts, impulse.impact_velocity[k], 0.0f);
     }
     return impulse;
@@ -135,7 +135,7 @@ LAW vec4 rebound_velocities(Constraint met, vec3 offset, Constraint c, Impulse i
         float speed_before = speed_along(before, v), speed = speed_along(now, v);
         float ratio = mass_along(before, a, b) * reciprocal(mass_along(now, a, b));
         float squared = speed * speed + ratio * (wanted * wanted - speed_before * speed_before);
-        float missing = -impulse.solved_normal[k];
+        float missing = impulse.rebound_deficit[k];
         found[k] = choose(struck, choose(missing > 0.0f, speed + missing, square_root(positive(squared))), found[k]);
     }
     return found;
@@ -146,7 +146,7 @@ LAW vec4 rebound_velocities(Constraint met, vec3 offset, Constraint c, Impulse i
 LAW float impact_weight(Impulse impulse) {
     float weight = 0.0f;
     for (int k = 0; k < 4; ++k) {
-        float velocity = -impulse.impact_velocity[k], missing = -impulse.solved_normal[k];
+        float velocity = -impulse.impact_velocity[k], missing = impulse.rebound_deficit[k];
         float part = choose(missing > 0.0f, smaller(1.0f, missing * reciprocal(larger(velocity, 1.0e-20f))), 1.0f);
         weight = choose(velocity > 0.0f, larger(weight, part), weight);
     }
@@ -157,17 +157,16 @@ LAW float is_impact(Impulse impulse) {
     return choose(a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f, 1.0f, 0.0f);
 }
 
-// After the relax pass: an impact on a joined body goes on, towards what was aimed at. `missing`: solved_normal before.
-LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 missing, vec4 rebound, vec4 state, Parameters parameters) {
+// After the relax pass: an impact on a joined body goes on, towards what was aimed at. 
+LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 rebound, vec4 state, Parameters parameters) {
     float pull = dot3(c.normal, xyz(state));
     for (int k = 0; k < 4; ++k) {
         bool struck = uint(k) < c.count && impulse.impact_velocity[k] < 0.0f;
         if (none(struck)) continue;
         float aimed = -(rebound[k] + 0.5f * parameters.h * pull) * reciprocal(c.restitution);
-        bool goes_on = missing[k] < 0.0f;
+        bool goes_on = impulse.rebound_deficit[k] > 0.0f;
         bool begins = struck && state.w < 0.0f && !goes_on && aimed < 0.0f;
-        float mark = choose(begins, impulse.impact_velocity[k] - rebound[k], choose(goes_on, missing[k], 0.0f));
-        impulse.solved_normal[k] = choose(struck, mark, impulse.solved_normal[k]);
+        impulse.rebound_deficit[k] = choose(begins, rebound[k] - impulse.impact_velocity[k], impulse.rebound_deficit[k]);
         impulse.impact_velocity[k] = choose(begins, aimed, impulse.impact_velocity[k]);
     }
     return impulse;
@@ -191,6 +190,7 @@ LAW Impulse clear_impacts(Impulse impulse, uint count) {
         if (none(there)) break;
         bool struck = there && impulse.impact_velocity[k] < 0.0f;
         impulse.normal[k] = choose(struck, 0.0f, impulse.normal[k]);
+        impulse.solved_normal[k] = choose(struck, 0.0f, impulse.solved_normal[k]);
         blow = blow || struck;
         normal = choose(there, normal + impulse.normal[k], normal);
     }

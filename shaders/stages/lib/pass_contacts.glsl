@@ -23,7 +23,7 @@ void solve_contact(uint place) {
     impulses.at[i].normal = after.impulse.normal;
     if (BOUNCES) {
         impulses.at[i].impact_velocity = after.impulse.impact_velocity;
-        impulses.at[i].solved_normal = after.impulse.solved_normal;
+        impulses.at[i].rebound_deficit = after.impulse.rebound_deficit;
     }
     impulses.at[i].friction = after.impulse.friction;
     impulses.at[i].twist = after.impulse.twist;
@@ -60,7 +60,10 @@ void relax_contact(uint place, uint pass) {
     impulses.at[i].normal = impulse.normal;
     impulses.at[i].solved_normal = impulse.solved_normal;
     impulses.at[i].separation = impulse.separation;
-    if (BOUNCES && JOINTS) impulses.at[i].impact_velocity = impulse.impact_velocity;
+    if (BOUNCES) {
+        impulses.at[i].impact_velocity = impulse.impact_velocity;
+        impulses.at[i].rebound_deficit = impulse.rebound_deficit;
+    }
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
     if (ROLLS) impulses.at[i].rolling = impulse.rolling;
