@@ -71,7 +71,7 @@ void move(State& state, std::size_t i) {
         const Sum sum = sum_of_slots(state, i);
         velocity.linear += sum.change.linear;
         velocity.angular += sum.change.angular;
-        state.forces[i].impacts = sum.carrying;
+        state.forces[i].impacts = physics::impacts_of(sum.carrying, sum.normal_impulse);
     }
     const physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
     state.poses[i] = after.pose;

@@ -45,7 +45,7 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
                                               state.forces[bodies[1]], p, state.hull_table());
         if (!holds) {
             state.point_counts[i] |= physics::SPECULATIVE;
-        } else if (physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b], p)) {
+        } else if (physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b])) {
             for (const std::uint32_t body : bodies)
                 std::atomic_ref(state.bounds[body].sweep.struck).store(1, std::memory_order_relaxed);
         }

@@ -23,7 +23,7 @@ void main() {
         !will_meet(normal, ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb, READ(forces, of_b), PARAMETERS,
                    Hulls(0u))) {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;
-    } else if (is_impacting(normal, va, vb, PARAMETERS)) {
+    } else if (is_impacting(normal, va, vb)) {
         atomicOr(bounds.at[of_a].sweep.struck, 1u);
         atomicOr(bounds.at[of_b].sweep.struck, 1u);
     }

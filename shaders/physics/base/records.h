@@ -187,6 +187,7 @@ struct Impulse {
     vec4 solved_normal;    // per point, of the last relax pass, N s
     vec4 separation;       // per point, m
     vec4 impact_velocity;  // per point: normal velocity of an impact with restitution, m/s, < 0; else 0
+    vec4 rebound_deficit;  // per point: of its rebound velocity, what a lasting impact has yet to reach, m/s, or 0
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
     vec3 rolling;          // world, on B, N m s

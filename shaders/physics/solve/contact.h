@@ -24,6 +24,7 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.solved_normal = vec4(0.0f);
     impulse.separation = vec4(0.0f);
     impulse.impact_velocity = vec4(0.0f);
+    impulse.rebound_deficit = vec4(0.0f);
     impulse.friction = vec3(0.0f);
     impulse.twist = 0.0f;
     impulse.rolling = vec3(0.0f);
@@ -69,6 +70,8 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
         if (matches[k] == NONE) continue;
         impulse.normal[k] = was.normal[matches[k]];
         impulse.solved_normal[k] = was.solved_normal[matches[k]];
+        impulse.impact_velocity[k] = was.impact_velocity[matches[k]];
+        impulse.rebound_deficit[k] = was.rebound_deficit[matches[k]];
     }
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {

@@ -17,7 +17,9 @@
 // rounding. A contact ends within the step once its bodies have slid along the surface by more than the half width of
 // the body slid over: its points would hang in the air, so it pushes no more until the next narrowphase.
 //
-// Measured alternatives (8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of 520):
+// Impulses have momentum from substep to substep (contact_momentum.h).
+//
+// Measured alternatives (without momentum; 8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of 520):
 //   as it is                                            0.117 m  0.048 m  0.021 m
 //   contact frequency 0.125/h; 0.16/h in place of 0.14  0.147; 0.090   with 0.16 a pyramid of 210 is not quiet within 8 s
 //   contact frequency 0.18/h                            0.071             that pyramid creeps at 25 mm/s
@@ -27,9 +29,6 @@
 //   relaxation 1.8 in place of 1.5                      both columns, of 20 and of 40, fall within seconds
 //   relaxation 1.2                                      columns compress by a quarter more
 //   damping ratio 20; 40                                0.147; 0.148   0.056; 0.066   0.027; 0.029
-//   momentum on the warm start, b = 0.3; 0.5            0.148; 0.147   0.044; 0.043   0.024; 0.023
-// Momentum (impulse + b (impulse - previous), dropped where the change reverses) would gain a tenth in the buildings
-// for 32 more bytes per contact; piles came to rest no sooner. Sixteen substeps gain more: 0.06 m for the column.
 #ifndef SCREE_PHYSICS_CONTACT_SOLVER_H
 #define SCREE_PHYSICS_CONTACT_SOLVER_H
 
@@ -60,17 +59,21 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
 
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
 // are still apart.
-LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
+LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
     c = refresh_round_contact(c, impulse.center_offset);
     bool gone = impulse.slide_distance > c.slide_limit;
-    impulse.impact_velocity = vec4(0.0f);
     // Push-out speed, divided by the split factor because the pushes of overlapping neighbours add up from layer to
     // layer. At most by 4: a tray under hundreds of boxes must still bear them.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
     bool bounces = c.restitution > 0.0f;
-    if (!none(bounces))
+    if (none(bounces)) {
+        impulse.impact_velocity = vec4(0.0f);
+    } else {
+        Impulse lasting = impact_in_progress(c, impulse, v, state, parameters);
+        impulse.rebound_deficit = choose(bounces, lasting.rebound_deficit, impulse.rebound_deficit);
         impulse.impact_velocity =
-            choose(bounces, impact_velocities(c, impulse, v, a, b, pull, parameters), impulse.impact_velocity);
+            choose(bounces, impact_velocities(c, lasting, v, a, b, state, parameters), vec4(0.0f));
+    }
     float normal = 0.0f;
     float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(a, b));
     uint sweeps = sweeps_of(c, impulse);
@@ -106,7 +109,11 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 
 // The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
 // applies restitution and friction.
-LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
+LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
+    bool struck = is_impact(impulse) > 0.0f;
+    Constraint met = c;
+    vec3 met_offset = impulse.center_offset;
+    if (!none(struck)) met = refresh_round_contact(c, met_offset);
     bool follows = c.anchor == ANCHOR_ROUND;
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < c.count && !follows;
@@ -121,6 +128,9 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
     if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.center_offset), impulse.separation.x);
     c = refresh_round_contact(c, impulse.center_offset);
+    vec4 rebound = vec4(0.0f);
+    if (!none(struck)) rebound = rebound_velocities(met, met_offset, c, impulse, v, a, b, state, parameters);
+    float slowest = slowest_impact(c.normal, state, parameters);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
@@ -132,15 +142,16 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
             float speed = dot3(c.normal, velocity_at(r, v));
             float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
-            target = choose(impulse.impact_velocity[k] < 0.0f,
-                            restitution_target(c, impulse.impact_velocity[k], pull, parameters), target);
+            target = choose(impulse.impact_velocity[k] < 0.0f, -rebound[k], target);
             float before = impulse.normal[k];
             // A fast approach is left to the next substep, which measures its impact velocity.
-            bool waits = impulse.impact_velocity[k] == 0.0f && c.restitution > 0.0f && speed < -parameters.restitution_threshold;
+            bool waits = impulse.impact_velocity[k] == 0.0f && c.restitution > 0.0f && speed < -slowest;
             bool acts = there && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
             if (none(acts)) continue;
             JacobianRow row = jacobian_row(r, c.normal, a, b);
-            float after = choose(gone, 0.0f, positive(before - mass_along(row, a, b) * (speed + target)));
+            float mass = mass_along(row, a, b);
+            acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
+            float after = choose(gone, 0.0f, positive(before - mass * (speed + target)));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
@@ -148,6 +159,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     }
     SolveResult result;
     result.impulse = with_momentum(impulse, c.count, contact_momentum(a, b));
+    if (!none(struck)) result.impulse = rebounding(c, result.impulse, rebound, state, parameters);
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, parameters);
 }
