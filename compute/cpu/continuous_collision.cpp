@@ -45,9 +45,14 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
                                               state.forces[bodies[1]], p, state.hull_table());
         if (!holds) {
             state.point_counts[i] |= physics::SPECULATIVE;
-        } else if (physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b])) {
-            for (const std::uint32_t body : bodies)
-                std::atomic_ref(state.bounds[body].sweep.struck).store(1, std::memory_order_relaxed);
+            return;
+        }
+        const bool struck = physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b]);
+        for (int side = 0; side < 2; ++side) {
+            const std::uint32_t body = bodies[side], other = bodies[1 - side];
+            const bool driven = physics::drives(state.properties[other], state.velocities[other], p);
+            const physics::uint flags = (struck ? physics::STRUCK : 0u) | (driven ? physics::DRIVEN : 0u);
+            if (flags != 0) std::atomic_ref(state.bounds[body].sweep.struck).fetch_or(flags, std::memory_order_relaxed);
         }
     });
 }
@@ -57,7 +62,9 @@ void cull_speculative(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         physics::uint& points = state.point_counts[i];
         if (points < physics::SPECULATIVE) return;
-        const auto struck = [&](std::uint32_t row) { return state.bounds[state.body_of(row)].sweep.struck != 0; };
+        const auto struck = [&](std::uint32_t row) {
+            return (state.bounds[state.body_of(row)].sweep.struck & physics::STRUCK) != 0;
+        };
         const bool predict_pose = !struck(state.pairs[i].a) && !struck(state.pairs[i].b);
         points = predict_pose ? 0 : points - physics::SPECULATIVE;
     });

@@ -23,8 +23,11 @@ void main() {
         !will_meet(normal, ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb, READ(forces, of_b), PARAMETERS,
                    Hulls(0u))) {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;
-    } else if (is_impacting(normal, va, vb)) {
-        atomicOr(bounds.at[of_a].sweep.struck, 1u);
-        atomicOr(bounds.at[of_b].sweep.struck, 1u);
+        return;
     }
+    uint struck = is_impacting(normal, va, vb) ? STRUCK : 0u;
+    uint flags_a = struck | (drives(READ(properties, of_b), READ(velocities, of_b), PARAMETERS) ? DRIVEN : 0u);
+    uint flags_b = struck | (drives(READ(properties, of_a), READ(velocities, of_a), PARAMETERS) ? DRIVEN : 0u);
+    if (flags_a != 0u) atomicOr(bounds.at[of_a].sweep.struck, flags_a);
+    if (flags_b != 0u) atomicOr(bounds.at[of_b].sweep.struck, flags_b);
 }

@@ -175,8 +175,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     } else {
         Impulse lasting = impact_in_progress(c, impulse, v, state, parameters);
         impulse.solved_normal = choose(bounces, lasting.solved_normal, impulse.solved_normal);
-        impulse.impact_velocity =
-            choose(bounces, impact_velocities(c, lasting, v, a, b, state, parameters), vec4(0.0f));
+        impulse.impact_velocity = choose(bounces, impact_velocities(c, lasting, v, a, b, state, parameters), vec4(0.0f));
     }
     float normal = 0.0f;
     float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(a, b));

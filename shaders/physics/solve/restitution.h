@@ -165,7 +165,7 @@ LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 missing, vec4 rebound
         if (none(struck)) continue;
         float aimed = -(rebound[k] + 0.5f * parameters.h * pull) * reciprocal(c.restitution);
         bool goes_on = missing[k] < 0.0f;
-        bool begins = struck && state.w < 0.0f && !goes_on && aimed < 0.0f;
+        bool begins = struck && (state.w < 0.0f || state.w > 1.5f) && !goes_on && aimed < 0.0f;
         float mark = choose(begins, impulse.impact_velocity[k] - rebound[k], choose(goes_on, missing[k], 0.0f));
         impulse.solved_normal[k] = choose(struck, mark, impulse.solved_normal[k]);
         impulse.impact_velocity[k] = choose(begins, aimed, impulse.impact_velocity[k]);
