@@ -50,9 +50,21 @@ LAW bool will_be_fast(BodyProperties properties, Velocity velocity, Parameters p
 // Flags of Sweep.struck, of what is predicted for the step.
 CONSTANT uint STRUCK = 1u;  // a contact will deflect the body
 CONSTANT uint DRIVEN = 2u;  // a fast kinematic body will drive it
-// Whether the body drives what it meets: nothing stops it, so what is clamped before it would be left behind.
+// Whether the body drives what it meets further than the margin in which the broadphase searched for that. Nothing stops a
+// kinematic body, so what is clamped before it would be left behind.
 LAW bool drives(BodyProperties properties, Velocity velocity, Parameters parameters) {
-    return properties.motion == MOTION_KINEMATIC && will_be_fast(properties, velocity, parameters);
+    if (properties.motion != MOTION_KINEMATIC) return false;
+    float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(properties);
+    return way * parameters.dt > parameters.speculative;
+}
+// Whether a contact pair does not clamp the one body, because the other, `by`, drives it: the contact pushes it, though it
+// may lag behind by a part of a substep.
+LAW bool is_driven_by(Sweep sweep, BodyProperties by, uint contact_points) {
+    return (sweep.struck & DRIVEN) != 0u && by.motion == MOTION_KINEMATIC && contact_points > 0u;
+}
+// Whether contacts of the body are to be predicted.
+LAW bool will_sweep(BodyProperties properties, Velocity velocity, Parameters parameters) {
+    return will_be_fast(properties, velocity, parameters) || drives(properties, velocity, parameters);
 }
 
 LAW vec3 half_extents_of(BodyProperties properties, vec4 orientation) {
