@@ -120,8 +120,7 @@ public:
     template <class Told>
     void hand_out(float active, const Told& told) {
         for (const Joint& record : members_)
-            if (record.slot != NONE)
-                state_.slots[record.slot] = physics::velocity_delta(record.velocity, active, told(record));
+            if (record.slot != NONE) state_.slots[record.slot] = physics::velocity_delta(record.velocity, active, told(record));
     }
 
     static vec3 impulse_of(const Joint& joint, physics::uint from) {

@@ -98,7 +98,7 @@ std::vector<Experiment> impact_experiments() {
                    "speed, m/s",
                    "energy after, of before",
                    0,
-                   0.01,
+                   0.001,
                    {2, 5, 10, 20, 50, 100, 150},
                    [](double) { return 1.0; },
                    [](const Lab& lab, double v) { return collide(lab, v, 0.5).energy; }});

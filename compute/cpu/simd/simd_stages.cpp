@@ -59,8 +59,7 @@ struct Group {
     SCREE_INLINE vec4 struck(const WideTables& tables) const {
         if (none(c.restitution > 0.0f)) return vec4(0.0f);
         return choose(c.restitution > 0.0f,
-                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)),
-                      vec4(0.0f));
+                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)), vec4(0.0f));
     }
     SCREE_INLINE void hand_out(const WideTables& tables, const Impulse& after, const VelocityPair& share, Float carrying,
                                Float told_a, Float told_b) const {

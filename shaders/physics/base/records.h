@@ -141,7 +141,7 @@ struct Sweep {      // motion of a body through the step
     float pad0;
     vec4 orientation;  // at the start
     uint stops[2];     // float bits of the fraction of the step at which it is clamped, or NO_HIT; CCD rounds alternate
-    uint struck;       // 1: predicted to be struck in this step
+    uint struck;       // flags STRUCK and DRIVEN (sweep.h)
     uint pad1;
 };
 

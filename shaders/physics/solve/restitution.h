@@ -165,7 +165,7 @@ LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 rebound, vec4 state, 
         if (none(struck)) continue;
         float aimed = -(rebound[k] + 0.5f * parameters.h * pull) * reciprocal(c.restitution);
         bool goes_on = impulse.rebound_deficit[k] > 0.0f;
-        bool begins = struck && state.w < 0.0f && !goes_on && aimed < 0.0f;
+        bool begins = struck && (state.w < 0.0f || state.w > 1.5f) && !goes_on && aimed < 0.0f;
         impulse.rebound_deficit[k] = choose(begins, rebound[k] - impulse.impact_velocity[k], impulse.rebound_deficit[k]);
         impulse.impact_velocity[k] = choose(begins, aimed, impulse.impact_velocity[k]);
     }
