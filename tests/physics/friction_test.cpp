@@ -96,6 +96,21 @@ TEST_CASE("friction stops a slow slip and spin at once") {
     CHECK(std::abs(s.pair_velocity.b.angular.y) < 1e-6f);
 }
 
+TEST_CASE("a contact that has all but let go gives its friction back, and nothing more") {
+    for (const float normal : {0.0f, 1e-30f, 1e-20f, 1e-10f}) {
+        SolveResult s{};
+        s.pair_velocity.b.linear = vec3(3, 0, 1);
+        s.impulse.friction = vec3(5, 0, 2);
+        s.impulse.twist = 0.5f;
+        s = solve_patch_friction(patch(0.2f), s, normal, nothing(), uneven(0.5), Parameters{});
+        INFO("normal impulse " << normal << " N s");
+        CHECK(length3(s.impulse.friction) < 1e-9f);
+        CHECK(std::abs(s.impulse.twist) < 1e-9f);
+        CHECK(s.pair_velocity.b.linear.x == Approx(-2));
+        CHECK(s.pair_velocity.b.linear.z == Approx(-1));
+    }
+}
+
 TEST_CASE("rolling resistance opposes the rotation of a body of any inertia") {
     Constraint c = patch(0);
     c.friction = 0;

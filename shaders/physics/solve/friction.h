@@ -135,7 +135,9 @@ LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float sp
     PatchImpulse after;
     after.friction = before.friction - (k.row1.direction * k.slip1 + k.row2.direction * k.slip2) * (q * step);
     after.twist = before.twist - spin * (p * step);
+    // Bounded, for a contact that has all but let go: the square of its quotient leaves the range of a float.
     float squared = (p * dot3(after.friction, after.friction) + q * after.twist * after.twist) * hold * hold;
+    squared = smaller(squared, 1.0e30f);
     float scale = choose(squared > bound, bound * inverse_square_root(squared * bound), 1.0f);
     after.friction = after.friction * scale;
     after.twist = after.twist * scale;
