@@ -60,7 +60,7 @@ void relax_contact(uint place, uint pass) {
     impulses.at[i].normal = impulse.normal;
     impulses.at[i].solved_normal = impulse.solved_normal;
     impulses.at[i].separation = impulse.separation;
-    if (BOUNCES && JOINTS) impulses.at[i].impact_velocity = impulse.impact_velocity;
+    if (BOUNCES) impulses.at[i].impact_velocity = impulse.impact_velocity;
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
     if (ROLLS) impulses.at[i].rolling = impulse.rolling;
