@@ -68,6 +68,9 @@ const std::vector<Demo>& all_demos() {
         {"swarm", "bodies colliding in empty space keep their momentum", 64, false, swarm, true},
         {"shots", "fast spheres and boxes do not pass a thin wall", 10000, true, shots, true},
         {"strikes", "fast spheres and boxes do not pass thin plates or small bodies", 1500, true, strikes, true},
+        {"blows", "elastic impacts of rows, of joined balls and of pendulums keep their energy", 67, false, blows, true},
+        {"pairs", "balls that meet off centre keep their energy", 40, false, pairs, true},
+        {"plough", "kinematic plates leave nothing behind", 84, false, plough, true},
     };
     return demos;
 }

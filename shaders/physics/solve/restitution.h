@@ -27,10 +27,6 @@ CONSTANT int IMPACT_SWEEPS = 8;
 // contact. (With 0, a row of balls that an impact's precursor had moved by 0.3 mm/s did not transmit the impact.)
 CONSTANT float IMPACT_DISTANCE = 0.01f;
 
-// In a row of touching bodies the one that an impact has just pushed strikes the next with half the speed and less, so
-// for a struck body this part of the threshold counts.
-CONSTANT float STRUCK_THRESHOLD = 0.02f;
-
 // What BodyForces.impacts holds: the number of impacts, negative for a body on joints.
 LAW float impacts_of(float struck, float joined) {
     return choose(joined > 0.0f, -struck, struck);
@@ -44,11 +40,11 @@ LAW vec4 impact_state(BodyForces a, BodyForces b) {
 }
 
 // Slower approaches have no restitution, m/s: what rests on a surface approaches at up to the speed of a fall in two
-// steps, and bodies beside each other do not.
+// steps, and bodies beside each other do not. (With a lower threshold for the bodies that an impact has just pushed, a
+// heap of 200 boxes gained 2e-4 of its energy in a step.)
 LAW float slowest_impact(vec3 normal, vec4 state, Parameters parameters) {
     float pull = larger(abs(dot3(normal, parameters.gravity)), abs(dot3(normal, xyz(state))));
-    float slowest = larger(parameters.restitution_threshold, 2.0f * parameters.dt * pull);
-    return slowest * choose(state.w != 0.0f, STRUCK_THRESHOLD, 1.0f);
+    return larger(parameters.restitution_threshold, 2.0f * parameters.dt * pull);
 }
 
 // An impact on a body of a block of joints reaches only part of the rebound, because the block passes on the rest of the
@@ -165,7 +161,7 @@ LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 rebound, vec4 state, 
         if (none(struck)) continue;
         float aimed = -(rebound[k] + 0.5f * parameters.h * pull) * reciprocal(c.restitution);
         bool goes_on = impulse.rebound_deficit[k] > 0.0f;
-        bool begins = struck && (state.w < 0.0f || state.w > 1.5f) && !goes_on && aimed < 0.0f;
+        bool begins = struck && (state.w < 0.0f || (state.w > 1.5f && c.count == 1u)) && !goes_on && aimed < 0.0f;
         impulse.rebound_deficit[k] = choose(begins, rebound[k] - impulse.impact_velocity[k], impulse.rebound_deficit[k]);
         impulse.impact_velocity[k] = choose(begins, aimed, impulse.impact_velocity[k]);
     }
