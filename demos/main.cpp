@@ -23,6 +23,7 @@ constexpr const char* examples = R"(Examples:
   scree run wall.json --seconds 5                       and to run
   scree compare mix --steps 60                          CPU against GPU, bit by bit
   scree check                                           the stability suite
+  scree validate --page validation.html                 experiments against theory, with plots
 
 Exit status: 0 done, 1 failed or missed a promise, 2 wrong usage or input, 130 interrupted.)";
 
@@ -66,6 +67,7 @@ int main(int argc, char** argv) {
     demos::add_view(program, status);
     demos::add_compare(program, status);
     demos::add_check(program, status);
+    demos::add_validate(program, status);
     demos::add_bench(program, status);
     demos::add_export(program, status);
     try {

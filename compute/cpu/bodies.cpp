@@ -71,7 +71,7 @@ void move(State& state, std::size_t i) {
         const Sum sum = sum_of_slots(state, i);
         velocity.linear += sum.change.linear;
         velocity.angular += sum.change.angular;
-        state.forces[i].impacts = sum.carrying;
+        state.forces[i].impacts = physics::impacts_of(sum.carrying, sum.normal_impulse);
     }
     const physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
     state.poses[i] = after.pose;
@@ -137,7 +137,7 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
         const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
         const float bend = physics::is_part(properties) ? physics::bend_of_way(state.part_in(i), velocity, state.fixed()) : 0;
         physics::Bounds bounds = physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
-        if (physics::will_be_fast(properties, velocity, state.fixed())) note(counts.fast, 1u);
+        if (physics::will_sweep(properties, velocity, state.fixed())) note(counts.fast, 1u);
         state.masses[i] =
             owner == i ? physics::mass_in_world(properties, pose.orientation, state.masses[i].split) : physics::Mass{};
         std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);

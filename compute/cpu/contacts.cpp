@@ -26,8 +26,8 @@ physics::VelocityPair velocities_of(const State& state, const physics::Constrain
 }
 
 // Read only where restitution is possible.
-vec3 pull(const State& state, const physics::Constraint& c) {
-    return c.restitution > 0 ? physics::relative_acceleration(state.forces[c.a], state.forces[c.b]) : vec3(0);
+physics::vec4 impact_state(const State& state, const physics::Constraint& c) {
+    return c.restitution > 0 ? physics::impact_state(state.forces[c.a], state.forces[c.b]) : physics::vec4(0);
 }
 
 // `told`: normal impulse, or quiet steps, for A and B (VelocityDelta).
@@ -175,9 +175,9 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Mass mb = physics::split_mass(state.masses[c.b], state.impulses[i], state.fixed());
         const physics::VelocityPair before = velocities_of(state, c);
         const physics::SolveResult after =
-            physics::solve_contact(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
+            physics::solve_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), state.fixed());
         state.impulses[i] = after.impulse;
-        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), physics::is_impact(after.impulse));
+        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), physics::impact_weight(after.impulse));
     });
 }
 
@@ -204,10 +204,10 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         const physics::Mass mb = physics::impact_mass(state.impulses[i], state.masses[c.b], state.forces[c.b], state.fixed());
         const physics::VelocityPair before = velocities_of(state, c);
         const physics::SolveResult after =
-            physics::relax_contact(c, state.impulses[i], before, ma, mb, pull(state, c), state.fixed());
+            physics::relax_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), state.fixed());
         physics::Impulse& impulse = state.impulses[i];
         if (felt) {
-            const float carried = physics::normal_impulse(after.impulse);
+            const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = first ? carried : state.carried[i] + carried;
         }
         impulse = physics::clear_impacts(after.impulse, c.count);

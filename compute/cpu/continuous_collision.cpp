@@ -37,17 +37,28 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         const auto fast = [&](std::uint32_t body) {
             return physics::will_be_fast(state.properties[body], state.velocities[body], p);
         };
-        if (state.point_counts[i] == 0 || !(fast(bodies[0]) || fast(bodies[1]))) return;
+        const auto drives = [&](std::uint32_t body) {
+            return physics::drives(state.properties[body], state.velocities[body], p);
+        };
+        const bool driving[2] = {drives(bodies[0]), drives(bodies[1])};
+        const bool any_fast = fast(bodies[0]) || fast(bodies[1]);
+        if (state.point_counts[i] == 0 || !(any_fast || driving[0] || driving[1])) return;
         const physics::Manifold& manifold = state.manifolds[i];
-        const bool holds = physics::is_near(manifold, state.point_counts[i], state.properties[a], state.properties[b], p) ||
-                           physics::will_meet(manifold.normal, state.properties[a], state.poses[a], state.velocities[a],
+        const float cosine = physics::same_normal(driving[0] || driving[1]);
+        const bool holds = !any_fast ||
+                           physics::is_near(manifold, state.point_counts[i], state.properties[a], state.properties[b], p) ||
+                           physics::will_meet(manifold.normal, cosine, state.properties[a], state.poses[a], state.velocities[a],
                                               state.forces[bodies[0]], state.properties[b], state.poses[b], state.velocities[b],
                                               state.forces[bodies[1]], p, state.hull_table());
         if (!holds) {
             state.point_counts[i] |= physics::SPECULATIVE;
-        } else if (physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b], p)) {
-            for (const std::uint32_t body : bodies)
-                std::atomic_ref(state.bounds[body].sweep.struck).store(1, std::memory_order_relaxed);
+            return;
+        }
+        const bool struck = any_fast && physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b]);
+        for (int side = 0; side < 2; ++side) {
+            const std::uint32_t body = bodies[side];
+            const physics::uint flags = (struck ? physics::STRUCK : 0u) | (driving[1 - side] ? physics::DRIVEN : 0u);
+            if (flags != 0) std::atomic_ref(state.bounds[body].sweep.struck).fetch_or(flags, std::memory_order_relaxed);
         }
     });
 }
@@ -57,7 +68,9 @@ void cull_speculative(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         physics::uint& points = state.point_counts[i];
         if (points < physics::SPECULATIVE) return;
-        const auto struck = [&](std::uint32_t row) { return state.bounds[state.body_of(row)].sweep.struck != 0; };
+        const auto struck = [&](std::uint32_t row) {
+            return (state.bounds[state.body_of(row)].sweep.struck & physics::STRUCK) != 0;
+        };
         const bool predict_pose = !struck(state.pairs[i].a) && !struck(state.pairs[i].b);
         points = predict_pose ? 0 : points - physics::SPECULATIVE;
     });
@@ -82,7 +95,9 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
             physics::limits_of(ta, tb, physics::contact_state_of(state.point_counts[i], stops[0], stops[1]), state.fixed()),
             false, state.hull_table());
         for (int side = 0; side < 2; ++side)
-            if (stops[side] <= 1) lower(state.bounds[bodies[side]].sweep.stops[next], physics::floatBitsToUint(impact.fraction));
+            if (stops[side] <= 1 && !physics::is_driven_by(state.bounds[bodies[side]].sweep, state.properties[bodies[1 - side]],
+                                                           state.point_counts[i]))
+                lower(state.bounds[bodies[side]].sweep.stops[next], physics::floatBitsToUint(impact.fraction));
     });
 }
 

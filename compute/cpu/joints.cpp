@@ -50,15 +50,20 @@ public:
             if (physics::row_acts(joint.axes[k], joint.rows[k])) visit(k, joint.axes[k], joint.rows[k]);
     }
 
-    void lend(bool biased) {
-        for (Joint& record : members_) {
-            record.mass = physics::mass_of_member(state_.masses[record.block_body], record.slot != NONE, record.blocks,
-                                                  state_.forces[record.block_body].impacts, record.normal_sum, biased, p_);
-        }
+    // Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
+    bool struck() const {
+        return std::any_of(members_.begin(), members_.end(),
+                           [&](const Joint& record) { return state_.forces[record.block_body].impacts != 0; });
     }
 
-    void coordinate(bool biased) {
-        take_velocities(biased);
+    void lend(bool after_contacts) {
+        for (Joint& record : members_)
+            record.mass = physics::mass_of_member(state_.masses[record.block_body], record.slot != NONE, record.blocks,
+                                                  record.normal_sum, after_contacts, p_);
+    }
+
+    void coordinate(bool after_contacts) {
+        take_velocities(after_contacts);
         for_each_whole([&](Joint& joint) {
             const physics::JointConfiguration at = physics::joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a),
                                                                                 joint.anchor_b, joint.frame_b, pose(joint.b));
@@ -72,9 +77,10 @@ public:
     }
 
     void solve(bool biased) {
-        lend(biased);
+        const bool after_contacts = biased || struck();
+        lend(after_contacts);
         for (Joint& joint : joints_) joint.solved_axes = 0;
-        coordinate(biased);
+        coordinate(after_contacts);
         bool others = true;
         for (physics::uint round = 0; round < physics::JOINT_ROUNDS && others; ++round) {
             for (Joint& record : members_) record.velocity = record.velocity_before;
@@ -112,9 +118,9 @@ public:
         });
     }
     template <class Told>
-    void hand_out(const Told& told) {
+    void hand_out(float active, const Told& told) {
         for (const Joint& record : members_)
-            if (record.slot != NONE) state_.slots[record.slot] = physics::velocity_delta(record.velocity, 1, told(record));
+            if (record.slot != NONE) state_.slots[record.slot] = physics::velocity_delta(record.velocity, active, told(record));
     }
 
     static vec3 impulse_of(const Joint& joint, physics::uint from) {
@@ -153,12 +159,12 @@ private:
     physics::VelocityPair speeds(const Joint& joint) const {
         return {speed(joint.a, joint.block_body_a), speed(joint.b, joint.block_body_b)};
     }
-    // In the biased pass with this pass's changes by contacts, whose slots come before those of joints.
-    void take_velocities(bool biased) {
+    // After the contacts with this pass's changes by them, whose slots come before those of joints.
+    void take_velocities(bool after_contacts) {
         for (Joint& record : members_) {
             const physics::uint body = record.block_body;
             physics::Velocity velocity = state_.velocities[body];
-            if (biased && record.slot != NONE) {
+            if (after_contacts && record.slot != NONE) {
                 const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1];
                 for (std::size_t k = first; k < state_.slot_ends[body] - record.blocks; ++k)
                     velocity = physics::changed_by(velocity, state_.slots[k]);
@@ -372,7 +378,7 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
         block.coordinate(false);
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
         block.gather(physics::row_impulse);
-        block.hand_out([](const Joint& record) { return record.normal_sum; });
+        block.hand_out(1, [](const Joint& record) { return record.normal_sum; });
     });
 }
 
@@ -382,7 +388,7 @@ void solve_joints(State& state, const Threads& threads, std::uint32_t) {
         block.solve(true);
         block.gather([](const JointRow& row) { return physics::handed_impulse(row, /* warms */ false); });
         block.for_each_whole(Block::commit);
-        block.hand_out([](const Joint&) { return 0.0f; });
+        block.hand_out(0, [](const Joint&) { return 1.0f; });  // marks the body as joined (restitution.h)
     });
 }
 
@@ -390,13 +396,16 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
     for_each_block(state, threads, [&](Block block) {
         if (!block.moves()) return;
         block.solve(false);
-        block.gather([&](const JointRow& row) { return physics::handed_impulse(row, /* warms */ !last); });
+        const bool struck = block.struck();  // the impulses of an impact must not warm start the next substep
+        block.gather([&](const JointRow& row) { return physics::handed_impulse(row, /* warms */ !last && !struck); });
         float told = physics::FOREVER;
         block.for_each_whole([&](Joint& joint) {
             Block::commit(joint);
             joint.force += Block::impulse_of(joint, 0);
             joint.torque += Block::impulse_of(joint, 3);
             if (last) take_stock(joint, state);
+            if (struck)
+                for (JointRow& row : joint.rows) row = physics::torn(row);
         });
         block.for_each_whole([&](const Joint& joint) {
             for (const physics::uint body : {joint.a, joint.b})
@@ -405,7 +414,7 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
                                                               state.sleep_states[body]));
         });
         block.note_pressing();
-        block.hand_out([&](const Joint& record) { return last ? told : record.normal_sum; });
+        block.hand_out(1, [&](const Joint& record) { return last ? told : record.normal_sum; });
     });
 }
 

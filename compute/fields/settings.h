@@ -19,7 +19,7 @@ inline constexpr auto table<Settings> = table_of(
     field("speculative_distance", &Settings::speculative_distance, above(0, 1), "m",
           "Greatest distance at which speculative contacts are made; 0.04 half widths if less"),
     field("restitution_threshold", &Settings::restitution_threshold, at_least(0), "m/s",
-          "Impact speed below which restitution is 0"),
+          "Impact speed below which restitution is 0; at least that of a fall in two steps along the normal"),
     field("max_speed", &Settings::max_speed, above(0, 1e4), "m/s", "Speed to which velocities are clamped"),
     field("max_turn", &Settings::max_turn, above(0, 1.57), "rad", "Rotation per substep to which angular velocities are clamped"),
     field("sleeping", &Settings::sleeping, "Bodies at rest sleep"),

@@ -192,7 +192,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
          {velocities, A::movers}, {properties}, {sleep_states}},
         {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_BREAKING});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {properties}, {sleep_states}},
+        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, {slots}, {properties}, {sleep_states}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},

@@ -14,7 +14,8 @@ namespace {
 
 physics::Impulse scaled(physics::Impulse impulse, float factor) {
     impulse.normal *= factor;
-    impulse.solved_normal *= factor;
+    for (int k = 0; k < 4; ++k)  // a negative one is a velocity (restitution.h)
+        if (impulse.solved_normal[k] > 0) impulse.solved_normal[k] *= factor;
     impulse.friction *= factor;
     impulse.twist *= factor;
     impulse.rolling *= factor;

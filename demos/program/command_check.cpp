@@ -8,6 +8,7 @@
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/interrupt.h"
+#include "demos/program/options.h"
 #include "demos/program/output_check.h"
 #include "demos/program/progress.h"
 #include "demos/suite/selection.h"
@@ -22,25 +23,27 @@ struct CheckOptions {
     std::vector<std::string> names;
     MachineOptions machine;
     std::string report;
-    float offset = 0;
+    DemoOptions scene;
+    Settings settings;
     bool list = false, markdown = false, quiet = false;
 };
 
-std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Backend& machine, float offset, bool quiet) {
+std::vector<Outcome> outcomes_of(const std::vector<const Demo*>& chosen, const Backend& machine, const CheckOptions& options) {
     std::vector<Outcome> outcomes;
     for (const Demo* demo : chosen) {
         std::optional<Progress> progress;
         const auto tell = [&](long steps, long all) {
             if (!progress) {
                 progress.emplace(fmt::format("{} ({} of {})", demo->name, outcomes.size() + 1, chosen.size()), all, "steps",
-                                 quiet);
+                                 options.quiet);
             }
             progress->done(steps);
             return !is_interrupted();
         };
         DemoOptions size = suite_size(*demo);
-        size.offset = offset;
-        Outcome outcome = at_work([&] { return run_trial(*demo, size, machine.make_runner(), tell); });
+        size.offset = options.scene.offset;
+        size.seed = options.scene.seed;
+        Outcome outcome = at_work([&] { return run_trial(*demo, size, machine.make_runner(), tell, options.settings); });
         progress.reset();
         if (is_interrupted()) {
             say("scree: interrupted in {}\n", demo->name);
@@ -73,7 +76,7 @@ int check(const CheckOptions& options) {
         for (const std::string& word : options.names) note_beginning(word);
     }
     if (!machine.remark.empty()) say("scree: {}\n", machine.remark);
-    const std::vector<Outcome> outcomes = outcomes_of(chosen, machine, options.offset, options.quiet);
+    const std::vector<Outcome> outcomes = outcomes_of(chosen, machine, options);
     machine.require_valid();
     const Kept count = count_kept(outcomes);
     if (options.report != "-" && !outcomes.empty())
@@ -101,14 +104,16 @@ void add_check(CLI::App& program, int& status) {
     command->add_flag("--markdown", options->markdown, "With --list: as a Markdown table.");
     command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command
-        ->add_option("--offset", options->offset,
+        ->add_option("--offset", options->scene.offset,
                      "Move every scene along x and z, m, to see where the accuracy of positions ends. Default: 0.")
         ->check(CLI::Range(-1e6f, 1e6f));
+    add_options(*command, options->settings.rate, options->settings.substeps);
+    add_options(*command, options->scene.seed);
     add_options(*command, options->machine);
     command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(
         "Examples:\n  scree check --backend cpu\n  scree check 'stack*' pyramid --report stands.json\n"
-        "  scree check 'stack*' bounce --offset 10000\n"
+        "  scree check 'stack*' bounce --offset 10000\n  scree check 'stack*' pyramid --substeps 6 --rate 120 --seed 7\n"
         "State hashes are equal on every backend.");
     command->callback([options, &status] { status = check(*options); });
 }

@@ -13,6 +13,7 @@ void add_run(CLI::App& program, int& status);
 void add_view(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
 void add_check(CLI::App& program, int& status);
+void add_validate(CLI::App& program, int& status);
 void add_bench(CLI::App& program, int& status);
 void add_export(CLI::App& program, int& status);
 

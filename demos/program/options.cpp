@@ -88,6 +88,19 @@ void add_options(CLI::App& command, MachineOptions& options) {
         ->group("Backend");
 }
 
+void add_options(CLI::App& command, float& rate, int& substeps) {
+    add_setting(command, "--rate", rate, &Settings::rate)->group("Simulation");
+    add_setting(command, "--substeps", substeps, &Settings::substeps)->group("Simulation");
+}
+
+void add_options(CLI::App& command, std::uint64_t& seed) {
+    command
+        .add_option_function<std::string>(
+            "--seed", [&seed](const std::string& word) { seed = seed_of(word); },
+            "Seed of the random numbers that build the demo. Default: 1.")
+        ->group("Simulation");
+}
+
 void add_options(CLI::App& command, SceneOptions& options) {
     command.add_option("scene", options.name, "Demo (see scree list) or scene file, NAME.json.")->required();
     auto* steps =
@@ -96,18 +109,13 @@ void add_options(CLI::App& command, SceneOptions& options) {
         ->check(between(1e-3, 1e6))
         ->excludes(steps)
         ->group("Simulation");
-    add_setting(command, "--rate", options.rate, &Settings::rate)->group("Simulation");
-    add_setting(command, "--substeps", options.substeps, &Settings::substeps)->group("Simulation");
+    add_options(command, options.rate, options.substeps);
+    add_options(command, options.seed);
     command.add_flag("!--no-sleep", options.sleeping, "Keep bodies at rest awake.")->group("Simulation");
     command
         .add_option_function<std::string>(
             "--bodies", [&options](const std::string& word) { options.bodies = count_of(word); },
             "Number of bodies, such as 500, 10k or 1M. Default: the demo's own.")
-        ->group("Simulation");
-    command
-        .add_option_function<std::string>(
-            "--seed", [&options](const std::string& word) { options.seed = seed_of(word); },
-            "Seed of the random numbers that build the demo. Default: 1.")
         ->group("Simulation");
 }
 

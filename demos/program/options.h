@@ -73,6 +73,8 @@ struct PictureOptions {
 };
 
 void add_options(CLI::App& command, MachineOptions& options);
+void add_options(CLI::App& command, float& rate, int& substeps);
+void add_options(CLI::App& command, std::uint64_t& seed);
 void add_options(CLI::App& command, SceneOptions& options);
 void add_options(CLI::App& command, PictureOptions& options);
 

@@ -36,7 +36,9 @@ const std::vector<Demo>& all_demos() {
         {"stack20", "twenty boxes stand", 20, false, stack20, true},
         {"stack80", "eighty boxes stand for a minute, asleep", 80, false, stack80, true},
         {"smallstack", "ten boxes of 0.2 m stand", 10, false, smallstack, true},
+        {"ministack", "ten boxes of 2 cm stand", 10, false, ministack, true},
         {"heavytop", "nine boxes carry one that weighs as much as a hundred", 10, false, heavytop, true},
+        {"heaviertop", "nine boxes carry one that weighs as much as three hundred", 10, false, heaviertop, true},
         {"scales", "columns of boxes of 1, 2 and 10 cm and a pyramid of 1 cm come to rest", 160, false, scales, true},
         {"coins", "stacks of coins, prisms and plates, ten times as wide as thick, come to rest", 140, false, coins, true},
         {"calm", "a heap of every shape comes to rest, awake", 300, true, calm, true},
@@ -61,11 +63,17 @@ const std::vector<Demo>& all_demos() {
         {"hold", "boxes below that angle do not creep", 9, false, hold, true},
         {"steep", "boxes slide and round bodies roll down a steep incline as the formulas say", 9, false, steep, true},
         {"rolling", "rolling resistance brings round bodies to rest where the formula says", 12, false, rolling, true},
+        {"yaw", "boxes slide straight down at any yaw", 9, false, yaw, true},
+        {"spins", "discs and plates that slide and spin stop where uniform pressure says", 10, false, spins, true},
+        {"turntable", "boxes ride on turntables at 0.9 of the limit", 16, false, turntable, true},
         {"bounce", "bodies bounce to e^2 of the height of their fall", 15, false, bounce, true},
         {"tumbling", "free boxes turn over and keep angular momentum and energy", 3, false, tumbling, true},
         {"swarm", "bodies colliding in empty space keep their momentum", 64, false, swarm, true},
         {"shots", "fast spheres and boxes do not pass a thin wall", 10000, true, shots, true},
         {"strikes", "fast spheres and boxes do not pass thin plates or small bodies", 1500, true, strikes, true},
+        {"blows", "elastic impacts of rows, of joined balls and of pendulums keep their energy", 67, false, blows, true},
+        {"pairs", "balls that meet off centre keep their energy", 40, false, pairs, true},
+        {"plough", "kinematic plates leave nothing behind", 84, false, plough, true},
     };
     return demos;
 }

@@ -43,7 +43,7 @@ DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), f
             high,
             seconds,
             Promise(all_within({-half, -0.01f, -half}, {half, 2 * wall, half}), penetration_below(0.05), energy_never_rises(0.01),
-                    end_speed_below(0.5))
+                    end_speed_below(0.005), end_spin_below(0.01))
                 .watching_energy()};
 }
 

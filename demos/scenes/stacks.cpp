@@ -11,14 +11,14 @@ namespace {
 
 constexpr float half = 0.5f;  // m, half extent of the stacked boxes
 
-// A column of boxes, each displaced by up to 2 mm and rotated by up to 0.3 degrees.
-Scene column(int count, std::uint64_t seed, float half_extent = half) {
+// A column of boxes, each displaced by up to `offset` (m) and rotated by up to 0.3 degrees.
+Scene column(int count, std::uint64_t seed, float half_extent = half, float offset = 0.002f) {
     Scene scene;
     scene.bodies.push_back(ground());
     Random random(seed);
     for (int i = 0; i < count; ++i) {
-        const vec3 position(random.between(-0.002f, 0.002f), half_extent + 2 * half_extent * static_cast<float>(i),
-                            random.between(-0.002f, 0.002f));
+        const vec3 position(random.between(-offset, offset), half_extent + 2 * half_extent * static_cast<float>(i),
+                            random.between(-offset, offset));
         const vec4 turn = turned({0, 1, 0}, random.between(-0.3f, 0.3f) * degrees);
         scene.bodies.push_back(box_at(position, vec3(half_extent), turn));
     }
@@ -43,6 +43,12 @@ DemoScene pyramid_of(int base, std::uint64_t seed, const Promise& promise) {
     }
     const auto size = static_cast<float>(base);
     return awake(standing(std::move(scene), {1.02f * size + 0.4f, size + 0.2f, 6}, 14, 20, promise));
+}
+
+// What is promised of what stands awake: limits of drift (m), speed (m/s), penetration and sway (m).
+Promise stands(double drift, double speed, double penetration, double sway = 0.001) {
+    return Promise(drift_below(drift), end_speed_below(speed), end_spin_below(0.01), sway_below(sway),
+                   penetration_below(penetration));
 }
 
 double sideways_of(const Trace& trace, std::size_t body) {
@@ -79,22 +85,19 @@ DemoScene rest(const DemoOptions&) {
             low,
             high,
             5,
-            Promise(drift_below(0.05), end_speed_below(0.005), penetration_below(0.002))};
+            Promise(drift_below(0.05), end_speed_below(0.005), end_spin_below(0.01), penetration_below(0.002))};
 }
 
 DemoScene stack(const DemoOptions& options) {
-    return awake(standing(column(10, options.seed), {4, 10.2f, 4}, 14, 20,
-                          Promise(drift_below(0.012), end_speed_below(0.005), penetration_below(0.005))));
+    return awake(standing(column(10, options.seed), {4, 10.2f, 4}, 14, 20, stands(0.012, 0.005, 0.005)));
 }
 
 DemoScene stack20(const DemoOptions& options) {
-    return awake(standing(column(20, options.seed), {6, 20.2f, 6}, 12, 20,
-                          Promise(drift_below(0.045), end_speed_below(0.005), penetration_below(0.01))));
+    return awake(standing(column(20, options.seed), {6, 20.2f, 6}, 12, 20, stands(0.045, 0.005, 0.01, 0.0024)));
 }
 
 DemoScene tower(const DemoOptions& options) {
-    return awake(standing(column(40, options.seed), {8, 40.5f, 8}, 10, 20,
-                          Promise(drift_below(0.16), end_speed_below(0.005), penetration_below(0.01))));
+    return awake(standing(column(40, options.seed), {8, 40.5f, 8}, 10, 20, stands(0.16, 0.005, 0.01, 0.008)));
 }
 
 // Taller than the solver can hold awake indefinitely: the column stands because it falls asleep.
@@ -116,15 +119,30 @@ DemoScene stack80(const DemoOptions& options) {
 }
 
 DemoScene smallstack(const DemoOptions& options) {
-    return awake(standing(column(10, options.seed, 0.1f), {0.8f, 2.05f, 0.8f}, 14, 20,
-                          Promise(drift_below(0.01), end_speed_below(0.005), penetration_below(0.002))));
+    return awake(standing(column(10, options.seed, 0.1f), {0.8f, 2.05f, 0.8f}, 14, 20, stands(0.01, 0.005, 0.002)));
 }
 
-// Mass ratio 100: ten boxes, with the topmost a hundred times as heavy.
-DemoScene heavytop(const DemoOptions& options) {
+DemoScene ministack(const DemoOptions& options) {
+    return awake(standing(column(10, options.seed, 0.01f, 0.0002f), {0.08f, 0.205f, 0.08f}, 14, 20, stands(0.01, 0.005, 0.002)));
+}
+
+namespace {
+
+// Ten boxes, with the topmost `ratio` times as heavy as the others.
+DemoScene heavy_on_light(const DemoOptions& options, float ratio, const Promise& promise) {
     Scene scene = column(10, options.seed);
-    scene.bodies.back().density *= 100;
-    return awake(standing(std::move(scene), {4, 10.2f, 4}, 14, 20, Promise(drift_below(0.18), end_speed_below(0.05))));
+    scene.bodies.back().density *= ratio;
+    return awake(standing(std::move(scene), {4, 10.2f, 4}, 14, 20, promise));
+}
+
+}  // namespace
+
+DemoScene heavytop(const DemoOptions& options) {
+    return heavy_on_light(options, 100, stands(0.18, 0.05, 0.05, 0.013));
+}
+
+DemoScene heaviertop(const DemoOptions& options) {
+    return heavy_on_light(options, 300, stands(0.5, 0.05, 0.05, 0.07));
 }
 
 DemoScene wall(const DemoOptions& options) {
@@ -145,16 +163,15 @@ DemoScene wall(const DemoOptions& options) {
             scene.bodies.push_back(box_at({x, y, random.between(-0.002f, 0.002f)}, size - vec3(0.0005f, 0, 0)));
         }
     }
-    return awake(standing(std::move(scene), {32, 8.2f, 4}, 16, 20,
-                          Promise(drift_below(0.04), end_speed_below(0.01), penetration_below(0.005))));
+    return awake(standing(std::move(scene), {32, 8.2f, 4}, 16, 20, stands(0.04, 0.01, 0.005)));
 }
 
 DemoScene pyramid(const DemoOptions& options) {
-    return pyramid_of(30, options.seed, Promise(drift_below(0.06), end_speed_below(0.01), penetration_below(0.01)));
+    return pyramid_of(30, options.seed, stands(0.06, 0.01, 0.01));
 }
 
 DemoScene pyramid100(const DemoOptions& options) {
-    return pyramid_of(100, options.seed, Promise(drift_below(0.6)));
+    return pyramid_of(100, options.seed, Promise(drift_below(0.6), end_speed_below(0.1), sway_below(0.1)));
 }
 
 }  // namespace scree::demos

@@ -18,6 +18,23 @@ const Timed& nearest_to(const std::vector<Timed>& all, double time) {
     });
 }
 
+// The greatest length over the dynamic bodies and the moments of the last second of a vector of a body's state then and at
+// the end.
+template <class Vector>
+Measure greatest_at_the_end(Vector of) {
+    return [of](const Trace& trace) {
+        double greatest = trace.ending.empty() ? no_number : 0;
+        for (const Trace::Moment& moment : trace.ending)
+            for (std::size_t i = 0; i < moment.bodies.size(); ++i) {
+                if (trace.scene.bodies[i].motion != Motion::dynamic || !moment.bodies[i].exists) continue;
+                const double length = glm::length(of(moment.bodies[i], trace.end[i]));
+                if (!std::isfinite(length)) return no_number;
+                greatest = std::max(greatest, static_cast<double>(length));
+            }
+        return greatest;
+    };
+}
+
 }  // namespace
 
 Claim drift_below(double limit) {
@@ -26,8 +43,20 @@ Claim drift_below(double limit) {
 }
 
 Claim end_speed_below(double limit) {
-    return at_most("greatest speed at the end", limit, "m/s", "of the centre of any body",
-                   [](const Trace& trace) { return trace.statistics.max_speed; });
+    return over_ending(at_most("greatest speed at the end", limit, "m/s", "of any centre, in the last second",
+                               greatest_at_the_end([](const BodyState& body, const BodyState&) { return body.velocity; })));
+}
+
+Claim end_spin_below(double limit) {
+    return over_ending(
+        at_most("greatest spin at the end", limit, "rad/s", "of any body, in the last second",
+                greatest_at_the_end([](const BodyState& body, const BodyState&) { return body.angular_velocity; })));
+}
+
+Claim sway_below(double limit) {
+    return over_ending(
+        at_most("greatest sway at the end", limit, "m", "of any centre in the last second, from where it ends",
+                greatest_at_the_end([](const BodyState& body, const BodyState& last) { return body.position - last.position; })));
 }
 
 Claim penetration_below(double limit) {

@@ -5,8 +5,11 @@
 
 namespace scree::demos {
 
-Claim drift_below(double limit);        // m, displacement of any dynamic body from its start
-Claim end_speed_below(double limit);    // m/s, speed of any dynamic body at the end
+Claim drift_below(double limit);  // m, displacement of any dynamic body from its start
+// The greatest speed (m/s) and spin (rad/s) of any dynamic body, and the farthest that one goes (m), in the last second.
+Claim end_speed_below(double limit);
+Claim end_spin_below(double limit);
+Claim sway_below(double limit);
 Claim penetration_below(double limit);  // m, largest penetration at the end
 Claim energy_never_rises(double part);  // by more than this fraction of the energy lost over the run; needs samples
 Claim all_within(vec3 low, vec3 high);  // no dynamic body left the box between these corners

@@ -28,6 +28,11 @@ Claim by_clock(Claim claim) {
     return claim;
 }
 
+Claim over_ending(Claim claim) {
+    claim.over_ending = true;
+    return claim;
+}
+
 Claim at_most(std::string what, double limit, std::string unit, std::string how, Measure measure) {
     std::string promised = "at most " + amount(limit, unit);
     return {std::move(what), std::move(promised), -unbounded, limit, std::move(unit), std::move(how), std::move(measure)};
@@ -63,6 +68,10 @@ bool Promise::samples(std::uint64_t step, double rate) const {
 bool Promise::keeps(std::uint64_t step, double rate) const {
     return std::any_of(kept_.begin(), kept_.end(),
                        [&](double time) { return std::llround(time * rate) == static_cast<long long>(step); });
+}
+
+bool Promise::keeps_ending() const {
+    return std::any_of(claims_.begin(), claims_.end(), [](const Claim& claim) { return claim.over_ending; });
 }
 
 std::vector<Row> Promise::judge(const Trace& trace) const {

@@ -14,6 +14,7 @@ public:
 
 private:
     void look();
+    void keep_ending(Trace::Moment moment);  // and drops what is older than the last second
 
     World& world_;
     const Promise& promise_;

@@ -34,10 +34,9 @@ DemoOptions suite_size(const Demo& demo) {
 }
 
 Outcome run_trial(const Demo& demo, DemoOptions options, std::unique_ptr<Runner> runner,
-                  const std::function<bool(long, long)>& progress) {
+                  const std::function<bool(long, long)>& progress, Settings settings) {
     const auto start = std::chrono::steady_clock::now();
     const DemoScene scene = build(demo, options);
-    Settings settings;
     settings.sleeping = scene.sleeping;
     World world(scene.scene, settings, std::move(runner));
     Recorder recorder(world, scene.promise, scene.before_step);

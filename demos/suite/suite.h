@@ -24,10 +24,10 @@ struct Outcome {
 // Options of a demo in the suite: trials at full size, other scalable demos small, so that the suite takes minutes.
 DemoOptions suite_size(const Demo& demo);
 
-// Runs a demo to its end, or until `progress` (arguments: steps done, steps in all) returns false; then there are no
+// Runs a demo with these settings (whether bodies sleep is the demo's) to its end, or until `progress` (arguments: steps done, steps in all) returns false; then there are no
 // rows.
 Outcome run_trial(const Demo& demo, DemoOptions options, std::unique_ptr<Runner> runner,
-                  const std::function<bool(long, long)>& progress = {});
+                  const std::function<bool(long, long)>& progress = {}, Settings settings = {});
 
 struct Kept {
     std::size_t kept = 0, of = 0;  // claims that passed, and all

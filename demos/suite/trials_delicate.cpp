@@ -46,8 +46,8 @@ DemoScene cards(const DemoOptions& options) {
         y = top + thickness;
     }
     const vec3 low(-1.3f, 0, -0.6f), high(1.3f, 2.7f, 0.6f);
-    return awake(
-        {std::move(scene), view_of(low, high, 25, 12), low, high, 20, Promise(drift_below(0.02), end_speed_below(0.005))});
+    return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 20,
+                  Promise(drift_below(0.02), end_speed_below(0.005), end_spin_below(0.01), sway_below(0.001))});
 }
 
 // Jenga blocks, scaled by ten.
@@ -70,8 +70,9 @@ DemoScene jenga(const DemoOptions& options) {
     }
     const vec3 low(-0.8f, 0, -0.8f), high(0.8f, 2.75f, 0.8f);
     // The drift limit includes the compression of the whole tower: a third of a layer.
-    return awake({std::move(scene), view_of(low, high, 30, 14), low, high, 20,
-                  Promise(drift_below(0.05), end_speed_below(0.005), penetration_below(0.01))});
+    return awake(
+        {std::move(scene), view_of(low, high, 30, 14), low, high, 20,
+         Promise(drift_below(0.05), end_speed_below(0.005), end_spin_below(0.01), sway_below(0.001), penetration_below(0.01))});
 }
 
 // A plate on a table smaller than itself, under a layer of boxes of 2.5 times its mass. On a plate of a tenth of

@@ -31,7 +31,8 @@ DemoScene solids(const DemoOptions&) {
     scene.bodies.push_back(ground());
     const vec4 lying = turned({1, 0, 0}, 90 * degrees);
     const Indices standing{add_body(scene, Cylinder{0.3f, 0.4f}, {-2, 0.4f, 4}), add_body(scene, Cone{0.3f, 0.8f}, {-1, 0.2f, 4}),
-                           add_body(scene, prism(5, 0.4f, 0.3f), {0, 0.3f, 4}), add_body(scene, Cylinder{0.3f, 0.4f}, {1, 0.3f, 4}, lying)};
+                           add_body(scene, prism(5, 0.4f, 0.3f), {0, 0.3f, 4}),
+                           add_body(scene, Cylinder{0.3f, 0.4f}, {1, 0.3f, 4}, lying)};
     Indices column;
     for (int k = 0; k < 10; ++k)
         column.push_back(add_body(scene, prism(6, 0.5f, 0.25f), {3, 0.25f + 0.5f * static_cast<float>(k), 4}));

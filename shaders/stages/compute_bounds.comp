@@ -25,7 +25,7 @@ void main() {
     uint owner = body_of(i);
     float bend = is_part(body) ? bend_of_way(part_in(i), READ(velocities, i), PARAMETERS) : 0.0f;
     Bounds around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
-    if (will_be_fast(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
+    if (will_sweep(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
         masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
     } else {

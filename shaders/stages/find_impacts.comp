@@ -37,6 +37,9 @@ void main() {
         impact_of(ta, ca, tb, cb, limits_of(ta, tb, contact_state_of(READ_WORD(point_counts, i), stop_a, stop_b), PARAMETERS),
                   false, Hulls(0u))
             .fraction;
-    if (stop_a <= 1.0f) atomicMin(bounds.at[a].sweep.stops[next], floatBitsToUint(fraction));
-    if (stop_b <= 1.0f) atomicMin(bounds.at[b].sweep.stops[next], floatBitsToUint(fraction));
+    uint points = READ_WORD(point_counts, i);
+    bool driven_a = is_driven_by(bounds.at[a].sweep, READ(properties, b), points);
+    bool driven_b = is_driven_by(bounds.at[b].sweep, READ(properties, a), points);
+    if (stop_a <= 1.0f && !driven_a) atomicMin(bounds.at[a].sweep.stops[next], floatBitsToUint(fraction));
+    if (stop_b <= 1.0f && !driven_b) atomicMin(bounds.at[b].sweep.stops[next], floatBitsToUint(fraction));
 }

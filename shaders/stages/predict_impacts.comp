@@ -15,16 +15,21 @@ void main() {
     uint of_a = body_of(a), of_b = body_of(b);
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     Velocity va = READ(velocities, a), vb = READ(velocities, b);
-    if (!will_be_fast(READ(properties, of_a), READ(velocities, of_a), PARAMETERS) &&
-        !will_be_fast(READ(properties, of_b), READ(velocities, of_b), PARAMETERS))
-        return;
+    BodyProperties whole_a = READ(properties, of_a), whole_b = READ(properties, of_b);
+    Velocity motion_a = READ(velocities, of_a), motion_b = READ(velocities, of_b);
+    bool drives_a = drives(whole_a, motion_a, PARAMETERS), drives_b = drives(whole_b, motion_b, PARAMETERS);
+    bool any_fast = will_be_fast(whole_a, motion_a, PARAMETERS) || will_be_fast(whole_b, motion_b, PARAMETERS);
+    if (!any_fast && !drives_a && !drives_b) return;
     vec3 normal = READ(manifolds, i).normal;
-    if (!is_near(READ(manifolds, i), WORD(point_counts, i), ta, tb, PARAMETERS) &&
-        !will_meet(normal, ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb, READ(forces, of_b), PARAMETERS,
-                   Hulls(0u))) {
+    if (any_fast && !is_near(READ(manifolds, i), WORD(point_counts, i), ta, tb, PARAMETERS) &&
+        !will_meet(normal, same_normal(drives_a || drives_b), ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb,
+                   READ(forces, of_b), PARAMETERS, Hulls(0u))) {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;
-    } else if (is_impacting(normal, va, vb, PARAMETERS)) {
-        atomicOr(bounds.at[of_a].sweep.struck, 1u);
-        atomicOr(bounds.at[of_b].sweep.struck, 1u);
+        return;
     }
+    uint struck = any_fast && is_impacting(normal, va, vb) ? STRUCK : 0u;
+    uint flags_a = struck | (drives_b ? DRIVEN : 0u);
+    uint flags_b = struck | (drives_a ? DRIVEN : 0u);
+    if (flags_a != 0u) atomicOr(bounds.at[of_a].sweep.struck, flags_a);
+    if (flags_b != 0u) atomicOr(bounds.at[of_b].sweep.struck, flags_b);
 }

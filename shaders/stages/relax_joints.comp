@@ -45,11 +45,14 @@ float told_by_block() {
 
 void end_pass() {
     begin_shares();
+    bool struck = is_struck();  // the impulses of an impact must not warm start the next substep
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
-        share_out(j, !is_last_substep());
+        share_out(j, !is_last_substep() && !struck);
         commit(j);
         take_stock(j);
+        if (struck)
+            for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
     }
     float told = FOREVER;
     if (is_last_substep()) told = told_by_block();

@@ -1,4 +1,4 @@
-// Generated documents: the table of promises in tests/README.md is current.
+// Generated documents: the tables of promises and experiments in tests/README.md are current.
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
@@ -7,15 +7,31 @@
 
 #include "demos/suite/selection.h"
 #include "demos/suite/suite.h"
+#include "demos/validate/experiment.h"
 
-TEST_CASE("the table of promises in tests/README.md is what the program prints", "[demos]") {
+namespace {
+
+std::string tests_readme() {
     std::ostringstream readme;
     readme << std::ifstream(std::filesystem::path(SCREE_SOURCE_DIR) / "tests/README.md").rdbuf();
+    return readme.str();
+}
+
+}  // namespace
+
+TEST_CASE("the table of promises in tests/README.md is what the program prints", "[demos]") {
     const std::string table = scree::demos::promises_as_markdown(scree::demos::select_demos({}));
     REQUIRE(table.find("| stack |") != std::string::npos);
     INFO("write the output of `scree check --list --markdown` into tests/README.md, behind the line <!-- promises -->");
     const std::string mark = "<!-- promises -->\n";
-    const std::string text = readme.str();
+    const std::string text = tests_readme();
     REQUIRE(text.find(mark) != std::string::npos);
     REQUIRE(text.substr(text.find(mark) + mark.size()) == "\n" + table);
+}
+
+TEST_CASE("the table of experiments in tests/README.md is what the program prints", "[demos]") {
+    const std::string table = scree::demos::experiments_as_markdown();
+    REQUIRE(table.find("| pendulum |") != std::string::npos);
+    INFO("write the output of `scree validate --list` into tests/README.md, behind the line <!-- experiments -->");
+    REQUIRE(tests_readme().find("<!-- experiments -->\n\n" + table + "\n<!-- end of experiments -->\n") != std::string::npos);
 }

@@ -56,11 +56,10 @@ struct Group {
           b(c.b),
           before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
 
-    SCREE_INLINE vec3 pull(const WideTables& tables) const {
-        if (none(c.restitution > 0.0f)) return vec3(0.0f);
+    SCREE_INLINE vec4 struck(const WideTables& tables) const {
+        if (none(c.restitution > 0.0f)) return vec4(0.0f);
         return choose(c.restitution > 0.0f,
-                      relative_acceleration(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)),
-                      vec3(0.0f));
+                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)), vec4(0.0f));
     }
     SCREE_INLINE void hand_out(const WideTables& tables, const Impulse& after, const VelocityPair& share, Float carrying,
                                Float told_a, Float told_b) const {
@@ -95,9 +94,9 @@ void solve(const WideTables& tables, std::size_t first, std::size_t last) {
         const Group group(tables, first, last);
         const Mass ma = split_mass(gather<Mass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<Mass>(tables.masses, group.b), group.impulse, p);
-        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.pull(tables), p);
+        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.struck(tables), p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
-        group.hand_out(tables, after.impulse, share, is_impact(after.impulse), 0.0f, 0.0f);
+        group.hand_out(tables, after.impulse, share, impact_weight(after.impulse), 0.0f, 0.0f);
     }
 }
 
@@ -116,7 +115,7 @@ SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const
 
 // Adds this substep's normal impulses to the contacts' sums over the step.
 SCREE_INLINE void feel(const WideTables& tables, const Group& group, const Impulse& impulse, std::size_t items) {
-    const Float carried = normal_impulse(impulse);
+    const Float carried = solved_impulse(impulse);
     for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
         float& sum = tables.carried[group.contacts.of[lane]];
         sum = tables.first ? carried.v[lane] : sum + carried.v[lane];
@@ -130,7 +129,7 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         const Group group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.pull(tables), p);
+        const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.struck(tables), p);
         if (tables.carried != nullptr) feel(tables, group, after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, group.c.count);
         impulse.normal_sum = normal_impulse(impulse);
@@ -196,7 +195,7 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         Velocity velocity = gather<Velocity>(tables.velocities, bodies);
         velocity.linear = velocity.linear + sum.linear;
         velocity.angular = velocity.angular + sum.angular;
-        load.impacts = sum.is_active;
+        load.impacts = impacts_of(sum.is_active, sum.told);
         const RigidState after = integrate(gather<Pose>(tables.poses, bodies), velocity, properties, p.h);
         const Indices live = bodies.only(living(first, last));
         scatter(tables.forces, live, load);

@@ -141,7 +141,7 @@ struct Sweep {      // motion of a body through the step
     float pad0;
     vec4 orientation;  // at the start
     uint stops[2];     // float bits of the fraction of the step at which it is clamped, or NO_HIT; CCD rounds alternate
-    uint struck;       // 1: predicted to be struck in this step
+    uint struck;       // flags STRUCK and DRIVEN (sweep.h)
     uint pad1;
 };
 
@@ -187,6 +187,7 @@ struct Impulse {
     vec4 solved_normal;    // per point, of the last relax pass, N s
     vec4 separation;       // per point, m
     vec4 impact_velocity;  // per point: normal velocity of an impact with restitution, m/s, < 0; else 0
+    vec4 rebound_deficit;  // per point: of its rebound velocity, what a lasting impact has yet to reach, m/s, or 0
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
     vec3 rolling;          // world, on B, N m s
@@ -208,7 +209,7 @@ struct Constraint {
     float friction;            // Coulomb coefficient of the pair
     vec4 arms[4];              // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature)
     vec3 centre;               // of the friction patch, m (ANCHOR_ROUND: from B's centre to its centre of curvature)
-    float twist_arm;           // of torsional friction, m: mean distance of the points from the patch's centre
+    float twist_arm;           // of torsional friction, m: mean distance of the patch from its centre
     float rolling_resistance;  // of the pair, m
     float restitution;         // of the pair
     uint count;                // points

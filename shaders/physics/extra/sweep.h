@@ -59,6 +59,26 @@ LAW float speculative_of(BodyProperties a, BodyProperties b, Parameters paramete
     return smaller(speculative_of(a, parameters), speculative_of(b, parameters));
 }
 
+// Flags of Sweep.struck, of what is predicted for the step.
+CONSTANT uint STRUCK = 1u;  // a contact will deflect the body
+CONSTANT uint DRIVEN = 2u;  // a fast kinematic body will drive it
+// Whether the body drives what it meets further than the margin in which the broadphase searched for that. Nothing stops a
+// kinematic body, so what is clamped before it would be left behind.
+LAW bool drives(BodyProperties properties, Velocity velocity, Parameters parameters) {
+    if (properties.motion != MOTION_KINEMATIC) return false;
+    float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(properties);
+    return way * parameters.dt > speculative_of(properties, parameters);
+}
+// Whether a contact pair does not clamp the one body, because the other, `by`, drives it: the contact pushes it, though it
+// may lag behind by a part of a substep.
+LAW bool is_driven_by(Sweep sweep, BodyProperties by, uint contact_points) {
+    return (sweep.struck & DRIVEN) != 0u && by.motion == MOTION_KINEMATIC && contact_points > 0u;
+}
+// Whether contacts of the body are to be predicted.
+LAW bool will_sweep(BodyProperties properties, Velocity velocity, Parameters parameters) {
+    return will_be_fast(properties, velocity, parameters) || drives(properties, velocity, parameters);
+}
+
 LAW vec3 half_extents_of(BodyProperties properties, vec4 orientation) {
     return world_half_extents(properties.shape, properties.size, orientation);
 }
@@ -112,8 +132,10 @@ LAW float part_within(float way, float back, float ahead) {
     return room > 1.0e-9f ? room * reciprocal(length) : 0.0f;
 }
 // The fraction of its sweep after which a body leaves the bounds of its broadphase search by more than ccd_threshold; 1
-// if it stays within. Beyond, a ricochet could pass bodies that it was not paired with.
+// if it stays within. Beyond, a ricochet could pass bodies that it was not paired with. But a body that rested and is
+// driven by a fast kinematic body must keep ahead of that.
 LAW float seen_part(BodyProperties properties, Sweep sweep, Pose end, Bounds bounds) {
+    if ((sweep.struck & DRIVEN) != 0u) return 1.0f;
     vec3 half_size = larger3(half_extents_of(properties, sweep.orientation), half_extents_of(properties, end.orientation));
     half_size = half_size - vec3(ccd_threshold(properties));
     vec3 back = (sweep.position - half_size) - bounds.lower;

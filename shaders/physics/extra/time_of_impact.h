@@ -189,17 +189,23 @@ LAW bool is_near(Manifold manifold, uint count, BodyProperties a, BodyProperties
 // A speculative contact is doubtful if the predicted sweeps pass each other or meet elsewhere: it would push where
 // nothing is.
 CONSTANT uint SPECULATIVE = 0x80000000u;  // flag in point_counts: doubtful
-// Whether a contact will deflect its bodies by more than the prediction's error: a quarter of the restitution
-// threshold, 4 mm in a step of 1/60 s. At the whole of it, an avalanche lost contacts that it needed and clotted.
-LAW bool is_impacting(vec3 normal, Velocity a, Velocity b, Parameters parameters) {
-    return dot3(normal, b.linear - a.linear) < -0.25f * parameters.restitution_threshold;
+// A contact deflects its bodies by more than the prediction's error if they approach faster than this, m/s: 4 mm in a
+// step of 1/60 s. At 1 m/s an avalanche lost contacts that it needed and clotted.
+CONSTANT float DEFLECTING_SPEED = 0.25f;
+LAW bool is_impacting(vec3 normal, Velocity a, Velocity b) {
+    return dot3(normal, b.linear - a.linear) < -DEFLECTING_SPEED;
 }
-LAW bool will_meet(vec3 normal, BodyProperties ta, Pose a, Velocity va, BodyForces la, BodyProperties tb, Pose b, Velocity vb,
-                   BodyForces lb, Parameters parameters, Hulls hulls) {
+// Cosine of the angle between the normals of contact and impact. What a kinematic body drives is pushed along a normal
+// that is not quite right, rather than left behind.
+LAW float same_normal(bool driven) {
+    return driven ? 0.3f : SAME_NORMAL;
+}
+LAW bool will_meet(vec3 normal, float cosine, BodyProperties ta, Pose a, Velocity va, BodyForces la, BodyProperties tb, Pose b,
+                   Velocity vb, BodyForces lb, Parameters parameters, Hulls hulls) {
     MotionPath ca = path_of(ta, a.position, a.orientation, predict_pose(a, va, la, parameters), 1.0f);
     MotionPath cb = path_of(tb, b.position, b.orientation, predict_pose(b, vb, lb, parameters), 1.0f);
     Impact impact = impact_of(ta, ca, tb, cb, limits_of(ta, tb, NO_CONTACT, parameters), true, hulls);
-    return impact.fraction <= 1.0f && dot3(impact.normal, normal) > SAME_NORMAL;
+    return impact.fraction <= 1.0f && dot3(impact.normal, normal) > cosine;
 }
 
 LAWS_END

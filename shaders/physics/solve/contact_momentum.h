@@ -1,4 +1,20 @@
-// Heavy-ball momentum on the normal impulses of contacts (Polyak 1964), from substep to substep.
+// Heavy-ball momentum on the normal impulses of contacts, from substep to substep.
+//
+// Static stiffness: a soft contact under a steady load gives way until the spring's bias balances the leak of its impulse
+// (`impulse_scale` in contact_solver.h). So a column's sag is compliance, not lack of convergence: 7.3 mm for ten boxes at 480
+// substeps a second, in proportion to the square of their number, of the substep, and to gravity, whatever the boxes' size.
+// A smaller leak is stiffer, but in slow modes a contact answers as k (s + r) / (s + L), with the bias rate r and the leak L; it
+// damps only while L > r, and by little: a column with half the leak falls.
+//
+// Momentum (Polyak, Some methods of speeding up the convergence of iteration methods, 1964) starts each substep with the impulse
+// extrapolated by `momentum` times its last change. For slow modes this divides both k and L by 1 - momentum: sag is
+// unchanged, the margin between L and r grows, and a part of it pays for a smaller leak.
+//
+// Measured (8 substeps at 60 Hz, 20 s awake; drift without and with both):
+//   columns of 10, 20, 40   7.3, 29, 117 mm    4.4, 17.5, 70 mm
+//   ten boxes, top x 100; x 300   142 mm; falls   82; 241 mm
+//   ten boxes of 2 cm             fall            5.5 mm
+//   pyramid of 465; wall of 520   48; 21 mm       31; 12 mm
 #ifndef SCREE_PHYSICS_CONTACT_MOMENTUM_H
 #define SCREE_PHYSICS_CONTACT_MOMENTUM_H
 
@@ -7,15 +23,17 @@
 
 LAWS_BEGIN
 
-CONSTANT float MOMENTUM = 0.5f;
-CONSTANT float MOMENTUM_SPLIT = 4.0f;
-CONSTANT float LEAK_CUT = 0.8f;
+CONSTANT float MOMENTUM = 0.5f;        // with 0.6 a column of 40 sways at 65 mm/s
+CONSTANT float MOMENTUM_SPLIT = 4.0f;  // bodies split in more parts get less: with all of it, a tray under 500 boxes shakes
+CONSTANT float LEAK_CUT = 0.8f;        // part of the momentum by which the leak is smaller
 
+// For a contact between two split bodies.
 LAW float contact_momentum(Mass a, Mass b) {
     return MOMENTUM * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(larger(a.split, b.split)));
 }
 
-// The impulse with which the next substep begins.
+// After the relax pass: the impulses with which the next substep begins. Impacts, new points and points that let go have no
+// momentum.
 LAW Impulse with_momentum(Impulse impulse, uint count, float momentum) {
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < count;

@@ -17,7 +17,9 @@
 // rounding. A contact ends within the step once its bodies have slid along the surface by more than the half width of
 // the body slid over: its points would hang in the air, so it pushes no more until the next narrowphase.
 //
-// Measured alternatives (8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of 520):
+// Impulses have momentum from substep to substep (contact_momentum.h).
+//
+// Measured alternatives (without momentum; 8 substeps; drift after 20 s of a column of 40, a pyramid of 465 boxes, a wall of 520):
 //   as it is                                            0.117 m  0.048 m  0.021 m
 //   contact frequency 0.125/h; 0.16/h in place of 0.14  0.147; 0.090   with 0.16 a pyramid of 210 is not quiet within 8 s
 //   contact frequency 0.18/h                            0.071             that pyramid creeps at 25 mm/s
@@ -27,13 +29,11 @@
 //   relaxation 1.8 in place of 1.5                      both columns, of 20 and of 40, fall within seconds
 //   relaxation 1.2                                      columns compress by a quarter more
 //   damping ratio 20; 40                                0.147; 0.148   0.056; 0.066   0.027; 0.029
-//   momentum on the warm start, b = 0.3; 0.5            0.148; 0.147   0.044; 0.043   0.024; 0.023
-// Momentum (impulse + b (impulse - previous), dropped where the change reverses) would gain a tenth in the buildings
-// for 32 more bytes per contact; piles came to rest no sooner. Sixteen substeps gain more: 0.06 m for the column.
 #ifndef SCREE_PHYSICS_CONTACT_SOLVER_H
 #define SCREE_PHYSICS_CONTACT_SOLVER_H
 
 #include "shaders/physics/solve/contact_momentum.h"
+#include "shaders/physics/solve/friction.h"
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"
 #include "shaders/physics/solve/restitution.h"
@@ -57,123 +57,23 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     return c;
 }
 
-struct SolveResult {
-    Impulse impulse;
-    VelocityPair pair_velocity;  // of the split bodies, afterwards
-};
-
-// Rolling resistance: an angular impulse against the relative angular velocity, at most rolling_resistance times the
-// normal impulse.
-LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
-    Mass k;
-    k.xx = a.xx * a.split + b.xx * b.split;
-    k.xy = a.xy * a.split + b.xy * b.split;
-    k.xz = a.xz * a.split + b.xz * b.split;
-    k.yy = a.yy * a.split + b.yy * b.split;
-    k.yz = a.yz * a.split + b.yz * b.split;
-    k.zz = a.zz * a.split + b.zz * b.split;
-    // Scaled by the trace: the determinant of a small body's tensor leaves the range of a float.
-    float unit = reciprocal((k.xx + k.yy) + k.zz);
-    vec3 x = vec3(k.xx, k.xy, k.xz) * unit, y = vec3(k.xy, k.yy, k.yz) * unit, z = vec3(k.xz, k.yz, k.zz) * unit;
-    vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
-    float determinant = reciprocal(dot3(x, yz));
-    vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
-    vec3 wanted = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
-    vec3 before = s.impulse.rolling;
-    s.impulse.rolling = shortened(before - wanted, c.rolling_resistance * normal);
-    s.pair_velocity = twisted(s.pair_velocity, s.impulse.rolling - before, a, a.split, b, b.split);
-    return s;
-}
-
-// Bounds that keep a tyre's compliance within the range of a float while its normal impulse is near 0.
-CONSTANT float LEAST_HOLD = 1.0e-20f;    // N s
-CONSTANT float MAX_COMPLIANCE = 1.0e6f;  // times the inverse effective mass of the bodies
-
-// Coulomb friction of the patch: torsional friction about the normal, |t| <= mu n twist_arm, then both tangents as one
-// 2x2 block within the circular cone |f| <= mu n.
-LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
-    float most = c.friction * normal;
-    bool twists = c.twist_arm > 0.0f;
-    if (!none(twists)) {
-        float spin = dot3(c.normal, s.pair_velocity.b.angular - s.pair_velocity.a.angular);
-        float before = s.impulse.twist;
-        float inverse_effective_mass =
-            dot3(c.normal, turned_by(a, c.normal)) * a.split + dot3(c.normal, turned_by(b, c.normal)) * b.split;
-        float after = clamped(before - spin * reciprocal(inverse_effective_mass), -most * c.twist_arm, most * c.twist_arm);
-        s.impulse.twist = choose(twists, after, before);
-        s.pair_velocity =
-            choose(twists, twisted(s.pair_velocity, c.normal * (after - before), a, a.split, b, b.split), s.pair_velocity);
-    }
-    vec3 t1 = tangent(c.normal);
-    vec3 t2 = cross3(c.normal, t1);
-    LeverArms r = lever_arms(c, c.centre, s.impulse.center_offset);
-    JacobianRow row1 = jacobian_row(r, t1, a, b);
-    JacobianRow row2 = jacobian_row(r, t2, a, b);
-    float k11 = row1.inverse_effective_mass_a * a.split + row1.inverse_effective_mass_b * b.split;
-    float k22 = row2.inverse_effective_mass_a * a.split + row2.inverse_effective_mass_b * b.split;
-    float unit = reciprocal(k11 + k22);
-    k11 = k11 * unit;
-    k22 = k22 * unit;
-    float k12 =
-        (dot3(row2.angular_a, row1.angular_response_a) * a.split + dot3(row2.angular_b, row1.angular_response_b) * b.split) *
-        unit;
-    float slip1 = speed_along(row1, s.pair_velocity) * unit, slip2 = speed_along(row2, s.pair_velocity) * unit;
-    bool slips = c.radius_a > 0.0f;
-    if (!none(slips)) {
-        // Tyre compliance (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
-        float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * unit, MAX_COMPLIANCE);
-        k11 = choose(slips, k11 + compliance, k11);
-        k22 = choose(slips, k22 + compliance, k22);
-        slip1 = choose(slips, slip1 + compliance * dot3(t1, s.impulse.friction), slip1);
-        slip2 = choose(slips, slip2 + compliance * dot3(t2, s.impulse.friction), slip2);
-    }
-    float inverse = reciprocal(k11 * k22 - k12 * k12);
-    vec3 wanted = t1 * ((k22 * slip1 - k12 * slip2) * inverse) + t2 * ((k11 * slip2 - k12 * slip1) * inverse);
-    vec3 before = s.impulse.friction;
-    s.impulse.friction = shortened(before - wanted, most);
-    vec3 change = s.impulse.friction - before;
-    s.pair_velocity = pushed(s.pair_velocity, row1, dot3(t1, change), a, a.split, b, b.split);
-    s.pair_velocity = pushed(s.pair_velocity, row2, dot3(t2, change), a, a.split, b, b.split);
-    return s;
-}
-
-// Selects the friction impulses and velocities of `s`, or those of `t`; all else is that of `t`.
-LAW SolveResult choose(bool condition, SolveResult s, SolveResult t) {
-    t.impulse.friction = choose(condition, s.impulse.friction, t.impulse.friction);
-    t.impulse.twist = choose(condition, s.impulse.twist, t.impulse.twist);
-    t.impulse.rolling = choose(condition, s.impulse.rolling, t.impulse.rolling);
-    t.pair_velocity = choose(condition, s.pair_velocity, t.pair_velocity);
-    return t;
-}
-LAW bool has_friction(Impulse impulse) {
-    vec3 f = impulse.friction, r = impulse.rolling;
-    return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
-}
-
-// Friction acts in both passes. In the relax pass alone, which corrects a warm start only once, over-relaxed splitting
-// overshoots above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
-LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
-    bool acts = normal != 0.0f || has_friction(s.impulse);
-    if (none(acts)) return s;
-    bool resists = acts && c.rolling_resistance > 0.0f;
-    SolveResult after = s;
-    if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
-    return choose(acts, solve_friction(c, after, normal, a, b), s);
-}
-
 // The biased pass: normal impulses of soft constraints, or speculative ones (no bias, up to contact) where the bodies
 // are still apart.
-LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
+LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
     c = refresh_round_contact(c, impulse.center_offset);
     bool gone = impulse.slide_distance > c.slide_limit;
-    impulse.impact_velocity = vec4(0.0f);
     // Push-out speed, divided by the split factor because the pushes of overlapping neighbours add up from layer to
     // layer. At most by 4: a tray under hundreds of boxes must still bear them.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
     bool bounces = c.restitution > 0.0f;
-    if (!none(bounces))
+    if (none(bounces)) {
+        impulse.impact_velocity = vec4(0.0f);
+    } else {
+        Impulse lasting = impact_in_progress(c, impulse, v, state, parameters);
+        impulse.rebound_deficit = choose(bounces, lasting.rebound_deficit, impulse.rebound_deficit);
         impulse.impact_velocity =
-            choose(bounces, impact_velocities(c, impulse, v, a, b, pull, parameters), impulse.impact_velocity);
+            choose(bounces, impact_velocities(c, lasting, v, a, b, state, parameters), vec4(0.0f));
+    }
     float normal = 0.0f;
     float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(a, b));
     uint sweeps = sweeps_of(c, impulse);
@@ -204,12 +104,16 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b);
+    return solve_patch_friction(c, result, normal, a, b, parameters);
 }
 
 // The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
 // applies restitution and friction.
-LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec3 pull, Parameters parameters) {
+LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
+    bool struck = is_impact(impulse) > 0.0f;
+    Constraint met = c;
+    vec3 met_offset = impulse.center_offset;
+    if (!none(struck)) met = refresh_round_contact(c, met_offset);
     bool follows = c.anchor == ANCHOR_ROUND;
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < c.count && !follows;
@@ -224,6 +128,9 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
     if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.center_offset), impulse.separation.x);
     c = refresh_round_contact(c, impulse.center_offset);
+    vec4 rebound = vec4(0.0f);
+    if (!none(struck)) rebound = rebound_velocities(met, met_offset, c, impulse, v, a, b, state, parameters);
+    float slowest = slowest_impact(c.normal, state, parameters);
     float normal = 0.0f;
     uint sweeps = sweeps_of(c, impulse);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
@@ -235,15 +142,16 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
             float speed = dot3(c.normal, velocity_at(r, v));
             float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
-            target = choose(impulse.impact_velocity[k] < 0.0f,
-                            restitution_target(c, impulse.impact_velocity[k], pull, parameters), target);
+            target = choose(impulse.impact_velocity[k] < 0.0f, -rebound[k], target);
             float before = impulse.normal[k];
             // A fast approach is left to the next substep, which measures its impact velocity.
-            bool waits = impulse.impact_velocity[k] == 0.0f && c.restitution > 0.0f && speed < -parameters.restitution_threshold;
+            bool waits = impulse.impact_velocity[k] == 0.0f && c.restitution > 0.0f && speed < -slowest;
             bool acts = there && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
             if (none(acts)) continue;
             JacobianRow row = jacobian_row(r, c.normal, a, b);
-            float after = choose(gone, 0.0f, positive(before - mass_along(row, a, b) * (speed + target)));
+            float mass = mass_along(row, a, b);
+            acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
+            float after = choose(gone, 0.0f, positive(before - mass * (speed + target)));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
@@ -251,8 +159,9 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     }
     SolveResult result;
     result.impulse = with_momentum(impulse, c.count, contact_momentum(a, b));
+    if (!none(struck)) result.impulse = rebounding(c, result.impulse, rebound, state, parameters);
     result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b);
+    return solve_patch_friction(c, result, normal, a, b, parameters);
 }
 
 // Warm start: `v` plus what the previous substep's impulses do to the whole (not split) bodies.

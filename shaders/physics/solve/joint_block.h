@@ -17,13 +17,11 @@ CONSTANT uint JOINT_ROUNDS = 8u;    // solutions of a block in a pass at most
 CONSTANT uint SETTLING_ROUND = 2u;  // then bounds are only released: else some blocks cycle
 
 // ---- split bodies
-// The split mass of a body of the block. In the biased pass joints are solved after the contacts, and only blocks share
-// the body; in the relax pass contacts share it as well, and if it is struck, its impacts.
-LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float impacts, float normal_sum, bool biased, Parameters parameters) {
-    if (biased)
-        mass.split = larger(1.0f, float(blocks) * parameters.inverse_relaxation);
-    else
-        mass.split = impacts > 1.0f ? impacts : split_factor(mass.split, normal_sum, parameters);
+// The split mass of a body of the block. In the biased pass, and in the relax pass of a block that is struck, joints are
+// solved after the contacts, and only blocks share the body; else contacts share it as well.
+LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float normal_sum, bool after_contacts, Parameters parameters) {
+    mass.split = after_contacts ? larger(1.0f, float(blocks) * parameters.inverse_relaxation)
+                                : split_factor(mass.split, normal_sum, parameters);
     if (moves) return mass;
     mass.xx = 0.0f;
     mass.xy = 0.0f;
@@ -183,7 +181,7 @@ LAW JointRow committed(JointRow row) {
     row.limit_impulse = row.limit_impulse + row.limit_change;
     return row;
 }
-// Clears the impulses of a broken joint.
+// Clears the impulses: of a broken joint, or after an impact.
 LAW JointRow torn(JointRow row) {
     row.motor_impulse = 0.0f;
     row.limit_impulse = 0.0f;

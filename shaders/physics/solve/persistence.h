@@ -124,6 +124,8 @@ LAW Impulse carry_forward(Contact contact, Impulse was) {
     Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = was.normal;
     impulse.solved_normal = was.solved_normal;
+    impulse.impact_velocity = was.impact_velocity;
+    impulse.rebound_deficit = was.rebound_deficit;
     impulse.friction = was.friction;
     impulse.twist = was.twist;
     impulse.rolling = was.rolling;

@@ -27,7 +27,10 @@ Constraint narrowed(Constraint c) {
     return c;
 }
 Impulse narrowed(Impulse impulse) {
-    if (!BOUNCES) impulse.impact_velocity = vec4(0.0f);
+    if (!BOUNCES) {
+        impulse.impact_velocity = vec4(0.0f);
+        impulse.rebound_deficit = vec4(0.0f);
+    }
     return impulse;
 }
 

@@ -50,21 +50,26 @@ Mass mass_of(uint block_body) {
 }
 
 // Split masses of the block's bodies.
-void lend(bool biased) {
-    for (uint m = block_first; m < block_bodies; ++m) {
-        uint body = joints.at[m].block_body;
-        joints.at[m].mass = mass_of_member(masses.at[body], joints.at[m].slot != NONE, joints.at[m].blocks,
-                                           forces.at[body].impacts, joints.at[m].normal_sum, biased, PARAMETERS);
-    }
+void lend(bool after_contacts) {
+    for (uint m = block_first; m < block_bodies; ++m)
+        joints.at[m].mass = mass_of_member(masses.at[joints.at[m].block_body], joints.at[m].slot != NONE, joints.at[m].blocks,
+                                           joints.at[m].normal_sum, after_contacts, PARAMETERS);
+}
+// Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
+bool is_struck() {
+    bool struck = false;
+    for (uint m = block_first; m < block_bodies; ++m)
+        if (forces.at[joints.at[m].block_body].impacts != 0.0f) struck = true;
+    return struck;
 }
 
-// Velocities of the block's bodies; if `biased`, with this pass's changes by contacts, in the slots before those of
+// Velocities of the block's bodies; after the contacts with this pass's changes by them, in the slots before those of
 // joints.
-void take_velocities(bool biased) {
+void take_velocities(bool after_contacts) {
     for (uint m = block_first; m < block_bodies; ++m) {
         uint body = joints.at[m].block_body;
         Velocity velocity = velocities.at[body];
-        if (biased && joints.at[m].slot != NONE) {
+        if (after_contacts && joints.at[m].slot != NONE) {
             uint last = WORD(slot_ends, body) - joints.at[m].blocks;
             for (uint k = body == 0u ? 0u : WORD(slot_ends, body - 1u); k < last; ++k)
                 velocity = changed_by(velocity, slots.at[k]);
@@ -310,8 +315,9 @@ bool is_last_substep() {
 
 void solve_block(bool biased) {
     if (first_round() == 0u) {
-        lend(biased);
-        take_velocities(biased);
+        bool after_contacts = biased || is_struck();
+        lend(after_contacts);
+        take_velocities(after_contacts);
         for (uint j = block_first; j < block_joints; ++j) {
             joints.at[j].solved_axes = 0u;
             if (holds(j)) place_rows(j);

@@ -39,7 +39,7 @@ void move_body(uint i) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
-        forces.at[i].impacts = sum.carrying;
+        forces.at[i].impacts = impacts_of(sum.carrying, sum.normal_impulse);
     }
     RigidState after = integrate(READ(poses, i), velocity, body, PARAMETERS.h);
     poses.at[i] = after.pose;

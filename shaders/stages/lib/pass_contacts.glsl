@@ -18,15 +18,18 @@ void solve_contact(uint place) {
     VelocityPair before;
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
-    vec3 pull = c.restitution > 0.0f ? relative_acceleration(READ(forces, c.a), READ(forces, c.b)) : vec3(0.0f);
-    SolveResult after = solve_contact(c, impulse, before, ma, mb, pull, PARAMETERS);
+    vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
+    SolveResult after = solve_contact(c, impulse, before, ma, mb, state, PARAMETERS);
     impulses.at[i].normal = after.impulse.normal;
-    if (BOUNCES) impulses.at[i].impact_velocity = after.impulse.impact_velocity;
+    if (BOUNCES) {
+        impulses.at[i].impact_velocity = after.impulse.impact_velocity;
+        impulses.at[i].rebound_deficit = after.impulse.rebound_deficit;
+    }
     impulses.at[i].friction = after.impulse.friction;
     impulses.at[i].twist = after.impulse.twist;
     if (ROLLS) impulses.at[i].rolling = after.impulse.rolling;
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
-    float blow = is_impact(after.impulse);
+    float blow = impact_weight(after.impulse);
     if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, blow, 0.0f);
     if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, blow, 0.0f);
 }
@@ -45,10 +48,10 @@ void relax_contact(uint place, uint pass) {
     VelocityPair before;
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
-    vec3 pull = c.restitution > 0.0f ? relative_acceleration(READ(forces, c.a), READ(forces, c.b)) : vec3(0.0f);
-    SolveResult after = relax_contact(c, impulse, before, ma, mb, pull, PARAMETERS);
+    vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
+    SolveResult after = relax_contact(c, impulse, before, ma, mb, state, PARAMETERS);
     if (BREAKING) {
-        float sum = normal_impulse(after.impulse);
+        float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
         SET_FLOAT(carried, i, sum);
     }
@@ -57,6 +60,10 @@ void relax_contact(uint place, uint pass) {
     impulses.at[i].normal = impulse.normal;
     impulses.at[i].solved_normal = impulse.solved_normal;
     impulses.at[i].separation = impulse.separation;
+    if (BOUNCES) {
+        impulses.at[i].impact_velocity = impulse.impact_velocity;
+        impulses.at[i].rebound_deficit = impulse.rebound_deficit;
+    }
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
     if (ROLLS) impulses.at[i].rolling = impulse.rolling;

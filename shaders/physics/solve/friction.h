@@ -1,0 +1,231 @@
+// Friction of a contact patch: Coulomb friction shared by slip and spin, and rolling resistance.
+//
+// The friction impulse f (tangential, N s) and its moment t about the normal (N m s) lie within one limit surface
+// (Goyal, Ruina, Papadopoulos, Wear 143, 1991): what uniform pressure on the patch can transmit. With the normal
+// impulse n, the coefficient mu and the mean distance rho of the patch from its centre,
+//   F = x + y + c x y <= 1,   x = |f|^2 / (mu n)^2,   y = t^2 / (mu n rho)^2.
+// c = 0.6 follows the quadrature of a disc and of a square within 2% (0.5 near pure spin, 0.7 to 0.8 near pure slip; a
+// rectangle of 2:1 averages the same). With c = 0, the ellipsoid of Howe and Cutkosky (1996), discs that spin and slide
+// stop 18 to 20% too early.
+//
+// Where the impulse that stops slip and spin exceeds the surface, friction opposes the slip: (slip, spin) is parallel
+// to the gradient of F (maximum dissipation). Shortening the stopping impulse K^-1 slip instead, with K the inverse
+// effective mass, would settle at a slip along K f: a box at a yaw of 45 degrees slid 12.7 degrees off course. So a
+// step of projected gradient descent is taken, in a metric not below K and a multiple of F's own, in which the
+// projection is a division by the length. The factors of that metric are those of the last pass's impulse, so what it
+// settles at is exact.
+#ifndef SCREE_PHYSICS_FRICTION_H
+#define SCREE_PHYSICS_FRICTION_H
+
+#include "shaders/physics/solve/jacobian.h"
+
+LAWS_BEGIN
+
+struct SolveResult {
+    Impulse impulse;
+    VelocityPair pair_velocity;  // of the split bodies, afterwards
+};
+
+// Rolling resistance: an angular impulse against the relative angular velocity, at most rolling_resistance times the
+// normal impulse. As friction, it opposes the rotation that it cannot stop.
+LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
+    Mass k;
+    k.xx = a.xx * a.split + b.xx * b.split;
+    k.xy = a.xy * a.split + b.xy * b.split;
+    k.xz = a.xz * a.split + b.xz * b.split;
+    k.yy = a.yy * a.split + b.yy * b.split;
+    k.yz = a.yz * a.split + b.yz * b.split;
+    k.zz = a.zz * a.split + b.zz * b.split;
+    // Scaled by the trace: the determinant of a small body's tensor leaves the range of a float.
+    float unit = reciprocal((k.xx + k.yy) + k.zz);
+    vec3 x = vec3(k.xx, k.xy, k.xz) * unit, y = vec3(k.xy, k.yy, k.yz) * unit, z = vec3(k.xz, k.yz, k.zz) * unit;
+    vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
+    float determinant = reciprocal(dot3(x, yz));
+    vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
+    vec3 stopping = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
+    vec3 before = s.impulse.rolling;
+    float most = c.rolling_resistance * normal;
+    vec3 after = before - stopping;
+    bool rolls = dot3(after, after) > most * most;
+    if (!none(rolls)) {
+        // The greatest row sum is not below the greatest eigenvalue, and equal to it for a ball.
+        vec3 sums = (absolute3(x) + absolute3(y)) + absolute3(z);
+        float greatest = larger(sums.x, larger(sums.y, sums.z));
+        after = choose(rolls, shortened(before - spin * reciprocal(greatest), most), after);
+    }
+    s.impulse.rolling = after;
+    s.pair_velocity = twisted(s.pair_velocity, after - before, a, a.split, b, b.split);
+    return s;
+}
+
+// Bounds that keep quotients by the friction limit, and a tyre's compliance, within the range of a float while its
+// normal impulse is near 0.
+CONSTANT float LEAST_HOLD = 1.0e-20f;    // N s
+CONSTANT float MAX_COMPLIANCE = 1.0e6f;  // times the inverse effective mass of the bodies
+
+CONSTANT float LIMIT_COUPLING = 0.6f;  // c above
+
+// Below this, squared (0.01 rad/s), the path curves by less than a micrometre a second per metre of radius.
+CONSTANT float TURNING_SQUARED = 1.0e-4f;
+
+// The rate at which bodies in uniform rotation slide apart within the coming substep though they do not slip at its
+// start: with w x r the velocity of a point, h/2 w x (w x r) + h^2/6 w x (w x (w x r)). Without it, what rests on a
+// turntable moves outwards at w^2 r h / 2 (4.6 mm/s at 0.9 of a friction of 0.5), friction or not.
+LAW vec3 path_curvature(vec3 angular, vec3 arm, float h) {
+    vec3 acceleration = cross3(angular, cross3(angular, arm));
+    return acceleration * (0.5f * h) + cross3(angular, acceleration) * (0.16666667f * (h * h));
+}
+
+// Both tangents as one 2x2 block, scaled by `unit` so that its trace is 1.
+struct FrictionBlock {
+    JacobianRow row1, row2;
+    float k11, k22, k12, unit;
+    float slip1, slip2;  // m/s, scaled
+    float pad0, pad1;
+};
+LAW FrictionBlock friction_block(LeverArms r, vec3 normal, VelocityPair v, Mass a, Mass b, Parameters parameters) {
+    FrictionBlock k;
+    vec3 t1 = tangent(normal), t2 = cross3(normal, t1);
+    k.row1 = jacobian_row(r, t1, a, b);
+    k.row2 = jacobian_row(r, t2, a, b);
+    float k11 = k.row1.inverse_effective_mass_a * a.split + k.row1.inverse_effective_mass_b * b.split;
+    float k22 = k.row2.inverse_effective_mass_a * a.split + k.row2.inverse_effective_mass_b * b.split;
+    k.unit = reciprocal(k11 + k22);
+    k.k11 = k11 * k.unit;
+    k.k22 = k22 * k.unit;
+    k.k12 = (dot3(k.row2.angular_a, k.row1.angular_response_a) * a.split +
+             dot3(k.row2.angular_b, k.row1.angular_response_b) * b.split) *
+            k.unit;
+    k.slip1 = speed_along(k.row1, v) * k.unit;
+    k.slip2 = speed_along(k.row2, v) * k.unit;
+    vec3 wa = v.a.angular, wb = v.b.angular;
+    bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
+    if (!none(turns)) {
+        vec3 drift = (path_curvature(wb, r.b, parameters.h) - path_curvature(wa, r.a, parameters.h)) * k.unit;
+        k.slip1 = choose(turns, k.slip1 + dot3(t1, drift), k.slip1);
+        k.slip2 = choose(turns, k.slip2 + dot3(t2, drift), k.slip2);
+    }
+    k.pad0 = 0.0f;
+    k.pad1 = 0.0f;
+    return k;
+}
+// Tyre compliance (tyre.h): slip + compliance * impulse = 0, in units of the effective mass.
+LAW FrictionBlock with_compliance(FrictionBlock k, bool slips, float compliance, vec3 friction) {
+    k.k11 = choose(slips, k.k11 + compliance, k.k11);
+    k.k22 = choose(slips, k.k22 + compliance, k.k22);
+    k.slip1 = choose(slips, k.slip1 + compliance * dot3(k.row1.direction, friction), k.slip1);
+    k.slip2 = choose(slips, k.slip2 + compliance * dot3(k.row2.direction, friction), k.slip2);
+    return k;
+}
+
+struct PatchImpulse {
+    vec3 friction;
+    float twist;
+};
+// The impulse of a patch that slides or spins: a step of projected gradient descent from `before`. `spin` and
+// `spin_mass` (rad/s; 1 / (kg m^2), 0 without torsional friction) are scaled as the block; F's terms by arm^2.
+LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold) {
+    float area = arm * arm, x = smaller(dot3(before.friction, before.friction) * hold * hold, 1.0f), y = before.twist * hold;
+    y = smaller(y * y, area);
+    float p = area + LIMIT_COUPLING * y, q = 1.0f + LIMIT_COUPLING * x;
+    float bound = area + LIMIT_COUPLING * x * y;
+    // Not below the block's greatest eigenvalue (Gershgorin).
+    float greatest = larger(k.k11, k.k22) + abs(k.k12);
+    float step = reciprocal(larger(greatest * q, spin_mass * p));
+    PatchImpulse after;
+    after.friction = before.friction - (k.row1.direction * k.slip1 + k.row2.direction * k.slip2) * (q * step);
+    after.twist = before.twist - spin * (p * step);
+    // Bounded, for a contact that has all but let go: the square of its quotient leaves the range of a float.
+    float squared = (p * dot3(after.friction, after.friction) + q * after.twist * after.twist) * hold * hold;
+    squared = smaller(squared, 1.0e30f);
+    float scale = choose(squared > bound, bound * inverse_square_root(squared * bound), 1.0f);
+    after.friction = after.friction * scale;
+    after.twist = after.twist * scale;
+    return after;
+}
+
+LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, Parameters parameters) {
+    float most = c.friction * normal;
+    PatchImpulse before, after;
+    before.friction = s.impulse.friction;
+    before.twist = s.impulse.twist;
+    after.twist = before.twist;
+    VelocityPair v = s.pair_velocity;
+    // What stops the spin, then what stops the slip that is left; without a normal impulse, nothing.
+    bool holds = most > 0.0f, twists = c.twist_arm > 0.0f;
+    float spin = 0.0f, spin_mass = 0.0f, stopping = 0.0f;
+    vec3 response_a = c.normal, response_b = c.normal;
+    if (!none(twists)) {
+        response_a = turned_by(a, c.normal) * a.split;
+        response_b = turned_by(b, c.normal) * b.split;
+        spin = choose(twists, dot3(c.normal, v.b.angular - v.a.angular), 0.0f);
+        spin_mass = dot3(c.normal, response_a) + dot3(c.normal, response_b);
+        stopping = choose(holds, -spin * reciprocal(spin_mass), -before.twist);
+        spin_mass = choose(twists, spin_mass, 0.0f);
+        after.twist = before.twist + stopping;
+        v.a.angular = v.a.angular - response_a * stopping;
+        v.b.angular = v.b.angular + response_b * stopping;
+    }
+    FrictionBlock k = friction_block(lever_arms(c, c.centre, s.impulse.center_offset), c.normal, v, a, b, parameters);
+    bool slips = c.radius_a > 0.0f;
+    if (!none(slips)) {
+        float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * k.unit, MAX_COMPLIANCE);
+        k = with_compliance(k, slips, compliance, before.friction);
+    }
+    float inverse = reciprocal(k.k11 * k.k22 - k.k12 * k.k12);
+    vec3 stop = k.row1.direction * ((k.k22 * k.slip1 - k.k12 * k.slip2) * inverse) +
+                k.row2.direction * ((k.k11 * k.slip2 - k.k12 * k.slip1) * inverse);
+    after.friction = before.friction - choose(holds, stop, before.friction);
+    // Beyond the limit surface?
+    float arm = choose(twists, c.twist_arm, 1.0f);
+    float hold = reciprocal(larger(most, LEAST_HOLD));
+    float x = dot3(after.friction, after.friction) * hold * hold, y = after.twist * hold;
+    y = smaller(y * y, 4.0f * arm * arm);
+    bool slides = holds && x * (arm * arm + LIMIT_COUPLING * y) + y > arm * arm;
+    if (!none(slides)) {
+        // The slip before the spin was stopped.
+        float undone = stopping * k.unit;
+        k.slip1 = k.slip1 - (dot3(k.row1.angular_a, response_a) + dot3(k.row1.angular_b, response_b)) * undone;
+        k.slip2 = k.slip2 - (dot3(k.row2.angular_a, response_a) + dot3(k.row2.angular_b, response_b)) * undone;
+        PatchImpulse sliding = slid(k, before, spin * k.unit, spin_mass * k.unit, arm, hold);
+        after.friction = choose(slides, sliding.friction, after.friction);
+        float turned_back = choose(slides && twists, sliding.twist - after.twist, 0.0f);
+        after.twist = after.twist + turned_back;
+        v.a.angular = v.a.angular - response_a * turned_back;
+        v.b.angular = v.b.angular + response_b * turned_back;
+    }
+    s.impulse.friction = after.friction;
+    s.impulse.twist = after.twist;
+    vec3 change = after.friction - before.friction;
+    s.pair_velocity = pushed(v, k.row1, dot3(k.row1.direction, change), a, a.split, b, b.split);
+    s.pair_velocity = pushed(s.pair_velocity, k.row2, dot3(k.row2.direction, change), a, a.split, b, b.split);
+    return s;
+}
+
+// Selects the friction impulses and velocities of `s`, or those of `t`; all else is that of `t`.
+LAW SolveResult choose(bool condition, SolveResult s, SolveResult t) {
+    t.impulse.friction = choose(condition, s.impulse.friction, t.impulse.friction);
+    t.impulse.twist = choose(condition, s.impulse.twist, t.impulse.twist);
+    t.impulse.rolling = choose(condition, s.impulse.rolling, t.impulse.rolling);
+    t.pair_velocity = choose(condition, s.pair_velocity, t.pair_velocity);
+    return t;
+}
+LAW bool has_friction(Impulse impulse) {
+    vec3 f = impulse.friction, r = impulse.rolling;
+    return f.x != 0.0f || f.y != 0.0f || f.z != 0.0f || impulse.twist != 0.0f || r.x != 0.0f || r.y != 0.0f || r.z != 0.0f;
+}
+
+// Friction acts in both passes. In the relax pass alone, which corrects a warm start only once, over-relaxed splitting
+// overshoots above 4/3, and boxes at rest spun to and fro about their normals at 0.4 rad/s.
+LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, Mass a, Mass b, Parameters parameters) {
+    bool acts = normal != 0.0f || has_friction(s.impulse);
+    if (none(acts)) return s;
+    bool resists = acts && c.rolling_resistance > 0.0f;
+    SolveResult after = s;
+    if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
+    return choose(acts, solve_friction(c, after, normal, a, b, parameters), s);
+}
+
+LAWS_END
+
+#endif

@@ -1,0 +1,92 @@
+// Heavy-ball momentum of contact impulses: the law, and the sag of columns in closed form.
+#include "shaders/physics/solve/contact_momentum.h"
+
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "compute/world.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+using namespace scree::physics;
+
+namespace {
+
+Mass split_in(float split) {
+    Mass mass{};
+    mass.split = split;
+    return mass;
+}
+
+Impulse impulse_of(float now, float before) {
+    Impulse impulse{};
+    impulse.normal = vec4(now);
+    impulse.solved_normal = vec4(before);
+    return impulse;
+}
+
+// The first normal impulse after momentum of 0.5.
+float after(float now, float before) {
+    return with_momentum(impulse_of(now, before), 1, 0.5f).normal.x;
+}
+
+// A column awake for 20 s, in metres of sag of the topmost box.
+double sag_of(int boxes, double half_extent, double gravity, Settings settings) {
+    Scene scene;
+    scene.gravity = vec3(0, -gravity, 0);
+    scene.bodies.push_back({.name = "ground", .motion = Motion::fixed, .shape = Plane{}});
+    for (int i = 0; i < boxes; ++i) {
+        Body body;
+        body.shape = Box{vec3(static_cast<float>(half_extent))};
+        body.position = vec3(0, half_extent * (2 * i + 1), 0);
+        scene.bodies.push_back(body);
+    }
+    settings.sleeping = false;
+    World world(scene, settings, 1);
+    world.step(static_cast<int>(20 * settings.rate));
+    return static_cast<double>(scene.bodies.back().position.y - world.bodies().back().position.y);
+}
+
+}  // namespace
+
+TEST_CASE("contact momentum extrapolates the change of an impulse that lasts") {
+    CHECK(after(2, 2) == 2);
+    CHECK(after(3, 2) == 3.5f);
+    CHECK(after(2, 3) == 1.5f);
+    CHECK(after(1, 4) == 0);  // contacts never pull
+    CHECK(after(2, 0) == 2);  // new points have no history
+    CHECK(after(0, 2) == 0);  // points that have let go stay so
+    CHECK(with_momentum(impulse_of(3, 2), 1, 0.5f).solved_normal.x == 3);
+    CHECK(with_momentum(impulse_of(3, 2), 1, 0.5f).normal.y == 3);  // not a point of this contact
+    Impulse struck = impulse_of(3, 2);
+    struck.impact_velocity.x = -1;
+    CHECK(with_momentum(struck, 1, 0.5f).normal.x == 3);  // impacts are exact
+}
+
+TEST_CASE("contact momentum fades where mass is split among many contacts") {
+    CHECK(contact_momentum(split_in(1), split_in(2)) == MOMENTUM);
+    CHECK(contact_momentum(split_in(1), split_in(MOMENTUM_SPLIT)) == MOMENTUM);
+    CHECK(contact_momentum(split_in(40), split_in(1)) == Approx(MOMENTUM * MOMENTUM_SPLIT / 40));
+    CHECK(contact_momentum(split_in(1), split_in(40)) == Approx(MOMENTUM * MOMENTUM_SPLIT / 40));
+}
+
+// Static compliance of a soft contact (contact_momentum.h): each contact gives way in proportion to its load and to the square
+// of the substep, whatever the size of the boxes.
+TEST_CASE("a column sags by its contacts' compliance, in proportion to gravity and the square of the substep") {
+    struct Case {
+        int boxes;
+        double half_extent, gravity;
+        float rate;
+        int substeps;
+    };
+    for (const Case& c : {Case{10, 0.5, 9.81, 60, 8}, Case{10, 0.5, 9.81, 120, 8}, Case{10, 0.5, 9.81, 60, 16},
+                          Case{6, 0.05, 9.81, 60, 8}, Case{12, 0.3, 1.62, 60, 8}, Case{5, 2, 24.8, 60, 8}}) {
+        Settings settings;
+        settings.rate = c.rate;
+        settings.substeps = c.substeps;
+        const double h = 1 / (static_cast<double>(c.rate) * c.substeps);
+        const double expected = 0.00437 * std::pow(c.boxes / 10.0, 2) * std::pow(h * 480, 2) * c.gravity / 9.81;
+        CAPTURE(c.boxes, c.half_extent, c.gravity, c.rate, c.substeps);
+        CHECK(sag_of(c.boxes, c.half_extent, c.gravity, settings) == Approx(expected).epsilon(0.12));
+    }
+}

@@ -1,0 +1,181 @@
+// Impacts keep energy and pass on: off centre, in a gas, along touching rows, in joined bodies; and what a kinematic body
+// meets is driven before it.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <cmath>
+
+#include "compute/world.h"
+#include "tests/world/heaps.h"
+
+using namespace scree;
+
+namespace {
+
+Body ball(float radius, vec3 position, vec3 velocity = vec3(0)) {
+    Body body;
+    body.shape = Sphere{radius};
+    body.position = position;
+    body.velocity = velocity;
+    body.restitution = 1;
+    body.friction = 0;
+    return body;
+}
+// Kinetic and potential, of balls, J. Heights from `lowest`.
+double energy(const Scene& scene, const World& world, float lowest = 0) {
+    double sum = 0;
+    const std::vector<BodyState> states = world.bodies();
+    for (std::size_t i = 0; i < states.size(); ++i) {
+        if (scene.bodies[i].motion != Motion::dynamic) continue;
+        const MassProperties mass = mass_properties(scene.bodies[i].shape, scene.bodies[i].density);
+        const BodyState& s = states[i];
+        sum += 0.5 * double{mass.mass} * double{glm::dot(s.velocity, s.velocity)} +
+               0.5 * double{mass.inertia.x} * double{glm::dot(s.angular_velocity, s.angular_velocity)} +
+               double{mass.mass} * double{glm::length(scene.gravity)} * double{s.position.y - lowest};
+    }
+    return sum;
+}
+Settings awake() {
+    Settings settings;
+    settings.sleeping = false;
+    return settings;
+}
+
+}  // namespace
+
+TEST_CASE("two balls that meet off centre keep their energy at any speed") {
+    for (const float speed : {5.0f, 20.0f, 60.0f, 150.0f})
+        for (const float offset : {0.3f, 1.0f, 1.6f, 1.9f})
+            for (int phase = 0; phase < 4; ++phase) {
+                Scene scene;
+                scene.gravity = vec3(0);
+                const float way = 1 + speed / 60 * static_cast<float>(phase) / 4;
+                scene.bodies = {ball(0.3f, {-way, 0, 0}, {speed, 0, 0}), ball(0.3f, {0, offset * 0.3f, 0.1f})};
+                if (phase % 2) scene.bodies[1].shape = Capsule{0.3f, 0.4f};
+                World world(scene, awake(), 1);
+                const double before = energy(scene, world);
+                world.step(30);
+                CAPTURE(speed, offset, phase);
+                if (phase % 2 == 0) CHECK(energy(scene, world) / before == Approx(1).margin(0.001));
+                CHECK(world.bodies()[1].velocity != vec3(0));
+            }
+}
+
+TEST_CASE("a gas of elastic balls keeps its energy") {
+    tests::Noise noise(4);
+    Scene scene;
+    scene.gravity = vec3(0);
+    for (int i = 0; i < 125; ++i)
+        scene.bodies.push_back(
+            ball(0.2f, vec3(i % 5, i / 5 % 5, i / 25) - vec3(2), 5.0f * glm::normalize(noise.vector() + vec3(1e-3f))));
+    for (const float side : {-1.0f, 1.0f})
+        for (int k = 0; k < 3; ++k) {
+            Body wall;
+            wall.motion = Motion::fixed;
+            vec3 half(4);
+            half[k] = 1;
+            wall.shape = Box{half};
+            wall.position[k] = 4 * side;
+            wall.friction = 0;
+            scene.bodies.push_back(wall);
+        }
+    World world(scene, awake(), 2);
+    const double before = energy(scene, world);
+    world.step(600);
+    CHECK(energy(scene, world) / before == Approx(1).margin(0.02));
+}
+
+TEST_CASE("a touching row of balls on the ground passes on a blow at any speed") {
+    for (const float speed : {0.3f, 1.0f, 2.0f, 5.0f, 10.0f})
+        for (const float gap : {0.0f, 0.002f}) {
+            Scene scene;
+            Body ground;
+            ground.motion = Motion::fixed;
+            ground.shape = Plane{};
+            scene.bodies = {ground};
+            for (int i = 0; i < 6; ++i)
+                scene.bodies.push_back(ball(0.1f, {static_cast<float>(i) * (0.2f + gap) - (i == 0 ? 0.1f : 0), 0.1f, 0},
+                                            {i == 0 ? speed : 0, 0, 0}));
+            World world(scene, awake(), 1);
+            world.step(60);
+            const std::vector<BodyState> now = world.bodies();
+            CAPTURE(speed, gap);
+            CHECK(now[6].velocity.x == Approx(speed).epsilon(0.01));
+            for (std::size_t i = 1; i < 6; ++i) CHECK(std::abs(now[i].velocity.x) < 0.01f * speed);
+        }
+}
+
+TEST_CASE("a cradle on rods keeps its energy over a swing") {
+    for (const float angle : {0.1f, 0.5f, 1.3f})
+        for (const float yaw : {0.0f, 0.7f}) {
+            Scene scene;
+            const vec3 along(std::cos(yaw), 0, std::sin(yaw));
+            for (int i = 0; i < 5; ++i) {
+                const vec3 peg = 0.2f * static_cast<float>(i) * along;
+                const float swing = i == 0 ? angle : 0;
+                scene.bodies.push_back(ball(0.1f, peg - std::sin(swing) * along - vec3(0, std::cos(swing), 0)));
+                Joint rod;
+                rod.kind = Distance{1, 1, {}};
+                rod.b = static_cast<std::size_t>(i);
+                rod.anchor_a = peg;
+                scene.joints.push_back(rod);
+            }
+            World world(scene, awake(), 1);
+            const double before = energy(scene, world, -1);
+            world.step(120);
+            CAPTURE(angle, yaw);
+            CHECK(energy(scene, world, -1) / before == Approx(1).margin(0.01));
+        }
+}
+
+TEST_CASE("welded balls bounce like one body, flat and on end") {
+    for (const float slant : {0.0f, 1.5707963f}) {
+        Scene scene;
+        Body ground;
+        ground.motion = Motion::fixed;
+        ground.shape = Plane{};
+        const vec3 axis(std::cos(slant), std::sin(slant), 0);
+        scene.bodies = {ground, ball(0.2f, {0, 1.2f, 0}), ball(0.2f, vec3(0, 1.2f, 0) + 0.5f * axis)};
+        Joint weld;
+        weld.kind = Fixed{};
+        weld.a = 1;
+        weld.b = 2;
+        weld.anchor_a = 0.25f * axis;
+        weld.anchor_b = -weld.anchor_a;
+        scene.joints = {weld};
+        World world(scene, awake(), 1);
+        float highest = 0;
+        for (int step = 0; step < 60; ++step) {
+            world.step();
+            if (step > 30) highest = std::max(highest, world.bodies()[1].position.y - 0.2f);
+        }
+        CAPTURE(slant);
+        CHECK(highest > (slant > 0 ? 0.9f : 0.99f));
+        CHECK(highest < 1.01f);
+    }
+}
+
+TEST_CASE("a kinematic plate leaves nothing behind, be it thin or thick") {
+    for (const float speed : {2.0f, 10.0f, 30.0f, 100.0f})
+        for (const float half : {0.01f, 0.1f, 1.0f})
+            for (int phase = 0; phase < 5; ++phase) {
+                Scene scene;
+                Body ground, plate;
+                ground.motion = Motion::fixed;
+                ground.shape = Plane{};
+                plate.motion = Motion::kinematic;
+                plate.shape = Box{{half, 1, 2}};
+                plate.position = {-0.3f - half - speed / 300 * static_cast<float>(phase), 1.01f, 0};
+                plate.velocity = {speed, 0, 0};
+                scene.bodies = {ground, plate};
+                for (int i = 0; i < 5; ++i) {
+                    scene.bodies.push_back(
+                        ball(0.1f, {0.1f * static_cast<float>(i % 2), 0.1f, 0.5f * static_cast<float>(i) - 1}));
+                    scene.bodies.back().restitution = 0;
+                }
+                World world(scene, awake(), 1);
+                world.step(20 + static_cast<int>(60 / speed));
+                const std::vector<BodyState> now = world.bodies();
+                CAPTURE(speed, half, phase);
+                for (std::size_t i = 2; i < now.size(); ++i) CHECK(now[i].position.x > now[1].position.x);
+            }
+}
