@@ -185,9 +185,15 @@ DemoScene glass(const DemoOptions& options) {
         broken_at_least(1, thin),
         at_most("armoured panes that broke", 0, "", "at the end",
                 [thick](const Trace& trace) { return trace.end.at(thick).exists ? 0.0 : 1.0; }),
-        between("how far the ball got", gap * (panes - 2), gap * (panes - 1), "m", "at the end: behind the sixth pane",
-                [shot](const Trace& trace) { return static_cast<double>(trace.end.at(shot).position.z); }),
+        between("how far the ball got", gap * (panes - 2), gap * (panes - 1), "m", "at any time: behind the sixth pane",
+                [](const Trace& trace) {
+                    double farthest = no_number;
+                    for (const Trace::Moment& moment : trace.moments)
+                        farthest = std::fmax(farthest, static_cast<double>(moment.bodies.front().position.z));
+                    return farthest;
+                }),
         mass_stays());
+    promise = std::move(promise).watching({shot});
     return {std::move(scene), view_of(low, high, 65, 14), low, high, 6, promise};
 }
 
