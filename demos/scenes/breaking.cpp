@@ -193,8 +193,7 @@ DemoScene glass(const DemoOptions& options) {
                     return farthest;
                 }),
         mass_stays());
-    promise = std::move(promise).watching({shot});
-    return {std::move(scene), view_of(low, high, 65, 14), low, high, 6, promise};
+    return {std::move(scene), view_of(low, high, 65, 14), low, high, 6, std::move(promise).watching({shot})};
 }
 
 // Five fragments each: 2,000 bodies have 10,000.
