@@ -177,7 +177,7 @@ DemoScene glass(const DemoOptions& options) {
     ball.shape = Sphere{0.4f};
     ball.density = 7800;
     ball.position = {0.1f, 0.9f, -2};
-    ball.velocity = {0, 1.5f, 11};
+    ball.velocity = {0, 1.5f, 12};
     const std::size_t shot = scene.bodies.size();
     scene.bodies.push_back(ball);
     const vec3 low(-1.6f, 0, -1), high(1.6f, 2.1f, gap * (panes - 1) + 0.5f);

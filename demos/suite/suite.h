@@ -24,8 +24,8 @@ struct Outcome {
 // Options of a demo in the suite: trials at full size, other scalable demos small, so that the suite takes minutes.
 DemoOptions suite_size(const Demo& demo);
 
-// Runs a demo with these settings (whether bodies sleep is the demo's) to its end, or until `progress` (arguments: steps done, steps in all) returns false; then there are no
-// rows.
+// Runs a demo with these settings (whether bodies sleep is the demo's) to its end, or until `progress` (arguments: steps done,
+// steps in all) returns false; then there are no rows.
 Outcome run_trial(const Demo& demo, DemoOptions options, std::unique_ptr<Runner> runner,
                   const std::function<bool(long, long)>& progress = {}, Settings settings = {});
 

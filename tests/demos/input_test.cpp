@@ -183,7 +183,7 @@ TEST_CASE("a mistake in a recording is told with its place") {
                Contains("/acts/0/join/anchor: its bodies move: say \"anchor_a\""));
     CHECK_THAT(wrong(R"({"step": 1, "join": {"kind": {"rope": {}}, "a": 1}})"), Contains("/acts/0/join/kind: unknown kind"));
     CHECK_THAT(wrong(R"({"step": 1, "unjoin": {"joint": -1}})"), Contains("/acts/0/unjoin/joint: must be a whole number"));
-    CHECK_THAT(wrong(R"({"step": 1, "turn": {}})"), Contains("/acts/0/turn: turns nothing"));
+    CHECK_THAT(wrong(R"({"step": 1, "turn": {}})"), Contains("/acts/0/turn: changes no setting"));
     CHECK_THAT(wrong(R"({"step": 1, "turn": {"substeps": 65}})"), Contains("/acts/0/turn/substeps"));
     CHECK_THAT(wrong(R"({"step": 1, "push": {"body": 1, "force": [1, 1e99, 0]}})"), Contains("/acts/0/push/force/1"));
     CHECK_THAT(wrong("{,}"), Contains("line 1, column"));

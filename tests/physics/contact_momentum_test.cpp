@@ -27,7 +27,7 @@ Impulse impulse_of(float now, float before) {
 
 // The first normal impulse after momentum of 0.5.
 float after(float now, float before) {
-    return with_momentum(impulse_of(now, before), 1, 0.5f).normal.x;
+    return with_momentum(impulse_of(now, before), 1, vec4(0.5f)).normal.x;
 }
 
 // A column awake for 20 s, in metres of sag of the topmost box.
@@ -56,18 +56,52 @@ TEST_CASE("contact momentum extrapolates the change of an impulse that lasts") {
     CHECK(after(1, 4) == 0);  // contacts never pull
     CHECK(after(2, 0) == 2);  // new points have no history
     CHECK(after(0, 2) == 0);  // points that have let go stay so
-    CHECK(with_momentum(impulse_of(3, 2), 1, 0.5f).solved_normal.x == 3);
-    CHECK(with_momentum(impulse_of(3, 2), 1, 0.5f).normal.y == 3);  // not a point of this contact
+    CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f)).solved_normal.x == 3);
+    CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f)).normal.y == 3);  // not a point of this contact
     Impulse struck = impulse_of(3, 2);
     struck.impact_velocity.x = -1;
-    CHECK(with_momentum(struck, 1, 0.5f).normal.x == 3);  // impacts are exact
+    CHECK(with_momentum(struck, 1, vec4(0.5f)).normal.x == 3);  // impacts are exact
 }
 
-TEST_CASE("contact momentum fades where mass is split among many contacts") {
-    CHECK(contact_momentum(split_in(1), split_in(2)) == MOMENTUM);
-    CHECK(contact_momentum(split_in(1), split_in(MOMENTUM_SPLIT)) == MOMENTUM);
-    CHECK(contact_momentum(split_in(40), split_in(1)) == Approx(MOMENTUM * MOMENTUM_SPLIT / 40));
-    CHECK(contact_momentum(split_in(1), split_in(40)) == Approx(MOMENTUM * MOMENTUM_SPLIT / 40));
+TEST_CASE("contact momentum fades where mass is split among many contacts, and where a body overhangs its contact") {
+    const auto momentum = [](float split_a, float split_b, float lever_a, float lever_b) {
+        Mass a = split_in(split_a), b = split_in(split_b);
+        a.inverse_mass = 2;
+        b.inverse_mass = 0.5f;
+        JacobianRow row{};
+        row.inverse_effective_mass_a = 2 * (1 + lever_a);
+        row.inverse_effective_mass_b = 0.5f * (1 + lever_b);
+        return contact_momentum(row, a, b);
+    };
+    CHECK(momentum(1, 2, 3, 3) == Approx(MOMENTUM));
+    CHECK(momentum(1, MOMENTUM_SPLIT, 1, 1) == Approx(MOMENTUM));
+    CHECK(momentum(40, 1, 3, 3) == Approx(MOMENTUM * MOMENTUM_SPLIT / 40));
+    CHECK(momentum(1, 40, 3, 3) == Approx(MOMENTUM * MOMENTUM_SPLIT / 40));
+    CHECK(momentum(1, 1, 0.1f, 3) == Approx(MOMENTUM * 0.1).epsilon(1e-4));
+    CHECK(momentum(1, 1, 3, 0.1f) == Approx(MOMENTUM * 0.1).epsilon(1e-4));
+    Mass fixed = split_in(1), moving = split_in(1);
+    moving.inverse_mass = 1;
+    JacobianRow row{};
+    row.inverse_effective_mass_b = 4;
+    CHECK(contact_momentum(row, fixed, moving) == Approx(MOMENTUM));
+}
+
+TEST_CASE("slabs on slender pillars come to rest") {
+    Scene scene;
+    scene.bodies.push_back({.name = "ground", .motion = Motion::fixed, .shape = Plane{}});
+    for (const float slab : {0.3f, 0.45f, 0.6f}) {
+        const auto x = 3 * static_cast<float>(scene.bodies.size());
+        Body pillar, plate;
+        pillar.shape = Box{{0.1f, 1, 0.1f}};
+        pillar.position = {x, 1, 0};
+        plate.shape = Box{{slab, 0.1f, slab}};
+        plate.position = {x, 2.1f, 0};
+        scene.bodies.push_back(pillar);
+        scene.bodies.push_back(plate);
+    }
+    World world(scene, {}, 1);
+    world.step(300);
+    CHECK(world.statistics().asleep == 6);
 }
 
 // Static compliance of a soft contact (contact_momentum.h): each contact gives way in proportion to its load and to the square

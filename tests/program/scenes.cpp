@@ -115,7 +115,8 @@ TEST_CASE("program: list names the demos, help teaches, the version is told", "[
 }
 
 TEST_CASE("program: every --help fits into 100 columns and tells each option's default or unit", "[program]") {
-    for (const char* command : {"", "list ", "devices ", "run ", "view ", "compare ", "check ", "validate ", "bench ", "export "}) {
+    for (const char* command :
+         {"", "list ", "devices ", "run ", "view ", "compare ", "check ", "validate ", "bench ", "export "}) {
         const Outcome help = run_scree(std::string(command) + "--help");
         REQUIRE(help.status == 0);
         std::istringstream lines(help.output);

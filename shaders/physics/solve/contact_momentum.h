@@ -15,11 +15,17 @@
 //   ten boxes, top x 100; x 300   142 mm; falls   82; 241 mm
 //   ten boxes of 2 cm             fall            5.5 mm
 //   pyramid of 465; wall of 520   48; 21 mm       31; 12 mm
+//
+// A body that rests on a patch much narrower than itself rocks slowly, and momentum feeds that: of 27 slabs on slender
+// pillars 20 never came to rest, moving at up to 0.12 m/s (4 without momentum). So a point's momentum is scaled by its
+// lever ratio, the part that rotation has in the point's inverse effective mass relative to that of translation: 3 at the
+// corner of a cube, 0.03 under such a pillar. With that, as many come to rest as without momentum.
 #ifndef SCREE_PHYSICS_CONTACT_MOMENTUM_H
 #define SCREE_PHYSICS_CONTACT_MOMENTUM_H
 
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"
+#include "shaders/physics/solve/jacobian.h"
 
 LAWS_BEGIN
 
@@ -27,21 +33,29 @@ CONSTANT float MOMENTUM = 0.5f;        // with 0.6 a column of 40 sways at 65 mm
 CONSTANT float MOMENTUM_SPLIT = 4.0f;  // bodies split in more parts get less: with all of it, a tray under 500 boxes shakes
 CONSTANT float LEAK_CUT = 0.8f;        // part of the momentum by which the leak is smaller
 
-// For a contact between two split bodies.
-LAW float contact_momentum(Mass a, Mass b) {
-    return MOMENTUM * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(larger(a.split, b.split)));
+// (r x n) . I^-1 (r x n) m of one body; 1 for a body that does not move.
+LAW float lever_ratio(float inverse_effective_mass, float inverse_mass) {
+    bool moves = inverse_mass > 0.0f;
+    return choose(moves, (inverse_effective_mass - inverse_mass) * reciprocal(choose(moves, inverse_mass, 1.0f)), 1.0f);
+}
+// For a point of a contact between two split bodies.
+LAW float contact_momentum(JacobianRow row, Mass a, Mass b) {
+    float lever = smaller(lever_ratio(row.inverse_effective_mass_a, a.inverse_mass),
+                          lever_ratio(row.inverse_effective_mass_b, b.inverse_mass));
+    float split = larger(a.split, b.split);
+    return MOMENTUM * smaller(1.0f, lever) * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(split));
 }
 
-// After the relax pass: the impulses with which the next substep begins. Impacts, new points and points that let go have no
-// momentum.
-LAW Impulse with_momentum(Impulse impulse, uint count, float momentum) {
+// After the relax pass: the impulses with which the next substep begins, by the momentum of each point. Impacts, new points
+// and points that let go have none.
+LAW Impulse with_momentum(Impulse impulse, uint count, vec4 momentum) {
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < count;
         if (none(there)) break;
         float now = impulse.normal[k], before = impulse.solved_normal[k];
         bool lasts = there && impulse.impact_velocity[k] == 0.0f && now > 0.0f && before > 0.0f;
         impulse.solved_normal[k] = choose(there, now, before);
-        impulse.normal[k] = choose(lasts, positive(now + momentum * (now - before)), now);
+        impulse.normal[k] = choose(lasts, positive(now + momentum[k] * (now - before)), now);
     }
     return impulse;
 }

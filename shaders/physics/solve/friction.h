@@ -101,7 +101,10 @@ LAW FrictionBlock friction_block(LeverArms r, vec3 normal, VelocityPair v, Mass 
     vec3 wa = v.a.angular, wb = v.b.angular;
     bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
     if (!none(turns)) {
-        vec3 drift = (path_curvature(wb, r.b, parameters.h) - path_curvature(wa, r.a, parameters.h)) * k.unit;
+        // Split bodies may spin beyond the limit within a pass, where the series diverges.
+        vec3 curve_a = path_curvature(shortened(wa, parameters.max_spin), r.a, parameters.h);
+        vec3 curve_b = path_curvature(shortened(wb, parameters.max_spin), r.b, parameters.h);
+        vec3 drift = (curve_b - curve_a) * k.unit;
         k.slip1 = choose(turns, k.slip1 + dot3(t1, drift), k.slip1);
         k.slip2 = choose(turns, k.slip2 + dot3(t2, drift), k.slip2);
     }

@@ -153,7 +153,7 @@ LAW float is_impact(Impulse impulse) {
     return choose(a.x < 0.0f || a.y < 0.0f || a.z < 0.0f || a.w < 0.0f, 1.0f, 0.0f);
 }
 
-// After the relax pass: an impact on a joined body goes on, towards what was aimed at. 
+// After the relax pass: an impact on a joined body goes on, towards what was aimed at.
 LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 rebound, vec4 state, Parameters parameters) {
     float pull = dot3(c.normal, xyz(state));
     for (int k = 0; k < 4; ++k) {
