@@ -18,7 +18,9 @@ void end_pass() {
         }
     }
     for (uint m = block_first; m < block_bodies; ++m)
-        if (joints.at[m].slot != NONE) slots.at[joints.at[m].slot] = velocity_delta(joints.at[m].velocity, 0.0f, 1.0f);  // marks the body as joined (restitution.h)
+        if (joints.at[m].slot != NONE)
+            slots.at[joints.at[m].slot] =
+                velocity_delta(joints.at[m].velocity, 0.0f, 1.0f);  // marks the body as joined (restitution.h)
 }
 
 void main() {

@@ -18,10 +18,10 @@ void main() {
     Pair pair = READ(pairs, index);
     if (pair.pair_type == PAIR_INACTIVE) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
-    float approach = approach_of(READ(manifolds, index), READ_WORD(point_counts, index),
-                                 READ(poses, of_b).position - READ(poses, of_a).position, READ(velocities, of_a),
-                                 READ(velocities, of_b),
-                                 speculative_of(READ(properties, pair.a), READ(properties, pair.b), PARAMETERS), PARAMETERS);
+    float approach =
+        approach_of(READ(manifolds, index), READ_WORD(point_counts, index),
+                    READ(poses, of_b).position - READ(poses, of_a).position, READ(velocities, of_a), READ(velocities, of_b),
+                    speculative_of(READ(properties, pair.a), READ(properties, pair.b), PARAMETERS), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);
     bool a_sleeps = has_slept(WORD(sleep_states, of_a), PARAMETERS.sleep_steps),
          b_sleeps = has_slept(WORD(sleep_states, of_b), PARAMETERS.sleep_steps);

@@ -38,12 +38,13 @@ LAW float lever_ratio(float inverse_effective_mass, float inverse_mass) {
     bool moves = inverse_mass > 0.0f;
     return choose(moves, (inverse_effective_mass - inverse_mass) * reciprocal(choose(moves, inverse_mass, 1.0f)), 1.0f);
 }
-// For a point of a contact between two split bodies.
-LAW float contact_momentum(JacobianRow row, Mass a, Mass b) {
+// For a point of a contact between two split bodies; a contact of a single point does not rock.
+LAW float contact_momentum(JacobianRow row, uint points, Mass a, Mass b) {
     float lever = smaller(lever_ratio(row.inverse_effective_mass_a, a.inverse_mass),
                           lever_ratio(row.inverse_effective_mass_b, b.inverse_mass));
     float split = larger(a.split, b.split);
-    return MOMENTUM * smaller(1.0f, lever) * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(split));
+    float rocking = choose(points > 1u, smaller(1.0f, lever), 1.0f);
+    return MOMENTUM * rocking * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(split));
 }
 
 // After the relax pass: the impulses with which the next substep begins, by the momentum of each point. Impacts, new points
