@@ -166,7 +166,7 @@ TEST_CASE("canvases: both draw the same picture of the same state", "[canvas][gl
 
 TEST_CASE("canvases: both draw alike from far above, close by, and in every colour", "[canvas][gl]") {
     World world(heap(), {}, 1);
-    world.step(10);
+    world.step(12);
     const CanvasOptions options = options_of(1, true, false);
     const ShapeInstances instances = demos::instances_of(world);
     const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
