@@ -39,11 +39,13 @@ LAW float lever_ratio(float inverse_effective_mass, float inverse_mass) {
     return choose(moves, (inverse_effective_mass - inverse_mass) * reciprocal(choose(moves, inverse_mass, 1.0f)), 1.0f);
 }
 // For a point of a contact between two split bodies; a contact of a single point does not rock.
-LAW float contact_momentum(JacobianRow row, uint points, Mass a, Mass b) {
+// Without gravity nothing bears a load, and impulses have no momentum.
+LAW float contact_momentum(JacobianRow row, uint points, Mass a, Mass b, vec3 gravity) {
     float lever = smaller(lever_ratio(row.inverse_effective_mass_a, a.inverse_mass),
                           lever_ratio(row.inverse_effective_mass_b, b.inverse_mass));
     float split = larger(a.split, b.split);
     float rocking = choose(points > 1u, smaller(1.0f, lever), 1.0f);
+    rocking = choose(dot3(gravity, gravity) > 0.0f, rocking, 0.0f);
     return MOMENTUM * rocking * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(split));
 }
 

@@ -93,7 +93,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;  // a third of all contacts are speculative and inactive
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
-            float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, c.count, a, b));
+            float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, c.count, a, b, parameters.gravity));
             change = choose(separation <= 0.0f, change - leak * before, change);
             float after = choose(gone, 0.0f, positive(before + change));
             impulse.normal[k] = choose(acts, after, before);
@@ -151,7 +151,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float mass = mass_along(row, a, b);
-            momentum[k] = choose(acts, contact_momentum(row, c.count, a, b), momentum[k]);
+            momentum[k] = choose(acts, contact_momentum(row, c.count, a, b, parameters.gravity), momentum[k]);
             acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
             float after = choose(gone, 0.0f, positive(before - mass * (speed + target)));
             impulse.normal[k] = choose(acts, after, before);
