@@ -99,6 +99,13 @@ void read(const json& value, const Place& place, std::uint32_t& out) {
     out = static_cast<std::uint32_t>(number);
 }
 
+void read(const json& value, const Place& place, int& out) {
+    std::size_t number = 0;
+    read(value, place, number);
+    if (number > 0x7FFFFFFFu) refuse(place, "must be below 2147483648");
+    out = static_cast<int>(number);
+}
+
 std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place) {
     const auto found = std::find(known.begin(), known.end(), word);
     if (found == known.end()) refuse(place, unknown(what, word, known));

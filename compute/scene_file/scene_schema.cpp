@@ -24,7 +24,7 @@ ordered_json number(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
     return value;
 }
-ordered_json number(std::unsigned_integral auto value) {
+ordered_json number(std::integral auto value) {
     return value;
 }
 ordered_json number(float value) {  // with the float's shortest digits, 0.6, not those of the double next to it
@@ -158,7 +158,7 @@ private:
         if constexpr (is_optional<Member>) {
             return defined<typename Member::value_type>();
         } else if constexpr (is_list<Member>) {
-            ordered_json made = {{"type", "array"}, {"items", defined<typename Member::value_type>()}};
+            ordered_json made = {{"type", "array"}, {"items", type_of<typename Member::value_type>({}, Refers::to_nothing)}};
             if (range.low > 0) made["minItems"] = number(range.low);
             if (range.high < largest) made["maxItems"] = number(range.high);
             return made;

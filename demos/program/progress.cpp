@@ -40,7 +40,7 @@ void Progress::show(long count, double seconds) {
     shown_ = true;
     const double part = static_cast<double>(count) / static_cast<double>(total_);
     const double rate = static_cast<double>(count) / std::max(seconds, 1e-9);
-    const std::string left = count > 0 ? duration(seconds * (1 - part) / part) + " left" : "";
+    const std::string left = count > 0 && count < total_ ? duration(seconds * (1 - part) / part) + " left" : "";
     const std::string text =
         fmt::format("{} {:3.0f}%  {}/{} {}  {:.3g}/s  {}", what_, 100 * part, count, total_, unit_, rate, left);
     if (!terminal_) {

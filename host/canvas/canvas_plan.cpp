@@ -102,10 +102,8 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
     draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 12});
     draws.push_back({{Pass::picture, "sky.vert", "sky.frag", Cull::none, Compare::greater_or_equal}, Items::one, Mesh::none, 3});
     if (options.marks) {
-        DrawState mark{Pass::picture, "mark.vert", "mark.frag", Cull::none, Compare::less, false, true, true};
-        draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 1});  // behind bodies
-        mark.depth = Compare::greater_or_equal;
-        draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 0});
+        const DrawState mark{Pass::picture, "mark.vert", "mark.frag", Cull::none, Compare::greater_or_equal, false, true, true};
+        draws.push_back({mark, Items::marks, Mesh::none, 4});
     }
     if (options.joints) {
         DrawState joint{Pass::picture, "joint.vert", "joint.frag", Cull::none, Compare::less, false, true};

@@ -1,4 +1,4 @@
-// Planes: a ground with a grid of metres and tens of metres that fades into the horizon.
+// Planes: a ground that gives scale: tiles and lines of metres and tens of metres, and of decimetres near the eye.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 #include "shaders/render/light.h"
@@ -16,6 +16,12 @@ float line(float x, float w, float half_width) {
     return (covered_up_to(x + 0.5 * w, half_width) - covered_up_to(x - 0.5 * w, half_width)) / w;
 }
 
+// Tiles of alternating tone, box-filtered: 0 or 1, far away a half.
+float tiles(vec2 x, vec2 w) {
+    vec2 i = 2.0 * (abs(fract((x - 0.5 * w) * 0.5) - 0.5) - abs(fract((x + 0.5 * w) * 0.5) - 0.5)) / w;
+    return 0.5 - 0.5 * i.x * i.y;
+}
+
 void main() {
     vec3 start = ray_start(gl_FragCoord.xy), ray = ray_direction(gl_FragCoord.xy);
     float sinking = -dot(plane.xyz, ray);
@@ -30,11 +36,16 @@ void main() {
     float wu = max(abs(dot(axis_u.xyz, to_right)) + abs(dot(axis_u.xyz, to_below)), 1e-6);
     float wv = max(abs(dot(axis_v.xyz, to_right)) + abs(dot(axis_v.xyz, to_below)), 1e-6);
 
+    vec2 w = vec2(wu, wv);
+    // Decimetres show where a pixel is at most a centimetre.
+    float near = 1.0 - smoothstep(0.006, 0.02, max(wu, wv));
+    float finest = near * max(line(at.x * 10.0, wu * 10.0, 0.012), line(at.y * 10.0, wv * 10.0, 0.012));
     float fine = max(line(at.x, wu, 0.012), line(at.y, wv, 0.012));
     float coarse = max(line(at.x * 0.1, wu * 0.1, 0.003), line(at.y * 0.1, wv * 0.1, 0.003));
-    vec3 color = vec3(0.34, 0.33, 0.315);
-    color = mix(color, color * 0.72, fine);
-    color = mix(color, color * 0.50, coarse);
+    vec3 color = vec3(0.335, 0.33, 0.32);
+    color *= 1.0 - 0.05 * tiles(at, w) - 0.06 * tiles(at * 0.1, w * 0.1);
+    color *= 1.0 - 0.10 * finest - 0.24 * fine;
+    color = mix(color, color * 0.55, coarse);
     vec3 shaded = lit(color, point, plane.xyz, ray / length(ray), 0.0);
     out_color = finished(hazed(shaded, distance));
 }

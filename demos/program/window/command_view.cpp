@@ -6,8 +6,10 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "demos/film/color_range.h"
 #include "demos/film/drawing.h"
 #include "demos/film/pictures.h"
+#include "demos/film/style.h"
 #include "demos/play/interaction.h"
 #include "demos/program/backend.h"
 #include "demos/program/commands.h"
@@ -18,8 +20,11 @@
 #include "demos/program/option_parsing.h"
 #include "demos/program/output_check.h"
 #include "demos/program/report.h"
+#include "demos/program/window/detail.h"
 #include "demos/program/window/panel.h"
 #include "host/files/file.h"
+#include "host/pictures/image.h"
+#include "host/vulkan/device.h"
 #include "host/window/window.h"
 
 namespace scree::demos {
@@ -34,7 +39,7 @@ struct ViewOptions {
     MachineOptions machine;
     std::string size = "1280x720";
     Extent extent;
-    std::string color = "momentum";
+    PictureOptions pictures;  // --color and --show
     std::string record, report;
 };
 
@@ -79,7 +84,11 @@ private:
     bool is_over();
     void take_events(double wait);
     void make_drawing();
+    void choose_style();
+    void measure_range(double seconds);
     void draw();
+    void grant(const Wishes& wishes);
+    void write_picture();
 
     const ViewOptions& options_;
     Backend machine_;
@@ -90,7 +99,15 @@ private:
     std::unique_ptr<Drawing> drawing_;
     std::uint64_t drawn_beginning_ = 0;
     Extent drawn_extent_{0, 0};
-    std::string color_;
+    std::vector<Overlay> drawn_overlays_;
+    PictureStyle style_;
+    std::string styled_;  // the scene that style_ is of
+    std::optional<host::ColorScale> scale_;
+    PictureStyle scaled_;  // the style that scale_ is of
+    MeasuredRange range_;
+    double measured_ = 0;  // s since the range was looked at
+    PictureDetail detail_;
+    host::View view_;
     Rates rates_;
     std::uint64_t pictures_ = 0;
     std::optional<std::uint64_t> last_step_;  // step at which the window closes by itself
@@ -103,9 +120,10 @@ Viewer::Viewer(const ViewOptions& options, const host::Display& display, Backend
       session_(options.scene, [this] { return machine_.make_runner(); }),
       interaction_(session_, options.extent),
       window_(display, machine_.screen, "scree", options.extent.width, options.extent.height),
-      color_(options.color) {
+      detail_(machine_.screen->report().is_processor) {
     if (options.scene.steps || options.scene.seconds)
-        last_step_ = static_cast<std::uint64_t>(options.scene.step_count(session_.subject().seconds));
+        last_step_ =
+            static_cast<std::uint64_t>(options.scene.step_count(session_.subject().seconds, session_.world().settings().rate));
 }
 
 bool Viewer::is_over() {
@@ -116,44 +134,104 @@ bool Viewer::is_over() {
 void Viewer::take_events(double wait) {
     for (const host::Event& event : window_.poll(wait)) {
         interaction_.on(event);
-        if (event.kind == host::EventKind::key_pressed && event.key == host::key_of('H')) panel_.shown = !panel_.shown;
+        if (event.kind != host::EventKind::key_pressed) continue;
+        if (event.key == host::key_of('H')) panel_.shown = !panel_.shown;
+        const int overlay = static_cast<int>(event.key) - '4';
+        if (overlay >= 0 && overlay < static_cast<int>(overlay_words().size()))
+            set_shown(style_, static_cast<Overlay>(overlay), !shows(style_, static_cast<Overlay>(overlay)));
     }
 }
 
-// Recreates the drawing for another world or another size.
+// The scene's style for each scene that is opened.
+void Viewer::choose_style() {
+    if (styled_ == session_.subject().name) return;
+    styled_ = session_.subject().name;
+    style_ = style_of(options_.pictures, session_.subject().style);
+    scale_.reset();
+}
+
+// Recreates the drawing for another world, size or choice of overlays.
 void Viewer::make_drawing() {
-    const Extent extent{window_.width(), window_.height()};
+    const auto side = [&](int pixels) { return std::max(16, static_cast<int>(static_cast<float>(pixels) / detail_.divisor())); };
+    const Extent extent{side(window_.width()), side(window_.height())};
     const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_extent_.width == extent.width &&
-                      drawn_extent_.height == extent.height;
+                      drawn_extent_.height == extent.height && drawn_overlays_ == style_.show;
     if (same) return;
     host::CanvasOptions canvas;
     canvas.width = extent.width;
     canvas.height = extent.height;
+    show_overlays(style_, session_.world(), canvas);
     drawing_.reset();
     drawing_ = std::make_unique<Drawing>("vulkan", machine_, session_.world(), canvas);
-    if (drawn_beginning_ != session_.beginnings()) window_.set_title("scree: " + session_.subject().name);
+    if (drawn_beginning_ != session_.beginnings()) window_.set_title("scree: " + session_.subject().title());
     drawn_beginning_ = session_.beginnings();
     drawn_extent_ = extent;
+    drawn_overlays_ = style_.show;
+}
+
+// The range of the scene, and without one of its own what is measured.
+void Viewer::measure_range(double seconds) {
+    constexpr double every = 0.5;  // s
+    const World& world = session_.world();
+    if (!scale_ || !(scaled_ == style_)) {
+        scale_ = scale_of(style_, session_.subject(), world.settings());
+        scaled_ = style_;
+        range_ = MeasuredRange(scale_->high);
+        measured_ = 0;
+    }
+    measured_ += seconds;
+    if (style_.range.x < style_.range.y || measured_ < every) return;
+    const std::vector<double> values = values_now(world, word_of(style_.color));
+    if (!values.empty() && range_.update(nearly_greatest(values), std::exchange(measured_, 0.0))) scale_->high = range_.high();
 }
 
 void Viewer::draw() {
     if (window_.width() < 16 || window_.height() < 16) return;  // minimised
+    choose_style();
     window_.begin_panel();
-    panel_.lay_out(session_, interaction_, rates_, color_);
+    const Wishes wishes = panel_.lay_out(session_, interaction_, rates_, style_);
     window_.end_panel();
+    choose_style();
     make_drawing();
     drawing_->update();
     const LoadedScene& subject = session_.subject();
     const World& world = session_.world();
     const std::string caption =
         panel_.shown ? ""
-                     : fmt::format("{}\n{}, {:.2f} s{}", subject.name, counted(world.bodies_there(), "body", "bodies"),
+                     : fmt::format("{}\n{}, {:.2f} s{}", subject.title(), counted(world.bodies_there(), "body", "bodies"),
                                    world.time(), interaction_.paused ? ", paused" : "");
-    PictureOptions colors;
-    colors.color = color_;
-    const host::View view{camera_of(interaction_.eye()), scale_of(colors, subject, world.settings()), caption, subject.low,
-                          subject.high};
-    if (window_.show(drawing_->canvas(), view)) ++pictures_;
+    view_ = {camera_of(interaction_.eye()), *scale_, caption, subject.low, subject.high};
+    const Clock::time_point start = Clock::now();
+    if (!window_.show(drawing_->canvas(), view_)) return;
+    ++pictures_;
+    detail_.drawn(seconds_between(start, Clock::now()), !interaction_.paused);
+    grant(wishes);
+}
+
+void Viewer::grant(const Wishes& wishes) {
+    try {
+        if (wishes.picture) write_picture();
+        if (wishes.recording) {
+            const std::string file = host::unused_name(session_.subject().title() + "-played", ".json");
+            host::write_atomically(file, json_of(session_.input()));
+            panel_.tell("recording in " + file);
+        }
+    } catch (const std::exception& error) {
+        panel_.tell(error.what());
+    }
+}
+
+// The picture without the panel, at full size.
+void Viewer::write_picture() {
+    host::CanvasOptions canvas;
+    canvas.width = window_.width();
+    canvas.height = window_.height();
+    show_overlays(style_, session_.world(), canvas);
+    Drawing drawing("vulkan", machine_, session_.world(), canvas);
+    const host::Image image = drawing.canvas().draw(view_.camera, view_.scale, view_.caption, view_.low, view_.high);
+    const std::string file = host::unused_name(session_.subject().title(), ".png");
+    host::write_png(file, image);
+    panel_.tell("picture in " + file);
 }
 
 void Viewer::run() {
@@ -166,11 +244,13 @@ void Viewer::run() {
         const double seconds = seconds_between(std::exchange(before, now), now);
         const std::uint64_t step = session_.world().steps(), picture = pictures_, beginning = session_.beginnings();
         interaction_.advance(seconds);
+        choose_style();
+        measure_range(interaction_.paused ? 0 : seconds);
         draw();
         steps.count(beginning == session_.beginnings() ? session_.world().steps() - std::min(step, session_.world().steps()) : 0,
                     seconds);
         pictures.count(pictures_ - picture, seconds);
-        rates_ = {steps.rate(), pictures.rate()};
+        rates_ = {steps.rate(), pictures.rate(), interaction_.milliseconds_a_step()};
         if (seconds_between(reported, now) < report_every) continue;
         write_report();
         reported = now;
@@ -263,7 +343,8 @@ void add_view(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT. Default: 1280x720.")->group("Window");
     command
-        ->add_option("--color", options->color, "Quantity shown by colour at first (words: scree run --help). Default: momentum.")
+        ->add_option("--color", options->pictures.color,
+                     "Quantity shown by colour at first (words: scree run --help). Default: the scene's, mostly momentum.")
         ->check(one_of(color_words()))
         ->group("Window");
     command
@@ -272,7 +353,7 @@ void add_view(CLI::App& program, int& status) {
         ->group("Window");
     command->add_option("--report", options->report, "JSON status file, rewritten every half second and at closing.")
         ->group("Window");
-    command->footer(std::string("In the window:\n") + key_help +
+    command->footer(std::string("In the window:\n") + key_help_text() +
                     "\n\nExamples:\n  scree view wall\n  scree view pile --bodies 3k --record played.json\n"
                     "  scree run --input played.json --video played.mp4");
     command->callback([options, &status] { status = view(*options); });

@@ -61,7 +61,7 @@ void VulkanCanvas::Impl::make_buffers() {
     runs = filled("canvas runs", scenery.runs);
     arguments = filled("canvas arguments", arguments_of(scenery, draws));
     const std::size_t groups = std::max(1u, groups_of_look(0, scenery.bodies()));
-    group_counts = Buffer(device, "canvas group counts", groups * SEEN_RUNS * sizeof(std::uint32_t));
+    group_counts = Buffer(device, "canvas group counts", groups * GROUP_WORDS * sizeof(std::uint32_t));
     tints = Buffer(device, "canvas tints", scenery.records * sizeof(vec4));
     picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
 }
