@@ -64,6 +64,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     canvas.height = options.height * factor_of(options);
     canvas.bits = options.bits;
     canvas.legend = options.legend;
+    canvas.smooth = options.samples == 1;  // averaged pictures are smooth
     show_overlays(style, world, canvas);
     return canvas;
 }

@@ -118,7 +118,7 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
     lines(options.cells, LINES_CELLS, RUN_CUBES, CUBE_CORNERS);
     lines(options.boxes, LINES_BOXES, RUN_CUBES, CUBE_CORNERS);
     lines(options.velocities, LINES_VELOCITIES, RUN_ARROWS, ARROW_CORNERS);
-    if (options.samples == 1) draws.push_back({{Pass::finish, "sky.vert", "smooth.frag"}, Items::one, Mesh::none, 3});
+    if (smooths_on_device(options)) draws.push_back({{Pass::finish, "sky.vert", "smooth.frag"}, Items::one, Mesh::none, 3});
     draws.push_back({{Pass::finish, "overlay.vert", "overlay.frag", Cull::none, Compare::always, false, true, true},
                      Items::quads,
                      Mesh::none,

@@ -17,8 +17,9 @@ void main() {
     float smallest = min(size.x, min(size.y, size.z));
     float natural = min(0.14 * smallest, 0.06);  // m; narrow on large bodies
     float bevel = min(max(natural, 1.2 * pixel), 0.5 * smallest);
-    // Edges narrower than two pixels would be dotted lines, so they fade.
-    float shown = smoothstep(0.8, 2.4, natural / pixel);
+    // Edges narrower than a pixel or two would be dotted lines, so they fade.
+    float shown = clamp(natural / (1.8 * pixel), 0.0, 1.0);
+    shown *= shown;
     // Normal of a box with edges rounded by `bevel`, evaluated on the flat face.
     vec3 over = max(abs(own) - (size - bevel), 0.0) * sign(own);
     // The face with the largest signed distance. At an edge either will do, since the normals are equal.

@@ -18,7 +18,8 @@ LoadedScene wall_with(const std::vector<Body>& more) {
     LoadedScene subject;
     subject.scene.bodies.push_back(ground());
     for (int i = 0; i < 200; ++i)
-        subject.scene.bodies.push_back(box_at({static_cast<float>(i % 20), 0.5f + static_cast<float>(i / 20), 0}, vec3(0.499f, 0.5f, 0.5f)));
+        subject.scene.bodies.push_back(
+            box_at({static_cast<float>(i % 20), 0.5f + static_cast<float>(i / 20), 0}, vec3(0.499f, 0.5f, 0.5f)));
     subject.scene.bodies.insert(subject.scene.bodies.end(), more.begin(), more.end());
     subject.low = vec3(-1, 0, -1);
     subject.high = vec3(21, 10, 1);

@@ -61,7 +61,8 @@ const std::string all_of_it = R"(
 
 }  // namespace
 
-TEST_CASE("scene file: settings, duration, camera motion, picture and events are read, and written as they were read", "[scene]") {
+TEST_CASE("scene file: settings, duration, camera motion, picture and events are read, and written as they were read",
+          "[scene]") {
     const SceneDocument document = scene_from_json(scene_with(all_of_it));
     REQUIRE(document.settings);
     CHECK(document.settings->substeps == 16);
@@ -90,7 +91,8 @@ TEST_CASE("scene file: settings, duration, camera motion, picture and events are
 
 TEST_CASE("scene file: settings, pictures and events that cannot be are refused with their place", "[scene]") {
     CHECK(refusal(R"("settings": {"substeps": 0})") == "/settings/substeps: must be between 1 and 64, is 0");
-    CHECK(refusal(R"("settings": {"substep": 9})").starts_with("/settings/substep: unknown key \"substep\"; nearest: \"substeps\""));
+    CHECK(refusal(R"("settings": {"substep": 9})")
+              .starts_with("/settings/substep: unknown key \"substep\"; nearest: \"substeps\""));
     CHECK(refusal(R"("settings": {"substeps": 1.5})").starts_with("/settings/substeps: must be a whole number"));
     CHECK(refusal(R"("duration": -1)").starts_with("/duration: must be between 0 and 1000000 s"));
     CHECK(refusal(R"("picture": {"color": "momentun"})").find("nearest: \"momentum\"") != std::string::npos);
@@ -98,9 +100,13 @@ TEST_CASE("scene file: settings, pictures and events that cannot be are refused 
     CHECK(refusal(R"("picture": {"color_range": [2, 1]})") == "/picture/color_range: must be [low, high], low first");
     CHECK(refusal(R"("picture": {"color_scale": "log", "color_range": [0, 1]})").starts_with("/picture/color_range: must begin"));
     CHECK(refusal(R"("camera": {"eye": [0, 0, 1], "target": [0, 0, 0], "chase": true})").starts_with("/camera/chase: needs"));
-    CHECK(refusal(R"("camera": {"eye": [0, 0, 1], "target": [0, 0, 0], "follow": 9})").starts_with("/camera/follow: there is no"));
-    const auto event = [](const std::string& action) { return refusal(R"("events": [{"time": 1, "action": {)" + action + "}}]"); };
-    CHECK(event(R"("impulse": {"body": "lift", "impulse": [1, 0, 0]})") == "/events/0/action/impulse/body: must be a dynamic body");
+    CHECK(
+        refusal(R"("camera": {"eye": [0, 0, 1], "target": [0, 0, 0], "follow": 9})").starts_with("/camera/follow: there is no"));
+    const auto event = [](const std::string& action) {
+        return refusal(R"("events": [{"time": 1, "action": {)" + action + "}}]");
+    };
+    CHECK(event(R"("impulse": {"body": "lift", "impulse": [1, 0, 0]})") ==
+          "/events/0/action/impulse/body: must be a dynamic body");
     CHECK(event(R"("glide": {"body": "ball", "to": [1, 0, 0]})") == "/events/0/action/glide/body: must be a kinematic body");
     CHECK(event(R"("velocity": {"body": "ground"})") == "/events/0/action/velocity/body: must be a dynamic or kinematic body");
     CHECK(event(R"("impulse": {"body": "bal", "impulse": [1, 0, 0]})").find("there is no body named") != std::string::npos);
@@ -109,8 +115,10 @@ TEST_CASE("scene file: settings, pictures and events that cannot be are refused 
     CHECK(event(R"("release": {"joint": 7})") == "/events/0/action/release/joint: there is no joint 7; the scene has 2");
     CHECK(event(R"("motor": {"joint": "rope", "speed": 1, "max_force": 1})").ends_with("must be a hinge or a slider"));
     CHECK(event(R"("shove": {})").find("unknown action \"shove\"") != std::string::npos);
-    CHECK(refusal(R"("events": [{"time": 1, "action": {"release": {"joint": 0}}}, {"time": 2, "action": {"release": {"joint": 0}}}])") ==
-          "/events/1/action/release/joint: is released by /events/0, too");
+    CHECK(
+        refusal(
+            R"("events": [{"time": 1, "action": {"release": {"joint": 0}}}, {"time": 2, "action": {"release": {"joint": 0}}}])") ==
+        "/events/1/action/release/joint: is released by /events/0, too");
 }
 
 TEST_CASE("events: each acts before the step whose start is nearest, and does what it says", "[world]") {

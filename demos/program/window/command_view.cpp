@@ -160,6 +160,8 @@ void Viewer::make_drawing() {
     host::CanvasOptions canvas;
     canvas.width = extent.width;
     canvas.height = extent.height;
+    canvas.stays = true;
+    canvas.smooth = detail_.divisor() == 1;
     show_overlays(style_, session_.world(), canvas);
     drawing_.reset();
     drawing_ = std::make_unique<Drawing>("vulkan", machine_, session_.world(), canvas);
