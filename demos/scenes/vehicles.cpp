@@ -183,12 +183,7 @@ DemoScene drive(const DemoOptions&) {
     behind.target = {0, 0.9f, 2};
     behind.follow = car;
     behind.chase = true;
-    return {std::move(scene),
-            behind,
-            low,
-            high,
-            40,
-            promise_of(c, car, loose, all_upright("the car and the cart", {car, cart}))};
+    return {std::move(scene), behind, low, high, 40, promise_of(c, car, loose, all_upright("the car and the cart", {car, cart}))};
 }
 
 DemoScene cars(const DemoOptions& options) {

@@ -99,7 +99,10 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         draw.state.writes_depth = false;
         draws.push_back(draw);
     }
-    draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 12});
+    // Of a plane, what shadows may reach is shaded with them, and all else, most of the ground, without: software devices
+    // cannot skip the reads of the maps pixel by pixel.
+    if (options.shadows) draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 6, 0, 1});
+    draws.push_back({body("plane.vert", "plane_far.frag", Cull::none), Items::planes, Mesh::none, 12});
     draws.push_back({{Pass::picture, "sky.vert", "sky.frag", Cull::none, Compare::greater_or_equal}, Items::one, Mesh::none, 3});
     if (options.marks) {
         const DrawState mark{Pass::picture, "mark.vert", "mark.frag", Cull::none, Compare::greater_or_equal, false, true, true};

@@ -186,11 +186,11 @@ std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most
 std::string tick_label(float value, bool logarithmic) {
     if (value == 0) return "0";
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-6));
-    const bool plain = exponent >= -2 && exponent <= 3;
+    const bool plain = exponent >= -2 && exponent <= 4;
     if (logarithmic && !plain) return "10" + superscript(exponent);
     char text[32];
     if (plain) {
-        std::snprintf(text, sizeof text, "%.4g", static_cast<double>(value));
+        std::snprintf(text, sizeof text, "%.5g", static_cast<double>(value));
         return text;
     }
     std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value) / std::pow(10.0, exponent));

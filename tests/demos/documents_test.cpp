@@ -42,7 +42,8 @@ TEST_CASE("demos/README.md tells what every key of a report means", "[demos]") {
     std::ostringstream readme;
     readme << std::ifstream(std::filesystem::path(SCREE_SOURCE_DIR) / "demos/README.md").rdbuf();
     const std::string text = readme.str();
-    for (const auto& [key, value] : nlohmann::json::parse(scree::demos::json_of({})).items()) {
+    const nlohmann::json report = nlohmann::json::parse(scree::demos::json_of({}));
+    for (const auto& [key, value] : report.items()) {
         INFO(key);
         CHECK(text.find("`" + key + "`") != std::string::npos);
     }

@@ -81,7 +81,8 @@ TEST_CASE("scene file: settings, duration, camera motion, picture and events are
     const std::string text = scene_to_json(document);
     CHECK(scene_to_json(scene_from_json(text)) == text);
     const auto schema = nlohmann::json::parse(scene_schema());
-    for (const auto& [key, value] : nlohmann::json::parse(text).items()) CHECK(schema["properties"].contains(key));
+    const auto written = nlohmann::json::parse(text);
+    for (const auto& [key, value] : written.items()) CHECK(schema["properties"].contains(key));
     CHECK(schema["$defs"]["picture"]["properties"]["show"]["items"]["enum"].size() == 6);
     CHECK(schema["$defs"]["settings"]["properties"]["substeps"]["default"] == 8);
     CHECK(schema["$defs"]["event_action"]["properties"].size() == 7);
