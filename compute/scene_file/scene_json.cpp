@@ -83,7 +83,7 @@ void read_run(const json& rest, const Place& root, const NamedThings& named, Sce
     read_checked(fields::field_of(&SceneDocument::events));
     if (document.picture) {
         const glm::vec2 range = document.picture->range;
-        const Place place = root / "picture" / "color_range";
+        const Place picture = root / "picture", place = picture / "color_range";
         if (range.x > range.y) refuse(place, "must be [low, high], low first");
         if (document.picture->scale == ShownScale::logarithmic && range.x != range.y && range.x <= 0)
             refuse(place, "must begin above 0 on a logarithmic scale");

@@ -9,10 +9,12 @@
 
 #include "compute/step/state.h"
 #include "demos/film/camera.h"
+#include "demos/film/camera_track.h"
 #include "demos/film/drawing.h"
 #include "demos/film/style.h"
 #include "demos/program/option_parsing.h"
 #include "host/canvas/canvas.h"
+#include "host/files/file.h"
 #include "host/pictures/frame_writer.h"
 #include "shaders/physics/extra/sleep.h"
 
@@ -82,6 +84,8 @@ struct Pictures::Impl {
     double fps;
     bool captioned;
     int factor;  // by which pictures are drawn larger
+    CameraTrack track;
+    std::string cameras;  // file; may be empty
     PictureTimes times;
     int begun = 0;             // pictures
     bool drawing_one = false;  // the last one is being drawn, concurrently with later steps
@@ -117,6 +121,8 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
                    options.fps,
                    options.caption,
                    factor_of(options),
+                   CameraTrack(options.width, options.height),
+                   options.cameras,
                    {}}) {
     Impl& in = *interior_;
     host::FrameWriterOptions writer;
@@ -144,6 +150,7 @@ void Pictures::after_step() {
         in.drawing->update();
         const std::optional<std::size_t> body = in.camera.followed();
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
+        if (!in.cameras.empty()) in.track.add(in.world.time(), camera);
         in.drawing->canvas().begin(camera, in.scale, in.caption(), in.low, in.high);
     });
     in.drawing_one = true;
@@ -154,6 +161,7 @@ void Pictures::after_step() {
 void Pictures::finish() {
     interior_->take();
     timed(interior_->times.encode_wait, [&] { interior_->writer->finish(); });
+    if (!interior_->cameras.empty()) host::write_atomically(interior_->cameras, interior_->track.json());
 }
 
 PictureTimes Pictures::times() const {

@@ -50,6 +50,7 @@ void require_writable(const RunOptions& options) {
     if (options.save == "-") throw UsageError("--save -: name a file");
     require_writable_file("--report", options.report);
     require_writable_file("--save", options.save);
+    require_writable_file("--cameras", options.pictures.cameras);
 }
 
 void require_steps_for_pictures(const RunOptions& options, float rate) {

@@ -54,6 +54,7 @@ struct CameraOptions {
 
 struct PictureOptions {
     std::string frames, video, preview, raw;  // empty: none
+    std::string cameras;                      // JSON file of each picture's camera; may be empty
     std::string canvas = "auto";              // auto, vulkan or gl
     int width = 1280, height = 720;
     int bits = 8;  // per channel

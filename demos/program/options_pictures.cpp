@@ -109,6 +109,10 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
                     "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
         ->group(group);
     command
+        .add_option("--cameras", options.cameras,
+                    "JSON file with the camera of each picture: pose, world-to-camera matrix, focal length in pixels.")
+        ->group(group);
+    command
         .add_option_function<std::string>("--size", Set([&options](const std::string& word) { set_size(options, word); }),
                                           "Picture size in pixels, WIDTHxHEIGHT. Default: 1280x720.")
         ->group(group);
@@ -126,12 +130,12 @@ std::string place_of(const std::string& file) {
 }  // namespace
 
 void PictureOptions::require_sense(const CLI::App& command, const std::string& report) const {
-    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--report"}) {
+    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--cameras", "--report"}) {
         for (const std::string& name : command.get_option(option)->results())
             if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
     }
     const std::pair<const char*, const std::string*> files[] = {
-        {"--video", &video}, {"--preview", &preview}, {"--raw", &raw}, {"--report", &report}};
+        {"--video", &video}, {"--preview", &preview}, {"--raw", &raw}, {"--cameras", &cameras}, {"--report", &report}};
     std::map<std::string, const char*> taken;
     for (const auto& [option, name] : files) {
         const std::string place = name->empty() || *name == "-" ? "" : place_of(*name);

@@ -182,6 +182,8 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.sun_map = sun_map.matrix;
     frame.sky_map = sky_map.matrix;
     set_light_bounds(frame, camera, sun, low, high);
+    // Haze and grid fade with the view, but not within the scene.
+    frame.eye.w = std::max(frame.eye.w, 3.5f * frame.box_high.w);
     frame.pixel.y = sky_map.depth;
     frame.pixel.z = 20 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);

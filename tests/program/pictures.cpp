@@ -1,6 +1,7 @@
 // Pictures by the program: raw frames, previews, 16 bits, cameras, overlays, and refusals.
 #include <signal.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -258,4 +259,31 @@ TEST_CASE("program: a run that needs more substeps is told so", "[program]") {
     const json enough = json::parse(run_scree("run '" + file + "' --backend cpu --seconds 3 --substeps 16 --report -").output);
     INFO(enough["advice"].dump(1));
     REQUIRE(enough["advice"].empty());
+}
+
+TEST_CASE("program: the cameras of pictures are told so that a point is found at its pixel", "[program]") {
+    const Place place;
+    const std::string file = (place / "cameras.json").string();
+    const Outcome run = run_scree(
+        "run rest " + small + "--steps 12 --fps 10 --quiet --raw /dev/null --eye 3,4,5 --target 0,1,0 --cameras '" + file + "'");
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    const json cameras = json::parse(place.read("cameras.json"));
+    REQUIRE(cameras["frames"].size() == 3);
+    const json& frame = cameras["frames"][1];
+    REQUIRE(frame["time"].get<double>() == Approx(0.1));
+    const auto seen = [&](std::array<double, 3> point) {
+        std::array<double, 3> at{};
+        for (std::size_t row = 0; row < 3; ++row) {
+            const json& m = frame["world_to_camera"][row];
+            at[row] = m[3].get<double>();
+            for (std::size_t k = 0; k < 3; ++k) at[row] += m[k].get<double>() * point[k];
+        }
+        return std::pair(48 - frame["focal"].get<double>() * at[0] / at[2], 32 + frame["focal"].get<double>() * at[1] / at[2]);
+    };
+    REQUIRE(seen({0, 1, 0}).first == Approx(48));  // the target is in the middle
+    REQUIRE(seen({0, 1, 0}).second == Approx(32));
+    REQUIRE(seen({0, 2, 0}).second < 30);  // up is up
+    REQUIRE(seen({5, 1, -3}).first > 50);  // and right is right
+    require_refused("rest --cameras c.json", {"--cameras", "no pictures are asked for"});
 }
