@@ -107,7 +107,8 @@ std::vector<double> values_now(const World& world, const std::string& quantity) 
     return values;
 }
 
-std::pair<float, float> color_range(const LoadedScene& subject, const Settings& settings, const std::string& quantity) {
+std::pair<float, float> color_range(const LoadedScene& subject, const Settings& settings, const std::string& quantity,
+                                    bool rehearses) {
     if (quantity == "contacts") return {0.0f, 12.0f};  // the kissing number of equal spheres
     if (quantity == "sleep") return {0.0f, settings.sleep_time};
     if (quantity == "height") return {std::min(subject.low.y, subject.high.y - 1e-3f), subject.high.y};
@@ -115,8 +116,9 @@ std::pair<float, float> color_range(const LoadedScene& subject, const Settings& 
     if (!is_moving_quantity(quantity)) return {0.0f, 1.0f};
     const std::size_t bodies = subject.scene.bodies.size();
     const double rate = static_cast<double>(settings.rate), gravity = glm::length(subject.scene.gravity);
-    const double steps =
-        bodies <= most_bodies ? std::min(rehearsed_seconds * rate, most_body_steps / static_cast<double>(bodies + 1)) : 0;
+    const double steps = rehearses && bodies <= most_bodies
+                             ? std::min(rehearsed_seconds * rate, most_body_steps / static_cast<double>(bodies + 1))
+                             : 0;
     // Even where all rests, a body that falls by a part of its size is seen.
     std::vector<double> greatest;
     for (const Body& body : subject.scene.bodies) {

@@ -14,7 +14,9 @@ namespace scree::demos {
 // heavy body does not dim all others, rounded to two steps or less of a digit. The values are those of the first two
 // seconds, simulated beforehand on the CPU, if that is a short work; else, of a fall over three tenths of the scene's
 // height. For height: from the bottom to the top of the scene.
-std::pair<float, float> color_range(const LoadedScene& subject, const Settings& settings, const std::string& quantity);
+// `rehearses`: false to leave the simulation out.
+std::pair<float, float> color_range(const LoadedScene& subject, const Settings& settings, const std::string& quantity,
+                                    bool rehearses = true);
 
 // The range of a logarithmic scale: from a thousandth of its end.
 std::pair<float, float> logarithmic_range(std::pair<float, float> range);

@@ -66,7 +66,7 @@ PictureStyle style_of(const PictureOptions& options, const PictureStyle& scene) 
     return style;
 }
 
-host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject, const Settings& settings) {
+host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject, const Settings& settings, bool rehearses) {
     host::ColorScale scale;
     scale.by = host::color_by_named(word_of(style.color)).value();
     scale.map = host::color_map_named(all_words<ShownMap>()[static_cast<std::size_t>(style.map)]).value();
@@ -74,7 +74,7 @@ host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject,
     if (style.range.x < style.range.y) {
         std::tie(scale.low, scale.high) = std::pair(style.range.x, style.range.y);
     } else {
-        std::pair<float, float> range = color_range(subject, settings, word_of(style.color));
+        std::pair<float, float> range = color_range(subject, settings, word_of(style.color), rehearses);
         if (logarithmic) range = logarithmic_range(range);
         std::tie(scale.low, scale.high) = range;
     }

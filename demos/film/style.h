@@ -16,7 +16,7 @@ PictureStyle style_of(const PictureOptions& options, const PictureStyle& scene);
 
 // The colour scale of a style; a range that it leaves open is color_range()'s. Throws UsageError for a logarithmic scale
 // that begins at 0.
-host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject, const Settings& settings);
+host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject, const Settings& settings, bool rehearses = true);
 
 bool shows(const PictureStyle& style, Overlay overlay);
 void set_shown(PictureStyle& style, Overlay overlay, bool on);
