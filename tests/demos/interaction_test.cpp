@@ -281,7 +281,7 @@ TEST_CASE("a machine that falls behind makes up to a second in a part of one, an
 TEST_CASE("the clock is true while steps are cheap, however few pictures are drawn") {
     Played played;
     for (int i = 0; i < 6; ++i) played.hands.advance(0.4);  // two and a half pictures a second
-    REQUIRE(played.session.world().steps() >= 60);  // 144, but on a machine under load
+    REQUIRE(played.session.world().steps() >= 60);          // 144, but on a machine under load
     REQUIRE(played.session.world().steps() <= 145);
 }
 
