@@ -88,7 +88,7 @@ constexpr int steps_a_timed_one = 16;
 bool simulate(const RunOptions& options, const LoadedScene& subject, World& world, Pictures* pictures, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds);
     std::optional<Recorder> recorder;
-    if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
+    if (subject.promise) recorder.emplace(world, *subject.promise, subject.seconds, subject.before_step);
     Progress progress(subject.name, steps, "steps", options.quiet);
     if (pictures) pictures->after_step();
     const bool reports = !options.report.empty();

@@ -97,6 +97,8 @@ DemoScene rolling(const DemoOptions&);
 DemoScene yaw(const DemoOptions&);
 DemoScene spins(const DemoOptions&);
 DemoScene turntable(const DemoOptions&);
+DemoScene arches(const DemoOptions&);
+DemoScene capstan(const DemoOptions&);
 DemoScene bounce(const DemoOptions&);
 DemoScene tumbling(const DemoOptions&);
 DemoScene swarm(const DemoOptions&);
