@@ -10,9 +10,11 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "compute/checkpoint.h"
 #include "compute/ray.h"
 #include "compute/runner.h"
 #include "compute/scene.h"
@@ -206,12 +208,20 @@ public:
     std::vector<VehicleState> vehicles() const;
     // The present scene: existing bodies with their poses and velocities; fragments are ordinary bodies. A world made
     // of it continues, but not bit-identically: contacts begin anew, sleepers are awake, and low-order parts of
-    // positions are lost.
+    // positions are lost. save() keeps all of these.
     Scene snapshot() const;
     Statistics statistics() const;
     const State& state() const;  // all tables of a step (compute/step/state.h), bodies and contacts up to date
     // XXH64 over position, orientation, velocity and angular velocity in id order; if bodies may break, also over which exist.
     std::uint64_t state_hash() const;
+
+    // The whole state as bytes (compute/checkpoint.h). Reads everything back.
+    std::vector<std::byte> save() const;
+    // Returns to a saved state: of this world, or of another one of the same scene, whatever its settings (which are
+    // restored, too), backend and threads. Later steps give the same bits as those of the world that was saved; bodies
+    // added since then are gone. Uploads everything. Buffers that a canvas draws from may be replaced. Throws
+    // CheckpointError, changing nothing, if the bytes are damaged, of another format, or of another scene.
+    void restore(std::span<const std::byte> saved);
 
     std::uint64_t buffer_growths() const;
     std::size_t buffer_bytes() const;  // of all tables, at present

@@ -100,6 +100,13 @@ void State::number_rows() {
     for (std::uint32_t id = 0; id < rows_.size(); ++id) ids[rows_[id]] = id;
 }
 
+void State::take_rows(std::vector<std::uint32_t> rows) {
+    rows_ = std::move(rows);
+    number_rows();
+    row_content_ = {};
+    note_content(0, fixed().bodies);
+}
+
 void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threads) {
     const std::uint32_t n = body_count, all = fixed().bodies;
     std::vector<std::uint32_t> from(all), to(all);  // rows

@@ -146,6 +146,11 @@ struct State {
     std::uint32_t id_of(std::uint32_t row) const {
         return rows_.empty() ? row : ids[row];
     }
+    // For checkpoints: the rows by id (empty: equal to ids). Taking them numbers the rows and notes their features anew.
+    const std::vector<std::uint32_t>& rows() const {
+        return rows_;
+    }
+    void take_rows(std::vector<std::uint32_t> rows);
 
     // Records allocated, and records in use at present.
     std::size_t allocated(BufferLength length) const;

@@ -163,6 +163,7 @@ std::size_t World::add_body(const Body& body) {
         in.runner->upload(changed);
         in.scene.bodies.push_back(std::move(one));
     }
+    in.edits.clear();
     return first;
 }
 

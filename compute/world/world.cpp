@@ -39,7 +39,13 @@ bool finite(vec3 v) {
 }  // namespace
 
 World::Impl::Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r)
-    : scene(std::move(s)), settings(t), runner(std::move(r)), state(scene, settings, runner->group_size(), runner->in_place()) {
+    : scene(std::move(s)),
+      settings(t),
+      runner(std::move(r)),
+      state(scene, settings, runner->group_size(), runner->in_place()),
+      bodies_at_start(scene.bodies.size()),
+      shapes_at_start(ShapeLengths::of(state)),
+      fingerprint(fingerprint_of(state)) {
     begin_in_order();
     runner->attach(state);
 }

@@ -9,11 +9,13 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "compute/scene/joint_validation.h"
 #include "compute/step/table_ranges.h"
 #include "compute/world.h"
+#include "compute/world/state_bytes.h"
 
 namespace scree {
 
@@ -37,6 +39,12 @@ struct World::Impl {
     double seconds_to_look = 0;  // duration of the last check of the memory order
     std::optional<std::chrono::steady_clock::time_point> looked;
     bool broken = false;  // left true by a step that threw: tables may be half grown
+
+    // For checkpoints: what the world was made with, and the edits of the scene since, as bytes (empty: to be made).
+    std::size_t bodies_at_start;
+    ShapeLengths shapes_at_start;
+    std::uint64_t fingerprint;
+    mutable std::vector<std::byte> edits;
 
     Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r);
     void step();
@@ -71,6 +79,16 @@ struct World::Impl {
     Held& held(std::size_t grip);  // throws std::out_of_range
     void take_up_grips();          // writes the grips to the parameters of the next step
     void retune(const Settings& changed);
+
+    // checkpoint.cpp
+    struct Edits;
+    struct Own;
+    const std::vector<std::byte>& edits_now() const;
+    Edits read_edits(std::span<const std::byte> bytes) const;
+    void take_edits(Edits&& made, std::span<const std::byte> bytes);
+    void find_shapes_again();
+    void put_world(ByteWriter& out) const;
+    static Own take_world(ByteReader& in);
 };
 
 }  // namespace scree
