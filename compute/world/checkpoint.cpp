@@ -6,6 +6,7 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
 #include <iterator>
@@ -79,26 +80,48 @@ struct World::Impl::Own {
     bool reorder_now = false;
     std::map<std::size_t, physics::Action> actions;
     std::array<std::optional<Held>, most_grips> grips;
+    Events events;
 };
 
-// The scene's lists as they are to be: bodies behind those of the start, all joints, all vehicles.
+// The scene as it is to be: bodies of the start that changed (without shapes) or are gone, added ones with their fragments,
+// all joints, vehicles and exclusions.
 struct World::Impl::Edits {
-    std::vector<Body> added;
+    std::size_t bodies = 0;
+    std::vector<std::uint32_t> generations;
+    std::vector<std::uint8_t> gone, origins;
+    std::vector<std::uint64_t> freed;
+    std::vector<std::pair<std::size_t, Body>> changed;
+    std::vector<std::pair<std::size_t, std::vector<Body>>> added;  // at an index, with the fragments behind it
     std::vector<Joint> joints;
     std::vector<Vehicle> vehicles;
+    std::vector<Exclusion> exclusions;
 };
 
-// Fragments follow from the bodies that they belong to.
 const std::vector<std::byte>& World::Impl::edits_now() const {
     if (!edits.empty()) return edits;
     ByteWriter out;
-    std::uint64_t added = 0;
-    for (std::size_t i = bodies_at_start; i < scene.bodies.size(); ++i) added += scene.bodies[i].piece_of == no_body;
-    out.put(added);
-    for (std::size_t i = bodies_at_start; i < scene.bodies.size(); ++i)
-        if (scene.bodies[i].piece_of == no_body) put_value(out, scene.bodies[i]);
+    out.put(std::uint64_t{scene.bodies.size()});
+    out.put_list(std::span(generations));
+    out.put_list(std::span(gone));
+    out.put_list(std::as_bytes(std::span(origins)));
+    const std::vector<std::uint64_t> free_later(freed.begin(), freed.end());
+    out.put_list(std::span(free_later));
+    const auto is_of = [&](std::size_t i, Origin origin) { return (i < origins.size() ? origins[i] : Origin::start) == origin; };
+    std::vector<std::uint64_t> changed, added;
+    for (const auto& [i, body] : originals)
+        if (is_of(i, Origin::start)) changed.push_back(i);
+    for (std::size_t i = 0; i < origins.size(); ++i)
+        if (is_of(i, Origin::added)) added.push_back(i);
+    out.put_list(std::span<const std::uint64_t>(changed));
+    for (const std::uint64_t i : changed)
+        fields::for_each_field<Body>([&](const auto& field) {
+            if constexpr (!std::is_same_v<decltype(field.member), Shape Body::*>) put_value(out, scene.bodies[i].*field.member);
+        });
+    out.put_list(std::span<const std::uint64_t>(added));
+    for (const std::uint64_t i : added) put_value(out, scene.bodies[i]);
     put_value(out, scene.joints);
     put_value(out, scene.vehicles);
+    put_value(out, scene.exclusions);
     edits = std::move(out.bytes());
     return edits;
 }
@@ -106,34 +129,79 @@ const std::vector<std::byte>& World::Impl::edits_now() const {
 World::Impl::Edits World::Impl::read_edits(std::span<const std::byte> bytes) const {
     ByteReader in(bytes);
     Edits made;
-    Scene several;
-    several.gravity = scene.gravity;
-    // As they were added: each with its fragments behind it.
-    for (auto left = in.take<std::uint64_t>(); left > 0; --left) {
-        several.bodies.clear();
-        take_value(in, several.bodies.emplace_back());
+    made.bodies = in.take<std::uint64_t>();
+    made.generations = in.take_list<std::uint32_t>();
+    made.gone = in.take_list<std::uint8_t>();
+    made.origins = in.take_list<std::uint8_t>();
+    made.freed = in.take_list<std::uint64_t>();
+    for (const std::uint64_t index : in.take_list<std::uint64_t>()) {
+        Body& body = made.changed.emplace_back(index, Body{}).second;
+        fields::for_each_field<Body>([&](const auto& field) {
+            if constexpr (!std::is_same_v<decltype(field.member), Shape Body::*>) take_value(in, body.*field.member);
+        });
+    }
+    for (const std::uint64_t index : in.take_list<std::uint64_t>()) {
+        Scene one;
+        one.gravity = scene.gravity;
+        take_value(in, one.bodies.emplace_back());
         try {
-            several = checked(std::move(several));
+            one = checked(std::move(one));
         } catch (const SceneError& error) {
             refuse(std::string("the checkpoint is damaged: ") + error.what());
         }
-        const std::size_t first = bodies_at_start + made.added.size();
-        for (Body& one : several.bodies) {
-            if (one.piece_of != no_body) one.piece_of += first;
-            if (one.fracture) one.fracture->first_piece += first;
-            made.added.push_back(std::move(one));
+        for (Body& body : one.bodies) {
+            if (body.piece_of != no_body) body.piece_of += index;
+            if (body.fracture) body.fracture->first_piece += index;
         }
+        if (index + one.bodies.size() > made.bodies) refuse("the checkpoint is damaged: it has a body behind the last one");
+        made.added.emplace_back(index, std::move(one.bodies));
     }
     take_value(in, made.joints);
     take_value(in, made.vehicles);
+    take_value(in, made.exclusions);
+    if (made.bodies < bodies_at_start) refuse("the checkpoint is damaged: it lacks bodies of the scene");
     return made;
 }
 
 void World::Impl::take_edits(Edits&& made, std::span<const std::byte> bytes) {
+    // Back to the start,
     scene.bodies.resize(bodies_at_start);
-    std::move(made.added.begin(), made.added.end(), std::back_inserter(scene.bodies));
+    for (auto& [i, body] : originals) {
+        const bool replaced = i < origins.size() && origins[i] != Origin::start;
+        if (!replaced) body.shape = std::move(scene.bodies[i].shape);
+        scene.bodies[i] = std::move(body);
+    }
+    originals.clear();
+    origins.clear();
+    gone.clear();
+    // and from there.
+    for (auto& [i, body] : made.changed) {
+        keep_original(i);
+        body.shape = std::move(scene.bodies[i].shape);
+        body.piece_of = scene.bodies[i].piece_of;
+        if (body.fracture) body.fracture = scene.bodies[i].fracture;  // with its cut
+        scene.bodies[i] = std::move(body);
+    }
+    scene.bodies.resize(made.bodies);
+    generations = std::move(made.generations);
+    gone = std::move(made.gone);
+    for (const std::uint8_t origin : made.origins) origins.push_back(static_cast<Origin>(origin));
+    free_indices.clear();
+    freed.assign(made.freed.begin(), made.freed.end());
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (i < bodies_at_start && origins[i] != Origin::start) originals[i] = std::move(scene.bodies[i]);
+        if (origins[i] == Origin::none) scene.bodies[i] = no_longer_there();
+    }
+    for (auto& [first, family] : made.added)
+        std::move(family.begin(), family.end(), scene.bodies.begin() + static_cast<std::ptrdiff_t>(first));
+    std::vector<std::size_t> later = std::exchange(freed, {});
+    for (std::size_t i = 0; i < origins.size(); ++i)
+        if (origins[i] == Origin::none && std::find(later.begin(), later.end(), i) == later.end()) freed.push_back(i);
+    release_indices();
+    freed = std::move(later);
     scene.joints = std::move(made.joints);
     scene.vehicles = std::move(made.vehicles);
+    scene.exclusions = std::move(made.exclusions);
     edits.assign(bytes.begin(), bytes.end());
 }
 
@@ -145,7 +213,8 @@ void World::Impl::find_shapes_again() {
     std::erase_if(places.cuts, [&](const auto& one) { return one.second >= shapes_at_start.pieces; });
     for (std::size_t i = shapes_at_start.tyres; i < state.tyres.size(); ++i)
         places.tyres.try_emplace({state.tyres[i].best_slip, state.tyres[i].sliding}, static_cast<physics::uint>(i + 1));
-    for (std::size_t i = bodies_at_start; i < scene.bodies.size(); ++i) {
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (origins[i] == Origin::start || origins[i] == Origin::none) continue;
         const physics::BodyProperties& row = state.properties[state.row_of(i)];
         if (const auto* hull = std::get_if<Hull>(&scene.bodies[i].shape)) places.hulls.try_emplace(hull->form, row.shape_data);
         if (scene.bodies[i].fracture && row.fracture < state.fractures.size())
@@ -171,6 +240,7 @@ void World::Impl::put_world(ByteWriter& out) const {
         out.put(grip->target);
         out.put(grip->spring);
     }
+    events.put(out);
 }
 
 World::Impl::Own World::Impl::take_world(ByteReader& in) {
@@ -191,6 +261,7 @@ World::Impl::Own World::Impl::take_world(ByteReader& in) {
         grip->target = in.take<vec3>();
         grip->spring = in.take<GripSpring>();
     }
+    own.events.restore(in);
     return own;
 }
 
@@ -242,11 +313,13 @@ void World::restore(std::span<const std::byte> saved) {
     in.reorder_now = own.reorder_now;
     in.actions = std::move(own.actions);
     in.grips = own.grips;
+    in.events = std::move(own.events);
+    in.state.sums_impulses = in.events.settings().contacts;
     const TableRanges changed = tables.restore(in.state);
     if (made) in.find_shapes_again();
     in.runner->adapt();
     in.runner->upload(changed);
-    ++in.reorderings;  // rows may differ from those before
+    ++in.arrangements;
     in.broken = false;
 }
 

@@ -123,6 +123,7 @@ void World::Impl::rejoin(std::optional<std::size_t> without) {
     const TableRanges changed = editor.rejoin(scene, without);
     runner->adapt();
     runner->upload(changed);
+    if (events.settings().breaks) events.note_joints(scene, state);
 }
 
 std::size_t World::add_joint(const Joint& joint) {

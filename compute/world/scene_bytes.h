@@ -10,6 +10,7 @@
 
 #include "compute/fields/body.h"
 #include "compute/fields/check.h"
+#include "compute/fields/document.h"
 #include "compute/fields/joint.h"
 #include "compute/fields/vehicle.h"
 #include "compute/world/byte_stream.h"
@@ -33,7 +34,7 @@ void for_each_member(Struct& one, const Visit& visit) {
         for_each_shape_field<Kind>([&](const auto& field) { visit(one.*field.member); });
         if constexpr (std::is_same_v<Kind, Mesh>) visit(one.file), visit(one.scale);
     } else if constexpr (std::is_same_v<Kind, Part>) {
-        visit(one.shape), visit(one.position), visit(one.orientation), visit(one.density);
+        visit(one.shape), visit(one.position), visit(one.orientation), visit(one.density), visit(one.filter);
     } else {
         fields::for_each_field<Kind>([&](const auto& field) { visit(one.*field.member); });
     }

@@ -65,7 +65,7 @@ physics::Counts portable(const physics::Counts& counts) {
 }  // namespace
 
 ShapeLengths ShapeLengths::of(const State& s) {
-    return {s.hulls.size(), s.parts.size(), s.fractures.size(), s.pieces.size(), s.tyres.size(), s.way_points.size()};
+    return {s.hulls.size(), s.pieces.size(), s.tyres.size()};
 }
 
 std::uint64_t fingerprint_of(const State& state) {
@@ -73,7 +73,8 @@ std::uint64_t fingerprint_of(const State& state) {
     for (physics::BodyProperties& row : properties) row.large = 0;  // depends on the settings
     std::uint64_t hash = hash_of(properties, 0);
     const auto add = [&](const auto&... tables) { ((hash = hash_of(tables, hash)), ...); };
-    add(state.poses, state.velocities, state.hulls, state.parts, state.fractures, state.pieces, state.tyres, state.way_points);
+    add(state.poses, state.velocities, state.hulls, state.parts, state.fractures, state.pieces, state.tyres, state.way_points,
+        state.filters, state.exclusions);
     if (state.has_joints()) add(state.joints);
     if (state.fixed().vehicles) add(state.vehicles);
     return hash;
@@ -109,11 +110,12 @@ void put_state(ByteWriter& out, const State& state, const ShapeLengths& at_start
     out.put_list(std::span(state.joints));
     out.put_list(std::span(state.vehicles));
     out.put_list(behind(state.hulls, at_start.hulls));
-    out.put_list(behind(state.parts, at_start.parts));
-    out.put_list(behind(state.fractures, at_start.fractures));
+    out.put_list(std::span(state.parts));  // those of removed bodies are used again
+    out.put_list(std::span(state.fractures));
     out.put_list(behind(state.pieces, at_start.pieces));
     out.put_list(behind(state.tyres, at_start.tyres));
-    out.put_list(behind(state.way_points, at_start.way_points));
+    out.put_list(std::span(state.filters));
+    out.put_list(std::span(state.exclusions));
 }
 
 StateBytes::StateBytes(ByteReader& in, const ShapeLengths& at_start)
@@ -134,13 +136,15 @@ StateBytes::StateBytes(ByteReader& in, const ShapeLengths& at_start)
     joints_ = in.take_records(sizeof(physics::Joint));
     vehicles_ = in.take_records(sizeof(physics::Vehicle));
     constexpr std::array sizes{sizeof(physics::uvec4),      sizeof(physics::PoseInBody), sizeof(physics::Fracturing),
-                               sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::WayPoint)};
-    for (std::size_t i = 0; i < sizes.size(); ++i) added_[i] = in.take_records(sizes[i]);
-    const std::size_t parts = at_start.parts + added_[1].size() / sizeof(physics::PoseInBody);
+                               sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::uvec4),
+                               sizeof(physics::uvec4)};
+    for (std::size_t i = 0; i < sizes.size(); ++i) shapes_[i] = in.take_records(sizes[i]);
+    const std::size_t parts = shapes_[1].size() / sizeof(physics::PoseInBody);
     const auto in_range = [](const auto& list, std::size_t end) {
         return std::all_of(list.begin(), list.end(), [&](std::uint32_t one) { return one < end; });
     };
     if (body_count_ > parameters_.first_part || parameters_.first_part > rows || rows - parameters_.first_part != parts ||
+        (shapes_[5].size() != 0 && shapes_[5].size() != rows * sizeof(physics::uvec4)) ||
         (!rows_.empty() && rows_.size() != body_count_) || !in_range(rows_, parameters_.first_part) ||
         !in_range(joint_records_, joints_.size() / sizeof(physics::Joint)) ||
         parameters_.vehicles > vehicles_.size() / sizeof(physics::Vehicle) || substeps_ < 1)
@@ -162,12 +166,13 @@ TableRanges StateBytes::restore(State& state) const {
     state.joint_records = joint_records_;
     assign(state.joints, joints_);
     assign(state.vehicles, vehicles_);
-    assign(state.hulls, added_[0], at_start_.hulls);
-    assign(state.parts, added_[1], at_start_.parts);
-    assign(state.fractures, added_[2], at_start_.fractures);
-    assign(state.pieces, added_[3], at_start_.pieces);
-    assign(state.tyres, added_[4], at_start_.tyres);
-    assign(state.way_points, added_[5], at_start_.way_points);
+    assign(state.hulls, shapes_[0], at_start_.hulls);
+    assign(state.parts, shapes_[1]);
+    assign(state.fractures, shapes_[2]);
+    assign(state.pieces, shapes_[3], at_start_.pieces);
+    assign(state.tyres, shapes_[4], at_start_.tyres);
+    assign(state.filters, shapes_[5]);
+    assign(state.exclusions, shapes_[6]);
     for (const auto& [table, bytes] : tables_) state.make(table);
     state.allocate();
     for (const auto& [table, bytes] : tables_)
@@ -180,11 +185,12 @@ TableRanges StateBytes::restore(State& state) const {
         if (size > first) changed.push_back({table, first, size - first});
     };
     add(Table::hulls, at_start_.hulls, state.hulls.size());
-    add(Table::parts, at_start_.parts, state.parts.size());
-    add(Table::fractures, at_start_.fractures, state.fractures.size());
+    add(Table::parts, 0, state.parts.size());
+    add(Table::fractures, 0, state.fractures.size());
     add(Table::pieces, at_start_.pieces, state.pieces.size());
     add(Table::tyres, at_start_.tyres, state.tyres.size());
-    add(Table::way_points, at_start_.way_points, state.way_points.size());
+    add(Table::filters, 0, state.filters.size());
+    add(Table::exclusions, 0, state.exclusions.size());
     return changed;
 }
 

@@ -12,10 +12,10 @@
 
 namespace scree {
 
-// Lengths of the tables of shapes and routes, whose records never change: edits append to them. A checkpoint holds what
-// lies behind those of the scene with which the world was made.
+// Lengths of tables whose records never change: edits append to them. A checkpoint holds what lies behind those of the scene
+// with which the world was made.
 struct ShapeLengths {
-    std::size_t hulls = 0, parts = 0, fractures = 0, pieces = 0, tyres = 0, way_points = 0;
+    std::size_t hulls = 0, pieces = 0, tyres = 0;
     static ShapeLengths of(const State& state);
     bool operator==(const ShapeLengths&) const = default;
 };
@@ -46,7 +46,7 @@ private:
     std::vector<std::uint32_t> rows_, joint_records_;
     std::vector<std::pair<Table, std::span<const std::byte>>> tables_;
     std::span<const std::byte> joints_, vehicles_;
-    std::array<std::span<const std::byte>, 6> added_;  // behind `at_start`
+    std::array<std::span<const std::byte>, 7> shapes_;  // those of ShapeLengths: behind `at_start`
     ShapeLengths at_start_;
 };
 

@@ -68,7 +68,13 @@ Scene museum(int count) {
 }
 
 void meddle(World& world) {
-    const std::size_t last = world.scene().bodies.size() - 1;
+    // Two that are there, from the end.
+    const auto last = [&](std::size_t skipped) {
+        const std::vector<BodyState> states = world.bodies();
+        std::size_t body = states.size() - 1;
+        while (!states[body].exists || world.scene().bodies[body].motion != Motion::dynamic || skipped-- > 0) --body;
+        return body;
+    };
     switch (world.steps()) {
         case 5:
             world.grip(7, vec3(0.1f, 0.1f, -0.1f), vec3(0, 4, 0));
@@ -85,7 +91,7 @@ void meddle(World& world) {
             break;
         case 17:
             world.set_gravity({1, -9, 0.5f});
-            world.add_joint(world.joint_at(Ball{}, last, last - 1, world.body(last).position));
+            world.add_joint(world.joint_at(Ball{}, last(0), last(1), world.body(last(0)).position));
             break;
         case 21:
             world.set_substeps(6);
