@@ -16,6 +16,7 @@
 
 #include "compute/checkpoint.h"
 #include "compute/events.h"
+#include "compute/queries.h"
 #include "compute/ray.h"
 #include "compute/runner.h"
 #include "compute/scene.h"
@@ -260,9 +261,18 @@ public:
     const EventSettings& event_settings() const;
     std::vector<Event> take_events();  // since the last call, in order
     // The first surface that a ray meets from outside, m. Shapes in which it begins, and back faces of planes and
-    // surfaces, are ignored. Reads all bodies, and tests each. Throws std::invalid_argument for a ray that is not
+    // surfaces, are ignored. Throws std::invalid_argument for a ray that is not
     // finite or a direction not of unit length.
     std::optional<RayHit> cast_ray(const Ray& ray) const;
+    // Queries in batches (compute/queries.h), on the runner's threads. The first after a step or an edit reads all bodies
+    // back and builds a tree over them. Throw std::invalid_argument, naming the query, for values that are not finite or out
+    // of range, a direction not of unit length, and a shape that cannot be cast.
+    std::vector<std::optional<QueryHit>> cast_rays(std::span<const RayQuery> rays) const;  // the nearest of each
+    std::vector<std::uint8_t> rays_hit(std::span<const RayQuery> rays) const;              // 1: it hits something
+    QueryLists<QueryHit> cast_rays_through(
+        std::span<const RayQuery> rays) const;  // the first of each body and part, near ones first
+    std::vector<std::optional<QueryHit>> cast_shapes(std::span<const ShapeCast> casts) const;  // the nearest of each
+    QueryLists<QueryPart> overlaps(std::span<const ShapeOverlap> shapes) const;                // all, by body and part
     JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
     VehicleState vehicle(std::size_t index) const;  // throws std::out_of_range; reads all vehicles

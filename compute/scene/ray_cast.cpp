@@ -87,8 +87,9 @@ std::optional<double> to_frustum(dvec3 from, dvec3 along, double low, double hig
         const double y = from.y + at * along.y;
         offer(at, y >= low && y <= high);
     };
-    if (std::abs(a) > 1e-12 && b * b - a * c >= 0) {
-        for (const double sign : {-1.0, 1.0}) on_side((-b + sign * std::sqrt(b * b - a * c)) / a);
+    if (std::abs(a) > 1e-12) {
+        for (const double sign : {-1.0, 1.0})
+            if (b * b - a * c >= 0) on_side((-b + sign * std::sqrt(b * b - a * c)) / a);
     } else if (std::abs(b) > 1e-12) {
         on_side(-c / (2 * b));
     }

@@ -173,6 +173,7 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     in.send(changed, before);
     in.edits.clear();
     ++in.arrangements;
+    ++in.changes;
     return handles;
 }
 
@@ -254,6 +255,7 @@ void World::Impl::remove(std::vector<std::size_t> bodies) {
     send(changed, before);
     edits.clear();
     ++arrangements;
+    ++changes;
 }
 
 void World::remove_bodies(std::span<const BodyHandle> bodies) {

@@ -63,10 +63,10 @@ void World::Impl::require_there(std::size_t body) const {
     throw std::invalid_argument(name_of_body(body) + " is not there: it has broken, or is a fragment of one that has not");
 }
 
-void World::Impl::set(std::span<const BodyChange> changes) {
-    if (changes.empty()) return;
+void World::Impl::set(std::span<const BodyChange> bodies) {
+    if (bodies.empty()) return;
     std::vector<std::uint32_t> rows;
-    for (const BodyChange& change : changes) {
+    for (const BodyChange& change : bodies) {
         require_body(change.body);
         check(change, scene.bodies[change.body], name_of_body(change.body));
         rows.push_back(state.row_of(change.body));
@@ -77,8 +77,8 @@ void World::Impl::set(std::span<const BodyChange> changes) {
     TableRanges needed = changed;
     if (state.has_fractures()) append(needed, ranges_of(rows, {Table::properties}));
     runner->download(needed);
-    for (const BodyChange& change : changes) require_there(change.body);
-    for (const BodyChange& change : changes) {
+    for (const BodyChange& change : bodies) require_there(change.body);
+    for (const BodyChange& change : bodies) {
         const std::uint32_t row = state.row_of(change.body);
         physics::Pose& pose = state.poses[row];
         physics::Velocity& velocity = state.velocities[row];
@@ -101,6 +101,7 @@ void World::Impl::set(std::span<const BodyChange> changes) {
         edits.clear();
     }
     runner->upload(changed);
+    ++changes;
 }
 
 void World::set_bodies(std::span<const BodyChange> changes) {
@@ -147,6 +148,7 @@ void World::Impl::refilter() {
     send(StateEditor(state).filter(scene), before);
     state.fixed().wake_all = 1;
     edits.clear();
+    ++changes;
 }
 
 void World::set_filter(std::size_t body, const Filter& filter) {

@@ -320,6 +320,7 @@ void World::restore(std::span<const std::byte> saved) {
     in.runner->adapt();
     in.runner->upload(changed);
     ++in.arrangements;
+    ++in.changes;
     in.broken = false;
 }
 

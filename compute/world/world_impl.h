@@ -11,12 +11,14 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compute/scene/joint_validation.h"
 #include "compute/step/table_ranges.h"
 #include "compute/world.h"
 #include "compute/world/events.h"
+#include "compute/world/query_scene.h"
 #include "compute/world/state_bytes.h"
 
 namespace scree {
@@ -54,6 +56,11 @@ struct World::Impl {
     std::map<std::size_t, Body> originals;
     std::uint64_t arrangements = 0;
     Events events;
+    // The bodies as queries see them, made when they are needed; `changes` counts edits of poses, bodies and filters.
+    std::uint64_t changes = 0;
+    mutable std::shared_ptr<const QueryScene> queried;
+    mutable std::pair<std::uint64_t, std::uint64_t> queried_at;
+    const QueryScene& query_scene() const;
 
     // For checkpoints: what the world was made with, and the edits of the scene since, as bytes (empty: to be made).
     std::size_t bodies_at_start;
@@ -112,7 +119,7 @@ struct World::Impl {
     void send(const TableRanges& changed, const TableLengths& before);
     // change_bodies.cpp
     void require_there(std::size_t body) const;  // throws std::invalid_argument for a body that has broken, or a fragment
-    void set(std::span<const BodyChange> changes);
+    void set(std::span<const BodyChange> bodies);
     void change(std::size_t body, const std::function<void(Body&)>& edit, bool wakes_all);
     void refilter();
 
