@@ -99,6 +99,14 @@ void read(const json& value, const Place& place, std::uint32_t& out) {
     out = static_cast<std::uint32_t>(number);
 }
 
+void read(const json& value, const Place& place, std::int32_t& out) {
+    if (!value.is_number_integer()) refuse(place, "must be a whole number, is " + kind(value));
+    const auto number = value.is_number_unsigned() && value.get<std::uint64_t>() > 0x7FFFFFFFu ? std::int64_t{1} << 40
+                                                                                               : value.get<std::int64_t>();
+    if (number > 0x7FFFFFFF || number < -0x7FFFFFFF) refuse(place, "must be within 2147483647 of 0, is " + kind(value));
+    out = static_cast<std::int32_t>(number);
+}
+
 std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place) {
     const auto found = std::find(known.begin(), known.end(), word);
     if (found == known.end()) refuse(place, unknown(what, word, known));

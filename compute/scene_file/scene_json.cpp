@@ -126,6 +126,7 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
     named.joints = numbers_of(scene.joints);
     read_field(rest, root, fields::field_of(&Scene::vehicles), scene, named);
+    read_field(rest, root, fields::field_of(&Scene::exclusions), scene, named);
     return document;
 }
 

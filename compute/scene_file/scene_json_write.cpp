@@ -68,6 +68,7 @@ std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& vi
     write_list(text, "bodies", scene.bodies);
     if (!scene.joints.empty()) write_list(text << ",\n", "joints", scene.joints);
     if (!scene.vehicles.empty()) write_list(text << ",\n", "vehicles", scene.vehicles);
+    if (!scene.exclusions.empty()) write_list(text << ",\n", "exclusions", scene.exclusions);
     text << "}\n";
     return text.take();
 }

@@ -24,7 +24,7 @@ ordered_json number(double value) {
     if (value == std::floor(value) && std::abs(value) < 1e15) return static_cast<std::int64_t>(value);
     return value;
 }
-ordered_json number(std::unsigned_integral auto value) {
+ordered_json number(std::integral auto value) {
     return value;
 }
 ordered_json number(float value) {  // with the float's shortest digits, 0.6, not those of the double next to it

@@ -130,6 +130,12 @@ physics::uint SceneCompiler::place_of(const Fracture& fracture) {
     made.first_row = static_cast<physics::uint>(fracture.first_piece);
     made.count = static_cast<physics::uint>(fracture.cut->pieces.size());
     made.first_pose = known->second;
+    if (!state_.spare_fractures.empty()) {
+        const physics::uint place = state_.spare_fractures.back();
+        state_.spare_fractures.pop_back();
+        state_.fractures[place] = made;
+        return place;
+    }
     state_.fractures.push_back(made);
     return static_cast<physics::uint>(state_.fractures.size() - 1);
 }
@@ -157,23 +163,33 @@ physics::BodyProperties SceneCompiler::properties_of(const Body& body, std::uint
         made.shape = physics::SHAPE_NONE;
         made.size = size_of_whole(body.shape);
     }
-    made.motion = body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_PENDING;
     made.owner = index;
     made.fracture = body.fracture ? place_of(*body.fracture) : physics::NONE;
     made.joints = physics::NONE;
-    if (body.motion == Motion::dynamic) {
-        const MassProperties properties = mass_properties(body.shape, body.density);
-        made.inverse_mass = 1 / properties.mass;
-        made.inverse_inertia = vec3(1 / properties.inertia.x, 1 / properties.inertia.y, 1 / properties.inertia.z);
-    }
-    made.friction = body.friction;
-    made.restitution = body.restitution;
-    made.rolling_resistance = body.rolling_resistance;
-    made.gravity_scale = body.gravity_scale;
-    made.linear_damping = body.linear_damping;
-    made.angular_damping = body.angular_damping;
+    set_mass(made, body);
+    if (body.piece_of != no_body) made.motion = physics::MOTION_PENDING;
+    set_material(made, body);
     if (made.shape == physics::SHAPE_PLANE) made.large = 1;
     return made;
+}
+
+void SceneCompiler::set_mass(physics::BodyProperties& properties, const Body& body) {
+    properties.motion = static_cast<physics::uint>(body.motion);
+    properties.inverse_mass = 0;
+    properties.inverse_inertia = vec3(0);
+    if (body.motion != Motion::dynamic) return;
+    const MassProperties mass = mass_properties(body.shape, body.density);
+    properties.inverse_mass = 1 / mass.mass;
+    properties.inverse_inertia = vec3(1 / mass.inertia.x, 1 / mass.inertia.y, 1 / mass.inertia.z);
+}
+
+void SceneCompiler::set_material(physics::BodyProperties& properties, const Body& body) {
+    properties.friction = body.friction;
+    properties.restitution = body.restitution;
+    properties.rolling_resistance = body.rolling_resistance;
+    properties.gravity_scale = body.gravity_scale;
+    properties.linear_damping = body.linear_damping;
+    properties.angular_damping = body.angular_damping;
 }
 
 void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {

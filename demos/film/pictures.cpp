@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <map>
 
 #include "compute/step/state.h"
@@ -107,6 +108,7 @@ struct Pictures::Impl {
     bool captioned;
     PictureTimes times;
     int begun = 0;             // pictures
+    int before = 0;            // of those, due before a resumed run
     bool drawing_one = false;  // the last one is being drawn, concurrently with later steps
 
     // Passes the pending picture to the encoders.
@@ -149,6 +151,10 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
     in.drawing.emplace(options.canvas, machine, world, canvas_of(options, world));
+    if (world.steps() > 0) {
+        const double half_step = 0.5 / world.settings().rate;
+        in.begun = in.before = static_cast<int>(std::ceil((world.time() + half_step) * in.fps));
+    }
 }
 
 Pictures::~Pictures() = default;
@@ -180,7 +186,7 @@ PictureTimes Pictures::times() const {
 }
 
 int Pictures::count() const {
-    return interior_->begun;
+    return interior_->begun - interior_->before;
 }
 
 std::string Pictures::canvas() const {

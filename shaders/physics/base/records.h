@@ -419,7 +419,10 @@ struct Parameters {  // uniform over a step
     uint pieces_offset;
     uint tyres_offset;
     uint way_points_offset;
-    uint pad0;
+    uint filters_offset;
+    uint exclusions_offset;
+    uint removed;  // 1: bodies were removed since the last step; sleepers that touched them wake
+    uint pad0, pad1;
     Grip grips[4];  // MOST_GRIPS
 };
 
@@ -431,7 +434,8 @@ CONSTANT uint FEATURE_TYRES = 8u;
 CONSTANT uint FEATURE_PARTS = 16u;      // moving compounds
 CONSTANT uint FEATURE_REORDERED = 32u;  // rows in an order other than that of ids
 CONSTANT uint FEATURE_JOINTS = 64u;
-CONSTANT uint FEATURE_BREAKING = 128u;  // breakable bodies
+CONSTANT uint FEATURE_SUMS = 128u;     // contact impulses are summed over the step: breakable bodies, events
+CONSTANT uint FEATURE_FILTERS = 256u;  // collision filters, excluded pairs
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type

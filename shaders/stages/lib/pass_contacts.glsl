@@ -52,7 +52,7 @@ void relax_contact(uint place, uint pass) {
     before.b = READ(velocities, c.b);
     vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
     SolveResult after = relax_contact(c, impulse, before, ma, mb, state, PARAMETERS);
-    if (BREAKING) {
+    if (SUMS) {
         float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
         SET_FLOAT(carried, i, sum);
