@@ -71,8 +71,8 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
     if constexpr (Number<Member>) {
         if (!field.range.holds(value) && value != Owner{}.*field.member)
             refuse(at / field.key, out_of_range(value, field.range, unit));
-    } else if constexpr (std::is_same_v<Member, glm::vec3>) {
-        for (int i = 0; i < 3; ++i)
+    } else if constexpr (std::is_same_v<Member, glm::vec2> || std::is_same_v<Member, glm::vec3>) {
+        for (int i = 0; i < Member::length(); ++i)
             if (!field.range.holds(value[i]))
                 refuse(at / field.key / static_cast<std::size_t>(i), out_of_range(value[i], field.range, unit));
     } else if constexpr (std::is_same_v<Member, glm::vec4>) {
@@ -88,8 +88,10 @@ void check_field(const At& at, Struct& checked, const Field<Owner, Member>& fiel
                                                         : "at least " + plain(field.range.low)) +
                            " " + field.unit + ", not " + std::to_string(value.size()));
         }
-        const auto list = at / field.key;
-        for (std::size_t i = 0; i < value.size(); ++i) check_fields(list / i, value[i], rules, within);
+        if constexpr (HasTable<typename Member::value_type>) {
+            const auto list = at / field.key;
+            for (std::size_t i = 0; i < value.size(); ++i) check_fields(list / i, value[i], rules, within);
+        }
     } else if constexpr (HasAlternatives<Member>) {
         const auto kind = at / field.key;
         std::visit([&](auto& one) { check_fields(kind / alternatives<Member>.keys[value.index()], one, rules, within); }, value);

@@ -98,7 +98,7 @@ void read_value(const json& value, const Place& place, Value& out, const char* u
         std::string word;
         read(value, place, word);
         const Names known(fields::words<Value>.begin(), fields::words<Value>.end());
-        out = static_cast<Value>(index_among(known, word, place.key, place));
+        out = static_cast<Value>(index_among(known, word, place.key ? place.key : "word", place));
     } else if constexpr (fields::HasAlternatives<Value>) {
         constexpr auto& kinds = fields::alternatives<Value>;
         const Names known(kinds.keys.begin(), kinds.keys.end());

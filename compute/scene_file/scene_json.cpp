@@ -39,9 +39,16 @@ void check_view(const Place& place, const View& view) {
     if (view.eye == view.target) refuse(place / "target", "must differ from the eye");
 }
 
-Viewpoint viewpoint_of(const json& value, const Place& place) {
+Viewpoint viewpoint_of(const json& value, const Place& place, const NamedThings& named, const Scene& scene) {
     Viewpoint view;
-    read_value(value, place, view, "", {});
+    read_value(value, place, view, "", named);
+    if (view.follow != no_body) {
+        if (view.follow >= scene.bodies.size())
+            refuse(place / "follow", "there is no body " + std::to_string(view.follow) + "; the scene has " +
+                                         std::to_string(scene.bodies.size()) + ", counted from 0");
+        if (!view.path.empty()) refuse(place / "follow", "a camera with a path follows no body; remove it or the path");
+    }
+    if (view.chase && view.follow == no_body) refuse(place / "chase", "needs \"follow\", the body to chase");
     if (!value.contains("path")) {
         for (const char* key : {"eye", "target"})
             if (!value.contains(key)) refuse(place, std::string("lacks \"") + key + "\"");
@@ -62,6 +69,26 @@ Viewpoint viewpoint_of(const json& value, const Place& place) {
     view.target = view.path[0].target;
     view.vertical_fov = view.path[0].vertical_fov;
     return view;
+}
+
+// How the scene is run and shown.
+void read_run(const json& rest, const Place& root, const NamedThings& named, SceneDocument& document) {
+    const auto read_checked = [&](const auto& field) {
+        read_field(rest, root, field, document, named);
+        fields::check_field(root, document, field);
+    };
+    read_checked(fields::field_of(&SceneDocument::settings));
+    read_checked(fields::field_of(&SceneDocument::duration));
+    read_checked(fields::field_of(&SceneDocument::picture));
+    read_checked(fields::field_of(&SceneDocument::events));
+    if (document.picture) {
+        const glm::vec2 range = document.picture->range;
+        const Place picture = root / "picture", place = picture / "color_range";
+        if (range.x > range.y) refuse(place, "must be [low, high], low first");
+        if (document.picture->scale == ShownScale::logarithmic && range.x != range.y && range.x <= 0)
+            refuse(place, "must begin above 0 on a logarithmic scale");
+    }
+    check_events(document.events, document.scene);
 }
 
 // Parser callback: takes each element of /bodies as soon as it is complete, and frees its tree.
@@ -121,12 +148,13 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     if (!rest["bodies"].is_array()) refuse(root / "bodies", "must be an array, is " + kind(rest["bodies"]));
     Scene& scene = document.scene;
     read_field(rest, root, fields::field_of(&Scene::gravity), scene, {});
-    if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera");
     NamedThings named{numbers_of(scene.bodies), {}};
     if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
     named.joints = numbers_of(scene.joints);
     read_field(rest, root, fields::field_of(&Scene::vehicles), scene, named);
     read_field(rest, root, fields::field_of(&Scene::exclusions), scene, named);
+    if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera", named, scene);
+    read_run(rest, root, named, document);
     return document;
 }
 

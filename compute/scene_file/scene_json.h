@@ -2,12 +2,16 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "compute/scene.h"
+#include "compute/scene_file/events.h"
+#include "compute/scene_file/picture_style.h"
+#include "compute/settings.h"
 
 namespace scree {
 
@@ -26,11 +30,21 @@ struct Viewpoint {
     float vertical_fov = 45;    // degrees
     bool orthographic = false;  // parallel projection, with the same scale at the target's distance
     std::vector<ViewKey> path;  // ascending in time; empty: a fixed camera
+    // Motion of a camera without a path. With a body to follow, eye and target move with it.
+    std::size_t follow = no_body;
+    bool chase = false;  // looks at the followed body from behind its way
+    float orbit = 0;     // s per turn about the target, < 0: the other way round; 0: none
+    bool fit = false;    // as near as sees the whole scene at the start, in the direction from target to eye
 };
 
+// A scene file: the scene, and how it is run and shown.
 struct SceneDocument {
-    Scene scene;  // not validated; World does that
-    std::optional<Viewpoint> viewpoint;
+    Scene scene{};  // not validated; World does that
+    std::optional<Viewpoint> viewpoint{};
+    std::optional<Settings> settings{};
+    float duration = 0;  // s, of a run that is not told how long; 0: 10 s
+    std::optional<PictureStyle> picture{};
+    std::vector<Event> events{};
 };
 
 // Reads a scene file's text (format: scene_schema()). Throws SceneError with the JSON pointer of an invalid value, or
@@ -39,7 +53,12 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies = s
 
 // Writes a scene, one body per line, without keys that have their default. Throws SceneError for values that are not
 // finite, which JSON cannot express.
+std::string scene_to_json(const SceneDocument& document);
 std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint = {});
+
+// XXH64 of a scene: of gravity, bodies, joints and vehicles as scene_to_json() writes them, fragments left out. A file
+// of a mesh counts by its name.
+std::uint64_t hash_of(const Scene& scene);
 
 // One body as a JSON object on one line.
 std::string body_to_json(const Body& body);

@@ -1,4 +1,8 @@
 // Writing a scene as JSON, one body per line, with the shortest digits that read back to the same float.
+#include <xxhash.h>
+
+#include <memory>
+#include <new>
 #include <string_view>
 
 #include "compute/fields/document.h"
@@ -40,7 +44,9 @@ void write_camera(Text& text, const Viewpoint& view) {
     if (view.path.empty()) {
         write_value(text, view);
     } else {
-        text << "{" << (view.orthographic ? "\"orthographic\": true, " : "") << "\"path\": [";
+        text << "{" << (view.orthographic ? "\"orthographic\": true, " : "");
+        if (view.orbit != 0) text << "\"orbit\": " << view.orbit << ", ";
+        text << "\"path\": [";
         const char* between = "\n  ";
         for (const ViewKey& moment : view.path) {
             text << between;
@@ -52,7 +58,43 @@ void write_camera(Text& text, const Viewpoint& view) {
     text << ",\n";
 }
 
+// `shown`: all of a document but its scene and viewpoint.
+std::string to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint, const SceneDocument& shown) {
+    Text text;
+    text << "{\"gravity\": " << scene.gravity << ",\n";
+    const auto write_one = [&](const char* key, const auto& value, const auto& by_default) {
+        if (is_default(value, by_default)) return;
+        text << " \"" << key << "\": ";
+        write_value(text, value);
+        text << ",\n";
+    };
+    write_one("settings", shown.settings, std::optional<Settings>());
+    write_one("duration", shown.duration, 0.0f);
+    if (viewpoint) write_camera(text, *viewpoint);
+    write_one("picture", shown.picture, std::optional<PictureStyle>());
+    write_list(text, "bodies", scene.bodies);
+    if (!scene.joints.empty()) write_list(text << ",\n", "joints", scene.joints);
+    if (!scene.vehicles.empty()) write_list(text << ",\n", "vehicles", scene.vehicles);
+    if (!scene.exclusions.empty()) write_list(text << ",\n", "exclusions", scene.exclusions);
+    if (!shown.events.empty()) write_list(text << ",\n", "events", shown.events);
+    text << "}\n";
+    return text.take();
+}
+
 }  // namespace
+
+std::uint64_t hash_of(const Scene& scene) {
+    const std::unique_ptr<XXH64_state_t, decltype(&XXH64_freeState)> hash(XXH64_createState(), XXH64_freeState);
+    if (!hash) throw std::bad_alloc();
+    XXH64_reset(hash.get(), 0);
+    const auto add = [&](const std::string& text) { XXH64_update(hash.get(), text.data(), text.size()); };
+    add(text_of_fields(scene.gravity));
+    for (const Body& body : scene.bodies)
+        if (body.piece_of == no_body) add(text_of_fields(body));
+    for (const Joint& joint : scene.joints) add(text_of_fields(joint));
+    for (const Vehicle& vehicle : scene.vehicles) add(text_of_fields(vehicle));
+    return XXH64_digest(hash.get());
+}
 
 std::string body_to_json(const Body& body) {
     return text_of_fields(body);
@@ -62,15 +104,10 @@ std::string joint_to_json(const Joint& joint) {
 }
 
 std::string scene_to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoint) {
-    Text text;
-    text << "{\"gravity\": " << scene.gravity << ",\n";
-    if (viewpoint) write_camera(text, *viewpoint);
-    write_list(text, "bodies", scene.bodies);
-    if (!scene.joints.empty()) write_list(text << ",\n", "joints", scene.joints);
-    if (!scene.vehicles.empty()) write_list(text << ",\n", "vehicles", scene.vehicles);
-    if (!scene.exclusions.empty()) write_list(text << ",\n", "exclusions", scene.exclusions);
-    text << "}\n";
-    return text.take();
+    return to_json(scene, viewpoint, {});
+}
+std::string scene_to_json(const SceneDocument& document) {
+    return to_json(document.scene, document.viewpoint, document);
 }
 
 }  // namespace scree

@@ -158,7 +158,7 @@ private:
         if constexpr (is_optional<Member>) {
             return defined<typename Member::value_type>();
         } else if constexpr (is_list<Member>) {
-            ordered_json made = {{"type", "array"}, {"items", defined<typename Member::value_type>()}};
+            ordered_json made = {{"type", "array"}, {"items", type_of<typename Member::value_type>({}, Refers::to_nothing)}};
             if (range.low > 0) made["minItems"] = number(range.low);
             if (range.high < largest) made["maxItems"] = number(range.high);
             return made;

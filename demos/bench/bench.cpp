@@ -49,8 +49,9 @@ Scene settled(const LoadedScene& subject, const SceneOptions& scene, const Bench
         kept.name = file;
         return load_subject(kept).scene;
     }
-    World world(subject.scene, scene.settings(), machine.make_runner());
-    const auto steps = static_cast<int>(std::lround(options.settle * static_cast<double>(scene.rate)));
+    const Settings settings = subject.settings(scene);
+    World world(subject.scene, settings, machine.make_runner());
+    const auto steps = static_cast<int>(std::lround(options.settle * static_cast<double>(settings.rate)));
     Progress progress(fmt::format("settling {} with {} bodies", subject.name, subject.scene.bodies.size()), steps, "steps",
                       options.quiet);
     for (int i = 0; i < steps && !is_interrupted(); ++i) {
@@ -103,7 +104,7 @@ double Measurement::microseconds_per_body() const {
 Measurement measure(const SceneOptions& scene, const BenchOptions& options, const Backend& machine, double copy_speed) {
     const LoadedScene subject = load_subject(scene);
     return at_work([&] {
-        World world(settled(subject, scene, options, machine), scene.settings(), machine.make_runner());
+        World world(settled(subject, scene, options, machine), subject.settings(scene), machine.make_runner());
         const Samples samples =
             sample(world, fmt::format("{} with {} bodies", subject.name, subject.scene.bodies.size()), options);
         Measurement result;

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "compute/scene/shape_geometry.h"
 #include "demos/program/exit_status.h"
@@ -74,11 +75,10 @@ std::vector<vec3> swept(const std::vector<vec3>& corners, vec3 middle) {
 
 }  // namespace
 
-CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect)
-    : view_(subject.viewpoint), orbit_(options.orbit) {
+CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect) : view_(subject.viewpoint) {
     const bool placed = options.eye || options.target;
     if (!view_.path.empty()) view_.eye = view_.path[0].eye, view_.target = view_.path[0].target;
-    if (placed || options.fit || options.follow) view_.path.clear();
+    if (placed || options.fit || options.follow || options.still) view_.path.clear();
     if (options.eye) view_.eye = *options.eye;
     if (options.target) view_.target = *options.target;
     view_.orthographic = view_.orthographic || options.orthographic;
@@ -89,27 +89,62 @@ CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, f
     if (glm::length(view_.eye - view_.target) < 1e-4f) {
         throw UsageError("--eye and --target: must be at least 0.1 mm apart, or the camera looks nowhere");
     }
-    if (options.fit) {
+    choose_motion(options, subject);
+    if (options.fit || (subject.viewpoint.fit && !placed && !options.follow)) {
         std::vector<vec3> points = corners_of(subject.low, subject.high);
-        if (options.orbit) points = swept(points, 0.5f * (subject.low + subject.high));
-        const float vertical_fov = view_.vertical_fov;
-        view_ = fitted(points, view_.eye - view_.target, vertical_fov, aspect, view_.orthographic);
+        if (orbit_) points = swept(points, 0.5f * (subject.low + subject.high));
+        view_ = fitted(points, view_.eye - view_.target, view_.vertical_fov, aspect, view_.orthographic);
     }
-    if (!options.follow) return;
-    followed_ = body_named(*options.follow, subject.scene);
+    if (!followed_) return;
+    const Body& body = subject.scene.bodies[*followed_];
     vec3 back = view_.eye - view_.target;
+    if (!options.follow) {  // the scene's camera moves with the body
+        view_.target -= body.position;
+        view_.eye = view_.target + back;
+        return;
+    }
     // By default the followed body takes a tenth of the picture's height.
     if (!placed && !options.fit) {
         const float rise = std::tan(glm::radians(view_.vertical_fov) / 2);
-        back *= 10 * bounding_radius(subject.scene.bodies[*followed_].shape) / (rise * glm::length(back));
+        back *= 10 * bounding_radius(body.shape) / (rise * glm::length(back));
     }
     view_.target = vec3(0);
     view_.eye = back;
 }
 
-host::Camera CameraMan::at(double seconds, vec3 followed_position) const {
+// The user's motion, else the scene's, unless the user has chosen a place or stillness.
+void CameraMan::choose_motion(const CameraOptions& options, const LoadedScene& subject) {
+    orbit_ = options.orbit;
+    const Viewpoint& scene = subject.viewpoint;
+    if (!orbit_ && scene.orbit != 0 && !options.still) orbit_ = scene.orbit;
+    if (options.follow) {
+        followed_ = body_named(*options.follow, subject.scene);
+        chases_ = options.chase;
+    } else if (scene.follow < subject.scene.bodies.size() && !(options.still || options.fit || options.eye || options.target)) {
+        followed_ = scene.follow;
+        chases_ = scene.chase;
+    }
+}
+
+// Turns towards the back of the body's way, by half within a third of a second.
+void CameraMan::turn_behind(double seconds, vec3 position) {
+    const auto duration = static_cast<float>(seconds - std::exchange(chased_at_, seconds).value_or(seconds));
+    const vec3 way = position - std::exchange(chased_, position);
+    if (duration <= 0) return;                               // the first picture
+    if (std::hypot(way.x, way.z) < 0.4f * duration) return;  // slower than 0.4 m/s, it has no way
+    const vec3 back = turned_about_y(view_.eye - view_.target, turned_);
+    const float turn = std::remainder(std::atan2(-way.x, -way.z) - std::atan2(back.x, back.z), 2 * std::numbers::pi_v<float>);
+    turned_ += turn * (1 - std::exp(-2 * duration));
+}
+
+host::Camera CameraMan::at(double seconds, vec3 followed_position) {
     ViewKey key{0, view_.eye, view_.target, view_.vertical_fov};
     if (!view_.path.empty()) key = key_at(view_.path, seconds);
+    if (chases_) {
+        turn_behind(seconds, followed_position);
+        key.eye = turned_about_y(key.eye, turned_);
+        key.target = turned_about_y(key.target, turned_);
+    }
     if (followed_) key.eye += followed_position, key.target += followed_position;
     if (orbit_) {
         const double turns = seconds / *orbit_;

@@ -19,12 +19,20 @@ public:
     CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect);
 
     std::optional<std::size_t> followed() const { return followed_; }  // the body whose position at() needs
-    host::Camera at(double seconds, vec3 followed_position = vec3(0)) const;
+    // Call with rising times: a chasing camera turns gradually.
+    host::Camera at(double seconds, vec3 followed_position = vec3(0));
 
 private:
+    void choose_motion(const CameraOptions& options, const LoadedScene& subject);
+    void turn_behind(double seconds, vec3 position);
+
     Viewpoint view_;
     std::optional<double> orbit_;  // s
     std::optional<std::size_t> followed_;
+    bool chases_ = false;
+    float turned_ = 0;                 // rad about y, of the chasing camera since the start
+    vec3 chased_{0};                   // last position
+    std::optional<double> chased_at_;  // s
 };
 
 // The camera on a path at a time: a cubic spline through the keys, at rest at both ends. The path must not be empty.

@@ -4,18 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <chrono>
 #include <cmath>
-#include <map>
 
 #include "compute/step/state.h"
 #include "demos/film/camera.h"
-#include "demos/film/color_range.h"
+#include "demos/film/camera_track.h"
 #include "demos/film/drawing.h"
-#include "demos/program/exit_status.h"
+#include "demos/film/style.h"
 #include "demos/program/option_parsing.h"
 #include "host/canvas/canvas.h"
+#include "host/files/file.h"
 #include "host/pictures/frame_writer.h"
 #include "shaders/physics/extra/sleep.h"
 
@@ -34,35 +33,19 @@ decltype(auto) timed(double& seconds, Work&& work) {
     return work();
 }
 
-// Materials of the dynamic bodies by falling frequency, up to the number of distinct colours.
-std::vector<host::Material> materials_of(const Scene& scene) {
-    std::map<std::array<float, 3>, std::size_t> found;
-    for (const Body& body : scene.bodies) {
-        if (body.motion == Motion::dynamic) ++found[{body.friction, body.restitution, body.density}];
-    }
-    std::vector<std::pair<std::size_t, std::array<float, 3>>> sorted;
-    for (const auto& [material, count] : found) sorted.emplace_back(count, material);
-    std::stable_sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-    std::vector<host::Material> materials;
-    for (std::size_t i = 0; i < std::min<std::size_t>(sorted.size(), 8); ++i) {
-        const std::array<float, 3>& m = sorted[i].second;
-        materials.push_back({{m[0], m[1], m[2]}, fmt::format("µ {:.3g}  e {:.3g}  {:.4g} kg/m³", m[0], m[1], m[2])});
-    }
-    return materials;
+int factor_of(const PictureOptions& options) {
+    return static_cast<int>(std::lround(std::sqrt(options.samples)));
 }
 
-host::CanvasOptions canvas_of(const PictureOptions& options, const World& world) {
-    host::CanvasOptions canvas;
-    canvas.width = options.width;
-    canvas.height = options.height;
-    canvas.bits = options.bits;
-    canvas.legend = options.legend;
-    canvas.marks = options.shows("contacts");
-    canvas.velocities = options.shows("velocities");
-    canvas.boxes = options.shows("boxes");
-    canvas.cells = options.shows("cells");
-    canvas.joints = options.shows("joints");
-    canvas.sleep = options.shows("sleep");
+}  // namespace
+
+void show_overlays(const PictureStyle& style, const World& world, host::CanvasOptions& canvas) {
+    canvas.marks = shows(style, Overlay::contacts);
+    canvas.velocities = shows(style, Overlay::velocities);
+    canvas.boxes = shows(style, Overlay::boxes);
+    canvas.cells = shows(style, Overlay::cells);
+    canvas.joints = shows(style, Overlay::joints);
+    canvas.sleep = shows(style, Overlay::sleep);
     const physics::Parameters& fixed = world.state().fixed();
     canvas.cell = fixed.cell;
     canvas.step_seconds = fixed.dt;
@@ -73,28 +56,22 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const World& world)
     const float weight = gravity / (settings.rate * static_cast<float>(settings.substeps));
     if (weight > 0) canvas.mark_push = weight;
     if (gravity > 0) canvas.joint_pull = gravity;
+}
+
+namespace {
+
+host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle& style, const World& world) {
+    host::CanvasOptions canvas;
+    canvas.width = options.width * factor_of(options);
+    canvas.height = options.height * factor_of(options);
+    canvas.bits = options.bits;
+    canvas.legend = options.legend;
+    canvas.smooth = options.samples == 1;  // averaged pictures are smooth
+    show_overlays(style, world, canvas);
     return canvas;
 }
 
 }  // namespace
-
-host::ColorScale scale_of(const PictureOptions& options, const LoadedScene& subject, const Settings& settings) {
-    host::ColorScale scale;
-    scale.by = host::color_by_named(options.color).value();
-    scale.map = host::color_map_named(options.color_map).value();
-    std::pair<float, float> range = color_range(subject, settings, options.color);
-    if (options.logarithmic) range = logarithmic_range(range);
-    std::tie(scale.low, scale.high) = options.color_range.value_or(range);
-    scale.logarithmic = options.logarithmic && host::has_scale(scale.by);
-    if (scale.logarithmic && scale.low <= 0) {
-        throw UsageError(
-            fmt::format("--color-scale log: a logarithmic scale begins above 0, and the range begins at {:g}; say "
-                        "--color-range LOW:HIGH",
-                        scale.low));
-    }
-    if (scale.by == host::ColorBy::material) scale.materials = materials_of(subject.scene);
-    return scale;
-}
 
 struct Pictures::Impl {
     World& world;
@@ -106,6 +83,9 @@ struct Pictures::Impl {
     vec3 low, high;
     double fps;
     bool captioned;
+    int factor;  // by which pictures are drawn larger
+    CameraTrack track;
+    std::string cameras;  // file; may be empty
     PictureTimes times;
     int begun = 0;             // pictures
     int before = 0;            // of those, due before a resumed run
@@ -115,7 +95,10 @@ struct Pictures::Impl {
     void take() {
         if (!drawing_one) return;
         drawing_one = false;
-        host::Image picture = timed(times.draw, [&] { return drawing->canvas().finish(); });
+        host::Image picture = timed(times.draw, [&] {
+            host::Image drawn = drawing->canvas().finish();
+            return factor > 1 ? host::reduced(drawn, factor) : std::move(drawn);
+        });
         timed(times.encode_wait, [&] { writer->add(std::move(picture)); });
     }
 
@@ -132,12 +115,15 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
                    {},
                    nullptr,
                    CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
-                   scale_of(options, subject, world.settings()),
-                   subject.name,
+                   scale_of(style_of(options, subject.style), subject, world.settings()),
+                   subject.title(),
                    subject.low,
                    subject.high,
                    options.fps,
                    options.caption,
+                   factor_of(options),
+                   CameraTrack(options.width, options.height),
+                   options.cameras,
                    {}}) {
     Impl& in = *interior_;
     host::FrameWriterOptions writer;
@@ -150,7 +136,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.height = options.height;
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, world));
+    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world));
     if (world.steps() > 0) {
         const double half_step = 0.5 / world.settings().rate;
         in.begun = in.before = static_cast<int>(std::ceil((world.time() + half_step) * in.fps));
@@ -169,6 +155,7 @@ void Pictures::after_step() {
         in.drawing->update();
         const std::optional<std::size_t> body = in.camera.followed();
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
+        if (!in.cameras.empty()) in.track.add(in.world.time(), camera);
         in.drawing->canvas().begin(camera, in.scale, in.caption(), in.low, in.high);
     });
     in.drawing_one = true;
@@ -179,6 +166,7 @@ void Pictures::after_step() {
 void Pictures::finish() {
     interior_->take();
     timed(interior_->times.encode_wait, [&] { interior_->writer->finish(); });
+    if (!interior_->cameras.empty()) host::write_atomically(interior_->cameras, interior_->track.json());
 }
 
 PictureTimes Pictures::times() const {
@@ -191,14 +179,6 @@ int Pictures::count() const {
 
 std::string Pictures::canvas() const {
     return interior_->drawing->canvas().name();
-}
-
-const std::vector<std::string>& color_words() {
-    return host::color_by_names();
-}
-
-const std::vector<std::string>& color_map_words() {
-    return host::color_map_names();
 }
 
 }  // namespace scree::demos

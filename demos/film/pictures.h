@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/scene_file/picture_style.h"
 #include "compute/world.h"
 #include "demos/program/backend.h"
 #include "demos/program/loaded_scene.h"
@@ -38,11 +39,7 @@ private:
     std::unique_ptr<Impl> interior_;
 };
 
-// The colour scale of the options. Throws UsageError for a logarithmic scale that begins at 0.
-host::ColorScale scale_of(const PictureOptions& options, const LoadedScene& subject, const Settings& settings);
-
-// Values of --color and --color-map.
-const std::vector<std::string>& color_words();
-const std::vector<std::string>& color_map_words();
+// Sets the overlays of a style, and what they need to know of the world.
+void show_overlays(const PictureStyle& style, const World& world, host::CanvasOptions& canvas);
 
 }  // namespace scree::demos

@@ -11,8 +11,10 @@ namespace scree::demos {
 
 namespace {
 
-constexpr double most_steps = 8;    // limits of steps and seconds per frame: a slow machine falls behind the clock
-constexpr double most_time = 0.05;  // rather than freeze the window
+// Seconds of steps per picture: half of what passes between pictures, so that the clock is true while steps are cheap,
+// however few pictures are drawn; a slow machine falls behind it rather than freeze the window.
+constexpr double least_time = 0.05, most_time = 0.25;
+constexpr double longest_backlog = 1;  // s of the simulated clock
 constexpr double slowest = 1.0 / 16;
 constexpr std::size_t few_vehicles = 4;  // vehicles up to which a scene is taken to be about driving
 
@@ -22,19 +24,37 @@ host::Key key(char character) {
 
 }  // namespace
 
-const char* const key_help =
-    "  left button        grab and drag a body (wheel: nearer or farther); beside bodies: orbit\n"
-    "  right button       orbit; with Shift, or the middle button: pan; wheel: zoom\n"
-    "  Space, B           throw a ball, a box through the pointer\n"
-    "  arrows, Page Up/Down  push the selected body; X: explosion at the pointer\n"
-    "  1, 2, 3            add a sphere, a capsule, a box\n"
-    "  with a vehicle:\n"
-    "  W, S, A, D or arrows  throttle, brake (then reverse), left, right; Space: hand brake\n"
-    "  Backspace, C       reset upright; chase camera on or off\n"
-    "  F                  follow the selected body; Home: first view\n"
-    "  P, .               pause, single step; L: slow motion (1/2 to 1/16), then full speed\n"
-    "  R, Tab             restart, next demo (Shift: previous)\n"
-    "  H, Q               hide the panel, quit";
+const std::vector<KeyHelp>& key_help() {
+    static const std::vector<KeyHelp> lines = {
+        {"left button", "grab and drag a body (wheel: nearer or farther); beside bodies: orbit"},
+        {"right button", "orbit; with Shift, or the middle button: pan; wheel: zoom"},
+        {"Space, B", "throw a ball, a box through the pointer"},
+        {"arrows, Page Up/Down", "push the selected body"},
+        {"X", "explosion at the pointer"},
+        {"1, 2, 3", "add a sphere, a capsule, a box"},
+        {"4, 5, 6", "show contacts, velocities, joints"},
+        {"7, 8, 9", "show bounding boxes, cells, sleep"},
+        {"F, Home", "follow the selected body, first view"},
+        {"P, .", "pause, single step"},
+        {"L", "slow motion (1/2 to 1/16), then full speed"},
+        {"R, Tab", "restart, next demo (Shift: previous)"},
+        {"H, Esc, Q", "hide the panel, deselect, quit"},
+        {"with a vehicle:", ""},
+        {"W, S, A, D or arrows", "throttle, brake (then reverse), left, right"},
+        {"Space, Backspace, C", "hand brake, reset upright, chase camera"},
+    };
+    return lines;
+}
+
+std::string key_help_text() {
+    std::string text;
+    for (const KeyHelp& line : key_help()) {
+        std::string keys = std::string("  ") + line.keys;
+        keys.resize(std::max<std::size_t>(keys.size() + 2, 25), ' ');
+        text += (text.empty() ? "" : "\n") + (*line.meaning ? keys + line.meaning : std::string("  ") + line.keys);
+    }
+    return text;
+}
 
 Interaction::Interaction(Session& session, Extent extent)
     : session_(session), extent_(extent), eye_(session.subject().viewpoint) {
@@ -147,7 +167,13 @@ void Interaction::press_key(const host::Event& event) {
     if (pressed == home) eye_ = OrbitCamera(session_.subject().viewpoint);
     if (pressed == key('R')) reset();
     if (pressed == tab) open_next(event.shift ? -1 : 1);
-    if (pressed == key('Q') || pressed == escape) wants_to_close_ = true;
+    if (pressed == escape) selected_.reset();
+    if (pressed == key('Q')) wants_to_close_ = true;
+}
+
+std::optional<RayHit> Interaction::hovered() {
+    if (motion_ != Motion::none) return std::nullopt;
+    return hit_under_pointer();
 }
 
 // ---- scenes
@@ -167,6 +193,18 @@ void Interaction::begin_again() {
 void Interaction::reset() {
     begin_again();
     session_.reset();
+}
+
+void Interaction::go_to(std::uint64_t step) {
+    const std::optional<std::size_t> selected = selected_;
+    begin_again();
+    try {
+        session_.go_to(step);
+        message_.clear();
+    } catch (const std::exception& error) {
+        message_ = error.what();
+    }
+    if (selected && *selected < session_.world().scene().bodies.size()) selected_ = selected;
 }
 
 void Interaction::open(const std::string& name) {
@@ -196,7 +234,10 @@ void Interaction::open_next(int direction) {
 void Interaction::make_step() {
     push_selected();
     drive();
+    const auto start = std::chrono::steady_clock::now();
     session_.step();
+    const double ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+    step_ms_ += (ms - step_ms_) * (step_ms_ > 0 ? 0.1 : 1);
 }
 
 void Interaction::advance(double seconds) {
@@ -204,12 +245,13 @@ void Interaction::advance(double seconds) {
         backlog_ = 0;
     } else {
         backlog_ += seconds * static_cast<double>(pace * session_.world().settings().rate);
-        if (backlog_ > most_steps) backlog_ = most_steps;
+        backlog_ = std::min(backlog_, std::max(1.0, longest_backlog * static_cast<double>(session_.world().settings().rate)));
+        const double budget = std::clamp(seconds / 2, least_time, most_time);
         const auto start = std::chrono::steady_clock::now();
         for (; backlog_ >= 1; backlog_ -= 1) {
             make_step();
             const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-            if (taken.count() > most_time) backlog_ = std::min(backlog_, 1.0);
+            if (taken.count() > budget) backlog_ = std::min(backlog_, 1.0);
         }
     }
     for (; single_steps_ > 0; --single_steps_) make_step();

@@ -15,8 +15,13 @@
 
 namespace scree::demos {
 
-// Help on the keys, one per line, for --help and the window.
-extern const char* const key_help;
+// Help on the keys, for --help and the window.
+struct KeyHelp {
+    const char* keys;
+    const char* meaning;
+};
+const std::vector<KeyHelp>& key_help();
+std::string key_help_text();  // in lines, for --help
 
 enum class Kind { sphere, capsule, box };
 
@@ -48,6 +53,7 @@ public:
     float pace = 1;        // simulated seconds per second
     void step_once() { ++single_steps_; }
     void reset();
+    void go_to(std::uint64_t step);        // of the session's time line
     void open(const std::string& name);    // errors go to message()
     void open_next(int direction);         // next or previous demo of the gallery
     void add(Kind kind);                   // above the centre of the view
@@ -60,11 +66,16 @@ public:
     Extent extent() const { return extent_; }
     const OrbitCamera& eye() const { return eye_; }
     std::optional<std::size_t> selected() const { return selected_; }
+    std::optional<std::size_t> held() const { return hold_ ? std::optional(hold_->body) : std::nullopt; }
+    // The body under the pointer while no button is pressed; casts a ray at all bodies.
+    std::optional<RayHit> hovered();
+    void select(std::optional<std::size_t> body) { selected_ = body; }
     std::optional<std::size_t> vehicle() const;  // the vehicle driven by keys: the selected body's, or the first
     std::optional<Pull> pull();
     std::vector<Handled> handled();  // grabs so far, including the current one
     const std::string& message() const { return message_; }
     std::size_t thrown() const { return thrown_; }
+    double milliseconds_a_step() const { return step_ms_; }  // smoothed
 
 private:
     struct Hold {
@@ -105,6 +116,7 @@ private:
     double backlog_ = 0;  // steps due by the wall clock
     int single_steps_ = 0;
     std::size_t thrown_ = 0;
+    double step_ms_ = 0;
     bool wants_to_close_ = false;
     std::string message_;
 };

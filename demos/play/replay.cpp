@@ -16,15 +16,15 @@ Input load_input(const std::string& path) {
     }
 }
 
-Input begun(const SceneOptions& options, std::uint64_t start_hash) {
+Input begun(const SceneOptions& options, const World& world) {
     Input input;
     input.scene = options.name;
     input.bodies = options.bodies;
     input.seed = options.seed;
-    input.rate = options.rate;
-    input.substeps = options.substeps;
-    input.sleeping = options.sleeping;
-    input.start_hash = start_hash;
+    input.rate = world.settings().rate;
+    input.substeps = world.settings().substeps;
+    input.sleeping = world.settings().sleeping;
+    input.start_hash = world.state_hash();
     return input;
 }
 

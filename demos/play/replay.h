@@ -19,6 +19,6 @@ Input load_input(const std::string& path);
 Script script_of(Input input, std::string path, Script first);
 
 // The recording of a session before the first command.
-Input begun(const SceneOptions& options, std::uint64_t start_hash);
+Input begun(const SceneOptions& options, const World& world);
 
 }  // namespace scree::demos

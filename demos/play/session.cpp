@@ -11,11 +11,17 @@ Session::Session(SceneOptions options, MakeRunner make_runner)
 }
 
 void Session::begin() {
-    world_.reset();  // frees memory before the next world allocates
-    world_.emplace(subject_.scene, subject_.settings(options_), make_runner_());
-    input_ = begun(options_, world_->state_hash());
+    begin_world();
+    input_ = begun(options_, *world_);
+    performed_ = 0;
+    farthest_ = 0;
     ++beginnings_;
     run_script();
+}
+
+void Session::begin_world() {
+    world_.reset();  // frees memory before the next world allocates
+    world_.emplace(subject_.scene, subject_.settings(options_), make_runner_());
 }
 
 // The script runs before the user's commands of the same step, in replays too.
@@ -38,6 +44,7 @@ void Session::open(const std::string& name) {
 }
 
 void Session::perform(const UserCommand& act) {
+    branch();
     replay::perform(act, *world_);
     const std::uint64_t step = world_->steps();
     // Of several drags of one grab before a step only the last counts.
@@ -49,15 +56,54 @@ void Session::perform(const UserCommand& act) {
         }
     }
     input_.acts.push_back({step, act});
+    ++performed_;
+}
+
+// Leaves the future that was recorded, and lets go of what was held in it.
+void Session::branch() {
+    if (performed_ == input_.acts.size()) return;
+    input_.acts.resize(performed_);
+    farthest_ = world_->steps();
+    std::vector<std::size_t> held;
+    for (const TimedAct& timed : input_.acts) {
+        if (const auto* grab = std::get_if<Grab>(&timed.act)) held.push_back(grab->grip);
+        if (const auto* release = std::get_if<Release>(&timed.act)) std::erase(held, release->grip);
+    }
+    for (const std::size_t grip : held) {
+        const UserCommand release = Release{grip};
+        replay::perform(release, *world_);
+        input_.acts.push_back({world_->steps(), release});
+        ++performed_;
+    }
+}
+
+void Session::perform_recorded() {
+    for (; performed_ < input_.acts.size() && input_.acts[performed_].step == world_->steps(); ++performed_)
+        replay::perform(input_.acts[performed_].act, *world_);
 }
 
 void Session::step() {
     world_->step();
     run_script();
+    perform_recorded();
+}
+
+void Session::go_to(std::uint64_t step) {
+    farthest_ = farthest_step();
+    step = std::min(step, farthest_);
+    if (step < world_->steps()) {
+        begin_world();
+        performed_ = 0;
+        ++beginnings_;
+        run_script();
+        perform_recorded();
+    }
+    while (world_->steps() < step) this->step();
 }
 
 Input Session::input() const {
     Input input = input_;
+    input.acts.resize(performed_);
     input.steps = world_->steps();
     input.end_hash = world_->state_hash();
     return input;

@@ -1,6 +1,8 @@
 // An interactive session: a world with its script, restarts, and a recording of all user commands.
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -23,6 +25,12 @@ public:
     void perform(const UserCommand& act);
     void step();
 
+    // Goes back, or forward again as far as the session has been, by playing the commands again from the start: the
+    // bits are the same. Steps from there repeat the later commands until the next one by the user, which begins a
+    // branch.
+    void go_to(std::uint64_t step);
+    std::uint64_t farthest_step() const { return std::max(farthest_, world_->steps()); }
+
     World& world() { return *world_; }
     const World& world() const { return *world_; }
     const LoadedScene& subject() const { return subject_; }
@@ -32,13 +40,18 @@ public:
 
 private:
     void begin();
+    void begin_world();
     void run_script();
+    void perform_recorded();
+    void branch();
 
     SceneOptions options_;
     MakeRunner make_runner_;
     LoadedScene subject_;
     std::optional<World> world_;
     Input input_;
+    std::size_t performed_ = 0;  // commands of input_ so far; later ones are those of a future that was left
+    std::uint64_t farthest_ = 0;
     std::uint64_t beginnings_ = 0;
 };
 

@@ -23,7 +23,8 @@ struct Backend {
     std::shared_ptr<host::Device> screen = nullptr;  // the device that presents a window; null unless requested
 
     std::unique_ptr<Runner> make_runner() const;
-    double copy_speed() const;  // bytes per second, reads plus writes (host/copy_speed.h); takes a moment
+    std::string driver() const;  // of the device, with its version; empty: the CPU
+    double copy_speed() const;   // bytes per second, reads plus writes (host/copy_speed.h); takes a moment
     // Throws WorkFailed with the validation layers' messages, if there are any.
     void require_valid() const;
 };

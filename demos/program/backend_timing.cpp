@@ -68,7 +68,7 @@ std::optional<Paces> remembered(const nlohmann::json& all, const std::string& ke
     const auto found = all.find(key);
     if (found == all.end() || !found->is_array() || found->size() != 2) return std::nullopt;
     if (!(*found)[0].is_number() || !(*found)[1].is_number()) return std::nullopt;
-    return Paces{(*found)[0].get<double>(), (*found)[1].get<double>()};
+    return Paces{(*found)[0].get<double>(), (*found)[1].get<double>(), true};
 }
 
 }  // namespace
@@ -85,7 +85,7 @@ Paces measure_paces(const MakeRunner& on_device, const MakeRunner& on_processor)
             if (step >= steps_to_warm) least[i] = std::min(least[i], ms);
         }
     }
-    return {least[0], least[1]};
+    return {least[0], least[1], false};
 }
 
 Paces paces_of(const std::string& key, const std::function<Paces()>& measure) {

@@ -13,6 +13,7 @@ namespace scree::demos {
 struct Paces {
     double device = 0;
     double processor = 0;
+    bool known = false;  // from an earlier run
 };
 constexpr int heap_bodies = 1000;  // boxes, without the ground
 

@@ -76,11 +76,11 @@ void resume(World& world, const ResumedRun& run, const std::string& path) {
 
 Checkpoints::Checkpoints(const CheckpointOptions& options, const SceneOptions& scene, int steps, const std::string& input)
     : file_(options.file) {
-    const double between = options.every.value_or(usual_interval) * static_cast<double>(scene.rate);
+    const double between = options.every.value_or(usual_interval) * static_cast<double>(*scene.rate);
     steps_between_ = static_cast<std::uint64_t>(std::max(1L, std::lround(between)));
     const nlohmann::ordered_json note = {
-        {"scene", scene.name},        {"bodies", scene.bodies},     {"seed", scene.seed}, {"rate", scene.rate},
-        {"substeps", scene.substeps}, {"sleeping", scene.sleeping}, {"steps", steps},     {"input", input}};
+        {"scene", scene.name},        {"bodies", scene.bodies},     {"seed", scene.seed}, {"rate", *scene.rate},
+        {"substeps", *scene.substeps}, {"sleeping", scene.sleeping}, {"steps", steps},     {"input", input}};
     note_ = note.dump();
 }
 

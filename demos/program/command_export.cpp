@@ -27,7 +27,7 @@ void write_out(const ExportOptions& options) {
         text = scene_schema();
     } else {
         const LoadedScene subject = load_subject(options.scene);
-        text = scene_to_json(subject.scene, subject.viewpoint);
+        text = scene_to_json(document_of(subject));
     }
     if (options.output.empty() || options.output == "-") {
         fmt::print("{}", text);
@@ -50,6 +50,10 @@ void add_export(CLI::App& program, int&) {
         "--seed", [options](const std::string& word) { options->scene.seed = seed_of(word); },
         "Seed of the random numbers that build the demo. Default: 1.");
     command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files instead.");
+    command->footer(
+        "The file has the scene with its camera, colours, settings and duration; a demo's promise stays in the program.\n\n"
+        "Examples:\n  scree export wall -o wall.json\n  scree export pile --bodies 500 --seed 7 -o pile.json\n"
+        "  scree export --schema -o scene.schema.json");
     command->callback([options] { write_out(*options); });
 }
 

@@ -8,6 +8,7 @@
 
 #include "demos/film/pictures.h"
 #include "demos/play/replay.h"
+#include "demos/program/adviser.h"
 #include "demos/program/backend.h"
 #include "demos/program/checkpoints.h"
 #include "demos/program/commands.h"
@@ -18,6 +19,7 @@
 #include "demos/program/output_check.h"
 #include "demos/program/progress.h"
 #include "demos/program/report.h"
+#include "demos/scenes/demos.h"
 #include "demos/suite/recorder.h"
 #include "host/files/file.h"
 
@@ -36,6 +38,7 @@ struct RunOptions {
     std::optional<Input> played;  // the recorded input
     std::optional<ResumedRun> resumed;
     bool quiet = false;
+    std::string command_line;
 };
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -44,10 +47,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
 
 // What must be known before hours of work: that its result can be written.
 void require_writable(const RunOptions& options) {
-    if (options.pictures.wanted() && options.pictures.fps > static_cast<double>(options.scene.rate)) {
-        throw UsageError(fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps,
-                                     options.scene.rate));
-    }
     if (options.pictures.takes_output() && options.report == "-") {
         throw UsageError("--raw - and --report -: the standard output is for one of them; name a file for the other");
     }
@@ -55,6 +54,13 @@ void require_writable(const RunOptions& options) {
     require_writable_file("--report", options.report);
     require_writable_file("--save", options.save);
     require_sense(options.checkpoints);
+    require_writable_file("--cameras", options.pictures.cameras);
+}
+
+void require_steps_for_pictures(const RunOptions& options, float rate) {
+    if (!options.pictures.wanted() || options.pictures.fps <= static_cast<double>(rate)) return;
+    throw UsageError(
+        fmt::format("--fps {:g}: more pictures than steps; at most --rate, which is {:g}", options.pictures.fps, rate));
 }
 
 // Short steps are submitted in batches when no step is recorded or drawn, so that the device does not wait for the
@@ -89,12 +95,16 @@ void hold_to_promise(const LoadedScene& subject, const World& world, std::option
 constexpr int steps_a_timed_one = 16;
 
 // Returns false if interrupted.
-bool simulate(const RunOptions& options, const LoadedScene& subject, World& world, Pictures* pictures, RunReport& report) {
-    const int steps = options.scene.step_count(subject.seconds);
+bool simulate(const RunOptions& options, const LoadedScene& subject, World& world, Pictures* pictures, Adviser* adviser,
+              RunReport& report) {
+    const int steps = options.scene.step_count(subject.seconds, world.settings().rate);
     std::optional<Recorder> recorder;
     if (subject.promise) recorder.emplace(world, *subject.promise, subject.seconds, subject.before_step);
-    Progress progress(subject.name, steps, "steps", options.quiet, static_cast<long>(world.steps()));
-    Checkpoints checkpoints(options.checkpoints, options.scene, steps, options.input);
+    Progress progress(subject.title(), steps, "steps", options.quiet, static_cast<long>(world.steps()));
+    SceneOptions simulated = options.scene;  // with the settings of the scene's file
+    simulated.rate = world.settings().rate;
+    simulated.substeps = world.settings().substeps;
+    Checkpoints checkpoints(options.checkpoints, simulated, steps, options.input);
     if (pictures) pictures->after_step();
     const bool reports = !options.report.empty();
     for (int done = static_cast<int>(world.steps()); done < steps;) {
@@ -107,13 +117,16 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         const bool watched = timed || recorder || pictures || subject.before_step || world.steps() < report.resumed_at + 2;
         const bool waits =
             world.runner().backend() != "cpu" && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
-        const int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
-        const int count = watched || !waits ? 1 : std::min(unwatched, checkpoints.steps_until_due(world));
+        int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
+        unwatched = std::min(unwatched, checkpoints.steps_until_due(world));
+        if (adviser) unwatched = std::min(unwatched, adviser->steps_to_next(world));
+        const int count = watched || !waits ? 1 : unwatched;
         steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
         done += count;
         hold_to_promise(subject, world, recorder, report);
         if (pictures) pictures->after_step();
         if (done < steps) checkpoints.after_step(world);
+        if (adviser) adviser->after_step(world);
         progress.done(done);
     }
     checkpoints.write(world);
@@ -163,22 +176,11 @@ void conclude(const RunOptions& options, const LoadedScene& subject, const RunRe
     }
 }
 
-// Completes the frames and the video up to now.
-int end_early(World& world, Pictures* pictures) {
-    const int frames = pictures ? pictures->count() : 0;
-    try {
-        if (pictures) pictures->finish();
-    } catch (const std::exception& error) {
-        say("scree: {}\n", error.what());
-    }
-    say("scree: interrupted after {} steps{}\n", world.steps(), frames ? fmt::format(", {} pictures", frames) : "");
-    return interrupted;
-}
-
 void measure(World& world, RunReport& report) {
     report.backend = world.runner().backend();
     report.device = world.runner().device();
     report.steps = world.steps();
+    report.settings = world.settings();
     report.rate = world.settings().rate;
     report.substeps = world.settings().substeps;
     report.stages = world.stage_times();
@@ -187,26 +189,43 @@ void measure(World& world, RunReport& report) {
     report.state_hash = world.state_hash();
 }
 
+// Completes the frames and the video, which an interrupted run has, too.
+void finish_pictures(Pictures* pictures, RunReport& report) {
+    if (!pictures) return;
+    try {
+        pictures->finish();
+    } catch (const std::exception& error) {
+        if (!report.interrupted) throw;
+        say("scree: {}\n", error.what());
+    }
+    report.frames = pictures->count();
+    report.seconds_drawing = pictures->times().draw;
+    report.seconds_waiting = pictures->times().encode_wait;
+}
+
 int work(const RunOptions& options, const LoadedScene& subject, const Backend& machine, World& world, Pictures* pictures,
          RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
-    if (!simulate(options, subject, world, pictures, report)) return end_early(world, pictures);
-    if (pictures) pictures->finish();
+    std::optional<Adviser> adviser;
+    if (!options.quiet || !options.report.empty()) adviser.emplace(world);
+    report.interrupted = !simulate(options, subject, world, pictures, adviser ? &*adviser : nullptr, report);
+    finish_pictures(pictures, report);
     report.seconds_running = seconds_since(start);
     report.name = subject.name;
-    report.frames = pictures ? pictures->count() : 0;
-    const PictureTimes times = pictures ? pictures->times() : PictureTimes{};
-    report.seconds_drawing = times.draw;
-    report.seconds_waiting = times.encode_wait;
+    report.promised = subject.promise.has_value();
     measure(world, report);
     hold_to_soundness(options.played.has_value(), world, report);
     hold_to_recording(options, report);
+    if (adviser) report.advice = adviser->advice(world, report.statistics);
+    if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();
-    machine.require_valid();
+    if (!report.interrupted) machine.require_valid();
     conclude(options, subject, report);
-    if (!options.save.empty()) host::write_atomically(options.save, scene_to_json(world.snapshot(), subject.viewpoint));
-    return all_pass(report.rows) ? done : promise_missed;
+    if (!options.save.empty()) host::write_atomically(options.save, scene_to_json(document_of(subject, world)));
+    if (!report.interrupted) return all_pass(report.rows) ? done : promise_missed;
+    say("scree: interrupted after {} steps{}\n", world.steps(), report.frames ? fmt::format(", {} pictures", report.frames) : "");
+    return interrupted;
 }
 
 // The speed limit is a setting, so scene validation cannot check it.
@@ -223,15 +242,17 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
 
 int run(const RunOptions& options) {
     RunReport report;
+    report.started_at = date_and_time();
     require_writable(options);
     LoadedScene subject = load_subject(options.scene);
+    require_steps_for_pictures(options, subject.settings(options.scene).rate);
     if (options.played) {  // replay the commands; the demo's promise does not apply
         subject.before_step = script_of(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
     const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
-    if (!options.quiet) note_clamped_speeds(subject.scene, options.scene.settings());
+    if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
     World world(subject.scene, subject.settings(options.scene), machine.make_runner());
     if (options.resumed) {
         resume(world, *options.resumed, options.checkpoints.resume);
@@ -241,16 +262,27 @@ int run(const RunOptions& options) {
     std::optional<Pictures> pictures;
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
     if (pictures) report.canvas = pictures->canvas();
+    report.driver = machine.driver();
+    report.command_line = options.command_line;
+    if (find_demo(options.scene.name)) report.seed = options.scene.seed;
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
 }
 
+template <typename Value>
+Value word_for(const Value& value) {
+    return value;
+}
+template <typename Value>
+Value word_for(const std::optional<Value>& value) {
+    return value.value_or(Value{});
+}
 // The options of a recording or checkpoint, and its number of steps unless given. Throws UsageError if other options on the
 // command line (scene, --bodies, --seed, ...) contradict it.
 SceneOptions with_recorded(const CLI::App& command, SceneOptions options, const SceneOptions& recorded, const std::string& what) {
     const auto agree = [&](const char* option, auto& named, const auto& found) {
         if (command.count(option) != 0 && named != found)
-            throw UsageError(
-                fmt::format("{}: the {} says {}, the command line {}; leave the option out", option, what, found, named));
+            throw UsageError(fmt::format("{}: the {} says {}, the command line {}; leave the option out", option, what,
+                                         word_for(found), word_for(named)));
         named = found;
     };
     agree("scene", options.name, recorded.name);
@@ -280,7 +312,7 @@ void take_resumed(const CLI::App& command, RunOptions& options) {
     const ResumedRun& resumed = options.resumed.emplace(load_resumed(path));
     options.scene = with_recorded(command, options.scene, resumed.scene, "checkpoint " + path);
     if (options.input.empty()) options.input = resumed.input;
-    const int steps = options.scene.step_count(0);
+    const int steps = options.scene.step_count(0, *resumed.scene.rate);
     if (static_cast<std::uint64_t>(steps) >= resumed.info.steps) return;
     throw UsageError(fmt::format("--resume {}: it was saved after {} steps, and the run is to have {} in all; ask for more", path,
                                  resumed.info.steps, steps));
@@ -325,7 +357,10 @@ void add_run(CLI::App& program, int& status) {
         "  scree run settled.json --video later.mp4\n"
         "  scree run avalanche --bodies 100k --seconds 60 --checkpoint run.checkpoint --every 5\n"
         "  scree run --resume run.checkpoint --checkpoint run.checkpoint");
-    command->callback([command, options, &status] { status = run(*command, *options); });
+    command->callback([command, options, &status] {
+        options->command_line = words_of_this_program();
+        status = run(*command, *options);
+    });
 }
 
 }  // namespace scree::demos

@@ -19,6 +19,9 @@ inline std::string printable(const std::string& text) {
     return shown;
 }
 
+// The command line of this process, quoted where a shell would need it; empty where the system does not tell.
+std::string words_of_this_program();
+
 // Unlike fmt::print, say() does not throw when the stream is closed; the exit status remains.
 template <class... Arguments>
 void say(fmt::format_string<Arguments...> form, Arguments&&... arguments) {

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <limits>
 
+#include "compute/fields/settings.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene_file/load_scene.h"
 #include "demos/film/camera.h"
@@ -72,6 +73,12 @@ void set_bounds(LoadedScene& subject) {
     subject.high = high;
 }
 
+bool are_default(const Settings& settings) {
+    bool all = true;
+    fields::for_each_field<Settings>([&](const auto& field) { all = all && settings.*field.member == Settings{}.*field.member; });
+    return all;
+}
+
 std::string free_memory() {
     return fmt::format("{:.1f} GB are free, enough for about {:.0f} thousand bodies", available_memory() / 1e9,
                        static_cast<double>(most_bodies()) / 1e3);
@@ -106,9 +113,21 @@ LoadedScene from_file(const std::string& path) {
         for (const std::string& note : notes) say("scree: note: {}: {}\n", path, note);
         set_bounds(subject);
         subject.viewpoint = document.viewpoint ? *document.viewpoint : view_of(subject.low, subject.high, 30, 20);
+        if (document.settings) subject.of_scene = *document.settings;
+        if (document.duration > 0) subject.seconds = static_cast<double>(document.duration);
+        if (document.picture) subject.style = *document.picture;
+        subject.events = std::move(document.events);
     } catch (const SceneError& error) {
         throw UsageError(path + ": " + error.what());
     }
+    if (subject.events.empty()) return subject;
+    subject.before_step = [path, events = subject.events](World& world) {
+        try {
+            perform_due(events, world);
+        } catch (const SceneError& error) {
+            throw UsageError(path + ": " + error.what());
+        }
+    };
     return subject;
 }
 
@@ -121,9 +140,26 @@ void require_memory_for(std::size_t bodies) {
 }
 
 Settings LoadedScene::settings(const SceneOptions& options) const {
-    Settings settings = options.settings();
-    settings.sleeping = settings.sleeping && sleeping;
-    return settings;
+    return options.settings(of_scene);
+}
+
+std::string LoadedScene::title() const {
+    return name.substr(name.rfind('/') + 1);
+}
+
+SceneDocument document_of(const LoadedScene& subject) {
+    SceneDocument document{subject.scene, subject.viewpoint, {}, 0, {}, subject.events};
+    if (!are_default(subject.of_scene)) document.settings = subject.of_scene;
+    if (subject.seconds != LoadedScene{}.seconds) document.duration = static_cast<float>(subject.seconds);
+    if (!(subject.style == PictureStyle{})) document.picture = subject.style;
+    return document;
+}
+
+SceneDocument document_of(const LoadedScene& subject, const World& world) {
+    SceneDocument document = document_of(subject);
+    document.scene = world.snapshot();
+    document.events = coming_events(subject.events, world);
+    return document;
 }
 
 LoadedScene load_subject(const SceneOptions& options) {
@@ -150,15 +186,11 @@ LoadedScene load_subject(const SceneOptions& options) {
     require_memory_for(options.bodies);
     DemoScene built = build(*demo, {options.bodies, options.seed});
     require_memory_for_pieces(built.scene, options.bodies ? fmt::format("--bodies {}", options.bodies) : options.name);
-    return {demo->name,
-            std::move(built.scene),
-            built.viewpoint,
-            built.low,
-            built.high,
-            built.seconds,
-            std::move(built.promise),
-            built.sleeping,
-            std::move(built.before_step)};
+    Settings settings;
+    settings.sleeping = built.sleeping;
+    return {
+        demo->name, std::move(built.scene),       built.viewpoint, built.low, built.high, built.seconds, std::move(built.promise),
+        settings,   std::move(built.before_step), built.picture};
 }
 
 }  // namespace scree::demos

@@ -18,16 +18,24 @@ struct LoadedScene {
     Viewpoint viewpoint;
     vec3 low, high;  // bounding box of the action, m
     double seconds = 10;
-    std::optional<Promise> promise;  // none for scene files
-    bool sleeping = true;
-    Script before_step;
+    std::optional<Promise> promise{};  // none for scene files
+    Settings of_scene{};               // the scene's own
+    Script before_step{};
+    PictureStyle style{};
+    std::vector<Event> events{};  // of a scene file; before_step performs them
 
-    Settings settings(const SceneOptions& options) const;  // the user's settings, limited by the scene's
+    Settings settings(const SceneOptions& options) const;  // the scene's settings with those of the user
+    std::string title() const;                             // without the folder
 };
 
 // Throws UsageError naming the nearest demo, the JSON pointer of an error in a file, or how many bodies (fragments
 // included) fit into memory.
 LoadedScene load_subject(const SceneOptions& options);
+
+// The scene as a file says it.
+SceneDocument document_of(const LoadedScene& subject);
+// A file to continue from: the present scene, and the events that are still to come.
+SceneDocument document_of(const LoadedScene& subject, const World& world);
 
 // Throws UsageError if a run of that many bodies would not fit into free memory.
 void require_memory_for(std::size_t bodies);

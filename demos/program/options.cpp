@@ -14,17 +14,16 @@
 
 namespace scree::demos {
 
-Settings SceneOptions::settings() const {
-    Settings settings;
-    settings.rate = rate;
-    settings.substeps = substeps;
-    settings.sleeping = sleeping;
-    return settings;
+Settings SceneOptions::settings(Settings of_scene) const {
+    if (rate) of_scene.rate = *rate;
+    if (substeps) of_scene.substeps = *substeps;
+    of_scene.sleeping = of_scene.sleeping && sleeping;
+    return of_scene;
 }
 
-int SceneOptions::step_count(double default_seconds) const {
+int SceneOptions::step_count(double default_seconds, float steps_a_second) const {
     if (steps) return *steps;
-    return static_cast<int>(std::max(1L, std::lround(seconds.value_or(default_seconds) * static_cast<double>(rate))));
+    return static_cast<int>(std::max(1L, std::lround(seconds.value_or(default_seconds) * static_cast<double>(steps_a_second))));
 }
 
 std::size_t count_of(const std::string& word) {
@@ -64,11 +63,13 @@ std::vector<std::size_t> counts_of(const std::string& list) {
 }
 
 // An option with description, range and default of a setting (compute/fields/settings.h).
-template <class Value>
-static CLI::Option* add_setting(CLI::App& command, const char* option, Value& value, Value Settings::*setting) {
+template <class Bound, class Value>
+static CLI::Option* add_setting(CLI::App& command, const char* option, Bound& value, Value Settings::*setting) {
     const auto field = fields::field_of(setting);
     const std::string range = text_of(field.range, field.unit);
-    return command.add_option(option, value, fmt::format("{}, {}. Default: {}.", field.about, range, Settings{}.*setting))
+    const char* scene = std::is_same_v<Bound, Value> ? "" : "the scene's, or ";
+    return command
+        .add_option(option, value, fmt::format("{}, {}. Default: {}{}.", field.about, range, scene, Settings{}.*setting))
         ->check(between(field.range.low, field.range.high));
 }
 
@@ -93,6 +94,11 @@ void add_options(CLI::App& command, float& rate, int& substeps) {
     add_setting(command, "--substeps", substeps, &Settings::substeps)->group("Simulation");
 }
 
+void add_options(CLI::App& command, std::optional<float>& rate, std::optional<int>& substeps) {
+    add_setting(command, "--rate", rate, &Settings::rate)->group("Simulation");
+    add_setting(command, "--substeps", substeps, &Settings::substeps)->group("Simulation");
+}
+
 void add_options(CLI::App& command, std::uint64_t& seed) {
     command
         .add_option_function<std::string>(
@@ -105,7 +111,9 @@ void add_options(CLI::App& command, SceneOptions& options) {
     command.add_option("scene", options.name, "Demo (see scree list) or scene file, NAME.json.")->required();
     auto* steps =
         command.add_option("--steps", options.steps, "Number of steps.")->check(CLI::Range(1, 1000000000))->group("Simulation");
-    command.add_option("--seconds", options.seconds, "Simulated time, s. Default: until the demo's promise can be judged.")
+    command
+        .add_option("--seconds", options.seconds,
+                    "Simulated time, s. Default: until the demo's promise can be judged; of a scene file its duration, or 10 s.")
         ->check(between(1e-3, 1e6))
         ->excludes(steps)
         ->group("Simulation");

@@ -1,7 +1,6 @@
 // Options shared by commands, and their parsing.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -33,12 +32,12 @@ struct SceneOptions {
     std::uint64_t seed = 1;
     std::optional<int> steps;
     std::optional<double> seconds;
-    float rate = Settings{}.rate;  // Hz
-    int substeps = Settings{}.substeps;
-    bool sleeping = Settings{}.sleeping;
+    std::optional<float> rate;  // Hz; none, likewise below: the scene's
+    std::optional<int> substeps;
+    bool sleeping = true;  // false: none sleeps, whatever the scene says
 
-    Settings settings() const;
-    int step_count(double default_seconds) const;
+    Settings settings(Settings of_scene = {}) const;
+    int step_count(double default_seconds, float steps_a_second) const;
 };
 
 // Camera; unset values are those of the scene.
@@ -49,22 +48,24 @@ struct CameraOptions {
     bool fit = false;                   // nearest camera that sees the whole scene
     std::optional<double> orbit;        // s per orbit about the target; negative: reversed
     std::optional<std::string> follow;  // body to follow, by name or index
+    bool chase = false;                 // from behind its way
+    bool still = false;                 // the scene's camera without its motion
 };
 
 struct PictureOptions {
     std::string frames, video, preview, raw;  // empty: none
+    std::string cameras;                      // JSON file of each picture's camera; may be empty
     std::string canvas = "auto";              // auto, vulkan or gl
     int width = 1280, height = 720;
     int bits = 8;  // per channel
     double fps = 30;
     CameraOptions camera;
-    std::string color = "momentum", color_map = "plasma";
+    // None: the scene's (demos/film/style.h).
+    std::optional<std::string> color, color_map, color_scale;
     std::optional<std::pair<float, float>> color_range;
+    std::optional<std::vector<std::string>> show;  // overlays, or "none"
     bool legend = true, caption = true;
-    bool logarithmic = false;
-    std::vector<std::string> show;  // overlays: contacts, velocities, joints, boxes, cells, sleep
-
-    bool shows(const char* what) const { return std::find(show.begin(), show.end(), what) != show.end(); }
+    int samples = 1;  // per pixel: 1, 4, 9 or 16, drawn as larger pictures
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }
     // Throws UsageError for an output without a name, for picture options without an output, and for two outputs
     // (`report` among them) to one file.
@@ -74,6 +75,7 @@ struct PictureOptions {
 
 void add_options(CLI::App& command, MachineOptions& options);
 void add_options(CLI::App& command, float& rate, int& substeps);
+void add_options(CLI::App& command, std::optional<float>& rate, std::optional<int>& substeps);
 void add_options(CLI::App& command, std::uint64_t& seed);
 void add_options(CLI::App& command, SceneOptions& options);
 void add_options(CLI::App& command, PictureOptions& options);

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <map>
 
-#include "demos/film/pictures.h"
+#include "demos/film/style.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
 #include "demos/program/options.h"
@@ -37,7 +37,7 @@ void set_range(PictureOptions& options, const std::string& word) {
 }
 
 void set_camera(CameraOptions& options, const std::string& list) {
-    const std::vector<std::string> known = {"fit", "orbit", "follow"};
+    const std::vector<std::string> known = {"fit", "orbit", "follow", "chase", "still"};
     for (std::size_t from = 0, to = 0; from <= list.size(); from = to + 1) {
         to = std::min(list.find(',', from), list.size());
         const std::string word = list.substr(from, to - from);
@@ -45,8 +45,10 @@ void set_camera(CameraOptions& options, const std::string& list) {
         const std::string name = word.substr(0, colon);
         const std::string rest = colon < word.size() ? word.substr(colon + 1) : "";
         if (const std::string wrong = one_of(known)(name); !wrong.empty()) throw CLI::ValidationError("--camera", wrong);
-        if (name == "fit" && colon < word.size()) throw CLI::ValidationError("--camera", "fit takes no value");
+        if ((name == "fit" || name == "still") && colon < word.size())
+            throw CLI::ValidationError("--camera", name + " takes no value");
         if (name == "fit") options.fit = true;
+        if (name == "still") options.still = true;
         if (name == "orbit") {
             options.orbit = rest.empty() ? 20.0 : number_of(rest, "--camera", ", such as orbit:20");
             if (std::abs(*options.orbit) < 0.1 || std::abs(*options.orbit) > 1e6) {
@@ -56,9 +58,11 @@ void set_camera(CameraOptions& options, const std::string& list) {
                                                rest);
             }
         }
-        if (name == "follow") {
-            if (rest.empty()) throw CLI::ValidationError("--camera", "follow needs a body: follow:NAME or follow:INDEX");
+        if (name == "follow" || name == "chase") {
+            if (rest.empty())
+                throw CLI::ValidationError("--camera", fmt::format("{0} needs a body: {0}:NAME or {0}:INDEX", name));
             options.follow = rest;
+            options.chase = name == "chase";
         }
     }
 }
@@ -71,7 +75,8 @@ void add_camera(CLI::App& command, CameraOptions& options) {
         .add_option_function<std::string>(
             "--camera", Set([&options](const std::string& word) { set_camera(options, word); }),
             "Camera motion, separated by commas: fit (frame the whole scene), orbit[:SECONDS] (circle the target, one turn in "
-            "20 s by default), follow:BODY (by name or index). Default: the camera or camera path of the scene.")
+            "20 s by default), follow:BODY (by name or index), chase:BODY (from behind its way), still (the scene's camera "
+            "without its motion). Default: the camera of the scene.")
         ->group(group);
     command
         .add_option_function<std::string>("--eye",
@@ -104,6 +109,10 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
                     "--raw - | ffmpeg -f rawvideo -pixel_format rgb24 -video_size 1280x720 -framerate 30 -i - mix.mkv")
         ->group(group);
     command
+        .add_option("--cameras", options.cameras,
+                    "JSON file with the camera of each picture: pose, world-to-camera matrix, focal length in pixels.")
+        ->group(group);
+    command
         .add_option_function<std::string>("--size", Set([&options](const std::string& word) { set_size(options, word); }),
                                           "Picture size in pixels, WIDTHxHEIGHT. Default: 1280x720.")
         ->group(group);
@@ -121,12 +130,12 @@ std::string place_of(const std::string& file) {
 }  // namespace
 
 void PictureOptions::require_sense(const CLI::App& command, const std::string& report) const {
-    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--report"}) {
+    for (const char* option : {"--frames", "--video", "--preview", "--raw", "--cameras", "--report"}) {
         for (const std::string& name : command.get_option(option)->results())
             if (name.empty()) throw UsageError(fmt::format("{}: the name is empty; name a file or a folder", option));
     }
     const std::pair<const char*, const std::string*> files[] = {
-        {"--video", &video}, {"--preview", &preview}, {"--raw", &raw}, {"--report", &report}};
+        {"--video", &video}, {"--preview", &preview}, {"--raw", &raw}, {"--cameras", &cameras}, {"--report", &report}};
     std::map<std::string, const char*> taken;
     for (const auto& [option, name] : files) {
         const std::string place = name->empty() || *name == "-" ? "" : place_of(*name);
@@ -149,34 +158,50 @@ void add_options(CLI::App& command, PictureOptions& options) {
         .add_option("--color", options.color,
                     "Quantity shown by colour. contact-impulse: sum over the body's contacts in one substep; sleep: how long the "
                     "body has "
-                    "been still; material: friction, restitution and density. Default: momentum.")
+                    "been still; material: friction, restitution and density. Default: the scene's, mostly momentum.")
         ->check(one_of(color_words()))
         ->group(group);
-    command.add_option("--color-map", options.color_map, "Colour map.")->check(one_of(color_map_words()))->group(group);
     command
-        .add_option_function<std::string>(
-            "--color-range", Set([&options](const std::string& word) { set_range(options, word); }),
-            "Colour range LOW:HIGH in the unit of --color. Default: from 0 to the value of a typical body after a fall "
-            "over the scene's height.")
+        .add_option(
+            "--color-map", options.color_map,
+            "Colour map: ember (light grey for 0, then yellow, red, violet), plasma, inferno, viridis, cividis, batlow (dark "
+            "for 0), turbo (a rainbow). Default: the scene's, mostly ember.")
+        ->check(one_of(color_map_words()))
         ->group(group);
     command
-        .add_option_function<std::string>("--color-scale",
-                                          Set([&options](const std::string& word) { options.logarithmic = word == "log"; }),
-                                          "Colour scale: linear, or log (from a thousandth of the range's upper end unless "
-                                          "--color-range says). Default: linear.")
-        ->check(one_of({"linear", "log"}))
+        .add_option_function<std::string>("--color-range", Set([&options](const std::string& word) { set_range(options, word); }),
+                                          "Colour range LOW:HIGH in the unit of --color. Default: the scene's; else from 0 to "
+                                          "what 95% of the bodies stay below "
+                                          "in the first 2 s (simulated beforehand on the CPU where that is a short work), or in "
+                                          "a fall over the scene's height.")
         ->group(group);
+    command
+        .add_option(
+            "--color-scale", options.color_scale,
+            "Colour scale: linear; root (square root: small values are seen beside large ones); log (from a thousandth of "
+            "the range's upper end unless --color-range says); auto (root for momentum, energy and impulses). Default: "
+            "the scene's, mostly auto.")
+        ->check(one_of(color_scale_words()))
+        ->group(group);
+    std::vector<std::string> shown = overlay_words();
+    shown.emplace_back("none");
     command
         .add_option(
             "--show", options.show,
             "Overlays, separated by commas: contacts (points, with the normal force as a line), velocities (arrows, the way "
             "in 0.2 s), joints (anchors and axes; blue without force, yellow at ten times the lighter body's weight, red at a "
             "hundred times), boxes (AABBs over the next step), cells (occupied broadphase cells), sleep (sleepers dull and "
-            "blue).")
-        ->check(one_of({"contacts", "velocities", "joints", "boxes", "cells", "sleep"}))
+            "blue), none. Default: the scene's, mostly none.")
+        ->check(one_of(shown))
         ->delimiter(',')
         ->expected(1)
         ->take_all()
+        ->group(group);
+    command
+        .add_option("--samples", options.samples,
+                    "Samples per pixel, 1, 4, 9 or 16: pictures are drawn 2, 3 or 4 times as wide and high, and averaged. "
+                    "Default: 1, with smoothed edges.")
+        ->check(CLI::IsMember({1, 4, 9, 16}))
         ->group(group);
     command
         .add_option("--canvas", options.canvas,

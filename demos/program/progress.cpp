@@ -45,7 +45,8 @@ void Progress::show(long count, double seconds) {
     shown_ = true;
     const double part = static_cast<double>(count) / static_cast<double>(total_);
     const double rate = static_cast<double>(count - begun_) / std::max(seconds, 1e-9);
-    const std::string left = count > begun_ ? duration(static_cast<double>(total_ - count) / rate) + " left" : "";
+    const std::string left =
+        count > begun_ && count < total_ ? duration(static_cast<double>(total_ - count) / rate) + " left" : "";
     const std::string text =
         fmt::format("{} {:3.0f}%  {}/{} {}  {:.3g}/s  {}", what_, 100 * part, count, total_, unit_, rate, left);
     if (!terminal_) {

@@ -5,9 +5,13 @@
 #include <sys/resource.h>
 
 #include <algorithm>
+#include <array>
+#include <ctime>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
+#include "compute/fields/settings.h"
+#include "demos/program/commit.h"
 #include "demos/program/progress.h"
 #include "demos/program/table.h"
 
@@ -27,7 +31,35 @@ std::size_t peak_memory() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;  // Linux reports KiB
 }
 
+std::string program_version() {
+    return SCREE_VERSION;
+}
+std::string program_commit() {
+    return SCREE_COMMIT;
+}
+std::string program_compiler() {
+#if defined(__clang__)
+    return "Clang " __clang_version__;
+#else
+    return "GCC " __VERSION__;
+#endif
+}
+
+std::string date_and_time() {
+    const std::time_t now = std::time(nullptr);
+    std::tm parts{};
+    ::gmtime_r(&now, &parts);
+    std::array<char, 32> text{};
+    return {text.data(), std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%SZ", &parts)};
+}
+
 namespace {
+
+nlohmann::ordered_json settings_of(const Settings& settings) {
+    nlohmann::ordered_json json = nlohmann::ordered_json::object();
+    fields::for_each_field<Settings>([&](const auto& field) { json[field.key] = settings.*field.member; });
+    return json;
+}
 
 double per_body(const RunReport& r, std::size_t bytes) {
     return r.statistics.bodies ? static_cast<double>(bytes) / static_cast<double>(r.statistics.bodies) : 0.0;
@@ -38,15 +70,24 @@ double per_body(const RunReport& r, std::size_t bytes) {
 std::string json_of(const RunReport& r) {
     const Spread ms = spread_of(r.step_ms);
     const Statistics& s = r.statistics;
-    nlohmann::ordered_json stages = nlohmann::ordered_json::object(), promise = nlohmann::ordered_json::array();
+    nlohmann::ordered_json stages = nlohmann::ordered_json::object(), promise = nlohmann::ordered_json::array(), advice = promise;
     for (const auto& [stage, milliseconds] : r.stages) stages[stage] = milliseconds;
+    for (const Advice& one : r.advice) advice.push_back({{"finding", one.finding}, {"remedy", one.remedy}});
     for (const Row& row : r.rows) {
         promise.push_back({{"what", row.what}, {"promised", row.promised}, {"measured", row.measured}, {"pass", row.pass}});
     }
     const nlohmann::ordered_json json = {
+        {"version", program_version()},
+        {"commit", program_commit()},
+        {"compiler", program_compiler()},
+        {"started_at", r.started_at},
+        {"command_line", r.command_line},
         {"demo", r.name},
+        {"seed", r.seed ? nlohmann::ordered_json(*r.seed) : nlohmann::ordered_json()},
+        {"scene_hash", hash_text(r.scene_hash)},
         {"backend", r.backend},
         {"device", r.device},
+        {"driver", r.driver},
         {"canvas", r.canvas},
         {"bodies", s.bodies},
         {"broken", s.broken},
@@ -55,6 +96,8 @@ std::string json_of(const RunReport& r) {
         {"resumed_at", r.resumed_at},
         {"dt", 1.0 / r.rate},
         {"substeps", r.substeps},
+        {"settings", settings_of(r.settings)},
+        {"interrupted", r.interrupted},
         {"ms_per_step", {{"mean", ms.mean}, {"median", ms.median}, {"p95", ms.p95}, {"min", ms.min}}},
         {"stages", stages},
         {"manifolds", s.manifolds},
@@ -91,7 +134,9 @@ std::string json_of(const RunReport& r) {
           {"draw", r.seconds_drawing},
           {"encode_wait", r.seconds_waiting}}},
         {"state_hash", hash_text(r.state_hash)},
-        {"promise", {{"judged", r.judged}, {"pass", r.judged && all_pass(r.rows)}, {"rows", promise}}},
+        {"advice", advice},
+        {"promise",
+         {{"judged", r.judged || !r.promised}, {"pass", (r.judged || !r.promised) && all_pass(r.rows)}, {"rows", promise}}},
     };
     return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
@@ -112,8 +157,6 @@ std::string summary_of(const RunReport& r) {
     if (s.broken || s.pieces) line("broken", fmt::format("{} bodies, into pieces of which {} are there", s.broken, s.pieces));
     line("penetration", fmt::format("{} at most, {} on average", metres(s.penetration_max), metres(s.penetration_mean)));
     line("greatest speed", fmt::format("{:.4g} m/s", s.max_speed));
-    if (s.spin_limited > 0)
-        line("rotation limit", fmt::format("reached {} times; more substeps or max_turn raise the limit", s.spin_limited));
     line("greatest drift", fmt::format("{:.4g} m", s.drift_max));
     if (s.joints > 0)
         line("joints", fmt::format("{}, {} torn; at most {:.4g} N and {:.4g} N m carried", s.joints, s.joints_broken,
@@ -127,6 +170,7 @@ std::string summary_of(const RunReport& r) {
                          duration(r.seconds_total), duration(r.seconds_simulating), duration(r.seconds_drawing),
                          duration(r.seconds_waiting), r.frames / std::max(r.seconds_running, 1e-9)));
     }
+    for (const Advice& one : r.advice) line("advice", one.finding + ": " + one.remedy);
     if (r.rows.empty()) return text;
     std::vector<Cells> rows = {verdict_heading()};
     for (const Row& row : r.rows) rows.push_back(verdict(row));

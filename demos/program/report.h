@@ -3,17 +3,28 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compute/world.h"
+#include "demos/program/adviser.h"
 #include "demos/suite/promise.h"
 
 namespace scree::demos {
 
 struct RunReport {
     std::string name, backend, device;
-    std::string canvas;  // API and device that drew the pictures; empty: no pictures
+    std::string driver;                 // of the device, with its version; empty: the CPU
+    std::string command_line;           // as given
+    std::string started_at;             // date and time, UTC
+    std::optional<std::uint64_t> seed;  // of a demo
+    std::uint64_t scene_hash = 0;
+    bool interrupted = false;  // by the user, before its end
+    Settings settings;
+    std::vector<Advice> advice;
+    bool promised = false;  // by a demo; other runs are judged by soundness alone
+    std::string canvas;     // API and device that drew the pictures; empty: no pictures
     std::uint64_t steps = 0;
     float rate = 60;  // Hz
     int substeps = 8;
@@ -38,6 +49,12 @@ struct Spread {
     double mean = 0, median = 0, p95 = 0, min = 0;  // ms
 };
 Spread spread_of(std::vector<double> step_ms);
+
+// This program and machine, for reports: version, commit and compiler.
+std::string program_version();
+std::string program_commit();  // "unknown" outside a repository
+std::string program_compiler();
+std::string date_and_time();  // now, UTC, "2026-01-31T12:00:00Z"
 
 std::size_t peak_memory();  // peak resident memory of this process, bytes
 std::string json_of(const RunReport& report);

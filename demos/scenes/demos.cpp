@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "demos/scenes/looks.h"
+
 namespace scree::demos {
 
 const std::vector<Demo>& all_demos() {
@@ -89,6 +91,7 @@ const Demo* find_demo(std::string_view name) {
 DemoScene build(const Demo& demo, DemoOptions options) {
     if (options.bodies == 0 || !demo.takes_bodies) options.bodies = demo.bodies;
     DemoScene made = demo.build(options);
+    set_look(demo.name, made);
     const vec3 offset(options.offset, 0, options.offset);
     for (Body& body : made.scene.bodies) body.position += offset;
     for (vec3* place : {&made.viewpoint.eye, &made.viewpoint.target, &made.low, &made.high}) *place += offset;

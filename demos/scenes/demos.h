@@ -28,6 +28,7 @@ struct DemoScene {
     Promise promise;
     bool sleeping = true;     // false in scenes that must stand awake
     Script before_step = {};  // scripted actions during the run; not part of a scene file
+    PictureStyle picture = {};
 };
 
 struct Demo {

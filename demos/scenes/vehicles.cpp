@@ -178,12 +178,12 @@ DemoScene drive(const DemoOptions&) {
     const std::size_t cart = scene.vehicles[plain].chassis;
 
     const vec3 low(-5, 0, -4), high(49, 4, 142);
-    return {std::move(scene),
-            view_of(low, high, 60, 40),
-            low,
-            high,
-            40,
-            promise_of(c, car, loose, all_upright("the car and the cart", {car, cart}))};
+    Viewpoint behind;  // of the car, which starts along z
+    behind.eye = {-2.5f, 3.4f, -9};
+    behind.target = {0, 0.9f, 2};
+    behind.follow = car;
+    behind.chase = true;
+    return {std::move(scene), behind, low, high, 40, promise_of(c, car, loose, all_upright("the car and the cart", {car, cart}))};
 }
 
 DemoScene cars(const DemoOptions& options) {

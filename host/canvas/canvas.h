@@ -81,6 +81,8 @@ struct CanvasOptions {
     int width = 1280;     // pixels
     int height = 720;     // pixels
     int samples = 0;      // per pixel: 4 (MSAA), or 1 with edges smoothed afterwards; 0: 1 on a software renderer, else 4
+    bool smooth = true;   // smooths edges with one sample per pixel
+    bool stays = false;   // pictures stay on the device (VulkanCanvas::draw_there); else they are smoothed on the host
     int bits = 8;         // per channel: 8, or 16, rendered into half floats of linear light
     bool shadows = true;  // shadow map of the sun, and ambient occlusion
     bool legend = true;   // the colour scale

@@ -99,13 +99,14 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
         draw.state.writes_depth = false;
         draws.push_back(draw);
     }
-    draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 12});
+    // Of a plane, what shadows may reach is shaded with them, and all else, most of the ground, without: software devices
+    // cannot skip the reads of the maps pixel by pixel.
+    if (options.shadows) draws.push_back({body("plane.vert", "plane.frag", Cull::none), Items::planes, Mesh::none, 6, 0, 1});
+    draws.push_back({body("plane.vert", "plane_far.frag", Cull::none), Items::planes, Mesh::none, 12});
     draws.push_back({{Pass::picture, "sky.vert", "sky.frag", Cull::none, Compare::greater_or_equal}, Items::one, Mesh::none, 3});
     if (options.marks) {
-        DrawState mark{Pass::picture, "mark.vert", "mark.frag", Cull::none, Compare::less, false, true, true};
-        draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 1});  // behind bodies
-        mark.depth = Compare::greater_or_equal;
-        draws.push_back({mark, Items::marks, Mesh::none, 4, 0, 0});
+        const DrawState mark{Pass::picture, "mark.vert", "mark.frag", Cull::none, Compare::greater_or_equal, false, true, true};
+        draws.push_back({mark, Items::marks, Mesh::none, 4});
     }
     if (options.joints) {
         DrawState joint{Pass::picture, "joint.vert", "joint.frag", Cull::none, Compare::less, false, true};
@@ -120,7 +121,7 @@ std::vector<Draw> draws_of(const CanvasOptions& options) {
     lines(options.cells, LINES_CELLS, RUN_CUBES, CUBE_CORNERS);
     lines(options.boxes, LINES_BOXES, RUN_CUBES, CUBE_CORNERS);
     lines(options.velocities, LINES_VELOCITIES, RUN_ARROWS, ARROW_CORNERS);
-    if (options.samples == 1) draws.push_back({{Pass::finish, "sky.vert", "smooth.frag"}, Items::one, Mesh::none, 3});
+    if (smooths_on_device(options)) draws.push_back({{Pass::finish, "sky.vert", "smooth.frag"}, Items::one, Mesh::none, 3});
     draws.push_back({{Pass::finish, "overlay.vert", "overlay.frag", Cull::none, Compare::always, false, true, true},
                      Items::quads,
                      Mesh::none,

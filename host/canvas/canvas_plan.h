@@ -61,7 +61,7 @@ enum class Pass {
     sun_map,  // depth map from the sun, for shadows
     sky_map,  // depth map from above, for ambient occlusion
     picture,  // bodies and other geometry, depth tested
-    finish    // overlay: smoothing (with one sample per pixel), legend and caption
+    finish    // smoothing (smooths_on_device()), legend and caption
 };
 enum class Cull { none, back, front };  // discarded sides of triangles; counterclockwise on screen is front
 enum class Compare { always, less, greater, greater_or_equal };  // depth test: new depth against stored depth
@@ -97,6 +97,11 @@ struct Draw {
 // Push constant of the bodies' vertex shaders: run in the upper 24 bits, value in the lower 8.
 constexpr std::uint32_t pushed_for_run(std::uint32_t run, std::uint32_t value) {
     return run << 8 | value;
+}
+
+// Whether edges are smoothed by a shader, in a pass of its own; `options.samples` must be resolved.
+constexpr bool smooths_on_device(const CanvasOptions& options) {
+    return options.samples == 1 && options.smooth && (options.stays || options.bits == 16);
 }
 
 // The draws of a picture, sorted by pass. `options.samples` must be resolved to 1 or 4.

@@ -13,8 +13,12 @@ namespace {
 using glm::vec3;
 
 // Evenly spaced colours of the published maps (matplotlib's viridis, inferno, plasma; Nunez, Anderton and Renslow's cividis;
-// Mikhailov's turbo), 0xRRGGBB. The darkest colours of plasma and inferno are left out, since shading is not visible
-// on near black.
+// Mikhailov's turbo; Crameri's batlow), 0xRRGGBB. The darkest colours of plasma and inferno are left out, since shading is not
+// visible on near black. ember: even steps of lightness in OKLab with hues from 85 over 30 to -60 degrees.
+constexpr std::uint32_t EMBER[] = {0xcfccc5, 0xd7c9a2, 0xe1c36e, 0xefb229, 0xf2980a, 0xef7603,
+                                   0xe7441e, 0xcd1349, 0xa30066, 0x73007b, 0x450082};
+constexpr std::uint32_t BATLOW[] = {0x011959, 0x103f60, 0x1c5a62, 0x3c6d56, 0x687b3e,
+                                    0x9d892b, 0xd29343, 0xf8a17b, 0xfdb7bc, 0xfaccfa};
 constexpr std::uint32_t PLASMA[] = {0x2d0594, 0x5b02a3, 0x8707a6, 0xab2394, 0xca457a,
                                     0xe16462, 0xf2844b, 0xfca636, 0xfcce25, 0xf0f921};
 constexpr std::uint32_t INFERNO[] = {0x2f0a5b, 0x540f6d, 0x781c6d, 0x9b2964, 0xbc3754, 0xd84c3e,
@@ -28,6 +32,10 @@ constexpr std::uint32_t TURBO[] = {0x30123b, 0x4662d7, 0x36aaf9, 0x1ae4b6, 0x72f
 
 std::span<const std::uint32_t> knots_of(ColorMap map) {
     switch (map) {
+        case ColorMap::ember:
+            return EMBER;
+        case ColorMap::batlow:
+            return BATLOW;
         case ColorMap::plasma:
             return PLASMA;
         case ColorMap::inferno:
@@ -39,7 +47,7 @@ std::span<const std::uint32_t> knots_of(ColorMap map) {
         case ColorMap::turbo:
             return TURBO;
     }
-    return PLASMA;
+    return EMBER;
 }
 
 vec3 linear_color(std::uint32_t rgb) {
@@ -87,7 +95,7 @@ const std::vector<std::string>& color_by_names() {
     return names;
 }
 const std::vector<std::string>& color_map_names() {
-    static const std::vector<std::string> names{"plasma", "inferno", "viridis", "cividis", "turbo"};
+    static const std::vector<std::string> names{"ember", "plasma", "inferno", "viridis", "cividis", "turbo", "batlow"};
     return names;
 }
 std::optional<ColorBy> color_by_named(std::string_view name) {
@@ -124,7 +132,9 @@ vec3 name_color(unsigned n) {
 }
 
 float scale_place(const ColorScale& scale, float value) {
-    const auto place = [&](float v) { return scale.logarithmic ? std::log(std::max(v, 1e-30f)) : v; };
+    const auto place = [&](float v) {
+        return scale.logarithmic ? std::log(std::max(v, 1e-30f)) : scale.root ? std::sqrt(std::max(v, 0.0f)) : v;
+    };
     return std::clamp((place(value) - place(scale.low)) / (place(scale.high) - place(scale.low)), 0.0f, 1.0f);
 }
 
@@ -176,11 +186,11 @@ std::vector<float> scale_ticks(float low, float high, bool logarithmic, int most
 std::string tick_label(float value, bool logarithmic) {
     if (value == 0) return "0";
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value)) + 1e-6));
-    const bool plain = exponent >= -2 && exponent <= 3;
+    const bool plain = exponent >= -2 && exponent <= 4;
     if (logarithmic && !plain) return "10" + superscript(exponent);
     char text[32];
     if (plain) {
-        std::snprintf(text, sizeof text, "%.4g", static_cast<double>(value));
+        std::snprintf(text, sizeof text, "%.5g", static_cast<double>(value));
         return text;
     }
     std::snprintf(text, sizeof text, "%.3g", static_cast<double>(value) / std::pow(10.0, exponent));

@@ -24,7 +24,9 @@ enum class ColorBy {  // as COLOR_BY_* in shaders/render/frame.h
     rest,              // sleep timer; sleeping bodies have the colour at 1
     material
 };
-enum class ColorMap { plasma, inferno, viridis, cividis, turbo };  // all but turbo are monotonic in lightness
+// All but turbo are monotonic in lightness. ember falls, from a light neutral for 0 over yellow and red to violet; the
+// others rise.
+enum class ColorMap { ember, plasma, inferno, viridis, cividis, turbo, batlow };
 
 struct Material {
     glm::vec3 nature{0};  // coefficients and density, as in shaders/render/frame.h
@@ -34,10 +36,11 @@ struct Material {
 // The mapping of a quantity to colours; keep it fixed over a run so that colours are comparable between frames.
 struct ColorScale {
     ColorBy by = ColorBy::momentum;
-    ColorMap map = ColorMap::plasma;
+    ColorMap map = ColorMap::ember;
     float low = 0;    // in the unit of `by`; on a logarithmic scale > 0
     float high = 10;  // > low
     bool logarithmic = false;
+    bool root = false;  // places grow with the square root, so that small values are seen beside large ones; low >= 0
     std::vector<Material> materials;  // distinguished materials, at most 8; a body takes the colour of the nearest
 };
 

@@ -2,8 +2,10 @@
 #include "host/canvas/frame.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <tuple>
 
 namespace scree::host {
 namespace {
@@ -61,6 +63,48 @@ LightMap light_map(vec3 toward, vec3 eye, vec3 low, vec3 high, int size) {
     return map;
 }
 
+// Bodies within this multiple of the target's distance cast shadows; farther ones are small.
+constexpr float SHADOW_REACH = 8;
+
+// Bounds of the eye and of four far corners along two axes: low and high, from the eye.
+vec4 view_bounds(const std::array<vec3, 4>& corners, bool from_eye, vec3 right, vec3 up) {
+    vec4 bounds(1e30f, 1e30f, -1e30f, -1e30f);
+    const auto note = [&](vec3 point) {
+        const glm::vec2 at(glm::dot(right, point), glm::dot(up, point));
+        bounds = vec4(std::min(bounds.x, at.x), std::min(bounds.y, at.y), std::max(bounds.z, at.x), std::max(bounds.w, at.y));
+    };
+    if (from_eye) note(vec3(0));
+    for (const vec3& corner : corners) note(corner);
+    return bounds;
+}
+
+// What the level-of-detail shaders need to fit the light maps to bodies and view.
+void set_light_bounds(Frame& frame, const Camera& camera, vec3 sun, vec3 low, vec3 high) {
+    const float reach = SHADOW_REACH * glm::length(camera.target - camera.eye);
+    const Axes axes = axes_of(sun, vec3(0, 1, 0));
+    frame.box_low = vec4(low - camera.eye, reach);
+    frame.box_high = vec4(high - camera.eye, 0.5f * glm::length(high - low));
+    frame.sun_right = vec4(axes.right, glm::dot(axes.right, camera.eye));
+    frame.sun_up = vec4(axes.up, glm::dot(axes.up, camera.eye));
+    const vec3 corner(frame.ray_corner), across = vec3(frame.ray_right) * frame.ray_right.w,
+                                         down = vec3(frame.ray_down) * frame.ray_down.w, forward(frame.forward);
+    std::array<vec3, 4> corners{corner, corner + across, corner + down, corner + across + down};
+    for (vec3& each : corners) {
+        // Perspective corners are at 1 m along the axis; parallel ones are seen as far before as behind.
+        each = camera.orthographic ? each + forward * reach : each * reach;
+    }
+    frame.sun_view = view_bounds(corners, true, axes.right, axes.up);
+    frame.sky_view = view_bounds(corners, true, vec3(1, 0, 0), vec3(0, 0, -1));
+    if (!camera.orthographic) return;
+    for (vec3& each : corners) each -= forward * (2 * reach);
+    for (const auto& [view, right, up] :
+         {std::tuple(&frame.sun_view, axes.right, axes.up), std::tuple(&frame.sky_view, vec3(1, 0, 0), vec3(0, 0, -1))}) {
+        const vec4 behind = view_bounds(corners, false, right, up);
+        *view = vec4(glm::min(glm::vec2(*view), glm::vec2(behind)),
+                     glm::max(glm::vec2(view->z, view->w), glm::vec2(behind.z, behind.w)));
+    }
+}
+
 void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options) {
     const vec3 look = camera.target - camera.eye;
     if (!finite(camera.eye) || !finite(look) || !(glm::dot(look, look) > 0) || !finite(camera.up) || !(camera.near_plane > 0) ||
@@ -106,13 +150,18 @@ void set_camera(Frame& frame, const Camera& camera, const CanvasOptions& options
 }
 
 void set_scale(Frame& frame, const ColorScale& scale) {
-    if (has_scale(scale.by) &&
-        (!(scale.high > scale.low) || !std::isfinite(scale.high - scale.low) || (scale.logarithmic && !(scale.low > 0)))) {
-        throw std::invalid_argument("color scale: high must exceed low, and low exceed 0 when logarithmic");
+    if (has_scale(scale.by) && (!(scale.high > scale.low) || !std::isfinite(scale.high - scale.low) ||
+                                (scale.logarithmic && !(scale.low > 0)) || (scale.root && scale.low < 0))) {
+        throw std::invalid_argument("color scale: high must exceed low, and low exceed 0 when logarithmic, or be 0 with roots");
     }
-    const float low = scale.logarithmic ? std::log(scale.low) : scale.low;
-    const float high = scale.logarithmic ? std::log(scale.high) : scale.high;
-    frame.scale = vec4(low, high, scale.logarithmic ? 1.0f : 0.0f, static_cast<float>(scale.by));
+    const auto place = [&](float value) {
+        return scale.logarithmic ? std::log(value) : scale.root ? std::sqrt(std::max(value, 0.0f)) : value;
+    };
+    frame.scale = vec4(place(scale.low), place(scale.high),
+                       scale.logarithmic ? 1.0f
+                       : scale.root      ? 2.0f
+                                         : 0.0f,
+                       static_cast<float>(scale.by));
     for (uint i = 0; i < MAP_ENTRIES; ++i) {
         frame.colors[i] = vec4(map_color(scale.map, static_cast<float>(i) / static_cast<float>(MAP_ENTRIES - 1)), 1.0f);
     }
@@ -132,6 +181,9 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     const LightMap sky_map = light_map(vec3(0, 1, 0), camera.eye, low, high, SKY_MAP_SIZE);
     frame.sun_map = sun_map.matrix;
     frame.sky_map = sky_map.matrix;
+    set_light_bounds(frame, camera, sun, low, high);
+    // Haze and grid fade with the view, but not within the scene.
+    frame.eye.w = std::max(frame.eye.w, 3.5f * frame.box_high.w);
     frame.pixel.y = sky_map.depth;
     frame.pixel.z = 20 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);

@@ -114,7 +114,8 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
     const auto right = static_cast<float>(place.right), bottom = static_cast<float>(place.bottom);
     sheet.panel(left - m.padding - m.side, top - std::round(1.15f * m.text) - m.padding, right + m.padding + m.side,
                 static_cast<float>(height) - m.margin, std::round(7 * m.unit), glm::vec4(PANEL, 0.62f));
-    const std::string unit = color_unit(scale.by);
+    std::string unit = color_unit(scale.by);
+    if (scale.root) unit += unit.empty() ? "root scale" : ", root scale";
     const float title_base = top - std::round(0.42f * m.text);
     sheet.text(color_title(scale.by), left, title_base, m.text);
     sheet.text(unit, right - text_width(unit, m.small), title_base, m.small, 0.75f);

@@ -101,4 +101,11 @@ void make_folder(const std::filesystem::path& path) {
     if (!std::filesystem::is_directory(path, error)) fail("make the folder", path, ENOTDIR);
 }
 
+std::string unused_name(const std::string& base, const std::string& ending) {
+    std::string name = base + ending;
+    std::error_code none;
+    for (int i = 2; std::filesystem::exists(name, none); ++i) name = base + "-" + std::to_string(i) + ending;
+    return name;
+}
+
 }  // namespace scree::host

@@ -26,6 +26,9 @@ void write_atomically(const std::filesystem::path& path, std::span<const std::by
 // Folder of caches: $XDG_CACHE_HOME/scree, else ~/.cache/scree; empty if neither is known.
 std::filesystem::path cache_folder();
 
+// "base.png", or "base-2.png", "base-3.png" and so on, whichever does not exist yet.
+std::string unused_name(const std::string& base, const std::string& ending);
+
 // Creates a folder and its parents where they are missing. Throws FileError.
 void make_folder(const std::filesystem::path& path);
 

@@ -26,6 +26,9 @@ Image image_of_halves(int width, int height, std::span<const std::uint16_t> halv
 // The pixels without alpha: 3 or 6 bytes per pixel. Throws ImageError if rgba.size() does not match the image's size.
 std::vector<std::uint8_t> rgb_bytes(const Image& image);
 
+// Means of blocks of `factor` x `factor` pixels in linear light; the size must be a multiple of it. Throws ImageError.
+Image reduced(const Image& image, int factor);
+
 // Encodes a PNG file (bits per channel as in the image; opaque images are stored as RGB).
 std::vector<std::uint8_t> png_bytes(const Image& image);
 

@@ -250,12 +250,14 @@ void Window::Impl::record(VkImage picture, const Swapchain::Target& target, int 
     vk.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_PIPELINE_STAGE_TRANSFER_BIT, 0, 0, nullptr, 0, nullptr,
                             1, &barrier);
     const VkExtent2D extent = swapchain->extent();
+    const bool enlarges =
+        static_cast<std::uint32_t>(width) != extent.width || static_cast<std::uint32_t>(height) != extent.height;
     VkImageBlit blit{};
     blit.srcSubresource = blit.dstSubresource = {VK_IMAGE_ASPECT_COLOR_BIT, 0, 0, 1};
     blit.srcOffsets[1] = {width, height, 1};
     blit.dstOffsets[1] = {static_cast<std::int32_t>(extent.width), static_cast<std::int32_t>(extent.height), 1};
     vk.vkCmdBlitImage(commands, picture, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, target.image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL,
-                      1, &blit, VK_FILTER_NEAREST);
+                      1, &blit, enlarges ? VK_FILTER_LINEAR : VK_FILTER_NEAREST);
     panel->record(commands, *ImGui::GetDrawData(), target.view, extent);
     check(vk.vkEndCommandBuffer(commands), "vkEndCommandBuffer");
 }
@@ -279,11 +281,11 @@ bool Window::show(Canvas& canvas, const View& view) {
     Impl& in = *interior_;
     auto& drawing = dynamic_cast<VulkanCanvas&>(canvas);
     const int across = width(), down = height();
-    if (across == 0 || down == 0 || across != drawing.options().width || down != drawing.options().height) return false;
+    if (across == 0 || down == 0 || across < drawing.options().width || down < drawing.options().height) return false;
     const VkImage picture = drawing.draw_there(view.camera, view.scale, view.caption, view.low, view.high);
     const std::optional<Swapchain::Target> target = in.swapchain->acquire(across, down);
     if (!target) return false;
-    in.record(picture, *target, across, down);
+    in.record(picture, *target, drawing.options().width, drawing.options().height);
     in.submit(*target);
     in.swapchain->present();
     return true;

@@ -51,8 +51,8 @@ public:
     // Call ImGui's functions for the panel between these two.
     void begin_panel();
     void end_panel();
-    // Draws with the canvas (a Vulkan canvas on this device, of this size) and presents the picture with the panel
-    // over it. Returns false if nothing was presented: minimised, or resized meanwhile.
+    // Draws with the canvas (a Vulkan canvas on this device, of this size or smaller: it is enlarged) and presents the picture
+    // with the panel over it. Returns false if nothing was presented: minimised, or resized meanwhile.
     bool show(Canvas& canvas, const View& view);
 
 private:

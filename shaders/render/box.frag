@@ -15,8 +15,11 @@ void main() {
     float pixel = pixel_at(point);
     vec3 size = size_axis.xyz;
     float smallest = min(size.x, min(size.y, size.z));
-    float bevel = min(max(0.14 * smallest, 1.2 * pixel), 0.5 * smallest);
-    bevel = min(bevel, max(0.06, 1.2 * pixel));  // m; narrow on thin slabs
+    float natural = min(0.14 * smallest, 0.06);  // m; narrow on large bodies
+    float bevel = min(max(natural, 1.2 * pixel), 0.5 * smallest);
+    // Edges narrower than a pixel or two would be dotted lines, so they fade.
+    float shown = clamp(natural / (1.8 * pixel), 0.0, 1.0);
+    shown *= shown;
     // Normal of a box with edges rounded by `bevel`, evaluated on the flat face.
     vec3 over = max(abs(own) - (size - bevel), 0.0) * sign(own);
     // The face with the largest signed distance. At an edge either will do, since the normals are equal.
@@ -25,8 +28,8 @@ void main() {
     vec3 face = vec3(0);
     face[axis] = sign(own[axis]);
     vec3 rounded = over - face * dot(over, face) + face * bevel;
-    vec3 normal = turned(turn, normalize(rounded));
-    float edge = clamp(length(over - face * dot(over, face)) / bevel, 0.0, 1.0);
+    vec3 normal = turned(turn, normalize(mix(face, normalize(rounded), shown)));
+    float edge = shown * clamp(length(over - face * dot(over, face)) / bevel, 0.0, 1.0);
     // Lighter edges, and a tone per axis that distinguishes faces in the shade.
     float tone = (axis == 1 ? 1.0 : (axis == 0 ? 0.95 : 0.90)) * (1.0 + 0.22 * edge * edge);
     vec3 shaded = lit(color.rgb * tone, point, normal, d, 0.6) + color.rgb * (0.12 * color.a * color.a);

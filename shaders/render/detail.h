@@ -16,9 +16,15 @@ layout(std430, set = 0, binding = 1) readonly buffer PoseTable {
 layout(std430, set = 0, binding = 3) buffer InstanceTable {
     uint instances[];  // all bodies grouped by shape, then the visible ones grouped by run
 };
+#ifdef WRITES_FRAME
+layout(std430, set = 0, binding = 4) buffer FrameBlock {
+    Frame frame;
+};
+#else
 layout(std430, set = 0, binding = 4) readonly buffer FrameBlock {
     Frame frame;
 };
+#endif
 layout(std430, set = 0, binding = 13) buffer RunTable {
     BodyRun runs[];
 };
@@ -33,7 +39,7 @@ layout(std430, set = 0, binding = 14) buffer ArgumentTable {
     Arguments arguments[];
 };
 layout(std430, set = 0, binding = 15) buffer GroupTable {
-    uint group_counts[];
+    uint group_counts[];  // GROUP_WORDS per workgroup: bodies of each run, then bounds as bits of floats
 };
 
 uint bodies_to_see() {

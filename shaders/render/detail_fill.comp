@@ -14,5 +14,5 @@ void main() {
     // Stable within a run, so that bodies are drawn in the same order on every device.
     uint before = 0u;
     for (uint k = 0u; k < own; ++k) before += found[k] == run ? 1u : 0u;
-    instances[runs[run].first + group_counts[group * SEEN_RUNS + run] + before] = instances[place];
+    instances[runs[run].first + group_counts[group * GROUP_WORDS + run] + before] = instances[place];
 }

@@ -46,7 +46,7 @@ struct Frame {
     vec4 eye;              // world position, m; w: fading distance of the ground grid, m
     vec4 toward_sun;       // direction to the sun, unit; w: 1 with shadows
     vec4 toward_sky;       // direction up, unit; w: samples per pixel
-    vec4 scale;            // low, high (logarithms when logarithmic), 1 when logarithmic, COLOR_BY_*
+    vec4 scale;            // low, high (logarithms or roots of them); 1: of logarithms, 2: of roots; COLOR_BY_*
     vec4 maps;             // texel sizes of shadow map and sky map, m; the same as fractions of the maps
     vec4 pixel;   // pixel width at distance 1 m (orthographic: everywhere), m; depth of the sky map, m; height at which occlusion
                   // halves, m; orthographic: clip depth per m towards the eye, 1/m
@@ -54,6 +54,12 @@ struct Frame {
                   // sleeping bodies
     vec4 rest;    // still steps before sleep, 0: never; duration of a step, s; finest grid cell, m; arrow length per m/s, s
     vec4 joints;  // acceleration of the lighter body that is the unit of a joint's colour, m/s^2; 0; 0; 0
+    vec4 box_low;    // corner of the scene's box, from the eye, m; w: distance to which bodies cast shadows, m
+    vec4 box_high;   // the other corner; w: half its diagonal, m
+    vec4 sun_right;  // axes of the sun's map; w: the eye's coordinates on them, m
+    vec4 sun_up;
+    vec4 sun_view;                   // bounds of what the camera sees on the axes of the sun's map, from the eye: low, high, m
+    vec4 sky_view;                   // likewise on those of the sky's map, x and -z
     vec4 sides[4];                   // sides of the view frustum: unit normals inwards; w: distance of the eye inside, m
     vec4 materials[MOST_MATERIALS];  // friction, restitution, density in kg/m^3
     vec4 colors[MAP_ENTRIES];        // the colour map, linear RGB
@@ -85,7 +91,9 @@ RENDER_CONSTANT uint RUN_PLANES = 13u;
 RENDER_CONSTANT uint RUN_ARROWS = 14u;  // velocity arrows
 RENDER_CONSTANT uint RUN_CUBES = 15u;
 RENDER_CONSTANT uint RUNS = 16u;
-RENDER_CONSTANT uint NOT_SEEN = 9u;        // culled: in no run
+RENDER_CONSTANT uint NOT_SEEN = 9u;       // culled: in no run
+RENDER_CONSTANT uint LIGHT_BOUNDS = 12u;  // floats per workgroup: least coordinates, and greatest ones negated, in both maps
+RENDER_CONSTANT uint GROUP_WORDS = SEEN_RUNS + LIGHT_BOUNDS;
 RENDER_CONSTANT uint DETAIL_GROUP = 128u;  // bodies per workgroup of the level-of-detail shaders
 
 // Level of detail by radius in pixels: the coarsest mesh whose outline stays within a third of a pixel of the circle.

@@ -10,9 +10,6 @@ layout(std430, set = 0, binding = 11) readonly buffer TouchTable {
 layout(std430, set = 0, binding = 12) readonly buffer PushTable {
     Impulse pushes[];
 };
-layout(push_constant) uniform Pass {
-    uint hidden;  // 1 to draw what bodies hide, faintly
-};
 layout(location = 0) out vec2 out_at;          // along and across the line, pixels from the contact point
 layout(location = 1) flat out vec4 out_shape;  // half length of the line; radius of the disc; half width of the line; rim; pixels
 layout(location = 2) flat out vec4 out_color;
@@ -81,7 +78,7 @@ void main() {
     float half_line = min(length(line) + disc * seen, 0.25 * frame.ray_down.w);
     float rim = clamp(0.35 * disc, 0.7, 1.6 * unit);
     out_shape = vec4(half_line, disc, clamp(0.32 * disc, 0.5, 1.4 * unit), rim);
-    out_color = vec4(pushing ? PUSHING : IDLE, hidden != 0u ? 0.16 : 1.0);
+    out_color = vec4(pushing ? PUSHING : IDLE, 1.0);
 
     vec2 corner = vec2((gl_VertexIndex & 1) * 2 - 1, (gl_VertexIndex >> 1) * 2 - 1);
     vec2 reach = vec2(max(half_line + out_shape.z, disc), disc) + rim + 1.0;

@@ -106,7 +106,7 @@ vec4 full_color(uint body) {
     if (by == COLOR_BY_BODY) return vec4(name_color(ids[body]), 0.0);
     if (by == COLOR_BY_MATERIAL) return vec4(name_color(material_of(body)), 0.0);
     float q = quantity(by, body);
-    float x = frame.scale.z > 0.5 ? log(max(q, 1e-30)) : q;
+    float x = frame.scale.z > 1.5 ? sqrt(max(q, 0.0)) : frame.scale.z > 0.5 ? log(max(q, 1e-30)) : q;
     float t = clamp((x - frame.scale.x) / (frame.scale.y - frame.scale.x), 0.0, 1.0);
     return vec4(map_color(t), t);
 }

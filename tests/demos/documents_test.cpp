@@ -2,9 +2,11 @@
 #include <catch2/catch.hpp>
 #include <filesystem>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
 
+#include "demos/program/report.h"
 #include "demos/suite/selection.h"
 #include "demos/suite/suite.h"
 #include "demos/validate/experiment.h"
@@ -34,4 +36,15 @@ TEST_CASE("the table of experiments in tests/README.md is what the program print
     REQUIRE(table.find("| pendulum |") != std::string::npos);
     INFO("write the output of `scree validate --list` into tests/README.md, behind the line <!-- experiments -->");
     REQUIRE(tests_readme().find("<!-- experiments -->\n\n" + table + "\n<!-- end of experiments -->\n") != std::string::npos);
+}
+
+TEST_CASE("demos/README.md tells what every key of a report means", "[demos]") {
+    std::ostringstream readme;
+    readme << std::ifstream(std::filesystem::path(SCREE_SOURCE_DIR) / "demos/README.md").rdbuf();
+    const std::string text = readme.str();
+    const nlohmann::json report = nlohmann::json::parse(scree::demos::json_of({}));
+    for (const auto& [key, value] : report.items()) {
+        INFO(key);
+        CHECK(text.find("`" + key + "`") != std::string::npos);
+    }
 }

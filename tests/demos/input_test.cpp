@@ -118,6 +118,31 @@ TEST_CASE("what was done after the last step is done again") {
     REQUIRE(replayed(session.input(), session.options()) == session.world().state_hash());
 }
 
+TEST_CASE("a session goes back to any moment with the same bits, and on from there") {
+    for (const char* name : {"stack", "dominoes"}) {
+        Session session(options_of(name), on_cpu);
+        std::vector<std::uint64_t> hashes;
+        play(session);
+        const std::uint64_t end = session.world().state_hash(), last = session.world().steps();
+        const Input whole = session.input();
+        session.go_to(40);
+        REQUIRE(session.world().steps() == 40);
+        REQUIRE(session.farthest_step() == last);
+        const std::uint64_t middle = session.world().state_hash();
+        REQUIRE(replayed(session.input(), session.options()) == middle);
+        session.go_to(last);  // the recorded commands are repeated
+        REQUIRE(session.world().state_hash() == end);
+        REQUIRE(json_of(session.input()) == json_of(whole));
+        session.go_to(40);
+        REQUIRE(session.world().state_hash() == middle);
+        session.perform(Explode{vec3(0), 50, 3});  // a branch: what came later is gone
+        REQUIRE(session.farthest_step() == 40);
+        for (int i = 0; i < 20; ++i) session.step();
+        REQUIRE(session.world().state_hash() != end);
+        REQUIRE(replayed(session.input(), session.options()) == session.world().state_hash());
+    }
+}
+
 TEST_CASE("an act that the world refuses is not recorded") {
     Session session(options_of("stack"), on_cpu);
     REQUIRE_THROWS_AS(session.perform(Drag{0, vec3(0)}), std::out_of_range);

@@ -14,20 +14,38 @@
 using namespace scree::host;
 using glm::vec3;
 
-TEST_CASE("perceptual colour maps grow lighter", "[canvas]") {
+TEST_CASE("perceptual colour maps grow lighter, or darker from a light neutral", "[canvas]") {
     for (const std::string& name : color_map_names()) {
         CAPTURE(name);
         if (name == "turbo") continue;  // a rainbow map, not monotonic in lightness
-        float before = -1;
+        const float sign = name == "ember" ? -1.0f : 1.0f;
+        float before = -2;
         for (int i = 0; i <= 100; ++i) {
             const vec3 c = map_color(*color_map_named(name), static_cast<float>(i) / 100.0f);
-            const float luminance = 0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b;
+            const float luminance = sign * (0.2126f * c.r + 0.7152f * c.g + 0.0722f * c.b);
             CHECK(luminance > before - 1e-4f);
             before = luminance;
         }
     }
     CHECK_FALSE(color_map_named("jet"));
     CHECK_FALSE(color_by_named("mass"));
+}
+
+TEST_CASE("the zero of ember is a light neutral", "[canvas]") {
+    const vec3 zero = map_color(ColorMap::ember, 0);
+    CHECK(std::min({zero.r, zero.g, zero.b}) > 0.5f);
+    CHECK(std::max({zero.r, zero.g, zero.b}) - std::min({zero.r, zero.g, zero.b}) < 0.1f);
+}
+
+TEST_CASE("on a scale of roots a quarter of the range is its middle", "[canvas]") {
+    ColorScale scale;
+    scale.low = 0;
+    scale.high = 100;
+    scale.root = true;
+    CHECK(scale_place(scale, 0) == 0);
+    CHECK(scale_place(scale, 25) == Approx(0.5));
+    CHECK(scale_place(scale, 100) == 1);
+    CHECK(scale_place(scale, -3) == 0);
 }
 
 TEST_CASE("ticks are round numbers between the ends", "[canvas]") {

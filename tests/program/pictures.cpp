@@ -1,6 +1,7 @@
 // Pictures by the program: raw frames, previews, 16 bits, cameras, overlays, and refusals.
 #include <signal.h>
 
+#include <array>
 #include <catch2/catch.hpp>
 #include <chrono>
 #include <nlohmann/json.hpp>
@@ -148,7 +149,7 @@ TEST_CASE("program: cameras change the picture, and a path in the scene file is 
 }
 
 TEST_CASE("program: a camera that cannot be is refused with its place and the cure", "[program]") {
-    require_refused("dominoes --camera zoom", {"--camera", "fit, orbit, follow"});
+    require_refused("dominoes --camera zoom", {"--camera", "fit, orbit, follow, chase, still"});
     require_refused("dominoes --camera orbit:fast", {"\"fast\" is not a number"});
     require_refused("dominoes --camera orbit:0", {"orbit", "0.1"});
     require_refused("dominoes --camera follow", {"follow:NAME"});
@@ -180,9 +181,109 @@ TEST_CASE("program: what pictures show is chosen by words", "[program]") {
     REQUIRE(picture_of(run + "--no-legend") != plain);
     REQUIRE(picture_of(run + "--color angular-momentum --color-scale log") != plain);
     REQUIRE(picture_of(run + "--show contacts,velocities,joints,boxes,cells,sleep").size() > 100);
-    require_refused("rest --show bodies", {"--show", "contacts, velocities, joints, boxes, cells, sleep"});
-    require_refused("rest --color-scale cubic", {"--color-scale", "linear, log"});
+    require_refused("rest --show bodies", {"--show", "contacts, velocities, joints, boxes, cells, sleep, none"});
+    require_refused("rest --color-scale cubic", {"--color-scale", "auto, linear, root, log"});
     require_refused("rest --steps 1 --frames none --color-scale log --color-range 0:5", {"above 0", "--color-range"});
     require_refused("rest --png-depth 12", {"--png-depth"});
     require_refused("rest --steps 1 --preview clip.png", {".gif", ".webp"});
+}
+
+TEST_CASE("program: a scene file says how it is run and shown, and options go before it", "[program]") {
+    const Place place;
+    const std::string file =
+        place.write("scene.json", R"({"bodies": [{"name": "ground", "motion": "fixed", "shape": {"plane": {}}},
+        {"name": "ball", "shape": {"sphere": {"radius": 0.5}}, "position": [0, 2, 0]},
+        {"name": "lift", "motion": "kinematic", "shape": {"box": {"half_extents": [1, 0.1, 1]}}, "position": [5, 1, 0]}],
+        "settings": {"substeps": 4, "rate": 120}, "duration": 0.5,
+        "camera": {"eye": [0, 2, 8], "target": [0, 1, 0], "follow": "lift"},
+        "picture": {"color": "speed", "color_map": "viridis", "show": ["velocities"]},
+        "events": [{"time": 0.1, "action": {"glide": {"body": "lift", "to": [5, 2, 0], "duration": 0.2}}},
+                   {"time": 0.2, "action": {"gravity": {"gravity": [0, 0, 0]}}}]})");
+    const auto report = [&](const std::string& options) {
+        const Outcome run = run_scree("run '" + file + "' --backend cpu --report - " + options);
+        INFO(run.errors);
+        REQUIRE(run.status == 0);
+        return json::parse(run.output);
+    };
+    const json own = report("");
+    REQUIRE(own["steps"] == 60);
+    REQUIRE(own["settings"]["substeps"] == 4);
+    REQUIRE(own["settings"]["rate"] == 120);
+    REQUIRE(own["max_speed"].get<double>() == Approx(0.2 * 9.81).epsilon(0.02));
+    REQUIRE(own["promise"]["judged"] == true);
+    REQUIRE(own["promise"]["pass"] == true);
+    REQUIRE(own["seed"].is_null());
+    REQUIRE(says(own["command_line"].get<std::string>(), "--report -"));
+    REQUIRE(own["scene_hash"].get<std::string>().size() == 16);
+    REQUIRE(report("--substeps 8 --steps 6")["settings"]["substeps"] == 8);
+    const std::string run = "'" + file + "' " + small + "--steps 1 --fps 10 ";
+    const std::string plain = picture_of(run);
+    for (const char* other :
+         {"--color momentum", "--show none", "--color-map ember", "--camera still --eye 1,2,8", "--samples 4"}) {
+        INFO(other);
+        REQUIRE(picture_of(run + other) != plain);
+    }
+    // Saved scenes keep what is to come.
+    const std::string saved = (place / "saved.json").string();
+    REQUIRE(run_scree("run '" + file + "' --backend cpu --seconds 0.15 --quiet --save '" + saved + "'").status == 0);
+    const json kept = json::parse(place.read("saved.json"));
+    REQUIRE(kept["events"].size() == 2);
+    REQUIRE(kept["settings"]["rate"] == 120);
+    REQUIRE(kept["picture"]["color"] == "speed");
+    const std::string wrong = place.write("wrong.json", R"({"bodies": [{"shape": {"sphere": {"radius": 1}}}], "events": [
+        {"time": 1, "action": {"release": {"joint": 0}}}]})");
+    const Outcome refused = run_scree("run '" + wrong + "'");
+    REQUIRE(refused.status == 2);
+    REQUIRE(says(refused.errors, "wrong.json: /events/0/action/release/joint: there is no joint 0"));
+}
+
+TEST_CASE("program: pictures of more samples have the same size, and --samples takes squares", "[program]") {
+    const std::string run = "run rest --steps 1 --fps 10 --quiet --raw - " + small;
+    REQUIRE(run_scree(run + "--samples 9").output.size() == 96 * 64 * 3);
+    require_refused("rest --steps 1 --frames none --samples 3", {"--samples"});
+}
+
+TEST_CASE("program: a run that needs more substeps is told so", "[program]") {
+    const Place place;
+    // A column of heavy boxes whose lowest contacts give way.
+    std::string bodies = R"({"name": "ground", "motion": "fixed", "shape": {"plane": {}}})";
+    for (int i = 0; i < 30; ++i)
+        bodies += R"(, {"shape": {"box": {"half_extents": [0.5, 0.1, 0.5]}}, "position": [0, )" + std::to_string(0.1 + 0.2 * i) +
+                  ", 0]}";
+    const std::string file = place.write("column.json", R"({"bodies": [)" + bodies + "]}");
+    const json few = json::parse(run_scree("run '" + file + "' --backend cpu --seconds 3 --substeps 2 --report -").output);
+    INFO(few.dump(1));
+    REQUIRE(few["advice"].size() >= 1);
+    REQUIRE(says(few["advice"][0]["finding"].get<std::string>(), "penetration"));
+    REQUIRE(says(few["advice"][0]["remedy"].get<std::string>(), "--substeps 4"));
+    const json enough = json::parse(run_scree("run '" + file + "' --backend cpu --seconds 3 --substeps 16 --report -").output);
+    INFO(enough["advice"].dump(1));
+    REQUIRE(enough["advice"].empty());
+}
+
+TEST_CASE("program: the cameras of pictures are told so that a point is found at its pixel", "[program]") {
+    const Place place;
+    const std::string file = (place / "cameras.json").string();
+    const Outcome run = run_scree(
+        "run rest " + small + "--steps 12 --fps 10 --quiet --raw /dev/null --eye 3,4,5 --target 0,1,0 --cameras '" + file + "'");
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    const json cameras = json::parse(place.read("cameras.json"));
+    REQUIRE(cameras["frames"].size() == 3);
+    const json& frame = cameras["frames"][1];
+    REQUIRE(frame["time"].get<double>() == Approx(0.1));
+    const auto seen = [&](std::array<double, 3> point) {
+        std::array<double, 3> at{};
+        for (std::size_t row = 0; row < 3; ++row) {
+            const json& m = frame["world_to_camera"][row];
+            at[row] = m[3].get<double>();
+            for (std::size_t k = 0; k < 3; ++k) at[row] += m[k].get<double>() * point[k];
+        }
+        return std::pair(48 - frame["focal"].get<double>() * at[0] / at[2], 32 + frame["focal"].get<double>() * at[1] / at[2]);
+    };
+    REQUIRE(seen({0, 1, 0}).first == Approx(48));  // the target is in the middle
+    REQUIRE(seen({0, 1, 0}).second == Approx(32));
+    REQUIRE(seen({0, 2, 0}).second < 30);  // up is up
+    REQUIRE(seen({5, 1, -3}).first > 50);  // and right is right
+    require_refused("rest --cameras c.json", {"--cameras", "no pictures are asked for"});
 }

@@ -4,6 +4,7 @@
 
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "tests/program/program.h"
@@ -261,17 +262,20 @@ TEST_CASE("program: Ctrl-C tells of a video that could not be written", "[progra
     REQUIRE_FALSE(std::filesystem::exists(place / "clip.mp4"));
 }
 
-TEST_CASE("program: Ctrl-C ends a long run with whole pictures, no report, and status 130", "[program]") {
+TEST_CASE("program: Ctrl-C ends a long run with whole pictures, a report of what there is, and status 130", "[program]") {
     const Place place;
     const Outcome outcome = run_until_pictures(place);
     INFO(outcome.errors);
     REQUIRE(outcome.status == 130);
     REQUIRE(says(outcome.errors, "interrupted after"));
-    REQUIRE_FALSE(std::filesystem::exists(place / "r.json"));
+    const nlohmann::json report = nlohmann::json::parse(place.read("r.json"));
+    REQUIRE(report["interrupted"] == true);
+    REQUIRE(report["steps"] > 0);
+    REQUIRE(report["frames"] >= 4);
     for (const auto& entry : std::filesystem::directory_iterator(place.path())) {
         INFO(entry.path());
         const std::string name = entry.path().filename().string();
-        REQUIRE((name == "frames" || name == "pid" || name == "clip.mp4"));
+        REQUIRE((name == "frames" || name == "pid" || name == "clip.mp4" || name == "r.json"));
         if (name == "clip.mp4") REQUIRE(says(place.read(name), "moov"));  // the index, which is written last
     }
     for (const auto& entry : std::filesystem::directory_iterator(place / "frames")) {

@@ -20,6 +20,10 @@ double Backend::copy_speed() const {
     return device ? host::device_copy_speed(device) : host::processor_copy_speed(options.threads);
 }
 
+std::string Backend::driver() const {
+    return device ? device->report().driver : "";
+}
+
 void Backend::require_valid() const {
     const std::shared_ptr<host::Device>& watched = device ? device : screen;
     if (!watched || !options.validate) return;
@@ -39,9 +43,10 @@ void take_the_faster(Backend& machine) {
                              [&] { return make_reference_runner(machine.options.threads); });
     });
     const bool leave = paces.processor < paces.device;
-    machine.remark =
-        fmt::format("simulating {}: a step of {} resting boxes took {:.1f} ms on {} and {:.1f} ms on the processor",
-                    leave ? "on the processor" : "on " + device.name, heap_bodies, paces.device, device.name, paces.processor);
+    if (!paces.known)
+        machine.remark = fmt::format(
+            "simulating {}: a step of {} resting boxes took {:.1f} ms on {} and {:.1f} ms on the processor",
+            leave ? "on the processor" : "on " + device.name, heap_bodies, paces.device, device.name, paces.processor);
     if (leave) machine.device = nullptr;
 }
 

@@ -27,7 +27,7 @@ struct CompareOptions {
 int compare(const CompareOptions& options) {
     const LoadedScene subject = load_subject(options.scene);
     const Backend machine = choose_machine(options.machine, Choice::a_device);
-    const int steps = options.scene.step_count(1);
+    const int steps = options.scene.step_count(1, subject.settings(options.scene).rate);
     std::optional<Progress> progress(std::in_place, subject.name, steps, "steps", options.quiet);
     const LockstepResult result = at_work([&] {
         return compare_in_lockstep(subject.scene, subject.settings(options.scene), machine.device, options.machine.threads, steps,

@@ -2,13 +2,9 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <chrono>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
-#include "demos/film/drawing.h"
-#include "demos/film/pictures.h"
-#include "demos/play/interaction.h"
+#include "demos/film/style.h"
 #include "demos/program/backend.h"
 #include "demos/program/commands.h"
 #include "demos/program/console.h"
@@ -17,202 +13,11 @@
 #include "demos/program/loaded_scene.h"
 #include "demos/program/option_parsing.h"
 #include "demos/program/output_check.h"
-#include "demos/program/report.h"
-#include "demos/program/window/panel.h"
-#include "host/files/file.h"
-#include "host/window/window.h"
+#include "demos/program/window/viewer.h"
 
 namespace scree::demos {
 
 namespace {
-
-using Clock = std::chrono::steady_clock;
-constexpr double report_every = 0.5;  // s
-
-struct ViewOptions {
-    SceneOptions scene;
-    MachineOptions machine;
-    std::string size = "1280x720";
-    Extent extent;
-    std::string color = "momentum";
-    std::string record, report;
-};
-
-double seconds_between(Clock::time_point from, Clock::time_point to) {
-    return std::chrono::duration<double>(to - from).count();
-}
-
-// An event rate, averaged over about a second.
-class Meter {
-public:
-    void count(std::uint64_t events, double seconds) {
-        events_ += static_cast<double>(events);
-        seconds_ += seconds;
-        if (seconds_ < 0.5) return;
-        rate_ = events_ / seconds_;
-        events_ = seconds_ = 0;
-    }
-    double rate() const { return rate_; }
-
-private:
-    double events_ = 0, seconds_ = 0, rate_ = 0;
-};
-
-host::Camera camera_of(const OrbitCamera& eye) {
-    host::Camera camera;
-    const Viewpoint view = eye.viewpoint();
-    camera.eye = view.eye;
-    camera.target = view.target;
-    camera.vertical_fov = view.vertical_fov;
-    return camera;
-}
-
-// The window with its session, interaction and drawing.
-class Viewer {
-public:
-    Viewer(const ViewOptions& options, const host::Display& display, Backend machine);
-    void run();
-    void write_report();
-    void write_recording();
-
-private:
-    bool is_over();
-    void take_events(double wait);
-    void make_drawing();
-    void draw();
-
-    const ViewOptions& options_;
-    Backend machine_;
-    Session session_;
-    Interaction interaction_;
-    Panel panel_;
-    host::Window window_;
-    std::unique_ptr<Drawing> drawing_;
-    std::uint64_t drawn_beginning_ = 0;
-    Extent drawn_extent_{0, 0};
-    std::string color_;
-    Rates rates_;
-    std::uint64_t pictures_ = 0;
-    std::optional<std::uint64_t> last_step_;  // step at which the window closes by itself
-    Clock::time_point started_ = Clock::now();
-};
-
-Viewer::Viewer(const ViewOptions& options, const host::Display& display, Backend machine)
-    : options_(options),
-      machine_(std::move(machine)),
-      session_(options.scene, [this] { return machine_.make_runner(); }),
-      interaction_(session_, options.extent),
-      window_(display, machine_.screen, "scree", options.extent.width, options.extent.height),
-      color_(options.color) {
-    if (options.scene.steps || options.scene.seconds)
-        last_step_ = static_cast<std::uint64_t>(options.scene.step_count(session_.subject().seconds));
-}
-
-bool Viewer::is_over() {
-    const bool all_steps = last_step_ && session_.world().steps() >= *last_step_;
-    return all_steps || window_.wants_to_close() || interaction_.wants_to_close() || is_interrupted();
-}
-
-void Viewer::take_events(double wait) {
-    for (const host::Event& event : window_.poll(wait)) {
-        interaction_.on(event);
-        if (event.kind == host::EventKind::key_pressed && event.key == host::key_of('H')) panel_.shown = !panel_.shown;
-    }
-}
-
-// Recreates the drawing for another world or another size.
-void Viewer::make_drawing() {
-    const Extent extent{window_.width(), window_.height()};
-    const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_extent_.width == extent.width &&
-                      drawn_extent_.height == extent.height;
-    if (same) return;
-    host::CanvasOptions canvas;
-    canvas.width = extent.width;
-    canvas.height = extent.height;
-    drawing_.reset();
-    drawing_ = std::make_unique<Drawing>("vulkan", machine_, session_.world(), canvas);
-    if (drawn_beginning_ != session_.beginnings()) window_.set_title("scree: " + session_.subject().name);
-    drawn_beginning_ = session_.beginnings();
-    drawn_extent_ = extent;
-}
-
-void Viewer::draw() {
-    if (window_.width() < 16 || window_.height() < 16) return;  // minimised
-    window_.begin_panel();
-    panel_.lay_out(session_, interaction_, rates_, color_);
-    window_.end_panel();
-    make_drawing();
-    drawing_->update();
-    const LoadedScene& subject = session_.subject();
-    const World& world = session_.world();
-    const std::string caption =
-        panel_.shown ? ""
-                     : fmt::format("{}\n{}, {:.2f} s{}", subject.name, counted(world.bodies_there(), "body", "bodies"),
-                                   world.time(), interaction_.paused ? ", paused" : "");
-    PictureOptions colors;
-    colors.color = color_;
-    const host::View view{camera_of(interaction_.eye()), scale_of(colors, subject, world.settings()), caption, subject.low,
-                          subject.high};
-    if (window_.show(drawing_->canvas(), view)) ++pictures_;
-}
-
-void Viewer::run() {
-    Meter steps, pictures;
-    Clock::time_point before = Clock::now(), reported = before;
-    while (!is_over()) {
-        const bool minimised = window_.width() == 0;
-        take_events(minimised ? 0.05 : interaction_.paused ? 0.02 : 0);  // poll slowly while paused
-        const Clock::time_point now = Clock::now();
-        const double seconds = seconds_between(std::exchange(before, now), now);
-        const std::uint64_t step = session_.world().steps(), picture = pictures_, beginning = session_.beginnings();
-        interaction_.advance(seconds);
-        draw();
-        steps.count(beginning == session_.beginnings() ? session_.world().steps() - std::min(step, session_.world().steps()) : 0,
-                    seconds);
-        pictures.count(pictures_ - picture, seconds);
-        rates_ = {steps.rate(), pictures.rate()};
-        if (seconds_between(reported, now) < report_every) continue;
-        write_report();
-        reported = now;
-    }
-}
-
-void Viewer::write_report() {
-    if (options_.report.empty()) return;
-    World& world = session_.world();
-    nlohmann::ordered_json holds = nlohmann::ordered_json::array();
-    const auto numbers = [](vec3 v) { return nlohmann::ordered_json{v.x, v.y, v.z}; };
-    for (const Handled& hold : interaction_.handled())
-        holds.push_back({{"body", hold.body}, {"from", numbers(hold.from)}, {"to", numbers(hold.to)}});
-    nlohmann::ordered_json json = {{"demo", session_.subject().name},
-                                   {"backend", world.runner().backend()},
-                                   {"device", world.runner().device()},
-                                   {"bodies", world.scene().bodies.size()},
-                                   {"steps", world.steps()},
-                                   {"state_hash", hash_text(world.state_hash())},
-                                   {"paused", interaction_.paused},
-                                   {"grabbed", holds},
-                                   {"thrown", interaction_.thrown()},
-                                   {"width", window_.width()},
-                                   {"height", window_.height()},
-                                   {"pictures", pictures_},
-                                   {"steps_per_second", rates_.steps},
-                                   {"pictures_per_second", rates_.pictures},
-                                   {"seconds", seconds_between(started_, Clock::now())}};
-    if (interaction_.vehicle()) {
-        const VehicleState vehicle = world.vehicle(*interaction_.vehicle());
-        json["vehicle"] = {{"speed", vehicle.speed}, {"by_route", vehicle.by_route}, {"steer", vehicle.controls.steer}};
-    }
-    if (interaction_.selected()) {
-        json["selected"] = *interaction_.selected();
-        json["selected_position"] = numbers(world.body(*interaction_.selected()).position);
-    }
-    host::write_atomically(options_.report, json.dump(1) + "\n");
-}
-
-void Viewer::write_recording() {
-    if (!options_.record.empty()) host::write_atomically(options_.record, json_of(session_.input()));
-}
 
 Extent extent_of(const std::string& word) {
     Extent extent;
@@ -263,7 +68,8 @@ void add_view(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     command->add_option("--size", options->size, "Window size in pixels, WIDTHxHEIGHT. Default: 1280x720.")->group("Window");
     command
-        ->add_option("--color", options->color, "Quantity shown by colour at first (words: scree run --help). Default: momentum.")
+        ->add_option("--color", options->pictures.color,
+                     "Quantity shown by colour at first (words: scree run --help). Default: the scene's, mostly momentum.")
         ->check(one_of(color_words()))
         ->group("Window");
     command
@@ -272,7 +78,7 @@ void add_view(CLI::App& program, int& status) {
         ->group("Window");
     command->add_option("--report", options->report, "JSON status file, rewritten every half second and at closing.")
         ->group("Window");
-    command->footer(std::string("In the window:\n") + key_help +
+    command->footer(std::string("In the window:\n") + key_help_text() +
                     "\n\nExamples:\n  scree view wall\n  scree view pile --bodies 3k --record played.json\n"
                     "  scree run --input played.json --video played.mp4");
     command->callback([options, &status] { status = view(*options); });

@@ -1,10 +1,14 @@
-// The window's panel: clock, rates, settings, and data of the selected body.
+// The window's panel: clock, rates, settings, overlays, graphs, and data of the selected body.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compute/world.h"
+#include "demos/film/style.h"
+#include "demos/play/contact_points.h"
+#include "demos/play/history.h"
 #include "demos/play/interaction.h"
 
 namespace scree::demos {
@@ -12,27 +16,52 @@ namespace scree::demos {
 struct Rates {
     double steps = 0;     // steps per second of wall clock
     double pictures = 0;  // pictures per second
+    double step_ms = 0;   // time of a step
+};
+
+// What the panel asks of the window.
+struct Wishes {
+    bool picture = false;    // write the next picture to a file
+    bool recording = false;  // write the recording so far
 };
 
 class Panel {
 public:
-    // Lays out the panel and the line of the grab spring in Dear ImGui's current frame. `color` is one of
-    // color_words(), which the user may change.
-    void lay_out(Session& session, Interaction& interaction, const Rates& rates, std::string& color);
+    // Lays out the panel and the marks over the picture in Dear ImGui's current frame. The user may change `style`.
+    Wishes lay_out(Session& session, Interaction& interaction, const Rates& rates, PictureStyle& style);
+    void tell(std::string message) { told_ = std::move(message); }  // shown until the next
 
     bool shown = true;
 
 private:
     void show_clock(Session& session, Interaction& interaction, const Rates& rates);
+    void show_timeline(Session& session, Interaction& interaction);
     void show_dials(Session& session, Interaction& interaction);
-    void show_additions(Interaction& interaction);
+    void show_overlays(PictureStyle& style);
+    void show_additions(Interaction& interaction, Wishes& wishes);
     void show_selected(Session& session, Interaction& interaction);
     void show_vehicle(Session& session, Interaction& interaction);
+    void show_graphs(Session& session, Interaction& interaction, const Rates& rates);
+    void write_graphs(const Session& session);
+    // panel_marks.cpp: lines over the picture
+    void show_marks(Session& session, Interaction& interaction);
     void show_pull(Interaction& interaction) const;
+    void show_outline(const World& world, const Interaction& interaction, std::size_t body, unsigned color) const;
+    void show_forces(const World& world, const Interaction& interaction) const;
+    void show_hovered(Session& session, Interaction& interaction);
+    void look_at(const World& world, std::size_t body);
 
-    std::vector<BodyContact> touching_;  // contacts of the selected body, updated several times per second
-    double looked_at_ = -1;              // time of the update, s of Dear ImGui's clock
-    std::size_t looked_body_ = 0;
+    std::vector<ContactPoint> points_;  // contacts of the selected body, updated several times per second
+    double looked_at_ = -1;             // time of the update, s of Dear ImGui's clock
+    std::optional<std::size_t> looked_body_;
+    std::optional<std::size_t> hovered_;  // body under the pointer, and what is said of it; updated likewise
+    std::string hovered_text_;
+    double hovered_at_ = -1;
+    History history_;
+    std::optional<int> wanted_step_;  // of the timeline, while it is dragged
+    std::string told_;
 };
+
+std::string name_of(const Scene& scene, std::size_t body);  // "box 17 \"brick\""
 
 }  // namespace scree::demos

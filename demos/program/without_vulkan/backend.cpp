@@ -18,6 +18,10 @@ double Backend::copy_speed() const {
     return host::processor_copy_speed(options.threads);
 }
 
+std::string Backend::driver() const {
+    return "";
+}
+
 void Backend::require_valid() const {}
 
 Backend choose_machine(const MachineOptions& options, Choice, const std::vector<const char*>&) {

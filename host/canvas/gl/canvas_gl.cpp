@@ -7,6 +7,7 @@
 #include "host/canvas/frame.h"
 #include "host/canvas/gl/canvas_gl_impl.h"
 #include "host/canvas/overlay.h"
+#include "host/canvas/smoothing.h"
 
 namespace scree::host {
 namespace {
@@ -121,7 +122,7 @@ void GlCanvas::Impl::draw_picture(std::uint32_t quad_count) const {
     gl.glClearDepthf(0);  // reversed depth: 0 is infinitely far
     gl.glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     draw_all(Pass::picture, quad_count);
-    if (options.samples == 1) begin(target);
+    if (smooths_on_device(options)) begin(target);
     draw_all(Pass::finish, quad_count);
     if (options.samples > 1) {
         gl.glBindFramebuffer(GL_DRAW_FRAMEBUFFER, target.framebuffer);
@@ -171,12 +172,14 @@ Image GlCanvas::finish() {
     const Impl& in = *interior_;
     const CanvasOptions& options = in.options;
     const GlContext::Current current(in.context);
-    in.gl.glBindFramebuffer(GL_FRAMEBUFFER, in.target.framebuffer);
+    const bool direct = options.samples == 1 && !smooths_on_device(options);
+    in.gl.glBindFramebuffer(GL_FRAMEBUFFER, direct ? in.scene.framebuffer : in.target.framebuffer);
     Image image{options.width, options.height,
                 std::vector<std::uint8_t>(std::size_t{4} * static_cast<std::size_t>(options.width) *
                                           static_cast<std::size_t>(options.height))};
     in.gl.glReadPixels(0, 0, options.width, options.height, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
     in.check("reading a picture");
+    if (direct) options.smooth ? smooth_edges(image) : make_opaque(image);
     return image;
 }
 

@@ -79,7 +79,7 @@ void GlCanvas::Impl::make_buffers() {
     const auto arguments = arguments_of(scenery, draws);
     fill(ARGUMENTS, arguments.data(), sizeof arguments);
     gl.glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffers[ARGUMENTS]);
-    const std::vector<std::uint32_t> counts(std::size_t{groups_of_look(0, scenery.bodies())} * SEEN_RUNS);
+    const std::vector<std::uint32_t> counts(std::size_t{groups_of_look(0, scenery.bodies())} * GROUP_WORDS);
     fill(GROUP_COUNTS, counts.data(), std::span(counts).size_bytes());
     const std::vector<vec4> tints(scenery.records);
     fill(TINTS, tints.data(), std::span(tints).size_bytes());

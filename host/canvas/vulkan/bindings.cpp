@@ -97,7 +97,7 @@ void VulkanCanvas::Impl::write_set(ColorBy by) {
     image_infos[SKY_MAP] = {depth_sampler, shadow_maps[1].surface.view, depth_layout};
     image_infos[GLYPHS] = {linear_sampler, glyphs.view, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     // Without smoothing no shader reads the scene, but the descriptor must be valid.
-    image_infos[SCENE] = {linear_sampler, options.samples == 1 ? scene.view : glyphs.view,
+    image_infos[SCENE] = {linear_sampler, smooths_on_device(options) ? scene.view : glyphs.view,
                           VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL};
     for (std::uint32_t i = 0; i < BINDINGS; ++i) {
         writes[i].sType = VK_STRUCTURE_TYPE_WRITE_DESCRIPTOR_SET;

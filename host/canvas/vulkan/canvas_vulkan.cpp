@@ -8,6 +8,7 @@
 
 #include "host/canvas/frame.h"
 #include "host/canvas/overlay.h"
+#include "host/canvas/smoothing.h"
 #include "host/canvas/vulkan/canvas_vulkan_impl.h"
 
 namespace scree::host {
@@ -229,6 +230,7 @@ Image VulkanCanvas::finish() {
     }
     Image image{options.width, options.height, std::vector<std::uint8_t>(in.picture.bytes())};
     in.picture.read(image.rgba.data(), image.rgba.size());
+    if (options.samples == 1 && !smooths_on_device(options)) options.smooth ? smooth_edges(image) : make_opaque(image);
     return image;
 }
 

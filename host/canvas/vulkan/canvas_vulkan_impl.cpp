@@ -61,7 +61,7 @@ void VulkanCanvas::Impl::make_buffers() {
     runs = filled("canvas runs", scenery.runs);
     arguments = filled("canvas arguments", arguments_of(scenery, draws));
     const std::size_t groups = std::max(1u, groups_of_look(0, scenery.bodies()));
-    group_counts = Buffer(device, "canvas group counts", groups * SEEN_RUNS * sizeof(std::uint32_t));
+    group_counts = Buffer(device, "canvas group counts", groups * GROUP_WORDS * sizeof(std::uint32_t));
     tints = Buffer(device, "canvas tints", scenery.records * sizeof(vec4));
     picture = Buffer(device, "canvas picture", pixels * (options.bits == 16 ? 8 : 4), BufferUse::readback);
 }
@@ -95,20 +95,20 @@ void VulkanCanvas::Impl::make_shadow_maps() {
 
 void VulkanCanvas::Impl::make_picture() {
     const VkFormat format = color_format(options.bits);
-    picture_pass = make_picture_pass(objects, options.samples, format);
+    const bool smooths = smooths_on_device(options), resolves = options.samples > 1;
+    picture_pass = make_picture_pass(objects, options.samples, smooths, format);
     const auto surface = [&](VkFormat of, VkImageUsageFlags usage, VkImageAspectFlags aspect, int samples) {
         return objects.surface({of, options.width, options.height, usage, aspect, samples});
     };
     constexpr VkImageUsageFlags shown = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
-    target = surface(format, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
+    if (smooths || resolves) target = surface(format, shown, VK_IMAGE_ASPECT_COLOR_BIT, 1);
     const Surface depth =
         surface(DEPTH_FORMAT, VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT, VK_IMAGE_ASPECT_DEPTH_BIT, options.samples);
-    const bool smooths = options.samples == 1;
-    scene = surface(
-        format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | static_cast<VkImageUsageFlags>(smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : 0),
-        VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
+    const VkImageUsageFlags read = smooths ? VK_IMAGE_USAGE_SAMPLED_BIT : resolves ? 0 : VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    scene = surface(format, VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | read, VK_IMAGE_ASPECT_COLOR_BIT, options.samples);
+    if (!smooths && !resolves) target = scene;
     std::vector<VkImageView> views{scene.view, depth.view};
-    if (!smooths) views.push_back(target.view);
+    if (resolves) views.push_back(target.view);
     framebuffer = objects.framebuffer(picture_pass, views, options.width, options.height);
 
     if (smooths) {

@@ -124,13 +124,14 @@ VkRenderPass make_shadow_pass(VulkanObjectPool& objects) {
     return make_pass(objects, attachments, subpass, dependencies);
 }
 
-VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, VkFormat format) {
+VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, bool smooths, VkFormat format) {
     const bool resolves = samples > 1;
-    std::array attachments{
-        attachment(format, samples, !resolves,
-                   resolves ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL),
-        attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
-        attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
+    std::array attachments{attachment(format, samples, !resolves,
+                                      resolves  ? VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL
+                                      : smooths ? VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL
+                                                : VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL),
+                           attachment(DEPTH_FORMAT, samples, false, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL),
+                           attachment(format, 1, true, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL)};
     attachments[2].loadOp = VK_ATTACHMENT_LOAD_OP_DONT_CARE;
     const VkAttachmentReference color{0, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL};
     const VkAttachmentReference depth{1, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL};
@@ -142,8 +143,8 @@ VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, VkFormat 
     subpass.pDepthStencilAttachment = &depth;
     subpass.pResolveAttachments = resolves ? &picture : nullptr;
     constexpr VkPipelineStageFlags outputs = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | DEPTH_TESTS;
-    const VkPipelineStageFlags reader = resolves ? VK_PIPELINE_STAGE_TRANSFER_BIT : VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-    const VkAccessFlags reading = resolves ? VK_ACCESS_TRANSFER_READ_BIT : VK_ACCESS_SHADER_READ_BIT;
+    const VkPipelineStageFlags reader = smooths ? VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT : VK_PIPELINE_STAGE_TRANSFER_BIT;
+    const VkAccessFlags reading = smooths ? VK_ACCESS_SHADER_READ_BIT : VK_ACCESS_TRANSFER_READ_BIT;
     const std::array dependencies{
         VkSubpassDependency{VK_SUBPASS_EXTERNAL, 0, outputs | reader, outputs,
                             VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT,

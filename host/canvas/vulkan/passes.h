@@ -16,8 +16,8 @@ constexpr VkFormat DEPTH_FORMAT = VK_FORMAT_D32_SFLOAT;
 // Depth only; final layout for sampling in fragment shaders.
 VkRenderPass make_shadow_pass(VulkanObjectPool& objects);
 // Attachments: colour, depth and, with more than one sample, the resolve target, ready to be copied. With one sample
-// the colour attachment is left ready for sampling by the smoothing shader.
-VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, VkFormat format);
+// the colour attachment is left ready for sampling by the smoothing shader (`smooths`), or to be copied.
+VkRenderPass make_picture_pass(VulkanObjectPool& objects, int samples, bool smooths, VkFormat format);
 
 // One attachment: the picture, fully overwritten and left ready to be copied.
 VkRenderPass make_smoothing_pass(VulkanObjectPool& objects, VkFormat format);

@@ -1,0 +1,32 @@
+// Field table of a scene's picture style.
+#pragma once
+
+#include <array>
+
+#include "compute/fields/field.h"
+#include "compute/scene_file/picture_style.h"
+
+namespace scree::fields {
+
+template <>
+inline constexpr auto words<ShownQuantity> =
+    std::array{"momentum",         "speed",           "spin",     "kinetic-energy", "height",  "body", "plain",
+               "angular-momentum", "contact-impulse", "contacts", "sleep",          "material"};
+template <>
+inline constexpr auto words<ShownMap> = std::array{"ember", "plasma", "inferno", "viridis", "cividis", "turbo", "batlow"};
+template <>
+inline constexpr auto words<ShownScale> = std::array{"auto", "linear", "root", "log"};
+template <>
+inline constexpr auto words<Overlay> = std::array{"contacts", "velocities", "joints", "boxes", "cells", "sleep"};
+
+template <>
+inline constexpr auto table<PictureStyle> = table_of(
+    "picture", "How pictures show the scene unless the command line says otherwise",
+    field("color", &PictureStyle::color, "Quantity shown by colour"), field("color_map", &PictureStyle::map, "Colour map"),
+    field("color_scale", &PictureStyle::scale,
+          "Places of values on the colour map: linear, root (square root), log, or auto: root for momentum, energy and impulses"),
+    field("color_range", &PictureStyle::range, {}, "",
+          "Lowest and highest value, in the unit of the quantity; equal: from the scene and its first seconds"),
+    field("show", &PictureStyle::show, at_least(0), "overlays", "Overlays"));
+
+}  // namespace scree::fields

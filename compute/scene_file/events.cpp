@@ -1,0 +1,159 @@
+// Performing the timed events of a scene.
+#include "compute/scene_file/events.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+namespace scree {
+
+namespace {
+
+[[noreturn]] void refuse(std::size_t event, const std::string& inside, const std::string& reason) {
+    throw SceneError("/events/" + std::to_string(event) + inside, reason);
+}
+
+// Whether a moment belongs to the world's next step: the one whose start is nearest.
+bool is_due(double seconds, const World& world) {
+    return static_cast<std::uint64_t>(std::llround(seconds * static_cast<double>(world.settings().rate))) == world.steps();
+}
+
+// The present index of a joint of the scene: removed joints lower those above them.
+std::size_t present_joint(const std::vector<Event>& events, std::size_t event, std::size_t joint) {
+    std::size_t lower = 0;
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const auto* release = std::get_if<ReleaseEvent>(&events[i].action);
+        const bool before = events[i].time < events[event].time || (events[i].time == events[event].time && i < event);
+        if (release && before && release->joint < joint) ++lower;
+    }
+    return joint - lower;
+}
+
+struct Performance {
+    const std::vector<Event>& events;
+    std::size_t index;
+    World& world;
+
+    void operator()(const ImpulseEvent& event) const { world.apply_impulse(event.body, event.impulse, event.offset); }
+    void operator()(const VelocityEvent& event) const { world.set_velocity(event.body, event.linear, event.angular); }
+    void operator()(const GlideEvent& event) const {
+        const vec3 way = event.to - world.body(event.body).position;
+        world.set_velocity(event.body, way / event.duration, event.turn / event.duration);
+    }
+    void operator()(const ExplosionEvent& event) const { world.explode(event.centre, event.radius, event.speed); }
+    void operator()(const ReleaseEvent& event) const { world.remove_joint(present_joint(events, index, event.joint)); }
+    void operator()(const MotorEvent& event) const {
+        const std::size_t joint = present_joint(events, index, event.joint);
+        const bool slides = std::holds_alternative<Slider>(world.scene().joints.at(joint).kind);
+        world.set_motor(joint, slides ? JointAxis::x : JointAxis::twist, {event.speed, event.max_force});
+    }
+    void operator()(const GravityEvent& event) const { world.set_gravity(event.gravity); }
+};
+
+// What an action needs of the scene.
+struct Check {
+    const std::vector<Event>& events;
+    std::size_t index;
+    const Scene& scene;
+
+    void operator()(const ImpulseEvent& event) const { require_motion(event.body, "impulse", true, false); }
+    void operator()(const VelocityEvent& event) const { require_motion(event.body, "velocity", true, true); }
+    void operator()(const GlideEvent& event) const { require_motion(event.body, "glide", false, true); }
+    void operator()(const ExplosionEvent&) const {}
+    void operator()(const ReleaseEvent& event) const {
+        require_joint(event.joint, "release");
+        for (std::size_t i = 0; i < index; ++i) {
+            const auto* other = std::get_if<ReleaseEvent>(&events[i].action);
+            if (other && other->joint == event.joint)
+                refuse(index, "/action/release/joint", "is released by /events/" + std::to_string(i) + ", too");
+        }
+        for (const Vehicle& vehicle : scene.vehicles)
+            for (const Wheel& wheel : vehicle.wheels)
+                if (wheel.joint == event.joint)
+                    refuse(index, "/action/release/joint", "is that of a vehicle's wheel, which stays");
+    }
+    void operator()(const MotorEvent& event) const {
+        require_joint(event.joint, "motor");
+        const JointKind& kind = scene.joints[event.joint].kind;
+        if (!std::holds_alternative<Hinge>(kind) && !std::holds_alternative<Slider>(kind))
+            refuse(index, "/action/motor/joint", "must be a hinge or a slider");
+        for (std::size_t i = 0; i < events.size(); ++i) {
+            const auto* release = std::get_if<ReleaseEvent>(&events[i].action);
+            if (release && release->joint == event.joint && events[i].time <= events[index].time)
+                refuse(index, "/action/motor/joint", "is released by /events/" + std::to_string(i) + " before");
+        }
+    }
+    void operator()(const GravityEvent&) const {}
+
+    void require_motion(std::size_t body, const char* action, bool dynamic, bool kinematic) const {
+        const std::string inside = std::string("/action/") + action + "/body";
+        if (body >= scene.bodies.size())
+            refuse(index, inside,
+                   "there is no body " + std::to_string(body) + "; the scene has " + std::to_string(scene.bodies.size()));
+        const Motion motion = scene.bodies[body].motion;
+        if ((motion == Motion::dynamic && dynamic) || (motion == Motion::kinematic && kinematic)) return;
+        refuse(index, inside,
+               dynamic && kinematic ? "must be a dynamic or kinematic body"
+               : dynamic            ? "must be a dynamic body"
+                                    : "must be a kinematic body");
+    }
+    void require_joint(std::size_t joint, const char* action) const {
+        if (joint < scene.joints.size()) return;
+        refuse(index, std::string("/action/") + action + "/joint",
+               "there is no joint " + std::to_string(joint) + "; the scene has " + std::to_string(scene.joints.size()));
+    }
+};
+
+}  // namespace
+
+void check_events(const std::vector<Event>& events, const Scene& scene) {
+    for (std::size_t i = 0; i < events.size(); ++i) std::visit(Check{events, i, scene}, events[i].action);
+}
+
+void perform_due(const std::vector<Event>& events, World& world) {
+    for (std::size_t i = 0; i < events.size(); ++i) {
+        const auto* glide = std::get_if<GlideEvent>(&events[i].action);
+        const bool arrives = glide && is_due(static_cast<double>(events[i].time) + static_cast<double>(glide->duration), world);
+        if (!arrives && !is_due(events[i].time, world)) continue;
+        try {
+            if (arrives)
+                world.set_velocity(glide->body, vec3(0), vec3(0));
+            else
+                std::visit(Performance{events, i, world}, events[i].action);
+        } catch (const std::logic_error& error) {  // std::invalid_argument, std::out_of_range
+            refuse(i, "", error.what());
+        }
+    }
+}
+
+std::vector<Event> coming_events(const std::vector<Event>& events, const World& world) {
+    std::vector<Event> coming;
+    for (const Body& body : world.scene().bodies)
+        if (body.piece_of != no_body) return coming;
+    const auto now = static_cast<float>(world.time());
+    const auto released_below = [&](std::size_t joint) {
+        std::size_t count = 0;
+        for (const Event& other : events) {
+            const auto* release = std::get_if<ReleaseEvent>(&other.action);
+            if (release && other.time < now && release->joint < joint) ++count;
+        }
+        return count;
+    };
+    for (const Event& event : events) {
+        Event next = event;
+        next.time -= now;
+        auto* glide = std::get_if<GlideEvent>(&next.action);
+        const bool under_way = glide && next.time < 0 && next.time + glide->duration > 0;
+        if (next.time < 0 && !under_way) continue;
+        if (under_way) {
+            glide->turn *= (next.time + glide->duration) / glide->duration;
+            glide->duration += std::exchange(next.time, 0.0f);
+        }
+        if (auto* release = std::get_if<ReleaseEvent>(&next.action)) release->joint -= released_below(release->joint);
+        if (auto* motor = std::get_if<MotorEvent>(&next.action)) motor->joint -= released_below(motor->joint);
+        coming.push_back(next);
+    }
+    return coming;
+}
+
+}  // namespace scree

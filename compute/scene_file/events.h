@@ -1,0 +1,66 @@
+// Timed events of a scene file: what acts on the world at given moments of a run. The simulation itself knows none; a
+// run performs them before the step whose start is nearest.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "compute/world.h"
+
+namespace scree {
+
+struct ImpulseEvent {  // see World::apply_impulse
+    std::size_t body = no_body;
+    vec3 impulse{0};  // N s
+    vec3 offset{0};   // m, of its point from the centre of mass
+};
+struct VelocityEvent {  // dynamic and kinematic bodies
+    std::size_t body = no_body;
+    vec3 linear{0};   // m/s
+    vec3 angular{0};  // rad/s
+};
+// Moves a kinematic body to a pose within a time at constant velocities, and stops it there.
+struct GlideEvent {
+    std::size_t body = no_body;
+    vec3 to{0};          // m, of the centre of mass
+    vec3 turn{0};        // rad, rotation vector about world axes
+    float duration = 1;  // s
+};
+struct ExplosionEvent {  // see World::explode
+    vec3 centre{0};      // m
+    float radius = 1;    // m
+    float speed = 0;     // m/s
+};
+struct ReleaseEvent {  // removes a joint
+    std::size_t joint = no_body;
+};
+struct MotorEvent {  // the motor of a hinge or slider
+    std::size_t joint = no_body;
+    float speed = 0;      // rad/s or m/s
+    float max_force = 0;  // N m or N
+};
+struct GravityEvent {
+    vec3 gravity{0, -9.81f, 0};  // m/s^2
+};
+
+using EventAction = std::variant<ImpulseEvent, VelocityEvent, GlideEvent, ExplosionEvent, ReleaseEvent, MotorEvent, GravityEvent>;
+
+struct Event {
+    float time = 0;  // s
+    EventAction action = ImpulseEvent{};
+};
+
+// Throws SceneError, with the JSON pointer of the event, for bodies and joints that do not exist or cannot do it.
+void check_events(const std::vector<Event>& events, const Scene& scene);
+
+// Performs the events due before the world's next step, in their order. Joints keep their numbers of the scene, however
+// many were released before. Throws SceneError with the JSON pointer of the event.
+void perform_due(const std::vector<Event>& events, World& world);
+
+// The events that are still to come, for a scene that starts as World::snapshot() shows this world: times count from
+// now. None if bodies have broken, since the snapshot numbers them anew.
+std::vector<Event> coming_events(const std::vector<Event>& events, const World& world);
+
+}  // namespace scree

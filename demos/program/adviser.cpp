@@ -1,0 +1,104 @@
+// The adviser of runs.
+#include "demos/program/adviser.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compute/scene/shape_geometry.h"
+#include "compute/step/state.h"
+
+namespace scree::demos {
+
+namespace {
+
+// Bodies that press into each other for two seconds by this part of a typical half width: contacts are too soft for the
+// load. Stacks that stand measure less than half of it; tall masonry buckles soon above it.
+constexpr double deep = 0.06;
+constexpr double restless_speed = 0.3;  // m/s, of a scene at rest but for jitter
+
+double median_half_width(const World& world) {
+    std::vector<double> widths;
+    const State& state = world.state();
+    for (std::size_t i = 0; i < world.scene().bodies.size(); ++i) {
+        if (world.scene().bodies[i].motion != Motion::dynamic) continue;
+        const physics::BodyProperties& body = state.properties[state.row_of(i)];
+        widths.push_back(static_cast<double>(physics::min_half_width(body.shape, body.size)));
+    }
+    if (widths.empty()) return 0;
+    const auto middle = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 2);
+    std::nth_element(widths.begin(), middle, widths.end());
+    return *middle;
+}
+
+// "--substeps 16", twice the present, or a higher rate once substeps are many.
+std::string finer(const Settings& settings) {
+    if (settings.substeps <= 16) return fmt::format("--substeps {}", 2 * settings.substeps);
+    return fmt::format("--rate {:g}", 2 * settings.rate);
+}
+
+}  // namespace
+
+Adviser::Adviser(const World& world)
+    : half_width_(median_half_width(world)),
+      dynamic_(static_cast<std::size_t>(std::count_if(world.scene().bodies.begin(), world.scene().bodies.end(),
+                                                      [](const Body& body) { return body.motion == Motion::dynamic; }))),
+      steps_between_(static_cast<std::uint64_t>(std::max(1L, std::lround(world.settings().rate)))) {}
+
+Adviser::Sample Adviser::sample_of(const World& world, const Statistics& statistics) const {
+    return {world.time(), statistics.penetration_max, statistics.max_speed, statistics.asleep};
+}
+
+void Adviser::after_step(const World& world) {
+    if (world.steps() % steps_between_ == 0) samples_.push_back(sample_of(world, world.statistics()));
+}
+
+int Adviser::steps_to_next(const World& world) const {
+    return static_cast<int>(steps_between_ - world.steps() % steps_between_);
+}
+
+std::vector<Advice> Adviser::advice(const World& world, const Statistics& last) const {
+    std::vector<Advice> all;
+    const Settings& settings = world.settings();
+    std::vector<Sample> samples = samples_;
+    if (samples.empty() || samples.back().time < world.time()) samples.push_back(sample_of(world, last));
+    // Lasting penetration; a single sample may be an impact.
+    const Sample* worst = nullptr;
+    double lasting = 0;
+    for (std::size_t i = 1; i < samples.size(); ++i) {
+        const double both = std::min(samples[i - 1].penetration, samples[i].penetration);
+        if (both > lasting) lasting = both, worst = &samples[i];
+    }
+    if (worst && lasting > deep * half_width_) {
+        all.push_back(
+            {fmt::format("contacts give way: {:.3g} mm of penetration at {:.3g} s, {:.0f}% of a typical body's half width; "
+                         "tall stacks may buckle",
+                         lasting * 1e3, worst->time, 100 * lasting / half_width_),
+             finer(settings) + " makes contacts four times as stiff"});
+    }
+    if (last.spin_limited > 0) {
+        all.push_back(
+            {fmt::format("the limit of rotation, {:.3g} rad a substep, was reached {} times: bodies turn slower than they "
+                         "should",
+                         settings.max_turn, last.spin_limited),
+             finer(settings) + " raises the limit"});
+    }
+    if (last.max_speed > 0.999 * static_cast<double>(settings.max_speed)) {
+        all.push_back({fmt::format("the limit of speed, {:g} m/s, was reached", settings.max_speed),
+                       "\"settings\": {\"max_speed\": ...} in the scene file raises it"});
+    }
+    const bool may_sleep = settings.sleeping && dynamic_ > 0 && samples.size() >= 3;
+    const auto restless = [&](const Sample& sample) {
+        return sample.speed > static_cast<double>(settings.sleep_speed) && sample.speed < restless_speed &&
+               sample.asleep * 2 < dynamic_;
+    };
+    if (may_sleep && std::all_of(samples.end() - 3, samples.end(), restless)) {
+        all.push_back({fmt::format("for two seconds nothing was faster than {:.2g} m/s, yet only {} of {} bodies sleep",
+                                   restless_speed, last.asleep, dynamic_),
+                       finer(settings) + " calms jitter; rolling_resistance stops what rolls on"});
+    }
+    return all;
+}
+
+}  // namespace scree::demos

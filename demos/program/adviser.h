@@ -1,0 +1,41 @@
+// The adviser: says when a run shows that its settings do not suffice, and which option helps.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compute/world.h"
+
+namespace scree::demos {
+
+struct Advice {
+    std::string finding;  // what was measured
+    std::string remedy;   // the options that help
+};
+
+// Looks at a world once a simulated second.
+class Adviser {
+public:
+    explicit Adviser(const World& world);
+
+    void after_step(const World& world);
+    int steps_to_next(const World& world) const;  // until the next look, at least 1
+    // What is said at the end of a run; `last`: the world's statistics then.
+    std::vector<Advice> advice(const World& world, const Statistics& last) const;
+
+private:
+    struct Sample {
+        double time = 0;         // s
+        double penetration = 0;  // m, greatest
+        double speed = 0;        // m/s, greatest
+        std::size_t asleep = 0;
+    };
+    Sample sample_of(const World& world, const Statistics& statistics) const;
+
+    double half_width_ = 0;  // m, median of the dynamic bodies' least half widths
+    std::size_t dynamic_ = 0;
+    std::uint64_t steps_between_ = 60;
+    std::vector<Sample> samples_;
+};
+
+}  // namespace scree::demos

@@ -1,0 +1,32 @@
+// The command line of this process.
+#include "demos/program/console.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <sstream>
+
+namespace scree::demos {
+
+namespace {
+
+std::string quoted(const std::string& word) {
+    const auto plain = [](unsigned char c) {
+        return std::isalnum(c) || std::string_view("_-./:,=+@%").find(static_cast<char>(c)) != std::string_view::npos;
+    };
+    if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
+    std::string text = "'";
+    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    return text + "'";
+}
+
+}  // namespace
+
+std::string words_of_this_program() {
+    std::ifstream file("/proc/self/cmdline", std::ios::binary);
+    std::string text, word;
+    while (std::getline(file, word, '\0')) text += (text.empty() ? "" : " ") + quoted(word);
+    return text;
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,72 @@
+// The window with its session, interaction, drawing and panel.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "demos/film/color_range.h"
+#include "demos/film/drawing.h"
+#include "demos/play/interaction.h"
+#include "demos/program/backend.h"
+#include "demos/program/options.h"
+#include "demos/program/window/detail.h"
+#include "demos/program/window/panel.h"
+#include "host/window/window.h"
+
+namespace scree::demos {
+
+struct ViewOptions {
+    SceneOptions scene;
+    MachineOptions machine;
+    std::string size = "1280x720";
+    Extent extent;
+    PictureOptions pictures;  // --color and --show
+    std::string record, report;
+};
+
+class Viewer {
+public:
+    Viewer(const ViewOptions& options, const host::Display& display, Backend machine);
+    void run();
+    void write_report();
+    void write_recording();
+
+private:
+    bool is_over();
+    void take_events(double wait);
+    void make_drawing();
+    void choose_style();
+    void measure_range(double seconds);
+    void draw();
+    void grant(const Wishes& wishes);
+    void write_picture();
+
+    const ViewOptions& options_;
+    Backend machine_;
+    Session session_;
+    Interaction interaction_;
+    Panel panel_;
+    host::Window window_;
+    std::unique_ptr<Drawing> drawing_;
+    std::uint64_t drawn_beginning_ = 0;
+    Extent drawn_extent_{0, 0};
+    std::vector<Overlay> drawn_overlays_;
+    PictureStyle style_;
+    std::string styled_;  // the scene that style_ is of
+    std::optional<host::ColorScale> scale_;
+    PictureStyle scaled_;  // the style that scale_ is of
+    MeasuredRange range_;
+    double measured_ = 0;  // s since the range was looked at
+    PictureDetail detail_;
+    host::View view_;
+    Rates rates_;
+    std::uint64_t pictures_ = 0;
+    std::optional<std::uint64_t> last_step_;  // step at which the window closes by itself
+    std::chrono::steady_clock::time_point started_ = std::chrono::steady_clock::now();
+};
+
+}  // namespace scree::demos

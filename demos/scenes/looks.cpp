@@ -1,0 +1,68 @@
+// The looks of the demos.
+#include "demos/scenes/looks.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+
+namespace scree::demos {
+
+namespace {
+
+using enum ShownQuantity;
+
+struct Look {
+    std::string_view demo;
+    PictureStyle style;
+    std::optional<float> vertical_fov{};  // degrees
+    std::optional<vec3> eye{}, target{};  // m
+};
+
+PictureStyle by(ShownQuantity quantity, float high = 0, std::vector<Overlay> show = {}) {
+    return {quantity, ShownMap::ember, ShownScale::automatic, {0, high}, std::move(show)};
+}
+
+const std::vector<Look>& looks() {
+    using enum Overlay;
+    static const std::vector<Look> all = {
+        {"rest", by(body)},
+        {"stack", by(contact_impulse, 420, {contacts})},
+        {"tower", by(contact_impulse, 1700), 85, vec3(5, 1, 7), vec3(0.3f, 9, 0)},
+        {"wall", by(contact_impulse, 260)},
+        {"pyramid", by(contact_impulse, 700)},
+        {"seesaw", by(momentum, 500, {contacts, velocities})},
+        {"slopes", by(momentum, 800, {velocities})},
+        {"cradle", by(momentum, 1500, {velocities})},
+        {"dominoes", by(momentum, 100)},
+        {"pile", by(momentum, 600)},
+        {"mix", by(kinetic_energy, 3000)},
+        {"avalanche", by(momentum, 3000), 37},
+        {"assortment", by(body)},
+        {"terrain", by(momentum, 15000), 43},
+        {"mesh", by(momentum, 300), 38},
+        {"chain", by(momentum, 80, {joints})},
+        {"bridge", by(momentum, 1000, {joints})},
+        {"ragdolls", by(body), 43},
+        {"pendulums", by(body, 0, {joints})},
+        {"machine", by(momentum, 500, {joints})},
+        {"wrecking", by(speed, 12)},
+        {"glass", by(speed, 12)},
+        {"shatter", by(body)},
+        {"drive", by(body)},
+        {"cars", by(speed, 14)},
+    };
+    return all;
+}
+
+}  // namespace
+
+void set_look(std::string_view demo, DemoScene& scene) {
+    const auto look = std::find_if(looks().begin(), looks().end(), [&](const Look& one) { return one.demo == demo; });
+    if (look == looks().end()) return;
+    scene.picture = look->style;
+    if (look->vertical_fov) scene.viewpoint.vertical_fov = *look->vertical_fov;
+    if (look->eye) scene.viewpoint.eye = *look->eye;
+    if (look->target) scene.viewpoint.target = *look->target;
+}
+
+}  // namespace scree::demos

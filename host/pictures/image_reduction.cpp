@@ -1,0 +1,99 @@
+// Reduction of images to smaller ones, in linear light.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+#include "host/canvas/colors.h"
+#include "host/pictures/image.h"
+
+namespace scree::host {
+namespace {
+
+constexpr std::size_t STEPS = 4096;  // of the table from linear light to sRGB; finer than a level of 8 bits nearly everywhere
+
+// Linear light of each encoded level.
+const std::array<float, 256>& light_of_levels() {
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> made{};
+        for (std::size_t i = 0; i < made.size(); ++i) made[i] = linear_from_srgb(static_cast<float>(i) / 255.0f);
+        return made;
+    }();
+    return table;
+}
+// Encoded levels by the square root of linear light.
+const std::array<std::uint8_t, STEPS + 1>& levels_of_light() {
+    static const std::array<std::uint8_t, STEPS + 1> table = [] {
+        std::array<std::uint8_t, STEPS + 1> made{};
+        for (std::size_t i = 0; i < made.size(); ++i) {
+            const float root = static_cast<float>(i) / static_cast<float>(STEPS);
+            made[i] = static_cast<std::uint8_t>(srgb_byte(root * root));
+        }
+        return made;
+    }();
+    return table;
+}
+
+void reduce_bytes(const Image& image, std::size_t factor, Image& smaller) {
+    const auto& light = light_of_levels();
+    const auto& levels = levels_of_light();
+    const auto width = static_cast<std::size_t>(smaller.width), row = static_cast<std::size_t>(image.width) * 4;
+    const float part = 1.0f / static_cast<float>(factor * factor);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(smaller.height); ++y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            std::array<float, 3> sum{};
+            for (std::size_t v = 0; v < factor; ++v) {
+                const std::uint8_t* from = &image.rgba[(y * factor + v) * row + x * factor * 4];
+                for (std::size_t u = 0; u < factor; ++u, from += 4)
+                    for (std::size_t k = 0; k < 3; ++k) sum[k] += light[from[k]];
+            }
+            std::uint8_t* to = &smaller.rgba[(y * width + x) * 4];
+            for (std::size_t k = 0; k < 3; ++k)
+                to[k] = levels[static_cast<std::size_t>(std::sqrt(sum[k] * part) * static_cast<float>(STEPS) + 0.5f)];
+            to[3] = 255;
+        }
+    }
+}
+
+// 16 bits per channel: exact transfer functions, slow.
+void reduce_words(const Image& image, std::size_t factor, Image& smaller) {
+    const auto width = static_cast<std::size_t>(smaller.width), wide = static_cast<std::size_t>(image.width);
+    const float part = 1.0f / static_cast<float>(factor * factor);
+    for (std::size_t y = 0; y < static_cast<std::size_t>(smaller.height); ++y) {
+        for (std::size_t x = 0; x < width; ++x) {
+            std::array<std::uint16_t, 4> to{0, 0, 0, 0xFFFF};
+            for (std::size_t k = 0; k < 3; ++k) {
+                float sum = 0;
+                for (std::size_t i = 0; i < factor * factor; ++i) {
+                    std::uint16_t level = 0;
+                    const std::size_t at = (y * factor + i / factor) * wide + x * factor + i % factor;
+                    std::memcpy(&level, &image.rgba[at * 8 + k * 2], 2);
+                    sum += linear_from_srgb(static_cast<float>(level) / 65535.0f);
+                }
+                const float mean = std::clamp(sum * part, 0.0f, 1.0f);
+                const float encoded = mean <= 0.0031308f ? 12.92f * mean : 1.055f * std::pow(mean, 1.0f / 2.4f) - 0.055f;
+                to[k] = static_cast<std::uint16_t>(std::lround(encoded * 65535.0f));
+            }
+            std::memcpy(&smaller.rgba[(y * width + x) * 8], to.data(), 8);
+        }
+    }
+}
+
+}  // namespace
+
+Image reduced(const Image& image, int factor) {
+    if (factor < 1 || image.width % factor != 0 || image.height % factor != 0)
+        throw ImageError("a picture of " + std::to_string(image.width) + " x " + std::to_string(image.height) +
+                         " pixels cannot be reduced by " + std::to_string(factor));
+    if (factor == 1) return image;
+    Image smaller{image.width / factor, image.height / factor, {}, image.bits};
+    smaller.rgba.resize(static_cast<std::size_t>(smaller.width) * static_cast<std::size_t>(smaller.height) *
+                        (image.bits == 16 ? 8 : 4));
+    if (image.bits == 16)
+        reduce_words(image, static_cast<std::size_t>(factor), smaller);
+    else
+        reduce_bytes(image, static_cast<std::size_t>(factor), smaller);
+    return smaller;
+}
+
+}  // namespace scree::host

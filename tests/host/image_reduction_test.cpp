@@ -1,0 +1,37 @@
+// Reduction of images in linear light.
+#include <catch2/catch.hpp>
+#include <cstdlib>
+#include <cstring>
+
+#include "host/canvas/colors.h"
+#include "host/pictures/image.h"
+
+using namespace scree::host;
+
+TEST_CASE("a reduced image has the mean light of its blocks", "[image]") {
+    Image image{4, 2, std::vector<std::uint8_t>(4 * 2 * 4, 255), 8};
+    for (int k = 0; k < 3; ++k)
+        image.rgba[static_cast<std::size_t>(k)] = image.rgba[static_cast<std::size_t>(20 + k)] = 0;  // a checkered block
+    const Image half = reduced(image, 2);
+    REQUIRE(half.width == 2);
+    REQUIRE(half.height == 1);
+    const int mean = half.rgba[0];  // half the light, not level 128
+    CHECK(std::abs(mean - 188) <= 1);
+    CHECK(half.rgba[4] == 255);
+    CHECK(srgb_byte(0.5f) == 188);
+    CHECK(reduced(image, 1).rgba == image.rgba);
+    CHECK_THROWS_AS(reduced(image, 3), ImageError);
+}
+
+TEST_CASE("a level stays itself when reduced", "[image]") {
+    for (int level = 0; level < 256; ++level) {
+        Image image{2, 2, std::vector<std::uint8_t>(16, static_cast<std::uint8_t>(level)), 8};
+        CHECK(int{reduced(image, 2).rgba[0]} == level);
+    }
+    const std::uint16_t level = 12345;
+    Image fine{2, 2, std::vector<std::uint8_t>(32, 255), 16};
+    for (std::size_t i = 0; i < 16; ++i) std::memcpy(&fine.rgba[2 * i], &level, 2);
+    std::uint16_t mean = 0;
+    std::memcpy(&mean, reduced(fine, 2).rgba.data(), 2);
+    CHECK(std::abs(int{mean} - int{level}) <= 1);
+}
