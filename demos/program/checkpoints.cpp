@@ -79,7 +79,7 @@ Checkpoints::Checkpoints(const CheckpointOptions& options, const SceneOptions& s
     const double between = options.every.value_or(usual_interval) * static_cast<double>(*scene.rate);
     steps_between_ = static_cast<std::uint64_t>(std::max(1L, std::lround(between)));
     const nlohmann::ordered_json note = {
-        {"scene", scene.name},        {"bodies", scene.bodies},     {"seed", scene.seed}, {"rate", *scene.rate},
+        {"scene", scene.name},         {"bodies", scene.bodies},     {"seed", scene.seed}, {"rate", *scene.rate},
         {"substeps", *scene.substeps}, {"sleeping", scene.sleeping}, {"steps", steps},     {"input", input}};
     note_ = note.dump();
 }
