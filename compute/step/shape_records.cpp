@@ -122,8 +122,18 @@ physics::BodyProperties SceneCompiler::form_of(const SimpleShape& shape) {
 physics::uint SceneCompiler::place_of(const Fracture& fracture) {
     const auto [known, fresh] =
         state_.shape_places.cuts.try_emplace(fracture.cut, static_cast<physics::uint>(state_.pieces.size()));
-    if (fresh)
-        for (const Body& piece : fracture.cut->pieces) state_.pieces.push_back({piece.position, 0, piece.orientation});
+    if (fresh) {
+        std::vector<physics::PoseInBody> poses;
+        for (const Body& piece : fracture.cut->pieces) poses.push_back({piece.position, 0, piece.orientation});
+        constexpr std::size_t small_table = 65536;  // as of hulls
+        auto same = state_.pieces.end();
+        if (state_.pieces.size() < small_table)
+            same = std::search(
+                state_.pieces.begin(), state_.pieces.end(), poses.begin(), poses.end(),
+                [](const auto& x, const auto& y) { return x.position == y.position && x.orientation == y.orientation; });
+        known->second = static_cast<physics::uint>(same - state_.pieces.begin());
+        if (same == state_.pieces.end()) state_.pieces.insert(state_.pieces.end(), poses.begin(), poses.end());
+    }
     physics::Fracturing made{};
     made.of_momentum = fracture.momentum > 0;
     made.threshold = fracture.momentum > 0 ? fracture.momentum : fracture.impulse;

@@ -60,8 +60,7 @@ std::size_t World::Impl::take_indices(std::size_t count) {
 // Contacts of the last step still name the row, so it stays empty for a step.
 void World::Impl::free_index(std::size_t body) {
     Body& there = scene.bodies[body];
-    if (const auto* hull = std::get_if<Hull>(&there.shape); hull && hull->form.use_count() <= 2)
-        state.shape_places.hulls.erase(hull->form);
+    if (there.fracture && there.fracture->cut.use_count() <= 2) state.shape_places.cuts.erase(there.fracture->cut);
     if (origins[body] == Origin::start) {
         const auto [kept, fresh] = originals.try_emplace(body);
         if (fresh)
@@ -161,7 +160,9 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
             const std::size_t index = firsts[i] + k;
             if (one.piece_of != no_body) one.piece_of += firsts[i];
             if (one.fracture) one.fracture->first_piece += firsts[i];
+            const std::size_t hulls = in.state.hulls.size();
             append(changed, editor.put(one, static_cast<std::uint32_t>(index)));
+            in.pack_hulls(hulls, static_cast<std::uint32_t>(index), changed);
             in.scene.bodies[index] = std::move(one);
             in.gone[index] = 0;
             in.origins[index] = k == 0 ? Impl::Origin::added : Impl::Origin::fragment;
@@ -213,7 +214,8 @@ TableRanges World::Impl::break_joints_of(const std::vector<std::size_t>& bodies)
 }
 
 // The indices of a body and all its fragments become free together, once none of them exists.
-void World::Impl::free_families_of(const std::vector<std::size_t>& bodies) {
+TableRanges World::Impl::free_families_of(const std::vector<std::size_t>& bodies) {
+    std::vector<std::uint32_t> rows;  // of those that broke, with their fragments
     std::set<std::size_t> roots;
     for (const std::size_t body : bodies) roots.insert(root_of(scene, body));
     const auto absent = [&](std::size_t body) { return physics::is_absent(state.properties[state.row_of(body)].motion); };
@@ -221,8 +223,15 @@ void World::Impl::free_families_of(const std::vector<std::size_t>& bodies) {
         std::vector<std::size_t> family = fragments_of(scene, root);
         family.push_back(root);
         if (!std::all_of(family.begin(), family.end(), absent)) continue;
-        for (const std::size_t member : family) free_index(member);
+        for (const std::size_t member : family) {
+            rows.push_back(static_cast<std::uint32_t>(member));
+            free_index(member);
+        }
     }
+    const auto hulls = hulls_of_added(rows);
+    TableRanges changed = StateEditor(state).remove(rows);
+    free_hulls(hulls);
+    return changed;
 }
 
 void World::Impl::remove(std::vector<std::size_t> bodies) {
@@ -241,12 +250,14 @@ void World::Impl::remove(std::vector<std::size_t> bodies) {
             if (grip && grip->body == body) grip.reset();
     }
     events.end_contacts_of(bodies, state, generations, steps);
+    const auto hulls = hulls_of_added(rows);
     append(changed, StateEditor(state).remove(rows));
+    free_hulls(hulls);
     for (const std::size_t body : bodies) {
         ++generations[body];
         gone[body] = 1;
     }
-    free_families_of(bodies);
+    append(changed, free_families_of(bodies));
     const std::size_t excluded =
         std::erase_if(scene.exclusions, [&](const Exclusion& e) { return is_gone(e.a) || is_gone(e.b); });
     const TableLengths before = TableLengths::of(state);

@@ -317,6 +317,7 @@ void World::restore(std::span<const std::byte> saved) {
     in.state.sums_impulses = in.events.settings().contacts;
     const TableRanges changed = tables.restore(in.state);
     if (made) in.find_shapes_again();
+    in.find_spare_hulls();
     in.runner->adapt();
     in.runner->upload(changed);
     ++in.arrangements;

@@ -114,8 +114,15 @@ struct World::Impl {
     void remove(std::vector<std::size_t> bodies);
     void require_removable(const std::vector<std::size_t>& bodies) const;
     TableRanges break_joints_of(const std::vector<std::size_t>& bodies);
-    void free_families_of(const std::vector<std::size_t>& bodies);
+    TableRanges free_families_of(const std::vector<std::size_t>& bodies);
     void keep_original(std::size_t body);
+    // hull_room.cpp: runs of the table of hulls that no body uses any more: first record, count
+    std::map<std::uint32_t, std::uint32_t> spare_hulls;
+    void spare_hull_records(std::uint32_t place, std::uint32_t count);
+    std::map<std::uint32_t, std::uint32_t> hulls_of_added(const std::vector<std::uint32_t>& bodies) const;
+    void free_hulls(std::map<std::uint32_t, std::uint32_t> records);  // after the bodies are removed
+    void pack_hulls(std::size_t before, std::uint32_t body, TableRanges& changed);
+    void find_spare_hulls();
     void send(const TableRanges& changed, const TableLengths& before);
     // change_bodies.cpp
     void require_there(std::size_t body) const;  // throws std::invalid_argument for a body that has broken, or a fragment

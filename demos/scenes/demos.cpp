@@ -23,6 +23,7 @@ const std::vector<Demo>& all_demos() {
         {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
         {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
         {"terrain", "bodies of every shape tumble down hills, a height field, and gather in the valley", 600, true, terrain},
+        {"fountain", "bodies are born at a nozzle, fall into a basin, and are taken away for ever", 900, true, fountain},
         {"mesh", "bodies of every shape come down a staircase into a bowl, a mesh from a file", 120, true, mesh},
         {"chain", "two chains of twenty links swing, one with a load of a hundred links", 41, false, chain},
         {"bridge", "a hanging bridge of planks bears a dozen crates", 36, false, bridge},

@@ -59,6 +59,7 @@ DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
 DemoScene assortment(const DemoOptions&);
 DemoScene terrain(const DemoOptions&);
+DemoScene fountain(const DemoOptions&);
 DemoScene mesh(const DemoOptions&);
 DemoScene chain(const DemoOptions&);
 DemoScene bridge(const DemoOptions&);
