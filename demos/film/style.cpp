@@ -79,7 +79,7 @@ host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject,
         std::tie(scale.low, scale.high) = range;
     }
     scale.logarithmic = logarithmic && host::has_scale(scale.by);
-    if (scale.logarithmic && scale.low <= 0) {
+    if (logarithmic && scale.low <= 0) {
         throw UsageError(
             fmt::format("--color-scale log: a logarithmic scale begins above 0, and the range begins at {:g}; say "
                         "--color-range LOW:HIGH",

@@ -175,7 +175,7 @@ TEST_CASE("program: a camera that cannot be is refused with its place and the cu
 }
 
 TEST_CASE("program: what pictures show is chosen by words", "[program]") {
-    const std::string run = "rest --steps 1 --fps 10 " + small;
+    const std::string run = "dominoes --steps 1 --fps 10 " + small;
     const std::string plain = picture_of(run);
     REQUIRE(picture_of(run + "--no-caption") != plain);
     REQUIRE(picture_of(run + "--no-legend") != plain);
@@ -219,7 +219,7 @@ TEST_CASE("program: a scene file says how it is run and shown, and options go be
     const std::string run = "'" + file + "' " + small + "--steps 1 --fps 10 ";
     const std::string plain = picture_of(run);
     for (const char* other :
-         {"--color momentum", "--show none", "--color-map ember", "--camera still --eye 1,2,8", "--samples 4"}) {
+         {"--color momentum", "--show contacts", "--color-map ember", "--camera still --eye 1,2,8", "--samples 4"}) {
         INFO(other);
         REQUIRE(picture_of(run + other) != plain);
     }
