@@ -69,6 +69,7 @@ struct Body {
     float linear_damping = 0;      // 1/s, >= 0
     float angular_damping = 0;     // 1/s, >= 0
     float gravity_scale = 1;
+    std::optional<Filter> filter{};      // which bodies it collides with; none: all
     std::optional<Tyre> tyre{};          // of spheres, capsules, cylinders, also as parts; none: Coulomb friction
     std::optional<Fracture> fracture{};  // none: unbreakable
     // The body of which this is a fragment, inactive until that one breaks; its pose is the initial one. Fragments are
@@ -201,11 +202,18 @@ struct Vehicle {
     std::size_t next = 1;  // index of the next way point
 };
 
+// Two bodies that never collide with each other, whatever their filters.
+struct Exclusion {
+    std::size_t a = 0, b = 0;  // different bodies
+    bool operator==(const Exclusion& o) const { return a == o.a && b == o.b; }
+};
+
 struct Scene {
     vec3 gravity{0, -9.81f, 0};  // m/s^2
     std::vector<Body> bodies;
     std::vector<Joint> joints;
     std::vector<Vehicle> vehicles{};
+    std::vector<Exclusion> exclusions{};
 };
 
 // A joint of two bodies of the scene (or the world) at their present poses, from anchor and x axis in world

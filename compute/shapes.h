@@ -55,11 +55,21 @@ struct Hull {                                // the convex hull of points
 // Convex shapes and the plane. The index of the alternative is the shape id in a step.
 using SimpleShape = std::variant<Sphere, Capsule, Box, Plane, Cylinder, Cone, Ellipsoid, Hull>;
 
+// Which bodies and parts collide with each other. Two of an equal group other than 0 always collide if it is positive, and
+// never if it is negative; else they collide if each has a category in the other's mask.
+struct Filter {
+    std::uint32_t category = 1;       // bits: what it is
+    std::uint32_t mask = 0xFFFFFFFF;  // bits: the categories that it collides with
+    std::int32_t group = 0;
+    bool operator==(const Filter& o) const { return category == o.category && mask == o.mask && group == o.group; }
+};
+
 struct Part {  // of a compound
     SimpleShape shape = Box{};
     vec3 position{0};  // of the shape's centre of mass in the body frame, m; of a hull its points' origin until checked
-    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
-    float density = 0;             // kg/m^3; 0: the body's own
+    vec4 orientation{0, 0, 0, 1};    // quaternion x, y, z, w; normalised when the scene is checked
+    float density = 0;               // kg/m^3; 0: the body's own
+    std::optional<Filter> filter{};  // none: the body's own
 };
 struct Compound {             // several convex shapes on one rigid body
     std::vector<Part> parts;  // at least one; no planes. The masses of overlapping parts add up

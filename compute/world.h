@@ -10,9 +10,13 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "compute/checkpoint.h"
+#include "compute/events.h"
+#include "compute/queries.h"
 #include "compute/ray.h"
 #include "compute/runner.h"
 #include "compute/scene.h"
@@ -27,6 +31,28 @@ struct BodyState {
     vec3 angular_velocity;  // rad/s
     bool asleep = false;
     bool exists = true;  // false: it has broken, or is a fragment of an unbroken body; it neither collides nor moves
+};
+
+// Names one body for its whole life: an index is given to a new body once its body was removed, a handle never is.
+struct BodyHandle {
+    std::uint32_t index = 0;
+    std::uint32_t generation = 0;  // bodies that had the index before
+    bool operator==(const BodyHandle& o) const { return index == o.index && generation == o.generation; }
+};
+
+// For set_bodies: what is to change. Velocities of a fixed body and the pose of a plane cannot.
+struct BodyChange {
+    std::size_t body = 0;
+    std::optional<vec3> position{};          // of the centre of mass, within 1e6 m of 0
+    std::optional<vec4> orientation{};       // quaternion x, y, z, w of any length but 0
+    std::optional<vec3> velocity{};          // m/s, at most 1e4 along each axis
+    std::optional<vec3> angular_velocity{};  // rad/s, world axes, likewise
+};
+
+struct Material {                  // see Body
+    float friction = 0.6f;         // 0 to 100
+    float restitution = 0;         // 0 to 1
+    float rolling_resistance = 0;  // m, 0 to 1e5
 };
 
 // A contact of a body after the last step. Two bodies have several contacts if one is a compound, mesh or height field.
@@ -170,10 +196,38 @@ public:
     // From the next step on. Reads contacts and joints back and uploads them again once.
     void set_substeps(int substeps);  // 1 to 64
 
-    // Adds a body; returns its index, the highest, but for the fragments of a breakable body, which follow it. Uploads
-    // that body alone, unless the tables must grow (they double). Throws SceneError like the constructor. Buffers that
-    // a canvas draws from may be replaced.
+    // Adds a body; returns its index, the highest or that of a removed body, but for the fragments of a breakable body,
+    // which follow it. Uploads that body alone, unless the tables must grow (they double). Throws SceneError like the
+    // constructor. Buffers that a canvas draws from may be replaced.
     std::size_t add_body(const Body& body);
+    // Adds many in one upload. Throws SceneError, its pointer by the index in `bodies`, and then adds none.
+    std::vector<BodyHandle> add_bodies(std::span<const Body> bodies);
+    // Removes bodies in one upload; indices of others stay. With them go their joints (which are broken from then on), grips,
+    // exclusions, and the fragments of a whole body; sleepers that touched them wake. Their indices are given to new bodies
+    // after the next step. Throws std::out_of_range for a body that was removed before, std::invalid_argument for one that
+    // is not there (broken, or a fragment of an unbroken body), is named twice, or belongs to a vehicle; then removes none.
+    void remove_bodies(std::span<const BodyHandle> bodies);
+    void remove_body(std::size_t body);  // the same for one
+    // Throws std::out_of_range for an index that no body has, or none any more.
+    BodyHandle handle_of(std::size_t body) const;
+    bool is_valid(BodyHandle body) const;         // whether its body has not been removed
+    std::size_t index_of(BodyHandle body) const;  // throws std::out_of_range for a body that was removed
+    // Changes counted from 0: bodies came or went, or were moved in memory. What refers to rows or shapes is outdated.
+    std::uint64_t arrangements() const;
+    // By body: row of its first part in the tables of state(), where the others follow; of a body without parts no_body.
+    std::vector<std::size_t> first_part_rows() const;
+
+    // Poses and velocities of many bodies, in one transfer each way; the last of several changes of one body counts. Bodies
+    // wake; a pose set of a body that is not dynamic wakes all. Throws std::out_of_range for an index, std::invalid_argument
+    // for a body that is not there and for values out of range, naming the body; then changes nothing.
+    void set_bodies(std::span<const BodyChange> changes);
+    // From the next step on. They throw std::out_of_range for the index and SceneError for values or a motion that the
+    // body cannot have. Fragments of an unbroken body keep what they have.
+    void set_material(std::size_t body, const Material& material);  // wakes it; all, if it is not dynamic
+    void set_filter(std::size_t body, const Filter& filter);        // wakes all; parts with filters of their own keep them
+    // Wakes all. A fixed body has no velocity; a body of a vehicle, or joined to one that is not dynamic, stays dynamic.
+    void set_motion(std::size_t body, Motion motion);
+    void set_exclusion(std::size_t a, std::size_t b, bool excluded);  // whether they never collide; wakes all
 
     // Adds a joint; returns its index, the highest. Wakes its bodies. Reads all joints and uploads those that changed.
     // Throws SceneError for an invalid joint, and for a body that does not exist.
@@ -196,22 +250,49 @@ public:
     std::vector<BodyContact> contacts_of(std::size_t body) const;  // throws the same; reads all contacts
     [[deprecated("use contacts_of")]] std::vector<BodyContact> touching(std::size_t body) const { return contacts_of(body); }
     std::vector<BodyState> bodies() const;
+    // All contacts of the last step, ordered by bodies and parts. Reads all bodies and contacts.
+    std::vector<ContactState> contacts() const;
+    // Sum of the contact forces on each body in the last substep, N; 0 without contacts. Reads all contacts.
+    std::vector<vec3> touch_forces(std::span<const std::size_t> bodies) const;
+    // Events (compute/events.h), from the next step on; none at first. They are kept until taken. Steps are then waited
+    // for one by one, and a device's contacts are read back after each. Pairs that touch already begin with the next step.
+    // Throws std::invalid_argument for a speed below 0.
+    void set_events(const EventSettings& settings);
+    const EventSettings& event_settings() const;
+    std::vector<Event> take_events();  // since the last call, in order
     // The first surface that a ray meets from outside, m. Shapes in which it begins, and back faces of planes and
-    // surfaces, are ignored. Reads all bodies, and tests each. Throws std::invalid_argument for a ray that is not
+    // surfaces, are ignored. Throws std::invalid_argument for a ray that is not
     // finite or a direction not of unit length.
     std::optional<RayHit> cast_ray(const Ray& ray) const;
+    // Queries in batches (compute/queries.h), on the runner's threads. The first after a step or an edit reads all bodies
+    // back and builds a tree over them. Throw std::invalid_argument, naming the query, for values that are not finite or out
+    // of range, a direction not of unit length, and a shape that cannot be cast.
+    std::vector<std::optional<QueryHit>> cast_rays(std::span<const RayQuery> rays) const;  // the nearest of each
+    std::vector<std::uint8_t> rays_hit(std::span<const RayQuery> rays) const;              // 1: it hits something
+    QueryLists<QueryHit> cast_rays_through(
+        std::span<const RayQuery> rays) const;  // the first of each body and part, near ones first
+    std::vector<std::optional<QueryHit>> cast_shapes(std::span<const ShapeCast> casts) const;  // the nearest of each
+    QueryLists<QueryPart> overlaps(std::span<const ShapeOverlap> shapes) const;                // all, by body and part
     JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
     VehicleState vehicle(std::size_t index) const;  // throws std::out_of_range; reads all vehicles
     std::vector<VehicleState> vehicles() const;
     // The present scene: existing bodies with their poses and velocities; fragments are ordinary bodies. A world made
     // of it continues, but not bit-identically: contacts begin anew, sleepers are awake, and low-order parts of
-    // positions are lost.
+    // positions are lost. save() keeps all of these.
     Scene snapshot() const;
     Statistics statistics() const;
     const State& state() const;  // all tables of a step (compute/step/state.h), bodies and contacts up to date
     // XXH64 over position, orientation, velocity and angular velocity in id order; if bodies may break, also over which exist.
     std::uint64_t state_hash() const;
+
+    // The whole state as bytes (compute/checkpoint.h). Reads everything back.
+    std::vector<std::byte> save() const;
+    // Returns to a saved state: of this world, or of another one of the same scene, whatever its settings (which are
+    // restored, too), backend and threads. Later steps give the same bits as those of the world that was saved; bodies
+    // added since then are gone. Uploads everything. Buffers that a canvas draws from may be replaced. Throws
+    // CheckpointError, changing nothing, if the bytes are damaged, of another format, or of another scene.
+    void restore(std::span<const std::byte> saved);
 
     std::uint64_t buffer_growths() const;
     std::size_t buffer_bytes() const;  // of all tables, at present

@@ -20,8 +20,8 @@ namespace {
 struct Sum {
     physics::Velocity change{};
     float carrying = 0;
-    float told = physics::FOREVER;
-    float normal_impulse = 0;
+    float least_payload = physics::FOREVER;
+    float payload_sum = 0;
 };
 
 Sum sum_of_slots(const State& state, std::size_t body) {
@@ -32,8 +32,8 @@ Sum sum_of_slots(const State& state, std::size_t body) {
         sum.change.linear += slot.linear;
         sum.change.angular += slot.angular;
         sum.carrying += slot.is_active;
-        if (slot.is_active > 0) sum.told = std::min(sum.told, slot.told);
-        sum.normal_impulse += slot.told;
+        if (slot.is_active > 0) sum.least_payload = std::min(sum.least_payload, slot.payload);
+        sum.payload_sum += slot.payload;
     });
     return sum;
 }
@@ -61,7 +61,7 @@ void begin_substep_of(State& state, std::size_t i, bool first) {
         physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
     float& split_state = state.masses[i].split;
     if (first) split_state = physics::update_hysteresis(split_state, sum.carrying, state.counted().steps);
-    split_state = physics::split_state_after(split_state, sum.carrying, sum.normal_impulse);
+    split_state = physics::split_state_after(split_state, sum.carrying, sum.payload_sum);
 }
 
 void move(State& state, std::size_t i) {
@@ -71,7 +71,7 @@ void move(State& state, std::size_t i) {
         const Sum sum = sum_of_slots(state, i);
         velocity.linear += sum.change.linear;
         velocity.angular += sum.change.angular;
-        state.forces[i].impacts = physics::impacts_of(sum.carrying, sum.normal_impulse);
+        state.forces[i].impacts = physics::impacts_of(sum.carrying, sum.payload_sum);
     }
     const physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
     state.poses[i] = after.pose;
@@ -206,7 +206,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         if (physics::is_spin_limited(velocity, state.fixed())) spin_limited.fetch_add(1, std::memory_order_relaxed);
         const float pace = physics::pace_of(properties, velocity, state.fixed());
         state.sleep_states[i] =
-            physics::sleep_state_after(state.sleep_states[i], pace, sum.carrying, sum.told, state.fixed().sleep_steps);
+            physics::sleep_state_after(state.sleep_states[i], pace, sum.carrying, sum.least_payload, state.fixed().sleep_steps);
         if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
         physics::Sweep& sweep = state.bounds[i].sweep;
         if (!physics::was_fast(properties, sweep, state.poses[i])) return;

@@ -7,6 +7,7 @@
 
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/collide/filter.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/persistence.h"
 
@@ -83,14 +84,24 @@ bool kept_apart(const State& state, std::uint32_t body, std::uint32_t other) {
     return false;
 }
 
+// Whether filters and excluded pairs allow two rows to collide.
+bool may_collide(const State& state, std::uint32_t row, std::uint32_t other) {
+    if (!physics::filters_allow(state.filters[row], state.filters[other])) return false;
+    const std::uint32_t partner = state.id_of(state.body_of(other));
+    for (std::uint32_t k = state.filters[row].w; k != physics::NONE; k = state.exclusions[k].y)
+        if (state.exclusions[k].x == partner) return false;
+    return true;
+}
+
 // Calls found(other) for each partner of the pairs that `body` owns.
 template <typename Found>
 void for_each_partner(const State& state, std::uint32_t body, const Found& list) {
     const physics::Parameters& p = state.fixed();
     const physics::BodyProperties& own = state.properties[body];
     const std::uint32_t id = state.id_of(body);
-    const bool joined = state.has_joints();
+    const bool joined = state.has_joints(), filtered = !state.filters.empty();
     const auto found = [&](std::uint32_t other) {
+        if (filtered && !may_collide(state, body, other)) return;
         if (!joined || !kept_apart(state, state.body_of(body), state.body_of(other))) list(other);
     };
     const physics::Bounds& around = state.bounds[body];

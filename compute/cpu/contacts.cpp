@@ -30,11 +30,11 @@ physics::vec4 impact_state(const State& state, const physics::Constraint& c) {
     return c.restitution > 0 ? physics::impact_state(state.forces[c.a], state.forces[c.b]) : physics::vec4(0);
 }
 
-// `told`: normal impulse, or quiet steps, for A and B (VelocityDelta).
+// `payload`: normal impulse, or quiet steps, for A and B (VelocityDelta).
 void hand_out(State& state, const physics::Constraint& c, const physics::VelocityPair& share, float carrying,
-              std::array<float, 2> told = {0, 0}) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(share.a, carrying, told[1]);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(share.b, carrying, told[0]);
+              std::array<float, 2> payload = {0, 0}) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(share.a, carrying, payload[1]);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(share.b, carrying, payload[0]);
 }
 
 }  // namespace
@@ -183,16 +183,16 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
-    const auto told = [&](std::uint32_t body) {
-        return physics::told_quiet(state.properties[body].motion, state.velocities[body], state.sleep_states[body]);
+    const auto quiet_steps = [&](std::uint32_t body) {
+        return physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body], state.sleep_states[body]);
     };
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
-        std::vector<float> all_told(last ? state.fixed().bodies : 0);
-        threads.for_each(all_told.size(), [&](std::size_t i) { all_told[i] = told(static_cast<std::uint32_t>(i)); });
+        std::vector<float> shown(last ? state.fixed().bodies : 0);
+        threads.for_each(shown.size(), [&](std::size_t i) { shown[i] = quiet_steps(static_cast<std::uint32_t>(i)); });
         if (felt) tables.carried = state.carried.data();
         tables.first = first;
-        if (last) tables.told = reinterpret_cast<const std::uint32_t*>(all_told.data());
+        if (last) tables.quiet_steps = reinterpret_cast<const std::uint32_t*>(shown.data());
         threads.for_ranges(state.counted().solver_contacts,
                            [&](std::size_t from, std::size_t to) { wide->relax(tables, from, to); });
         return;
@@ -215,7 +215,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
         const float carrying = physics::is_active(c, impulse, after.pair_velocity, state.fixed());
         if (last) {
-            hand_out(state, c, share, carrying, {told(c.a), told(c.b)});
+            hand_out(state, c, share, carrying, {quiet_steps(c.a), quiet_steps(c.b)});
         } else {
             hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying,
                      {impulse.normal_sum, impulse.normal_sum});

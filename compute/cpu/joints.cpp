@@ -117,10 +117,11 @@ public:
             });
         });
     }
-    template <class Told>
-    void hand_out(float active, const Told& told) {
+    template <class Payload>
+    void hand_out(float active, const Payload& payload) {
         for (const Joint& record : members_)
-            if (record.slot != NONE) state_.slots[record.slot] = physics::velocity_delta(record.velocity, active, told(record));
+            if (record.slot != NONE)
+                state_.slots[record.slot] = physics::velocity_delta(record.velocity, active, payload(record));
     }
 
     static vec3 impulse_of(const Joint& joint, physics::uint from) {
@@ -398,7 +399,7 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
         block.solve(false);
         const bool struck = block.struck();  // the impulses of an impact must not warm start the next substep
         block.gather([&](const JointRow& row) { return physics::handed_impulse(row, /* warms */ !last && !struck); });
-        float told = physics::FOREVER;
+        float quiet = physics::FOREVER;
         block.for_each_whole([&](Joint& joint) {
             Block::commit(joint);
             joint.force += Block::impulse_of(joint, 0);
@@ -410,11 +411,11 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
         block.for_each_whole([&](const Joint& joint) {
             for (const physics::uint body : {joint.a, joint.b})
                 if (last && body != NONE)
-                    told = std::min(told, physics::told_quiet(state.properties[body].motion, state.velocities[body],
-                                                              state.sleep_states[body]));
+                    quiet = std::min(quiet, physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body],
+                                                                       state.sleep_states[body]));
         });
         block.note_pressing();
-        block.hand_out(1, [&](const Joint& record) { return last ? told : record.normal_sum; });
+        block.hand_out(1, [&](const Joint& record) { return last ? quiet : record.normal_sum; });
     });
 }
 

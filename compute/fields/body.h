@@ -11,6 +11,17 @@ inline constexpr auto words<Motion> = std::array{"dynamic", "fixed", "kinematic"
 template <>
 inline constexpr auto words<Cutting> = std::array{"voronoi", "boxes", "splinters"};
 
+constexpr Range any_bits = between(0, 4294967295.0);
+
+template <>
+inline constexpr auto table<Filter> = table_of(
+    "filter",
+    "Which bodies and parts collide: those of an equal group above 0 always, of one below 0 never; else if each has a category "
+    "in the other's mask",
+    field("category", &Filter::category, any_bits, "", "Bits: what it is").written(),
+    field("mask", &Filter::mask, any_bits, "", "Bits: the categories that it collides with").written(),
+    field("group", &Filter::group, within(2147483647), "", "0: none"));
+
 template <>
 inline constexpr auto table<Tyre> = table_of(
     "tyre",
@@ -63,6 +74,7 @@ inline constexpr auto table<Body> = table_of(
     field("linear_damping", &Body::linear_damping, between(0, 1e4), "1/s", "Rate at which its velocity decays"),
     field("angular_damping", &Body::angular_damping, between(0, 1e4), "1/s", "Rate at which its angular velocity decays"),
     field("gravity_scale", &Body::gravity_scale, within(1e3), "", "Factor on gravity"),
+    field("filter", &Body::filter, "Which bodies it collides with; left out: all"),
     field("tyre", &Body::tyre, "Tyre friction of spheres, capsules and cylinders, also as parts; left out: Coulomb friction"),
     field("fracture", &Body::fracture, "Fracture of a dynamic body; left out: unbreakable"));
 

@@ -38,11 +38,18 @@ inline constexpr auto table<Viewpoint> = table_of(
     field("fit", &Viewpoint::fit, "As near as sees the whole scene at the start"));
 
 template <>
+inline constexpr auto table<Exclusion> =
+    table_of("exclusion", "Two bodies that never collide with each other",
+             field("a", &Exclusion::a, "A body's index or name").index_of(Refers::to_body).required(),
+             field("b", &Exclusion::b, "Another body's index or name").index_of(Refers::to_body).required());
+
+template <>
 inline constexpr auto table<Scene> = table_of(
     "scene", "Bodies, joints and vehicles",  //
     field("gravity", &Scene::gravity, within(1e4), "m/s^2", "Acceleration of free fall").written(),
     field("bodies", &Scene::bodies, "The bodies; joints and vehicles refer to them by index, from 0, or name").required(),
-    field("joints", &Scene::joints, "The joints"), field("vehicles", &Scene::vehicles, "The vehicles"));
+    field("joints", &Scene::joints, "The joints"), field("vehicles", &Scene::vehicles, "The vehicles"),
+    field("exclusions", &Scene::exclusions, "Pairs of bodies that never collide"));
 
 template <>
 inline constexpr auto table<SceneDocument> =

@@ -53,9 +53,9 @@ inline constexpr auto table<GravityEvent> =
              field("gravity", &GravityEvent::gravity, within(1e4), "m/s^2", "Acceleration of free fall").required());
 
 template <>
-inline constexpr auto table<Event> =
+inline constexpr auto table<TimedEvent> =
     table_of("event", "Something that happens at a moment of the run",
-             field("time", &Event::time, between(0, 1e6), "s", "Moment; before the step whose start is nearest").required(),
-             field("action", &Event::action, "What happens").required());
+             field("time", &TimedEvent::time, between(0, 1e6), "s", "Moment; before the step whose start is nearest").required(),
+             field("action", &TimedEvent::action, "What happens").required());
 
 }  // namespace scree::fields

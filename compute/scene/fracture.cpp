@@ -373,6 +373,17 @@ void add_pieces(Scene& scene) {
     }
 }
 
+std::vector<std::size_t> fragments_of(const Scene& scene, std::size_t body) {
+    std::vector<std::size_t> found{body};
+    for (std::size_t k = 0; k < found.size(); ++k) {
+        const std::optional<Fracture>& fracture = scene.bodies[found[k]].fracture;
+        if (!fracture || fracture->first_piece == no_body) continue;
+        for (std::size_t i = 0; i < fracture->cut->pieces.size(); ++i) found.push_back(fracture->first_piece + i);
+    }
+    found.erase(found.begin());
+    return found;
+}
+
 Body on_its_own(Body body) {
     body.piece_of = no_body;
     if (body.fracture) {

@@ -41,6 +41,9 @@ private:
 // Appends the fragments, on all levels, of all breakable bodies that have none yet. Throws SceneError.
 void add_pieces(Scene& scene);
 
+// Indices of the fragments of a body of a checked scene, on all levels below it.
+std::vector<std::size_t> fragments_of(const Scene& scene, std::size_t body);
+
 // The body without relations to fragments or to the body it is a fragment of.
 Body on_its_own(Body body);
 

@@ -87,8 +87,9 @@ std::optional<double> to_frustum(dvec3 from, dvec3 along, double low, double hig
         const double y = from.y + at * along.y;
         offer(at, y >= low && y <= high);
     };
-    if (std::abs(a) > 1e-12 && b * b - a * c >= 0) {
-        for (const double sign : {-1.0, 1.0}) on_side((-b + sign * std::sqrt(b * b - a * c)) / a);
+    if (std::abs(a) > 1e-12) {
+        for (const double sign : {-1.0, 1.0})
+            if (b * b - a * c >= 0) on_side((-b + sign * std::sqrt(b * b - a * c)) / a);
     } else if (std::abs(b) > 1e-12) {
         on_side(-c / (2 * b));
     }
@@ -101,23 +102,27 @@ std::optional<double> to_frustum(dvec3 from, dvec3 along, double low, double hig
     return inside ? std::nullopt : best;
 }
 
+std::optional<double> to_triangle(dvec3 from, dvec3 along, const MeshForm::Triangle& triangle) {
+    const dvec3 normal(triangle.normal), a = dvec3(triangle.middle) + dvec3(triangle.corners[0]);
+    const double towards = glm::dot(normal, along);
+    if (towards > -1e-12) return std::nullopt;  // back faces are ignored
+    const double at = glm::dot(normal, a - from) / towards;
+    if (at <= 0) return std::nullopt;
+    const dvec3 point = from + along * at;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const dvec3 start = dvec3(triangle.middle) + dvec3(triangle.corners[k]);
+        const dvec3 end = dvec3(triangle.middle) + dvec3(triangle.corners[(k + 1) % 3]);
+        if (glm::dot(glm::cross(end - start, point - start), normal) < 0) return std::nullopt;
+    }
+    return at;
+}
+
 std::optional<double> to_triangles(dvec3 from, dvec3 along, const MeshForm* form) {
     std::optional<double> best;
     if (!form) return best;
     for (const MeshForm::Triangle& triangle : form->triangles) {
-        const dvec3 normal(triangle.normal), a = dvec3(triangle.middle) + dvec3(triangle.corners[0]);
-        const double towards = glm::dot(normal, along);
-        if (towards > -1e-12) continue;  // back faces are ignored
-        const double at = glm::dot(normal, a - from) / towards;
-        if (at <= 0 || (best && at >= *best)) continue;
-        const dvec3 point = from + along * at;
-        bool inside = true;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const dvec3 start = dvec3(triangle.middle) + dvec3(triangle.corners[k]);
-            const dvec3 end = dvec3(triangle.middle) + dvec3(triangle.corners[(k + 1) % 3]);
-            inside = inside && glm::dot(glm::cross(end - start, point - start), normal) >= 0;
-        }
-        if (inside) best = at;
+        const std::optional<double> at = to_triangle(from, along, triangle);
+        if (at && (!best || *at < *best)) best = at;
     }
     return best;
 }
@@ -168,12 +173,47 @@ std::optional<float> distance_to(const Plane& plane, vec3 from, vec3 along) {
 std::optional<float> distance_to(const Compound& compound, vec3 position, vec4 orientation, vec3 from, vec3 along) {
     std::optional<float> best;
     for (const Part& part : compound.parts) {
-        const std::optional<float> at =
-            ray_distance(whole_shape(part.shape), position + physics::rotate(orientation, part.position),
-                         physics::compose(orientation, part.orientation), from, along);
+        const std::optional<float> at = ray_distance(part.shape, position + physics::rotate(orientation, part.position),
+                                                     physics::compose(orientation, part.orientation), from, along);
         if (at && (!best || *at < *best)) best = at;
     }
     return best;
+}
+
+LocalRay local(vec3 position, vec4 orientation, vec3 from, vec3 along) {
+    return {dvec3(physics::rotate_back(orientation, from - position)), dvec3(physics::rotate_back(orientation, along))};
+}
+std::optional<float> rounded(const std::optional<double>& at) {
+    if (at) return static_cast<float>(*at);
+    return std::nullopt;
+}
+
+// ---- whether a point in the body's frame is in a shape
+bool has(const Sphere& s, dvec3 p) {
+    return glm::dot(p, p) <= static_cast<double>(s.radius) * s.radius;
+}
+bool has(const Capsule& c, dvec3 p) {
+    const dvec3 apart = p - dvec3(0, std::clamp(p.y, -static_cast<double>(c.half_height), static_cast<double>(c.half_height)), 0);
+    return glm::dot(apart, apart) <= static_cast<double>(c.radius) * c.radius;
+}
+bool has(const Box& b, dvec3 p) {
+    const dvec3 half(b.half_extents);
+    return std::abs(p.x) <= half.x && std::abs(p.y) <= half.y && std::abs(p.z) <= half.z;
+}
+bool has(const Cylinder& c, dvec3 p) {
+    return std::abs(p.y) <= static_cast<double>(c.half_height) && std::hypot(p.x, p.z) <= static_cast<double>(c.radius);
+}
+bool has(const Cone& c, dvec3 p) {
+    const double above = p.y + 0.25 * c.height, height = c.height;
+    return above >= 0 && above <= height && std::hypot(p.x, p.z) <= c.radius * (1 - above / height);
+}
+bool has(const Ellipsoid& e, dvec3 p) {
+    const dvec3 scaled = p / dvec3(e.radii);
+    return glm::dot(scaled, scaled) <= 1;
+}
+bool has(const Hull& h, dvec3 p) {
+    return std::all_of(h.form->faces.begin(), h.form->faces.end(),
+                       [&](const HullForm::Face& face) { return glm::dot(face.normal, p) <= face.distance; });
 }
 
 }  // namespace
@@ -181,16 +221,51 @@ std::optional<float> distance_to(const Compound& compound, vec3 position, vec4 o
 std::optional<float> ray_distance(const Shape& shape, vec3 position, vec4 orientation, vec3 from, vec3 along) {
     if (const auto* plane = std::get_if<Plane>(&shape)) return distance_to(*plane, from, along);
     if (const auto* compound = std::get_if<Compound>(&shape)) return distance_to(*compound, position, orientation, from, along);
-    const LocalRay ray{dvec3(physics::rotate_back(orientation, from - position)),
-                       dvec3(physics::rotate_back(orientation, along))};
+    const LocalRay ray = local(position, orientation, from, along);
     return std::visit(
         [&](const auto& one) -> std::optional<float> {
             using Kind = std::remove_cvref_t<decltype(one)>;
-            if constexpr (!std::is_same_v<Kind, Plane> && !std::is_same_v<Kind, Compound>)
-                if (const std::optional<double> at = meet(one, ray)) return static_cast<float>(*at);
+            if constexpr (!std::is_same_v<Kind, Plane> && !std::is_same_v<Kind, Compound>) return rounded(meet(one, ray));
             return std::nullopt;
         },
         shape);
+}
+
+std::optional<float> ray_distance(const SimpleShape& shape, vec3 position, vec4 orientation, vec3 from, vec3 along) {
+    if (const auto* plane = std::get_if<Plane>(&shape)) return distance_to(*plane, from, along);
+    const LocalRay ray = local(position, orientation, from, along);
+    return std::visit(
+        [&](const auto& one) -> std::optional<float> {
+            if constexpr (!std::is_same_v<std::remove_cvref_t<decltype(one)>, Plane>) return rounded(meet(one, ray));
+            return std::nullopt;
+        },
+        shape);
+}
+
+std::optional<float> ray_distance(const MeshForm& form, std::size_t triangle, vec3 position, vec4 orientation, vec3 from,
+                                  vec3 along) {
+    const LocalRay ray = local(position, orientation, from, along);
+    return rounded(to_triangle(ray.from, ray.along, form.triangles[triangle]));
+}
+
+template <class AnyShape>
+static bool is_in(const AnyShape& shape, vec3 position, vec4 orientation, vec3 point) {
+    if (const auto* plane = std::get_if<Plane>(&shape)) return glm::dot(point, plane->normal) <= plane->offset;
+    const dvec3 inside(physics::rotate_back(orientation, point - position));
+    return std::visit(
+        [&](const auto& one) {
+            if constexpr (requires { has(one, inside); })
+                return has(one, inside);
+            else
+                return false;
+        },
+        shape);
+}
+bool contains(const SimpleShape& shape, vec3 position, vec4 orientation, vec3 point) {
+    return is_in(shape, position, orientation, point);
+}
+bool contains(const Shape& shape, vec3 position, vec4 orientation, vec3 point) {
+    return is_in(shape, position, orientation, point);
 }
 
 }  // namespace scree

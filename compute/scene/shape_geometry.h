@@ -30,5 +30,13 @@ std::vector<glm::dvec4> planes_of(const Shape& shape, bool fine);
 // Distance along a ray (unit direction) to the first surface met from outside, m; none if the ray misses the shape or
 // begins in it. Back faces of planes and surfaces are ignored.
 std::optional<float> ray_distance(const Shape& shape, vec3 position, vec4 orientation, vec3 from, vec3 along);
+std::optional<float> ray_distance(const SimpleShape& shape, vec3 position, vec4 orientation, vec3 from, vec3 along);
+// The same for one triangle of a mesh or height field.
+std::optional<float> ray_distance(const MeshForm& form, std::size_t triangle, vec3 position, vec4 orientation, vec3 from,
+                                  vec3 along);
+
+// Whether a point is in a checked convex shape or behind a plane, the surface included.
+bool contains(const SimpleShape& shape, vec3 position, vec4 orientation, vec3 point);
+bool contains(const Shape& shape, vec3 position, vec4 orientation, vec3 point);  // compounds and surfaces contain none
 
 }  // namespace scree

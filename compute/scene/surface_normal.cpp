@@ -119,7 +119,7 @@ vec3 normal_of_part(const Compound& compound, vec3 position, vec4 orientation, c
     vec3 found(0, 1, 0);
     float nearest = std::numeric_limits<float>::infinity();
     for (const Part& part : compound.parts) {
-        const Shape shape = whole_shape(part.shape);
+        const SimpleShape& shape = part.shape;
         const vec3 at = position + physics::rotate(orientation, part.position);
         const vec4 turned = physics::compose(orientation, part.orientation);
         const std::optional<float> distance = ray_distance(shape, at, turned, ray.from, ray.along);
@@ -132,9 +132,8 @@ vec3 normal_of_part(const Compound& compound, vec3 position, vec4 orientation, c
 
 }  // namespace
 
-vec3 surface_normal(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray, vec3 point) {
-    if (const auto* plane = std::get_if<Plane>(&shape)) return plane->normal;
-    if (const auto* compound = std::get_if<Compound>(&shape)) return normal_of_part(*compound, position, orientation, ray, point);
+template <class AnyShape>
+static vec3 normal_at(const AnyShape& shape, vec3 position, vec4 orientation, const Ray& ray, vec3 point) {
     const Met met{dvec3(physics::rotate_back(orientation, point - position)),
                   dvec3(physics::rotate_back(orientation, ray.along))};
     const dvec3 normal = std::visit(
@@ -147,6 +146,16 @@ vec3 surface_normal(const Shape& shape, vec3 position, vec4 orientation, const R
         },
         shape);
     return physics::rotate(orientation, vec3(normal));
+}
+
+vec3 surface_normal(const Shape& shape, vec3 position, vec4 orientation, const Ray& ray, vec3 point) {
+    if (const auto* plane = std::get_if<Plane>(&shape)) return plane->normal;
+    if (const auto* compound = std::get_if<Compound>(&shape)) return normal_of_part(*compound, position, orientation, ray, point);
+    return normal_at(shape, position, orientation, ray, point);
+}
+vec3 surface_normal(const SimpleShape& shape, vec3 position, vec4 orientation, const Ray& ray, vec3 point) {
+    if (const auto* plane = std::get_if<Plane>(&shape)) return plane->normal;
+    return normal_at(shape, position, orientation, ray, point);
 }
 
 }  // namespace scree

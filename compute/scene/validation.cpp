@@ -33,6 +33,19 @@ Shift examine(const Examination& body, Body& b, CheckedHulls& hulls, std::vector
     return shift;
 }
 
+void check_exclusions(const Scene& scene) {
+    for (std::size_t i = 0; i < scene.exclusions.size(); ++i) {
+        const Exclusion& one = scene.exclusions[i];
+        const std::string place = "/exclusions/" + std::to_string(i);
+        for (const auto& [key, body] : {std::pair{"/a", one.a}, std::pair{"/b", one.b}})
+            if (body >= scene.bodies.size())
+                throw SceneError(place + key, "there is no body " + std::to_string(body) + "; the scene has " +
+                                                  std::to_string(scene.bodies.size()));
+        if (one.a == one.b)
+            throw SceneError(place + "/b", "body " + std::to_string(one.a) + " cannot collide with itself; name another");
+    }
+}
+
 }  // namespace
 
 SceneError::SceneError(std::string place, const std::string& reason)
@@ -48,6 +61,7 @@ Scene checked(Scene scene, std::vector<std::string>* notes) {
     }
     check_joints(scene);
     check_vehicles(scene);
+    check_exclusions(scene);
     add_pieces(scene);
     return scene;
 }

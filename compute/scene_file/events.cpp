@@ -19,7 +19,7 @@ bool is_due(double seconds, const World& world) {
 }
 
 // The present index of a joint of the scene: removed joints lower those above them.
-std::size_t present_joint(const std::vector<Event>& events, std::size_t event, std::size_t joint) {
+std::size_t present_joint(const std::vector<TimedEvent>& events, std::size_t event, std::size_t joint) {
     std::size_t lower = 0;
     for (std::size_t i = 0; i < events.size(); ++i) {
         const auto* release = std::get_if<ReleaseEvent>(&events[i].action);
@@ -30,7 +30,7 @@ std::size_t present_joint(const std::vector<Event>& events, std::size_t event, s
 }
 
 struct Performance {
-    const std::vector<Event>& events;
+    const std::vector<TimedEvent>& events;
     std::size_t index;
     World& world;
 
@@ -52,7 +52,7 @@ struct Performance {
 
 // What an action needs of the scene.
 struct Check {
-    const std::vector<Event>& events;
+    const std::vector<TimedEvent>& events;
     std::size_t index;
     const Scene& scene;
 
@@ -106,11 +106,11 @@ struct Check {
 
 }  // namespace
 
-void check_events(const std::vector<Event>& events, const Scene& scene) {
+void check_events(const std::vector<TimedEvent>& events, const Scene& scene) {
     for (std::size_t i = 0; i < events.size(); ++i) std::visit(Check{events, i, scene}, events[i].action);
 }
 
-void perform_due(const std::vector<Event>& events, World& world) {
+void perform_due(const std::vector<TimedEvent>& events, World& world) {
     for (std::size_t i = 0; i < events.size(); ++i) {
         const auto* glide = std::get_if<GlideEvent>(&events[i].action);
         const bool arrives = glide && is_due(static_cast<double>(events[i].time) + static_cast<double>(glide->duration), world);
@@ -126,21 +126,21 @@ void perform_due(const std::vector<Event>& events, World& world) {
     }
 }
 
-std::vector<Event> coming_events(const std::vector<Event>& events, const World& world) {
-    std::vector<Event> coming;
+std::vector<TimedEvent> coming_events(const std::vector<TimedEvent>& events, const World& world) {
+    std::vector<TimedEvent> coming;
     for (const Body& body : world.scene().bodies)
         if (body.piece_of != no_body) return coming;
     const auto now = static_cast<float>(world.time());
     const auto released_below = [&](std::size_t joint) {
         std::size_t count = 0;
-        for (const Event& other : events) {
+        for (const TimedEvent& other : events) {
             const auto* release = std::get_if<ReleaseEvent>(&other.action);
             if (release && other.time < now && release->joint < joint) ++count;
         }
         return count;
     };
-    for (const Event& event : events) {
-        Event next = event;
+    for (const TimedEvent& event : events) {
+        TimedEvent next = event;
         next.time -= now;
         auto* glide = std::get_if<GlideEvent>(&next.action);
         const bool under_way = glide && next.time < 0 && next.time + glide->duration > 0;

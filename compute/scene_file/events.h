@@ -47,20 +47,20 @@ struct GravityEvent {
 
 using EventAction = std::variant<ImpulseEvent, VelocityEvent, GlideEvent, ExplosionEvent, ReleaseEvent, MotorEvent, GravityEvent>;
 
-struct Event {
+struct TimedEvent {
     float time = 0;  // s
     EventAction action = ImpulseEvent{};
 };
 
 // Throws SceneError, with the JSON pointer of the event, for bodies and joints that do not exist or cannot do it.
-void check_events(const std::vector<Event>& events, const Scene& scene);
+void check_events(const std::vector<TimedEvent>& events, const Scene& scene);
 
 // Performs the events due before the world's next step, in their order. Joints keep their numbers of the scene, however
 // many were released before. Throws SceneError with the JSON pointer of the event.
-void perform_due(const std::vector<Event>& events, World& world);
+void perform_due(const std::vector<TimedEvent>& events, World& world);
 
 // The events that are still to come, for a scene that starts as World::snapshot() shows this world: times count from
 // now. None if bodies have broken, since the snapshot numbers them anew.
-std::vector<Event> coming_events(const std::vector<Event>& events, const World& world);
+std::vector<TimedEvent> coming_events(const std::vector<TimedEvent>& events, const World& world);
 
 }  // namespace scree

@@ -99,11 +99,12 @@ void read(const json& value, const Place& place, std::uint32_t& out) {
     out = static_cast<std::uint32_t>(number);
 }
 
-void read(const json& value, const Place& place, int& out) {
-    std::size_t number = 0;
-    read(value, place, number);
-    if (number > 0x7FFFFFFFu) refuse(place, "must be below 2147483648");
-    out = static_cast<int>(number);
+void read(const json& value, const Place& place, std::int32_t& out) {
+    if (!value.is_number_integer()) refuse(place, "must be a whole number, is " + kind(value));
+    const auto number = value.is_number_unsigned() && value.get<std::uint64_t>() > 0x7FFFFFFFu ? std::int64_t{1} << 40
+                                                                                               : value.get<std::int64_t>();
+    if (number > 0x7FFFFFFF || number < -0x7FFFFFFF) refuse(place, "must be within 2147483647 of 0, is " + kind(value));
+    out = static_cast<std::int32_t>(number);
 }
 
 std::size_t index_among(const Names& known, const std::string& word, const char* what, const Place& place) {

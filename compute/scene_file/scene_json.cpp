@@ -31,7 +31,7 @@ Body body_of(const json& value, const Place& place) {
 namespace {
 
 using namespace json_reading;
-using Event = json::parse_event_t;
+using ParseEvent = json::parse_event_t;
 
 template <class View>
 void check_view(const Place& place, const View& view) {
@@ -96,11 +96,11 @@ class Listener {
 public:
     Listener(Scene& scene, std::size_t most_bodies) : scene_(scene), most_bodies_(most_bodies) {}
 
-    bool operator()(int depth, Event event, const json& parsed) {
-        if (event == Event::object_start) keys_.emplace_back();
-        if (event == Event::key) note_key(parsed.get_ref<const std::string&>());
-        if (event == Event::object_end) keys_.pop_back();
-        const bool ends = event == Event::object_end || event == Event::array_end || event == Event::value;
+    bool operator()(int depth, ParseEvent event, const json& parsed) {
+        if (event == ParseEvent::object_start) keys_.emplace_back();
+        if (event == ParseEvent::key) note_key(parsed.get_ref<const std::string&>());
+        if (event == ParseEvent::object_end) keys_.pop_back();
+        const bool ends = event == ParseEvent::object_end || event == ParseEvent::array_end || event == ParseEvent::value;
         if (!ends || depth != 2 || top_key_ != "bodies") return true;
         if (scene_.bodies.size() == most_bodies_) {
             refuse(bodies_, "more than " + std::to_string(most_bodies_) +
@@ -152,6 +152,7 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     if (rest.contains("joints")) read_joints(rest["joints"], named, scene);
     named.joints = numbers_of(scene.joints);
     read_field(rest, root, fields::field_of(&Scene::vehicles), scene, named);
+    read_field(rest, root, fields::field_of(&Scene::exclusions), scene, named);
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera", named, scene);
     read_run(rest, root, named, document);
     return document;

@@ -44,7 +44,7 @@ struct SceneDocument {
     std::optional<Settings> settings{};
     float duration = 0;  // s, of a run that is not told how long; 0: 10 s
     std::optional<PictureStyle> picture{};
-    std::vector<Event> events{};
+    std::vector<TimedEvent> events{};
 };
 
 // Reads a scene file's text (format: scene_schema()). Throws SceneError with the JSON pointer of an invalid value, or

@@ -75,6 +75,7 @@ std::string to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoin
     write_list(text, "bodies", scene.bodies);
     if (!scene.joints.empty()) write_list(text << ",\n", "joints", scene.joints);
     if (!scene.vehicles.empty()) write_list(text << ",\n", "vehicles", scene.vehicles);
+    if (!scene.exclusions.empty()) write_list(text << ",\n", "exclusions", scene.exclusions);
     if (!shown.events.empty()) write_list(text << ",\n", "events", shown.events);
     text << "}\n";
     return text.take();

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include "compute/fields/body.h"
+#include "compute/scene_file/fields_read.h"
 #include "compute/scene_file/fields_write.h"
 
 namespace scree {
@@ -38,7 +40,7 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
     if (!value.is_array()) refuse(place, "must be an array of parts, is " + kind(value));
     for (std::size_t i = 0; i < value.size(); ++i) {
         const Place here = place / i;
-        only(value[i], here, {"shape", "position", "orientation", "density"});
+        only(value[i], here, {"shape", "position", "orientation", "density", "filter"});
         Part& part = parts.emplace_back();
         // Rejected before its parts are read: nested compounds could overflow the stack.
         if (const auto nested = value[i].find("shape"); nested != value[i].end() && nested->contains("compound"))
@@ -51,6 +53,8 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
         optional(value[i], here, "position", part.position);
         optional(value[i], here, "orientation", part.orientation);
         optional(value[i], here, "density", part.density);
+        if (const auto filter = value[i].find("filter"); filter != value[i].end())
+            read_value(*filter, here / "filter", part.filter.emplace(), "", {});
     }
 }
 
@@ -133,6 +137,7 @@ void write_shape_value(Text& text, const std::vector<Part>& parts) {
         unless_default("position", part.position, by_default.position);
         unless_default("orientation", part.orientation, by_default.orientation);
         unless_default("density", part.density, by_default.density);
+        if (part.filter) write_value(text << ", \"filter\": ", *part.filter);
         between = "}, {\"shape\": ";
     }
     text << (parts.empty() ? "[]" : "}]");

@@ -127,7 +127,8 @@ ordered_json schemas_with_lists() {
                                         "maximum": 1000000,
                                         "default": 0,
                                         "description": "kg/m^3; 0: the body's own"
-                                    }
+                                    },
+                                    "filter": {"$ref": "#/$defs/filter", "description": "left out: the body's own"}
                                 }
                             }
                         }

@@ -100,6 +100,18 @@ void State::number_rows() {
     for (std::uint32_t id = 0; id < rows_.size(); ++id) ids[rows_[id]] = id;
 }
 
+void State::take_rows(std::vector<std::uint32_t> rows) {
+    rows_ = std::move(rows);
+    number_rows();
+    row_content_ = {};
+    note_content(0, fixed().bodies);
+    spare_parts.clear();
+    spare_fractures.clear();
+    const std::uint32_t first = fixed().first_part;
+    for (std::uint32_t row = first; row < fixed().bodies; ++row)
+        if (properties[row].motion == physics::MOTION_PENDING) spare_part_rows(row - first, 1);
+}
+
 void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threads) {
     const std::uint32_t n = body_count, all = fixed().bodies;
     std::vector<std::uint32_t> from(all), to(all);  // rows
@@ -148,6 +160,7 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     take(sleep_states);
     take(strains);
     take(masses);
+    take(filters);
     for (physics::BodyProperties& row : properties) follow(row.owner);
     for (physics::Joint& joint : joints)
         for (physics::uint* row : {&joint.a, &joint.b, &joint.block_body}) follow(*row);

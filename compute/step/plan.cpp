@@ -14,7 +14,8 @@ std::uint32_t feature_bits(const SceneFeatures& features) {
     return (features.bounces ? physics::FEATURE_BOUNCES : 0) | (features.rolls ? physics::FEATURE_ROLLS : 0) |
            (features.round ? physics::FEATURE_ROUND : 0) | (features.tyres ? physics::FEATURE_TYRES : 0) |
            (features.moving_parts ? physics::FEATURE_PARTS : 0) | (features.reordered ? physics::FEATURE_REORDERED : 0) |
-           (features.joints ? physics::FEATURE_JOINTS : 0) | (features.breaking ? physics::FEATURE_BREAKING : 0);
+           (features.joints ? physics::FEATURE_JOINTS : 0) | (features.sums ? physics::FEATURE_SUMS : 0) |
+           (features.filters ? physics::FEATURE_FILTERS : 0);
 }
 
 struct Order {
@@ -123,7 +124,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
         s.add("solve_contacts");
         if (features.joints) s.add("solve_joints");
         s.add("move_bodies");
-        s.add("relax_contacts", last | first << 1 | (features.breaking ? 4u : 0u));
+        s.add("relax_contacts", last | first << 1 | (features.sums ? 4u : 0u));
         if (features.joints) s.add("relax_joints", last);
     }
     s.add("end_step");

@@ -15,6 +15,9 @@ physics::uint sleep_steps_of(const Settings& settings);
 // The parameters with new gravity and settings; the others unchanged.
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings);
 
+// Whether a body or one of its parts has a collision filter.
+bool has_filter(const Body& body);
+
 class SceneCompiler {
 public:
     explicit SceneCompiler(State& state) : state_(state) {}
@@ -28,8 +31,13 @@ public:
     static physics::Pose start_of(const Body& body);
     static physics::Velocity start_velocity_of(const Body& body);
     static float start_strain_of(const Body& body, const physics::BodyProperties& properties);
-    void append_parts(const Body& body, std::uint32_t owner);  // appends properties and poses of its parts
-    void place(std::uint32_t part);                            // sets a part's pose from its body's
+    void append_parts(const Body& body, std::uint32_t owner);                         // appends properties and poses of its parts
+    void place(std::uint32_t part);                                                   // sets a part's pose from its body's
+    static void set_material(physics::BodyProperties& properties, const Body& body);  // and damping
+    static void set_mass(physics::BodyProperties& properties, const Body& body);      // and motion
+
+    // filter_records.cpp: the tables of filters and exclusions, empty if the scene has none.
+    void filter(const Scene& scene);
 
 private:
     physics::BodyProperties form_of(const SimpleShape& shape);

@@ -122,14 +122,30 @@ physics::BodyProperties SceneCompiler::form_of(const SimpleShape& shape) {
 physics::uint SceneCompiler::place_of(const Fracture& fracture) {
     const auto [known, fresh] =
         state_.shape_places.cuts.try_emplace(fracture.cut, static_cast<physics::uint>(state_.pieces.size()));
-    if (fresh)
-        for (const Body& piece : fracture.cut->pieces) state_.pieces.push_back({piece.position, 0, piece.orientation});
+    if (fresh) {
+        std::vector<physics::PoseInBody> poses;
+        for (const Body& piece : fracture.cut->pieces) poses.push_back({piece.position, 0, piece.orientation});
+        constexpr std::size_t small_table = 65536;  // as of hulls
+        auto same = state_.pieces.end();
+        if (state_.pieces.size() < small_table)
+            same = std::search(
+                state_.pieces.begin(), state_.pieces.end(), poses.begin(), poses.end(),
+                [](const auto& x, const auto& y) { return x.position == y.position && x.orientation == y.orientation; });
+        known->second = static_cast<physics::uint>(same - state_.pieces.begin());
+        if (same == state_.pieces.end()) state_.pieces.insert(state_.pieces.end(), poses.begin(), poses.end());
+    }
     physics::Fracturing made{};
     made.of_momentum = fracture.momentum > 0;
     made.threshold = fracture.momentum > 0 ? fracture.momentum : fracture.impulse;
     made.first_row = static_cast<physics::uint>(fracture.first_piece);
     made.count = static_cast<physics::uint>(fracture.cut->pieces.size());
     made.first_pose = known->second;
+    if (!state_.spare_fractures.empty()) {
+        const physics::uint place = state_.spare_fractures.back();
+        state_.spare_fractures.pop_back();
+        state_.fractures[place] = made;
+        return place;
+    }
     state_.fractures.push_back(made);
     return static_cast<physics::uint>(state_.fractures.size() - 1);
 }
@@ -157,23 +173,33 @@ physics::BodyProperties SceneCompiler::properties_of(const Body& body, std::uint
         made.shape = physics::SHAPE_NONE;
         made.size = size_of_whole(body.shape);
     }
-    made.motion = body.piece_of == no_body ? static_cast<physics::uint>(body.motion) : physics::MOTION_PENDING;
     made.owner = index;
     made.fracture = body.fracture ? place_of(*body.fracture) : physics::NONE;
     made.joints = physics::NONE;
-    if (body.motion == Motion::dynamic) {
-        const MassProperties properties = mass_properties(body.shape, body.density);
-        made.inverse_mass = 1 / properties.mass;
-        made.inverse_inertia = vec3(1 / properties.inertia.x, 1 / properties.inertia.y, 1 / properties.inertia.z);
-    }
-    made.friction = body.friction;
-    made.restitution = body.restitution;
-    made.rolling_resistance = body.rolling_resistance;
-    made.gravity_scale = body.gravity_scale;
-    made.linear_damping = body.linear_damping;
-    made.angular_damping = body.angular_damping;
+    set_mass(made, body);
+    if (body.piece_of != no_body) made.motion = physics::MOTION_PENDING;
+    set_material(made, body);
     if (made.shape == physics::SHAPE_PLANE) made.large = 1;
     return made;
+}
+
+void SceneCompiler::set_mass(physics::BodyProperties& properties, const Body& body) {
+    properties.motion = static_cast<physics::uint>(body.motion);
+    properties.inverse_mass = 0;
+    properties.inverse_inertia = vec3(0);
+    if (body.motion != Motion::dynamic) return;
+    const MassProperties mass = mass_properties(body.shape, body.density);
+    properties.inverse_mass = 1 / mass.mass;
+    properties.inverse_inertia = vec3(1 / mass.inertia.x, 1 / mass.inertia.y, 1 / mass.inertia.z);
+}
+
+void SceneCompiler::set_material(physics::BodyProperties& properties, const Body& body) {
+    properties.friction = body.friction;
+    properties.restitution = body.restitution;
+    properties.rolling_resistance = body.rolling_resistance;
+    properties.gravity_scale = body.gravity_scale;
+    properties.linear_damping = body.linear_damping;
+    properties.angular_damping = body.angular_damping;
 }
 
 void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {

@@ -71,7 +71,8 @@ void declare_convex(std::vector<StageDeclaration>& all) {
 }
 
 void declare_broadphase(std::vector<StageDeclaration>& all) {
-    constexpr std::uint32_t features = physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS;
+    constexpr std::uint32_t features =
+        physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS;
     declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
         {{bounds, A::bodies, 1}, {cell_ends, A::bodies}},
@@ -83,12 +84,12 @@ void declare_broadphase(std::vector<StageDeclaration>& all) {
     // search again.
     all.push_back({"count_pairs", DispatchDomain::bodies, count_pairs,
         {{counts}, {bounds, A::bodies, 1}, {properties, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
-         {first_contacts}, {contacts_before}},
+         {filters}, {exclusions}, {first_contacts}, {contacts_before}},
         {{pair_starts, A::bodies}, unfinished({pairs, A::bodies, 2}), {counts}}, features});
     declare_scan(all, {"pairs", DispatchDomain::body_scan_blocks, pair_starts, pair_starts, A::bodies, scan_pairs_spine, scan_pairs_offsets, false, true});
     all.push_back({"fill_pairs", DispatchDomain::bodies, fill_pairs,
         {{counts}, {pair_starts, A::bodies}, {pairs, A::bodies, 2}, {bounds}, {properties}, {cell_ends}, {cell_entries}, {poses}, {ids}, {joints},
-         {first_contacts}, {contacts_before}},
+         {filters}, {exclusions}, {first_contacts}, {contacts_before}},
         {unfinished({candidates, A::pairs})}, features});
     all.push_back({"match_pairs", DispatchDomain::pairs, match_pairs,
         {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {properties, A::bodies},
@@ -190,7 +191,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
          {velocities, A::movers}, {properties}, {sleep_states}},
-        {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_BREAKING});
+        {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_SUMS});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, {slots}, {properties}, {sleep_states}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});

@@ -78,6 +78,10 @@ std::size_t State::allocated(BufferLength length) const {
             return tyres.size();
         case BufferLength::way_points:
             return way_points.size();
+        case BufferLength::filters:
+            return filters.empty() ? 0 : p.bodies;
+        case BufferLength::exclusions:
+            return exclusions.size();
         case BufferLength::actions:
             return action_room;
     }
@@ -114,6 +118,8 @@ SceneFeatures State::features() const {
     found.joints = has_joints();
     found.vehicles = fixed().vehicles != 0;
     found.reordered = reordered();
+    found.filters = !filters.empty();
+    found.sums = found.breaking || sums_impulses;
     found.bounces |= fixed().least_restitution > 0;
     return found;
 }
@@ -150,9 +156,32 @@ void State::allocate() {
     for (const Table table :
          {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints, vehicles, ids})
         make(table);
+    if (!this->filters.empty()) this->filters.resize(fixed().bodies, no_filter);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)
         if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
+}
+
+void State::spare_part_rows(std::uint32_t offset, std::uint32_t count) {
+    const auto next = spare_parts.lower_bound(offset);
+    if (next != spare_parts.end() && next->first == offset + count) {
+        count += next->second;
+        spare_parts.erase(next);
+    }
+    auto before = spare_parts.lower_bound(offset);
+    if (before != spare_parts.begin() && (--before)->first + before->second == offset)
+        before->second += count;
+    else
+        spare_parts[offset] = count;
+}
+
+std::optional<std::uint32_t> State::take_part_rows(std::uint32_t count) {
+    const auto found = std::find_if(spare_parts.begin(), spare_parts.end(), [&](const auto& run) { return run.second >= count; });
+    if (found == spare_parts.end()) return std::nullopt;
+    const auto [offset, length] = *found;
+    spare_parts.erase(found);
+    if (length > count) spare_parts[offset + count] = length - count;
+    return offset;
 }
 
 void State::turn_over() {

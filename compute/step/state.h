@@ -40,6 +40,8 @@ enum class BufferLength {
     pieces,
     tyres,
     way_points,
+    filters,
+    exclusions,
     joints,
     vehicles,
     actions
@@ -83,6 +85,8 @@ struct SceneFeatures {
     bool round = false;      // there are spheres or capsules
     bool tyres = false;      // some body has a tyre
     bool reordered = false;  // rows differ from ids
+    bool filters = false;    // some body has a collision filter or an excluded partner
+    bool sums = false;       // contacts sum their impulses over the step
     static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
@@ -95,11 +99,15 @@ struct SceneFeatures {
                 .rolls = true,
                 .round = true,
                 .tyres = true,
-                .reordered = true};
+                .reordered = true,
+                .filters = true,
+                .sums = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 12 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 14 * sizeof(bool));  // everything() names all
+
+inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 
 // Indices of shared records in the tables.
 struct ShapePlaces {
@@ -146,6 +154,11 @@ struct State {
     std::uint32_t id_of(std::uint32_t row) const {
         return rows_.empty() ? row : ids[row];
     }
+    // For checkpoints: the rows by id (empty: equal to ids). Taking them numbers the rows and notes their features anew.
+    const std::vector<std::uint32_t>& rows() const {
+        return rows_;
+    }
+    void take_rows(std::vector<std::uint32_t> rows);
 
     // Records allocated, and records in use at present.
     std::size_t allocated(BufferLength length) const;
@@ -188,6 +201,7 @@ struct State {
     }
 
     int substeps = 1;
+    bool sums_impulses = false;                // contacts sum their impulses over the step, for events (Table::carried)
     std::uint32_t action_room = 64;            // capacity of the table of actions; grows
     std::vector<std::uint32_t> joint_records;  // record index by joint of the scene
 
@@ -197,6 +211,12 @@ struct State {
     std::vector<std::array<std::uint32_t, noted>> partners;
 
     ShapePlaces shape_places;
+    // Records of removed bodies, for new ones: runs of part rows (offset behind first_part, count), fractures.
+    std::map<std::uint32_t, std::uint32_t> spare_parts;
+    std::vector<physics::uint> spare_fractures;
+    void spare_part_rows(std::uint32_t offset, std::uint32_t count);  // adds a run
+    // Takes a run of that length out of them; none if there is none.
+    std::optional<std::uint32_t> take_part_rows(std::uint32_t count);
     std::uint32_t body_count = 0;  // bodies of the scene; with parts, Parameters::first_part has room for more
 
     // For the scene compiler and editor: allocates every table; notes features of new rows; number of buckets for a

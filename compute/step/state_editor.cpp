@@ -7,6 +7,7 @@
 
 #include "compute/step/joint_blocks.h"
 #include "compute/step/scene_compiler.h"
+#include "shaders/physics/collide/compound.h"
 
 namespace scree {
 
@@ -100,14 +101,15 @@ TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
     return changed;
 }
 
-bool StateEditor::has_room_for_a_body() const {
+bool StateEditor::has_room_for(std::uint32_t bodies, bool with_parts) const {
     const physics::Parameters& p = state_.fixed();
-    return state_.body_count < p.first_part || p.first_part == p.bodies;
+    const bool at_the_end = p.first_part == p.bodies && !(with_parts && bodies > 1);
+    return bodies == 0 || state_.body_count + bodies <= p.first_part || at_the_end;
 }
 
 // Rows of parts, which move, and contacts, which refer to rows.
-TableRanges StateEditor::needed_to_add() const {
-    if (has_room_for_a_body()) return {};
+TableRanges StateEditor::needed_to_add(std::uint32_t count, bool with_parts) const {
+    if (has_room_for(count, with_parts)) return {};
     const physics::Parameters& p = state_.fixed();
     const std::size_t parts = p.bodies - p.first_part;
     TableRanges needed{{Table::first_contacts, p.first_part, parts + 1},
@@ -118,9 +120,10 @@ TableRanges StateEditor::needed_to_add() const {
 }
 
 // Inserts spare rows between bodies and parts, which move up.
-TableRanges StateEditor::make_room_for_bodies() {
+TableRanges StateEditor::make_room(std::uint32_t bodies, bool with_parts) {
+    if (has_room_for(bodies, with_parts)) return {};
     physics::Parameters& p = state_.fixed();
-    const std::uint32_t first = p.first_part, count = std::max(16u, first / 2);
+    const std::uint32_t first = p.first_part, count = std::max({16u, first / 2, bodies});
     const auto insert = [&](auto& table, const auto& record) { table.insert(table.begin() + first, count, record); };
     insert(state_.properties, physics::BodyProperties{});
     for (std::uint32_t row = first; row < first + count; ++row) state_.properties[row] = spare_row(row);
@@ -146,6 +149,7 @@ TableRanges StateEditor::make_room_for_bodies() {
     changed.push_back({Table::first_contacts, first, p.bodies + 1 - first});
     for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::masses, Table::ids})
         changed.push_back({table, first, p.bodies - first});
+    if (!state_.filters.empty()) changed.push_back({Table::filters, first, p.bodies - first});
     return changed;
 }
 
@@ -157,21 +161,36 @@ TableRanges StateEditor::rows_added(std::uint32_t first, std::uint32_t count) {
     for (const Table table :
          {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses, Table::ids})
         added.push_back({table, first, count});
+    if (!state_.filters.empty()) added.push_back({Table::filters, first, count});
     return added;
 }
 
-TableRanges StateEditor::add(const Body& body) {
-    TableRanges changed = has_room_for_a_body() ? TableRanges{} : make_room_for_bodies();
+TableRanges StateEditor::put(const Body& body, std::uint32_t id) {
+    const bool appended = id == state_.body_count;
+    TableRanges changed = appended ? make_room(1) : TableRanges{};
     SceneCompiler compiler(state_);
     physics::Parameters& p = state_.fixed();
-    const std::uint32_t row = state_.body_count, rows_before = p.bodies;
+    const std::uint32_t row = appended ? id : state_.row_of(id), rows_before = p.bodies;
     const ShapeLengths before = shape_lengths(state_);
-    state_.append_row(row);
-    ++state_.body_count;
-    if (row == p.first_part) ++p.first_part;
-    state_.properties.resize(std::max(rows_before, row + 1));  // an empty table has a record all the same
+    if (appended) {
+        state_.append_row(row);
+        ++state_.body_count;
+        if (row == p.first_part) ++p.first_part;
+        state_.properties.resize(std::max(rows_before, row + 1));  // an empty table has a record all the same
+    }
     state_.properties[row] = compiler.properties_of(body, row);
+    std::uint32_t first_part = std::max(rows_before, row + 1);
     compiler.append_parts(body, row);
+    const auto parts = static_cast<std::uint32_t>(state_.properties.size()) - first_part;
+    const std::optional<std::uint32_t> spare = parts > 0 ? state_.take_part_rows(parts) : std::nullopt;
+    if (spare) {  // those of a removed body
+        std::copy_n(state_.properties.begin() + first_part, parts, state_.properties.begin() + p.first_part + *spare);
+        std::copy_n(state_.parts.end() - parts, parts, state_.parts.begin() + *spare);
+        state_.properties.resize(first_part);
+        state_.parts.resize(state_.parts.size() - parts);
+        first_part = p.first_part + *spare;
+        changed.push_back({Table::parts, *spare, parts});
+    }
     p.bodies = static_cast<std::uint32_t>(state_.properties.size());
     p.buckets = std::max(p.buckets, State::buckets_for(p.bodies));
     for (const Table table : {Table::masses, Table::first_contacts}) state_.make(table);
@@ -180,15 +199,97 @@ TableRanges StateEditor::add(const Body& body) {
     state_.velocities[row] = SceneCompiler::start_velocity_of(body);
     state_.sleep_states[row] = 0;
     state_.strains[row] = SceneCompiler::start_strain_of(body, state_.properties[row]);
-    const std::uint32_t first_part = std::max(rows_before, row + 1);
-    for (std::uint32_t part = first_part; part < p.bodies; ++part) compiler.place(part);
+    for (std::uint32_t part = first_part; part < first_part + parts; ++part) compiler.place(part);
     state_.note_content(row, 1);
-    state_.note_content(first_part, p.bodies - first_part);
-    if (row < rows_before)
+    state_.note_content(first_part, parts);
+    const auto rewrite = [&](std::uint32_t first, std::uint32_t count) {
         for (const Table table : {Table::properties, Table::poses, Table::velocities, Table::sleep_states, Table::strains})
-            changed.push_back({table, row, 1});
+            changed.push_back({table, first, count});
+    };
+    if (row < rows_before) rewrite(row, 1);
+    if (spare) rewrite(first_part, parts);
+    if (state_.properties[row].fracture != physics::NONE)
+        changed.push_back({Table::fractures, state_.properties[row].fracture, 1});
     append(changed, rows_added(rows_before, p.bodies - rows_before));
     append(changed, shapes_added(state_, before));
+    return changed;
+}
+
+std::pair<std::uint32_t, std::uint32_t> StateEditor::parts_of(std::uint32_t row) const {
+    if (state_.properties[row].shape != physics::SHAPE_NONE) return {0, 0};
+    const physics::Parameters& p = state_.fixed();
+    const auto is_its = [&](std::uint32_t part) {
+        return state_.properties[part].owner == row && physics::is_part(state_.properties[part]);
+    };
+    std::uint32_t first = p.first_part;
+    while (first < p.bodies && !is_its(first)) ++first;
+    std::uint32_t count = 0;
+    while (first + count < p.bodies && is_its(first + count)) ++count;
+    return {first, count};
+}
+
+TableRanges StateEditor::remove(std::span<const std::uint32_t> ids) {
+    std::vector<std::uint32_t> rows;
+    for (const std::uint32_t id : ids) {
+        const std::uint32_t row = state_.row_of(id);
+        const auto [first, count] = parts_of(row);
+        rows.push_back(row);
+        for (std::uint32_t part = first; part < first + count; ++part) rows.push_back(part);
+        if (count > 0) state_.spare_part_rows(first - state_.fixed().first_part, count);
+        if (state_.properties[row].fracture != physics::NONE) state_.spare_fractures.push_back(state_.properties[row].fracture);
+    }
+    std::sort(rows.begin(), rows.end());
+    TableRanges runs;
+    for (const std::uint32_t row : rows) {
+        state_.properties[row] = spare_row(row < state_.fixed().first_part ? row : 0);
+        state_.poses[row] = {vec3(0), 0, vec4(0, 0, 0, 1)};
+        state_.velocities[row] = {};
+        state_.sleep_states[row] = 0;
+        state_.strains[row] = 0;
+        add_to_run(runs, Table::properties, row);
+    }
+    TableRanges changed = runs;
+    for (const Table table : {Table::poses, Table::velocities, Table::sleep_states, Table::strains})
+        for (TableRange run : runs) {
+            run.table = table;
+            changed.push_back(run);
+        }
+    return changed;
+}
+
+TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
+    const std::uint32_t row = state_.row_of(id);
+    const auto [first, count] = parts_of(row);
+    physics::BodyProperties& whole = state_.properties[row];
+    SceneCompiler::set_mass(whole, body);
+    SceneCompiler::set_material(whole, body);
+    for (std::uint32_t part = first; part < first + count; ++part) {
+        physics::BodyProperties& one = state_.properties[part];
+        one.motion = whole.motion | physics::MOTION_OF_PART;
+        one.friction = whole.friction;
+        one.restitution = whole.restitution;
+        one.rolling_resistance = whole.rolling_resistance;
+    }
+    state_.note_content(row, 1);
+    state_.note_content(first, count);
+    TableRanges changed{{Table::properties, row, 1}};
+    if (count > 0) changed.push_back({Table::properties, first, count});
+    return changed;
+}
+
+TableRanges StateEditor::place_parts(std::uint32_t id) {
+    const auto [first, count] = parts_of(state_.row_of(id));
+    if (count == 0) return {};
+    SceneCompiler compiler(state_);
+    for (std::uint32_t part = first; part < first + count; ++part) compiler.place(part);
+    return {{Table::poses, first, count}, {Table::velocities, first, count}, {Table::sleep_states, first, count}};
+}
+
+TableRanges StateEditor::filter(const Scene& scene) {
+    const std::vector<physics::uvec4> filters_before = state_.filters, exclusions_before = state_.exclusions;
+    SceneCompiler(state_).filter(scene);
+    TableRanges changed = differing(Table::filters, filters_before, state_.filters);
+    append(changed, differing(Table::exclusions, exclusions_before, state_.exclusions));
     return changed;
 }
 

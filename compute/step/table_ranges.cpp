@@ -11,6 +11,14 @@ TableRange live_range(const State& state, Table table) {
 
 }  // namespace
 
+TableLengths TableLengths::of(const State& state) {
+    TableLengths lengths;
+    for (std::size_t i = 0; i < table_count; ++i) lengths.bytes[i] = state.raw_bytes(static_cast<Table>(i));
+    lengths.features = state.features();
+    lengths.blocks = state.fixed().joint_blocks;
+    return lengths;
+}
+
 std::size_t bytes_of(const TableRanges& ranges) {
     std::size_t sum = 0;
     for (const TableRange& range : ranges) sum += range.count * table_infos()[static_cast<std::size_t>(range.table)].record_bytes;

@@ -1,7 +1,9 @@
 // Ranges of tables, for transfers between a state and its runner.
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "compute/step/state.h"
@@ -14,6 +16,15 @@ struct TableRange {
     std::size_t count = 0;  // number of records
 };
 using TableRanges = std::vector<TableRange>;
+
+// Lengths of all tables, and what else a runner adapts to.
+struct TableLengths {
+    std::array<std::size_t, table_count> bytes{};
+    SceneFeatures features;
+    std::uint32_t blocks = 0;
+    static TableLengths of(const State& state);
+    bool operator==(const TableLengths&) const = default;
+};
 
 std::size_t bytes_of(const TableRanges& ranges);
 void append(TableRanges& ranges, const TableRanges& more);

@@ -5,7 +5,6 @@
 #include <stdexcept>
 #include <string>
 
-#include "compute/scene/fracture.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/step/scene_compiler.h"
 #include "compute/step/state_editor.h"
@@ -147,23 +146,6 @@ void World::set_substeps(int substeps) {
 void World::set_sleeping(bool allowed) {
     interior_->settings.sleeping = allowed;
     interior_->state.fixed().sleep_steps = sleep_steps_of(interior_->settings);
-}
-
-std::size_t World::add_body(const Body& body) {
-    Impl& in = *interior_;
-    Scene added = checked(Scene{in.scene.gravity, {on_its_own(body)}, {}});
-    const std::size_t first = in.scene.bodies.size();
-    StateEditor editor(in.state);
-    for (Body& one : added.bodies) {
-        if (one.piece_of != no_body) one.piece_of += first;
-        if (one.fracture) one.fracture->first_piece += first;
-        in.runner->download(editor.needed_to_add());
-        const TableRanges changed = editor.add(one);
-        in.runner->adapt();
-        in.runner->upload(changed);
-        in.scene.bodies.push_back(std::move(one));
-    }
-    return first;
 }
 
 }  // namespace scree

@@ -70,6 +70,7 @@ void World::Impl::set_axis(std::size_t index, JointAxis axis, const std::functio
     change(*found);
     check_joint(scene, changed, index);
     joint.kind = changed.kind;
+    edits.clear();
     const std::uint32_t record = state.joint_records[index];
     const TableRange range{Table::joints, record, 1};
     runner->download({range});
@@ -116,11 +117,13 @@ void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) 
 }
 
 void World::Impl::rejoin(std::optional<std::size_t> without) {
+    edits.clear();
     StateEditor editor(state);
     runner->download(editor.needed_to_rejoin());
     const TableRanges changed = editor.rejoin(scene, without);
     runner->adapt();
     runner->upload(changed);
+    if (events.settings().breaks) events.note_joints(scene, state);
 }
 
 std::size_t World::add_joint(const Joint& joint) {

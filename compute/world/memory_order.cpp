@@ -45,8 +45,9 @@ void World::Impl::keep_order() {
         state.reorder(rows, runner->threads());
         runner->adapt();
         runner->upload(lasting_ranges(state));
-        runner->upload({{Table::ids, 0, state.fixed().bodies}});
+        runner->upload({{Table::ids, 0, state.fixed().bodies}, {Table::filters, 0, state.filters.size()}});
         ++reorderings;
+        ++arrangements;
     }
     looked = Clock::now();
     seconds_to_look = seconds_since(begin);

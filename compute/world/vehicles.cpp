@@ -142,6 +142,7 @@ void World::reset_upright(std::size_t vehicle) {
         put(body, place + physics::rotate(upright, offset), physics::unit_quaternion(physics::compose(upright, turned)));
     }
     in.runner->upload(changed);
+    ++in.changes;
     in.action_on(v.chassis, vec3(0), vec3(0));
 }
 

@@ -39,12 +39,19 @@ bool finite(vec3 v) {
 }  // namespace
 
 World::Impl::Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r)
-    : scene(std::move(s)), settings(t), runner(std::move(r)), state(scene, settings, runner->group_size(), runner->in_place()) {
+    : scene(std::move(s)),
+      settings(t),
+      runner(std::move(r)),
+      state(scene, settings, runner->group_size(), runner->in_place()),
+      bodies_at_start(scene.bodies.size()),
+      shapes_at_start(ShapeLengths::of(state)),
+      fingerprint(fingerprint_of(state)) {
     begin_in_order();
     runner->attach(state);
 }
 
 void World::Impl::require_body(std::size_t body) const {
+    if (is_gone(body)) throw std::out_of_range("body " + std::to_string(body) + " has been removed");
     if (body < scene.bodies.size()) return;
     throw std::out_of_range("body " + std::to_string(body) + " of " + std::to_string(scene.bodies.size()));
 }
@@ -86,9 +93,17 @@ void World::Impl::step() {
     }
     actions.clear();
     parameters.redo = 0;
+    const bool watched = events.settings().any();
+    if (watched) events.before_step(state);
     while (!runner->step()) make_room_for_lists();
     state.fixed().wake_all = 0;
+    state.fixed().removed = 0;
+    release_indices();
     ++steps;
+    if (watched) {
+        runner->download(events.needed(scene, state));
+        events.after_step(scene, state, generations, arrangements, steps);
+    }
     broken = false;
 }
 
@@ -121,7 +136,7 @@ void World::step(int count) {
     while (count > 0) {
         interior_->step();
         --count;
-        if (count > 0) count -= interior_->steps_alone(std::min(count, most_alone));
+        if (count > 0 && !interior_->events.settings().any()) count -= interior_->steps_alone(std::min(count, most_alone));
     }
 }
 
@@ -129,7 +144,9 @@ std::uint64_t World::steps() const {
     return interior_->steps;
 }
 std::size_t World::bodies_there() const {
-    if (!interior_->state.has_fractures()) return interior_->scene.bodies.size();
+    const std::vector<std::uint8_t>& gone = interior_->gone;
+    if (!interior_->state.has_fractures())
+        return interior_->scene.bodies.size() - static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
     const std::vector<BodyState> all = bodies();
     return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [](const BodyState& body) { return body.exists; }));
 }

@@ -9,11 +9,17 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "compute/scene/joint_validation.h"
 #include "compute/step/table_ranges.h"
 #include "compute/world.h"
+#include "compute/world/events.h"
+#include "compute/world/query_scene.h"
+#include "compute/world/state_bytes.h"
 
 namespace scree {
 
@@ -38,6 +44,30 @@ struct World::Impl {
     std::optional<std::chrono::steady_clock::time_point> looked;
     bool broken = false;  // left true by a step that threw: tables may be half grown
 
+    // Bodies that came and went. By index, as far as one differs from the start: its generation, whether it is gone, and
+    // where it is from.
+    enum class Origin : std::uint8_t { start, added, fragment, none };
+    std::vector<std::uint32_t> generations;
+    std::vector<std::uint8_t> gone;
+    std::vector<Origin> origins;
+    std::map<std::size_t, std::size_t> free_indices;  // runs: first, count
+    std::vector<std::size_t> freed;                   // since the last step; free after the next
+    // The bodies of the start that were changed (without their shapes) or replaced.
+    std::map<std::size_t, Body> originals;
+    std::uint64_t arrangements = 0;
+    Events events;
+    // The bodies as queries see them, made when they are needed; `changes` counts edits of poses, bodies and filters.
+    std::uint64_t changes = 0;
+    mutable std::shared_ptr<const QueryScene> queried;
+    mutable std::pair<std::uint64_t, std::uint64_t> queried_at;
+    const QueryScene& query_scene() const;
+
+    // For checkpoints: what the world was made with, and the edits of the scene since, as bytes (empty: to be made).
+    std::size_t bodies_at_start;
+    ShapeLengths shapes_at_start;
+    std::uint64_t fingerprint;
+    mutable std::vector<std::byte> edits;
+
     Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r);
     void step();
     int steps_alone(int count);  // up to `count` steps without actions; 0 while a grip is held. Returns their number
@@ -45,8 +75,8 @@ struct World::Impl {
     void begin_in_order();
     void keep_order();  // between steps
     void make_room_for_actions();
-    void make_room_for_lists();  // and requests repetition of the step
-    void require_body(std::size_t body) const;
+    void make_room_for_lists();                 // and requests repetition of the step
+    void require_body(std::size_t body) const;  // throws std::out_of_range for an index that none has, or a removed body
     physics::Action& action_on(std::size_t body, vec3 value, vec3 second, bool kinematic_too = false);
     BodyState body_state(std::size_t i) const;
     // Downloads these ranges of the tables.
@@ -71,6 +101,44 @@ struct World::Impl {
     Held& held(std::size_t grip);  // throws std::out_of_range
     void take_up_grips();          // writes the grips to the parameters of the next step
     void retune(const Settings& changed);
+
+    // bodies.cpp
+    bool is_gone(std::size_t body) const { return body < gone.size() && gone[body]; }
+    void count_bodies();  // lengthens the lists by index
+    std::size_t take_indices(std::size_t count);
+    void free_index(std::size_t body);
+    std::string name_of_body(std::size_t body) const;  // for messages
+    static Body no_longer_there();                     // in the place of a removed body
+    void release_indices();                            // after a step
+    std::vector<std::vector<Body>> checked_families(std::span<const Body> bodies) const;
+    void remove(std::vector<std::size_t> bodies);
+    void require_removable(const std::vector<std::size_t>& bodies) const;
+    TableRanges break_joints_of(const std::vector<std::size_t>& bodies);
+    TableRanges free_families_of(const std::vector<std::size_t>& bodies);
+    void keep_original(std::size_t body);
+    // hull_room.cpp: runs of the table of hulls that no body uses any more: first record, count
+    std::map<std::uint32_t, std::uint32_t> spare_hulls;
+    void spare_hull_records(std::uint32_t place, std::uint32_t count);
+    std::map<std::uint32_t, std::uint32_t> hulls_of_added(const std::vector<std::uint32_t>& bodies) const;
+    void free_hulls(std::map<std::uint32_t, std::uint32_t> records);  // after the bodies are removed
+    void pack_hulls(std::size_t before, std::uint32_t body, TableRanges& changed);
+    void find_spare_hulls();
+    void send(const TableRanges& changed, const TableLengths& before);
+    // change_bodies.cpp
+    void require_there(std::size_t body) const;  // throws std::invalid_argument for a body that has broken, or a fragment
+    void set(std::span<const BodyChange> bodies);
+    void change(std::size_t body, const std::function<void(Body&)>& edit, bool wakes_all);
+    void refilter();
+
+    // checkpoint.cpp
+    struct Edits;
+    struct Own;
+    const std::vector<std::byte>& edits_now() const;
+    Edits read_edits(std::span<const std::byte> bytes) const;
+    void take_edits(Edits&& made, std::span<const std::byte> bytes);
+    void find_shapes_again();
+    void put_world(ByteWriter& out) const;
+    static Own take_world(ByteReader& in);
 };
 
 }  // namespace scree

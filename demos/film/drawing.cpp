@@ -66,17 +66,15 @@ private:
 host::ShapeInstances instances_of(const World& world) {
     const Scene& scene = world.scene();
     Instances instances;
-    auto part = static_cast<std::uint32_t>(scene.bodies.size());  // row of the next part, in the order of State
+    const std::vector<std::size_t> first_parts = world.first_part_rows();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Shape& shape = scene.bodies[i].shape;
+        auto part = static_cast<std::uint32_t>(first_parts[i]);
         if (const std::optional<SimpleShape> simple = simple_shape(shape))
             instances.add(static_cast<std::uint32_t>(world.row_of(i)), *simple);
         if (const auto* compound = std::get_if<Compound>(&shape))
             for (const Part& one : compound->parts) instances.add(part++, one.shape);
-        if (const MeshForm* form = mesh_form_of(shape)) {
-            instances.add(part, *form);
-            part += static_cast<std::uint32_t>(form->triangles.size());
-        }
+        if (const MeshForm* form = mesh_form_of(shape)) instances.add(part, *form);
     }
     return std::move(instances.made);
 }
@@ -138,11 +136,10 @@ std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
 }
 
 void Drawing::update() {
-    if (!canvas_ || bodies_ != world_.scene().bodies.size() || reorderings_ != world_.reorderings()) {
+    if (!canvas_ || arrangements_ != world_.arrangements()) {
         canvas_.reset();
         canvas_ = make_canvas();
-        bodies_ = world_.scene().bodies.size();
-        reorderings_ = world_.reorderings();
+        arrangements_ = world_.arrangements();
     }
     const host::BodyTables tables = from_device_ ? tables_on_device(world_.runner()) : tables_of(world_.state());
     contacts_ = tables.touch_count;

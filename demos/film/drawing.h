@@ -38,8 +38,7 @@ private:
     std::string word_;
     Backend machine_;
     host::CanvasOptions options_;
-    std::size_t bodies_ = 0;  // bodies and row order that the canvas was made for
-    std::uint64_t reorderings_ = 0;
+    std::uint64_t arrangements_ = 0;  // of the bodies that the canvas was made for
     std::unique_ptr<host::Canvas> canvas_;
     bool from_device_ = false;  // draws from the simulation's tables on the device
     std::uint32_t contacts_ = 0;

@@ -88,6 +88,7 @@ struct Pictures::Impl {
     std::string cameras;  // file; may be empty
     PictureTimes times;
     int begun = 0;             // pictures
+    int before = 0;            // of those, due before a resumed run
     bool drawing_one = false;  // the last one is being drawn, concurrently with later steps
 
     // Passes the pending picture to the encoders.
@@ -136,6 +137,10 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
     in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world));
+    if (world.steps() > 0) {
+        const double half_step = 0.5 / world.settings().rate;
+        in.begun = in.before = static_cast<int>(std::ceil((world.time() + half_step) * in.fps));
+    }
 }
 
 Pictures::~Pictures() = default;
@@ -169,7 +174,7 @@ PictureTimes Pictures::times() const {
 }
 
 int Pictures::count() const {
-    return interior_->begun;
+    return interior_->begun - interior_->before;
 }
 
 std::string Pictures::canvas() const {

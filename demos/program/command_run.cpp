@@ -10,6 +10,7 @@
 #include "demos/play/replay.h"
 #include "demos/program/adviser.h"
 #include "demos/program/backend.h"
+#include "demos/program/checkpoints.h"
 #include "demos/program/commands.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
@@ -30,10 +31,12 @@ struct RunOptions {
     SceneOptions scene;
     MachineOptions machine;
     PictureOptions pictures;
+    CheckpointOptions checkpoints;
     std::string report;
     std::string save;             // file for the final scene; may be empty
     std::string input;            // file of recorded input; may be empty
     std::optional<Input> played;  // the recorded input
+    std::optional<ResumedRun> resumed;
     bool quiet = false;
     std::string command_line;
 };
@@ -50,6 +53,7 @@ void require_writable(const RunOptions& options) {
     if (options.save == "-") throw UsageError("--save -: name a file");
     require_writable_file("--report", options.report);
     require_writable_file("--save", options.save);
+    require_sense(options.checkpoints);
     require_writable_file("--cameras", options.pictures.cameras);
 }
 
@@ -73,8 +77,8 @@ double steps_alone(World& world, const Script& before_step, int count) {
 
 void steps_timed(const LoadedScene& subject, World& world, Recorder* recorder, int count, RunReport& report) {
     const double seconds = recorder ? recorder->step() : steps_alone(world, subject.before_step, count);
-    if (world.steps() == 1) report.first_step_seconds = seconds_since(report.started);
-    if (world.steps() == 2) report.step_ms.clear();  // the first step is not representative
+    if (world.steps() == report.resumed_at + 1) report.first_step_seconds = seconds_since(report.started);
+    if (world.steps() == report.resumed_at + 2) report.step_ms.clear();  // the first step is not representative
     report.step_ms.insert(report.step_ms.end(), static_cast<std::size_t>(count), seconds * 1e3 / count);
     report.seconds_simulating += seconds;
 }
@@ -95,27 +99,37 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
               RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds, world.settings().rate);
     std::optional<Recorder> recorder;
-    if (subject.promise) recorder.emplace(world, *subject.promise, subject.before_step);
-    Progress progress(subject.title(), steps, "steps", options.quiet);
+    if (subject.promise) recorder.emplace(world, *subject.promise, subject.seconds, subject.before_step);
+    Progress progress(subject.title(), steps, "steps", options.quiet, static_cast<long>(world.steps()));
+    SceneOptions simulated = options.scene;  // with the settings of the scene's file
+    simulated.rate = world.settings().rate;
+    simulated.substeps = world.settings().substeps;
+    Checkpoints checkpoints(options.checkpoints, simulated, steps, options.input);
     if (pictures) pictures->after_step();
     const bool reports = !options.report.empty();
-    for (int done = 0; done < steps;) {
-        if (is_interrupted()) return false;
+    for (int done = static_cast<int>(world.steps()); done < steps;) {
+        if (is_interrupted()) {
+            checkpoints.write(world);
+            return false;
+        }
         const bool timed = reports && (done % steps_a_timed_one == steps_a_timed_one / 2 || done + 1 == steps);
         world.set_profiling(timed);
-        const bool watched = timed || recorder || pictures || subject.before_step || done < 2;
+        const bool watched = timed || recorder || pictures || subject.before_step || world.steps() < report.resumed_at + 2;
         const bool waits =
             world.runner().backend() != "cpu" && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
         int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
+        unwatched = std::min(unwatched, checkpoints.steps_until_due(world));
         if (adviser) unwatched = std::min(unwatched, adviser->steps_to_next(world));
         const int count = watched || !waits ? 1 : unwatched;
         steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
         done += count;
         hold_to_promise(subject, world, recorder, report);
         if (pictures) pictures->after_step();
+        if (done < steps) checkpoints.after_step(world);
         if (adviser) adviser->after_step(world);
         progress.done(done);
     }
+    checkpoints.write(world);
     // Commands after the last recorded step belong to the recording's final state.
     if (options.played && options.played->steps == world.steps()) subject.before_step(world);
     return !is_interrupted();
@@ -240,6 +254,11 @@ int run(const RunOptions& options) {
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
     World world(subject.scene, subject.settings(options.scene), machine.make_runner());
+    if (options.resumed) {
+        resume(world, *options.resumed, options.checkpoints.resume);
+        subject.promise.reset();  // it is judged over the whole run
+        report.resumed_at = world.steps();
+    }
     std::optional<Pictures> pictures;
     if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
     if (pictures) report.canvas = pictures->canvas();
@@ -249,39 +268,65 @@ int run(const RunOptions& options) {
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
 }
 
-template <class Value>
-void agree(const CLI::App& command, const char* option, const Value& named, const Value& recorded, const std::string& path) {
-    if (command.count(option) == 0 || named == recorded) return;
-    throw UsageError(
-        fmt::format("{}: the recording {} says {}, the command line {}; leave the option out", option, path, recorded, named));
+template <typename Value>
+Value word_for(const Value& value) {
+    return value;
+}
+template <typename Value>
+Value word_for(const std::optional<Value>& value) {
+    return value.value_or(Value{});
+}
+// The options of a recording or checkpoint, and its number of steps unless given. Throws UsageError if other options on the
+// command line (scene, --bodies, --seed, ...) contradict it.
+SceneOptions with_recorded(const CLI::App& command, SceneOptions options, const SceneOptions& recorded, const std::string& what) {
+    const auto agree = [&](const char* option, auto& named, const auto& found) {
+        if (command.count(option) != 0 && named != found)
+            throw UsageError(fmt::format("{}: the {} says {}, the command line {}; leave the option out", option, what,
+                                         word_for(found), word_for(named)));
+        named = found;
+    };
+    agree("scene", options.name, recorded.name);
+    agree("--bodies", options.bodies, recorded.bodies);
+    agree("--seed", options.seed, recorded.seed);
+    agree("--rate", options.rate, recorded.rate);
+    agree("--substeps", options.substeps, recorded.substeps);
+    agree("--no-sleep", options.sleeping, recorded.sleeping);
+    if (!options.steps && !options.seconds) options.steps = recorded.steps;
+    return options;
 }
 
-// The recording's options, and its number of steps unless given. Throws UsageError if other options on the command
-// line (scene, --bodies, --seed, ...) contradict the recording.
-SceneOptions with_input(const CLI::App& command, SceneOptions options, const Input& input, const std::string& path) {
-    agree(command, "scene", options.name, input.scene, path);
-    agree(command, "--bodies", options.bodies, input.bodies, path);
-    agree(command, "--seed", options.seed, input.seed, path);
-    agree(command, "--rate", options.rate.value_or(input.rate), input.rate, path);
-    agree(command, "--substeps", options.substeps.value_or(input.substeps), input.substeps, path);
-    agree(command, "--no-sleep", options.sleeping, input.sleeping, path);
+SceneOptions options_of(const Input& input) {
+    SceneOptions options;
     options.name = input.scene;
     options.bodies = input.bodies;
     options.seed = input.seed;
     options.rate = input.rate;
     options.substeps = input.substeps;
     options.sleeping = input.sleeping;
-    if (!options.steps && !options.seconds) options.steps = static_cast<int>(std::max<std::uint64_t>(1, input.steps));
+    options.steps = static_cast<int>(std::max<std::uint64_t>(1, input.steps));
     return options;
+}
+
+void take_resumed(const CLI::App& command, RunOptions& options) {
+    const std::string& path = options.checkpoints.resume;
+    const ResumedRun& resumed = options.resumed.emplace(load_resumed(path));
+    options.scene = with_recorded(command, options.scene, resumed.scene, "checkpoint " + path);
+    if (options.input.empty()) options.input = resumed.input;
+    const int steps = options.scene.step_count(0, *resumed.scene.rate);
+    if (static_cast<std::uint64_t>(steps) >= resumed.info.steps) return;
+    throw UsageError(fmt::format("--resume {}: it was saved after {} steps, and the run is to have {} in all; ask for more", path,
+                                 resumed.info.steps, steps));
 }
 
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command, options.report);
+    if (!options.checkpoints.resume.empty()) take_resumed(command, options);
     if (!options.input.empty()) {
         options.played = load_input(options.input);
-        options.scene = with_input(command, options.scene, *options.played, options.input);
+        options.scene = with_recorded(command, options.scene, options_of(*options.played), "recording " + options.input);
     } else if (options.scene.name.empty()) {
-        throw UsageError("run: name a demo (scree list) or a scene file, or give a recording with --input");
+        throw UsageError(
+            "run: name a demo (scree list) or a scene file, or give a recording with --input or a checkpoint with --resume");
     }
     return run(options);
 }
@@ -294,6 +339,7 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->scene);
     add_options(*command, options->machine);
     add_options(*command, options->pictures);
+    add_options(*command, options->checkpoints);
     command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command->add_option("--save", options->save, "Scene file of the final state, to continue from in scree or elsewhere.");
     command->add_option(
@@ -308,7 +354,9 @@ void add_run(CLI::App& program, int& status) {
         "  scree run dominoes --camera follow:7 --preview dominoes.gif\n"
         "  scree run scene.json --backend cpu --threads 4 --report -\n"
         "  scree run pile --bodies 10k --no-sleep --seconds 15 --save settled.json\n"
-        "  scree run settled.json --video later.mp4");
+        "  scree run settled.json --video later.mp4\n"
+        "  scree run avalanche --bodies 100k --seconds 60 --checkpoint run.checkpoint --every 5\n"
+        "  scree run --resume run.checkpoint --checkpoint run.checkpoint");
     command->callback([command, options, &status] {
         options->command_line = words_of_this_program();
         status = run(*command, *options);

@@ -24,7 +24,7 @@ struct ValidateOptions {
     MachineOptions machine;
     Settings settings;
     std::string report, page;
-    bool list = false, samples = false, quiet = false;
+    bool list = false, markdown = false, samples = false, quiet = false;
 };
 
 std::vector<Experiment> chosen_experiments(const std::vector<std::string>& names) {
@@ -58,11 +58,14 @@ std::vector<Validation> validate_all(const std::vector<Experiment>& chosen, cons
 }
 
 int validate(const ValidateOptions& options) {
+    const std::vector<Experiment> chosen = chosen_experiments(options.names);
     if (options.list) {
-        fmt::print("{}", experiments_as_markdown());
+        if (!options.report.empty() || !options.page.empty())
+            throw UsageError("--list with --report or --page: with --list nothing runs, and there is nothing to report");
+        fmt::print("{}", options.markdown ? experiments_as_markdown(chosen) : experiments_of(chosen));
         return done;
     }
-    const std::vector<Experiment> chosen = chosen_experiments(options.names);
+    if (options.markdown) throw UsageError("--markdown: prints the list of experiments; add --list");
     require_writable_file("--report", options.report);
     require_writable_file("--page", options.page);
     const Backend machine = choose_machine(options.machine, Choice::fastest);
@@ -96,7 +99,8 @@ void add_validate(CLI::App& program, int& status) {
     CLI::App* command = program.add_subcommand("validate", "Run experiments with known results: measured against theory");
     auto options = std::make_shared<ValidateOptions>();
     command->add_option("names", options->names, "Experiments, or the beginnings of their names. Default: all.");
-    command->add_flag("--list", options->list, "List experiments, laws and sources as a Markdown table; run nothing.");
+    command->add_flag("--list", options->list, "List experiments, laws, sources and allowed errors; run nothing.");
+    command->add_flag("--markdown", options->markdown, "With --list: as a Markdown table.");
     command->add_flag("--samples", options->samples, "Print every sample, not the worst one of each experiment.");
     command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command->add_option("--page", options->page, "HTML page with a plot of each experiment.");

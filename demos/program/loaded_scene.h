@@ -22,7 +22,7 @@ struct LoadedScene {
     Settings of_scene{};               // the scene's own
     Script before_step{};
     PictureStyle style{};
-    std::vector<Event> events{};  // of a scene file; before_step performs them
+    std::vector<TimedEvent> events{};  // of a scene file; before_step performs them
 
     Settings settings(const SceneOptions& options) const;  // the scene's settings with those of the user
     std::string title() const;                             // without the folder

@@ -20,8 +20,13 @@ std::string duration(double seconds) {
     return fmt::format("{} h {} min", whole / 3600, whole / 60 % 60);
 }
 
-Progress::Progress(std::string what, long total, const char* unit, bool quiet)
-    : what_(std::move(what)), total_(std::max(total, 1L)), unit_(unit), quiet_(quiet), terminal_(isatty(STDERR_FILENO) == 1) {}
+Progress::Progress(std::string what, long total, const char* unit, bool quiet, long begun)
+    : what_(std::move(what)),
+      total_(std::max(total, 1L)),
+      begun_(begun),
+      unit_(unit),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) == 1) {}
 
 Progress::~Progress() {
     if (shown_ && terminal_) say("\r\033[K");
@@ -39,8 +44,9 @@ void Progress::done(long count) {
 void Progress::show(long count, double seconds) {
     shown_ = true;
     const double part = static_cast<double>(count) / static_cast<double>(total_);
-    const double rate = static_cast<double>(count) / std::max(seconds, 1e-9);
-    const std::string left = count > 0 && count < total_ ? duration(seconds * (1 - part) / part) + " left" : "";
+    const double rate = static_cast<double>(count - begun_) / std::max(seconds, 1e-9);
+    const std::string left =
+        count > begun_ && count < total_ ? duration(static_cast<double>(total_ - count) / rate) + " left" : "";
     const std::string text =
         fmt::format("{} {:3.0f}%  {}/{} {}  {:.3g}/s  {}", what_, 100 * part, count, total_, unit_, rate, left);
     if (!terminal_) {

@@ -8,7 +8,8 @@ namespace scree::demos {
 
 class Progress {
 public:
-    Progress(std::string what, long total, const char* unit, bool quiet);
+    // `begun`: done before
+    Progress(std::string what, long total, const char* unit, bool quiet, long begun = 0);
     ~Progress();
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
@@ -19,7 +20,7 @@ private:
     void show(long count, double seconds);
 
     std::string what_;
-    long total_;
+    long total_, begun_;
     const char* unit_;
     bool quiet_, terminal_, shown_ = false;
     Clock::time_point start_ = Clock::now(), last_ = start_;

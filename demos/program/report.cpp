@@ -93,6 +93,7 @@ std::string json_of(const RunReport& r) {
         {"broken", s.broken},
         {"pieces", s.pieces},
         {"steps", r.steps},
+        {"resumed_at", r.resumed_at},
         {"dt", 1.0 / r.rate},
         {"substeps", r.substeps},
         {"settings", settings_of(r.settings)},
@@ -147,6 +148,7 @@ std::string summary_of(const RunReport& r) {
     std::string text =
         fmt::format("{}: {} bodies, {} steps of 1/{:g} s on {} ({})\n", r.name, s.bodies, r.steps, r.rate, r.backend, r.device);
     const auto line = [&text](const char* what, const std::string& value) { text += fmt::format("  {:<16}{}\n", what, value); };
+    if (r.resumed_at > 0) line("resumed", fmt::format("after {} steps, from a checkpoint", r.resumed_at));
     line("time per step",
          fmt::format("{} (median {}, 95% below {})", duration(ms.mean / 1e3), duration(ms.median / 1e3), duration(ms.p95 / 1e3)));
     line("first step", fmt::format("after {}", duration(r.first_step_seconds)));

@@ -28,6 +28,7 @@ struct RunReport {
     std::uint64_t steps = 0;
     float rate = 60;  // Hz
     int substeps = 8;
+    std::uint64_t resumed_at = 0;  // steps done before it was resumed from a checkpoint
     std::chrono::steady_clock::time_point started = std::chrono::steady_clock::now();
     double first_step_seconds = 0;  // until the end of the first step, with opening the device and creating pipelines
     double seconds_total = 0;       // with pictures and everything else

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "demos/film/camera.h"
 
@@ -10,6 +11,16 @@ namespace scree::demos {
 
 vec4 turned(vec3 unit_axis, float angle) {
     return vec4(unit_axis * std::sin(angle / 2), std::cos(angle / 2));
+}
+
+Hull prism(int sides, float radius, float half_height) {
+    Hull hull;
+    for (int k = 0; k < sides; ++k) {
+        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(sides);
+        for (const float y : {-half_height, half_height})
+            hull.points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
+    }
+    return hull;
 }
 
 Body ground(float friction) {

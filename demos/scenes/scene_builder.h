@@ -12,6 +12,9 @@ constexpr float degrees = 0.017453292f;  // rad
 
 vec4 turned(vec3 unit_axis, float angle);  // quaternion; angle in rad
 
+// A regular prism of this many sides about the y axis; radius to its corners, m.
+Hull prism(int sides, float radius, float half_height);
+
 Body ground(float friction = 0.6f);  // the plane y = 0
 Body fixed_box(vec3 centre, vec3 half_extents, float friction = 0.6f, vec4 orientation = vec4(0, 0, 0, 1));
 Body box_at(vec3 position, vec3 half_extents, vec4 orientation = vec4(0, 0, 0, 1));

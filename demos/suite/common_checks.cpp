@@ -1,6 +1,8 @@
 // Claims shared by many demos.
 #include "demos/suite/common_checks.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -18,21 +20,31 @@ const Timed& nearest_to(const std::vector<Timed>& all, double time) {
     });
 }
 
-// The greatest length over the dynamic bodies and the moments of the last second of a vector of a body's state then and at
-// the end.
-template <class Vector>
-Measure greatest_at_the_end(Vector of) {
-    return [of](const Trace& trace) {
-        double greatest = trace.ending.empty() ? no_number : 0;
-        for (const Trace::Moment& moment : trace.ending)
-            for (std::size_t i = 0; i < moment.bodies.size(); ++i) {
-                if (trace.scene.bodies[i].motion != Motion::dynamic || !moment.bodies[i].exists) continue;
-                const double length = glm::length(of(moment.bodies[i], trace.end[i]));
-                if (!std::isfinite(length)) return no_number;
-                greatest = std::max(greatest, static_cast<double>(length));
-            }
-        return greatest;
-    };
+// The greatest value of a statistic in the last seconds.
+Claim greatest_at_the_end(const char* what, double limit, const char* unit, double seconds, double Statistics::*of) {
+    const std::string how = fmt::format("of any dynamic body, at every step of the last {:g} s", seconds);
+    return over_ending(at_most(what, limit, unit, how,
+                               [of](const Trace& trace) {
+                                   double greatest = trace.ending.empty() ? no_number : 0;
+                                   for (const Trace::Sample& sample : trace.ending) {
+                                       if (!(sample.statistics.*of <= greatest)) greatest = sample.statistics.*of;
+                                   }
+                                   return greatest;
+                               }),
+                       seconds);
+}
+
+// The farthest that a dynamic body was in the last second from where it ends, m.
+double sway(const Trace& trace) {
+    double farthest = trace.last_second.empty() ? no_number : 0;
+    for (const Trace::Moment& moment : trace.last_second) {
+        for (std::size_t i = 0; i < moment.bodies.size(); ++i) {
+            if (trace.scene.bodies[i].motion != Motion::dynamic || !moment.bodies[i].exists) continue;
+            const double way = static_cast<double>(glm::length(moment.bodies[i].position - trace.end[i].position));
+            if (!(way <= farthest)) farthest = way;
+        }
+    }
+    return farthest;
 }
 
 }  // namespace
@@ -42,21 +54,17 @@ Claim drift_below(double limit) {
                    [](const Trace& trace) { return trace.statistics.drift_max; });
 }
 
-Claim end_speed_below(double limit) {
-    return over_ending(at_most("greatest speed at the end", limit, "m/s", "of any centre, in the last second",
-                               greatest_at_the_end([](const BodyState& body, const BodyState&) { return body.velocity; })));
+Claim end_speed_below(double limit, double seconds) {
+    return greatest_at_the_end("greatest speed at the end", limit, "m/s", seconds, &Statistics::max_speed);
 }
 
-Claim end_spin_below(double limit) {
-    return over_ending(
-        at_most("greatest spin at the end", limit, "rad/s", "of any body, in the last second",
-                greatest_at_the_end([](const BodyState& body, const BodyState&) { return body.angular_velocity; })));
+Claim end_spin_below(double limit, double seconds) {
+    return greatest_at_the_end("greatest spin at the end", limit, "rad/s", seconds, &Statistics::max_spin);
 }
 
 Claim sway_below(double limit) {
-    return over_ending(
-        at_most("greatest sway at the end", limit, "m", "of any centre in the last second, from where it ends",
-                greatest_at_the_end([](const BodyState& body, const BodyState& last) { return body.position - last.position; })));
+    return over_last_second(
+        at_most("greatest sway at the end", limit, "m", "of any centre in the last second, from where it ends", sway));
 }
 
 Claim penetration_below(double limit) {

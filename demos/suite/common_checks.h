@@ -6,10 +6,10 @@
 namespace scree::demos {
 
 Claim drift_below(double limit);  // m, displacement of any dynamic body from its start
-// The greatest speed (m/s) and spin (rad/s) of any dynamic body, and the farthest that one goes (m), in the last second.
-Claim end_speed_below(double limit);
-Claim end_spin_below(double limit);
-Claim sway_below(double limit);
+// The greatest speed (m/s) and spin (rad/s) of any dynamic body at every step of the last seconds.
+Claim end_speed_below(double limit, double seconds = 1);
+Claim end_spin_below(double limit, double seconds = 1);
+Claim sway_below(double limit);         // m, the farthest that a dynamic body was in the last second from where it ends
 Claim penetration_below(double limit);  // m, largest penetration at the end
 Claim energy_never_rises(double part);  // by more than this fraction of the energy lost over the run; needs samples
 Claim all_within(vec3 low, vec3 high);  // no dynamic body left the box between these corners

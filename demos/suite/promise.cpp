@@ -28,8 +28,13 @@ Claim by_clock(Claim claim) {
     return claim;
 }
 
-Claim over_ending(Claim claim) {
-    claim.over_ending = true;
+Claim over_ending(Claim claim, double seconds) {
+    claim.ending = seconds;
+    return claim;
+}
+
+Claim over_last_second(Claim claim) {
+    claim.last_second = true;
     return claim;
 }
 
@@ -70,8 +75,14 @@ bool Promise::keeps(std::uint64_t step, double rate) const {
                        [&](double time) { return std::llround(time * rate) == static_cast<long long>(step); });
 }
 
-bool Promise::keeps_ending() const {
-    return std::any_of(claims_.begin(), claims_.end(), [](const Claim& claim) { return claim.over_ending; });
+double Promise::ending() const {
+    double longest = 0;
+    for (const Claim& claim : claims_) longest = std::max(longest, claim.ending);
+    return longest;
+}
+
+bool Promise::keeps_last_second() const {
+    return std::any_of(claims_.begin(), claims_.end(), [](const Claim& claim) { return claim.last_second; });
 }
 
 std::vector<Row> Promise::judge(const Trace& trace) const {

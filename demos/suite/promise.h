@@ -30,8 +30,9 @@ struct Trace {
     Statistics statistics;            // at the end
     std::vector<Moment> moments;      // states of the watched bodies
     std::vector<Moment> snapshots;    // states of all bodies, one per time in keeping()
-    std::vector<Moment> ending;       // states of all bodies in the last second, if a claim is over_ending
     std::vector<Sample> samples;      // statistics of the world over time
+    std::vector<Sample> ending;       // statistics after every step of the last seconds that a claim asks for
+    std::vector<Moment> last_second;  // states of all bodies, ten times in the last second, if a claim asks for them
     std::vector<float> step_seconds;  // wall clock time of each step
 };
 
@@ -54,7 +55,8 @@ struct Claim {
     std::string how;   // method of measurement
     std::function<double(const Trace&)> measure;
     bool by_clock = false;     // measured by wall clock; needs an otherwise idle machine
-    bool over_ending = false;  // measured over the last second (Trace::ending)
+    double ending = 0;         // s before the end from which Trace::ending is recorded
+    bool last_second = false;  // whether Trace::last_second is recorded
 
     Row operator()(const Trace& trace) const;  // NaN fails
 };
@@ -64,7 +66,8 @@ Claim at_most(std::string what, double limit, std::string unit, std::string how,
 Claim at_least(std::string what, double limit, std::string unit, std::string how, Measure measure);
 Claim between(std::string what, double low, double high, std::string unit, std::string how, Measure measure);
 Claim by_clock(Claim claim);
-Claim over_ending(Claim claim);
+Claim over_ending(Claim claim, double seconds);  // records Trace::ending
+Claim over_last_second(Claim claim);             // records Trace::last_second
 Claim close_to(std::string what, double expected, double tolerance, std::string unit, std::string how, Measure measure);
 
 using Indices = std::vector<std::size_t>;
@@ -108,7 +111,8 @@ public:
     bool watches(std::uint64_t step, double rate) const { return !watched_.empty() && watch_.holds(step, rate); }
     bool samples(std::uint64_t step, double rate) const;
     bool keeps(std::uint64_t step, double rate) const;
-    bool keeps_ending() const;
+    double ending() const;  // s before the end from which statistics are recorded after every step
+    bool keeps_last_second() const;
 
     // Judges every claim of the promise and those of soundness().
     std::vector<Row> judge(const Trace& trace) const;

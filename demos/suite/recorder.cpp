@@ -7,14 +7,12 @@ namespace scree::demos {
 
 namespace {
 
-// The ending of a run, its last second, is sampled this often.
-const Span ending_samples(10);
-constexpr double ending_seconds = 1;
+constexpr double states_a_second = 10;  // in the last second
 
 }  // namespace
 
-Recorder::Recorder(World& world, const Promise& promise, Script before_step)
-    : world_(world), promise_(promise), before_step_(std::move(before_step)) {
+Recorder::Recorder(World& world, const Promise& promise, double seconds, Script before_step)
+    : world_(world), promise_(promise), seconds_(seconds), before_step_(std::move(before_step)) {
     trace_.scene = world.scene();
     trace_.rate = static_cast<double>(world.settings().rate);
     trace_.start = world.bodies();
@@ -34,29 +32,24 @@ double Recorder::step() {
 void Recorder::look() {
     const std::uint64_t step = world_.steps();
     const bool watches = promise_.watches(step, trace_.rate), keeps = promise_.keeps(step, trace_.rate);
-    const bool ends = promise_.keeps_ending() && ending_samples.holds(step, trace_.rate);
-    if (watches || keeps || ends) {
+    const Span last_second(states_a_second, seconds_ - 1), ending(every_step, seconds_ - promise_.ending());
+    const bool is_last = promise_.keeps_last_second() && last_second.holds(step, trace_.rate);
+    if (watches || keeps || is_last) {
         std::vector<BodyState> bodies = world_.bodies();
         if (watches) {
             Trace::Moment moment{world_.time(), {}};
             for (const std::size_t i : promise_.watched()) moment.bodies.push_back(bodies.at(i));
             trace_.moments.push_back(std::move(moment));
         }
-        if (ends) keep_ending({world_.time(), bodies});
+        if (is_last) trace_.last_second.push_back({world_.time(), bodies});
         if (keeps) trace_.snapshots.push_back({world_.time(), std::move(bodies)});
     }
     if (promise_.samples(step, trace_.rate)) trace_.samples.push_back({world_.time(), world_.statistics()});
-}
-
-void Recorder::keep_ending(Trace::Moment moment) {
-    std::erase_if(trace_.ending,
-                  [&](const Trace::Moment& kept) { return kept.time < moment.time - ending_seconds - 0.5 / trace_.rate; });
-    trace_.ending.push_back(std::move(moment));
+    if (promise_.ending() > 0 && ending.holds(step, trace_.rate)) trace_.ending.push_back({world_.time(), world_.statistics()});
 }
 
 Trace Recorder::finish() {
     trace_.end = world_.bodies();
-    if (promise_.keeps_ending()) keep_ending({world_.time(), trace_.end});
     trace_.statistics = world_.statistics();
     return std::move(trace_);
 }

@@ -8,16 +8,17 @@ namespace scree::demos {
 
 class Recorder {
 public:
-    Recorder(World& world, const Promise& promise, Script before_step = {});
+    // `seconds`: how long the run takes, simulated, to know when its last seconds begin.
+    Recorder(World& world, const Promise& promise, double seconds, Script before_step = {});
     double step();   // runs the script and one step, and records; returns the step's duration alone, s
     Trace finish();  // records the final state
 
 private:
     void look();
-    void keep_ending(Trace::Moment moment);  // and drops what is older than the last second
 
     World& world_;
     const Promise& promise_;
+    double seconds_;
     Script before_step_;
     Trace trace_;
 };

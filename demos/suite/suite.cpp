@@ -39,7 +39,7 @@ Outcome run_trial(const Demo& demo, DemoOptions options, std::unique_ptr<Runner>
     const DemoScene scene = build(demo, options);
     settings.sleeping = scene.sleeping;
     World world(scene.scene, settings, std::move(runner));
-    Recorder recorder(world, scene.promise, scene.before_step);
+    Recorder recorder(world, scene.promise, static_cast<double>(scene.seconds), scene.before_step);
     const long steps = std::max(1L, std::lround(static_cast<double>(scene.seconds) * static_cast<double>(settings.rate)));
     bool whole = true;
     for (long i = 0; i < steps && whole; ++i) {

@@ -7,6 +7,7 @@
 #include "demos/scenes/incline.h"
 #include "demos/scenes/scene_builder.h"
 #include "demos/suite/analytic_checks.h"
+#include "demos/suite/uniform_pressure.h"
 #include "shaders/physics/base/arithmetic.h"
 
 namespace scree::demos {
@@ -29,50 +30,6 @@ Claim straight_down(Indices bodies, vec3 down, double limit) {
                        }
                        return most;
                    });
-}
-
-// A flat body under uniform pressure: points of equal area, and the moment of inertia per mass about the normal, m^2.
-struct Pressed {
-    std::vector<glm::dvec2> points;
-    double inertia = 0;
-};
-Pressed pressed(double half_x, double half_z, bool round) {
-    Pressed face;
-    const int across = 24;
-    for (int i = 0; i < across; ++i) {
-        for (int k = 0; k < across; ++k) {
-            const glm::dvec2 at((2 * i + 1.0) / across - 1, (2 * k + 1.0) / across - 1);
-            if (!round || glm::dot(at, at) < 1) face.points.emplace_back(at.x * half_x, at.y * half_z);
-        }
-    }
-    face.inertia = round ? half_x * half_x / 2 : (half_x * half_x + half_z * half_z) / 3;
-    return face;
-}
-// Way and time until slip (from v, m/s) and spin (from w, rad/s) have ended: every point of the face rubs against its
-// own slip (Farkas, Bartels, Unger, Wolf, Frictional Coupling between Sliding and Spinning Motion, PRL 90, 2003).
-struct Stop {
-    double way = 0, time = 0;
-};
-Stop stop_of(const Pressed& face, double mu, double v, double w) {
-    const double step = 2e-3;
-    Stop stop;
-    double turn = 0;
-    for (; v > 1e-3 || w > 2e-3; stop.time += step) {
-        double force = 0, moment = 0;
-        for (const glm::dvec2 point : face.points) {
-            const double x = std::cos(turn) * point.x - std::sin(turn) * point.y;
-            const double z = std::sin(turn) * point.x + std::cos(turn) * point.y;
-            const double along = v - w * z, aside = w * x, speed = std::hypot(along, aside) + 1e-6;
-            force += along / speed;
-            moment += (x * aside - z * along) / speed;
-        }
-        const double rate = step * mu * earth_gravity / static_cast<double>(face.points.size());
-        v -= std::min(v, rate * force);
-        w -= std::min(w, rate * moment / face.inertia);
-        turn += w * step;
-        stop.way += v * step;
-    }
-    return stop;
 }
 
 // When a watched body's spin falls below 0.05 rad/s for good, s.
@@ -103,24 +60,51 @@ struct Riding {
     std::size_t rider, table;  // watched slots
 };
 // Way of a rider in its table's frame from `from` (s) to the end, m.
-Claim none_creeps(std::vector<Riding> riders, double from, double limit) {
-    return at_most("creep of boxes at 0.9 of the limit", limit, "m", "way in the turntable's frame from 1 s to the end",
-                   [riders, from](const Trace& trace) {
-                       const auto place = [](const Trace::Moment& moment, const Riding& one) {
-                           const BodyState& table = moment.bodies.at(one.table);
-                           return physics::rotate_back(table.orientation, moment.bodies.at(one.rider).position - table.position);
-                       };
-                       const auto first =
-                           std::find_if(trace.moments.begin(), trace.moments.end(),
-                                        [from](const Trace::Moment& moment) { return moment.time >= from - 1e-9; });
-                       if (first == trace.moments.end()) return no_number;
-                       double most = 0;
-                       for (const Riding& one : riders) {
-                           const double way = glm::length(glm::dvec3(place(trace.moments.back(), one) - place(*first, one)));
-                           if (!(way <= most)) most = way;
-                       }
-                       return most;
-                   });
+Claim none_creeps(const std::string& what, std::vector<Riding> riders, double from, double limit) {
+    return at_most(
+        "creep of " + what, limit, "m", "way in the turntable's frame from 1 s to the end", [riders, from](const Trace& trace) {
+            const auto place = [](const Trace::Moment& moment, const Riding& one) {
+                const BodyState& table = moment.bodies.at(one.table);
+                return physics::rotate_back(table.orientation, moment.bodies.at(one.rider).position - table.position);
+            };
+            const auto first = std::find_if(trace.moments.begin(), trace.moments.end(),
+                                            [from](const Trace::Moment& moment) { return moment.time >= from - 1e-9; });
+            if (first == trace.moments.end()) return no_number;
+            double most = 0;
+            for (const Riding& one : riders) {
+                const double way = glm::length(glm::dvec3(place(trace.moments.back(), one) - place(*first, one)));
+                if (!(way <= most)) most = way;
+            }
+            return most;
+        });
+}
+
+// A kinematic table that turns as fast as gives bodies at `radius` this part of the friction they need.
+struct Turning {
+    std::size_t slot;  // watched
+    vec3 centre;
+    double spin, radius;  // rad/s, m
+};
+Turning add_turntable(Scene& scene, Indices& watched, bool round, vec3 centre, double friction, double part, double radius) {
+    const double spin = std::sqrt(part * friction * earth_gravity / radius);
+    Body table = fixed_box(centre, vec3(2, 0.1f, 2), static_cast<float>(friction));
+    table.motion = Motion::kinematic;
+    if (round) table.shape = Cylinder{2, 0.1f};
+    table.angular_velocity.y = static_cast<float>(spin);
+    watched.push_back(scene.bodies.size());
+    scene.bodies.push_back(table);
+    return {watched.size() - 1, centre, spin, radius};
+}
+// A box that turns with the table, `below` (m) above its top, on the side of +x or -x.
+Riding add_rider(Scene& scene, Indices& watched, const Turning& table, float half, float below, float side, double friction) {
+    Body box = box_at(table.centre + vec3(side * static_cast<float>(table.radius), 0.1f + half + below, 0),
+                      vec3(half, half, 1.5f * half));
+    box.velocity.z = -side * static_cast<float>(table.spin * table.radius);
+    box.angular_velocity.y = static_cast<float>(table.spin);
+    box.friction = static_cast<float>(friction);
+    watched.push_back(scene.bodies.size());
+    scene.bodies.push_back(box);
+    return {watched.size() - 1, table.slot};
 }
 
 }  // namespace
@@ -164,8 +148,9 @@ DemoScene spins(const DemoOptions&) {
         body.angular_velocity.y = static_cast<float>(w);
         body.friction = static_cast<float>(mu);
         const bool round = std::holds_alternative<Cylinder>(shape);
-        const Stop stop = stop_of(pressed(static_cast<double>(half.x), static_cast<double>(half.z), round), mu, v, w);
-        if (v > 0) sliding.push_back({scene.bodies.size(), stop.way});
+        const glm::dvec3 size(half);
+        const Stop stop = stop_of(round ? disc(size.x) : rectangle(size.x, size.z), mu, v, w);
+        if (v > 0) sliding.push_back({scene.bodies.size(), stop.distance});
         spinning.push_back({watched.size(), stop.time});
         watched.push_back(scene.bodies.size());
         scene.bodies.push_back(body);
@@ -187,42 +172,29 @@ DemoScene spins(const DemoOptions&) {
     return awake({std::move(scene), view_of(low, high, 60, 35), low, high, 5, std::move(promise).watching(watched, 60)});
 }
 
-// Boxes, thin and thick, on discs and slabs that turn: at 0.9 of the friction they need, none creeps.
+// Boxes, thin and thick, on discs and slabs that turn: at 0.9 of the friction they need, none creeps, nor stacks at 0.2.
 DemoScene turntable(const DemoOptions&) {
     Scene scene;
     scene.bodies.push_back(ground());
     Indices watched;
-    std::vector<Riding> riders;
+    std::vector<Riding> riders, stacked;
     float x = -9;
     for (const double mu : {0.3, 0.8}) {
         for (const double radius : {0.5, 1.5}) {
-            const double spin = std::sqrt(0.9 * mu * earth_gravity / radius);
             for (const bool round : {false, true}) {
-                Body table = fixed_box({x, 0.5f, 0}, vec3(2, 0.1f, 2), static_cast<float>(mu));
-                table.motion = Motion::kinematic;
-                if (round) table.shape = Cylinder{2, 0.1f};
-                table.position.z = round ? -3 : 3;
-                table.angular_velocity.y = static_cast<float>(spin);
-                const std::size_t slot = watched.size();
-                watched.push_back(scene.bodies.size());
-                scene.bodies.push_back(table);
-                for (const float half : {0.05f, 0.2f}) {
-                    const float side = half < 0.1f ? 1.0f : -1.0f;
-                    Body box = box_at(table.position + vec3(side * static_cast<float>(radius), 0.1f + half, 0),
-                                      vec3(half, half, 1.5f * half));
-                    box.velocity.z = -side * static_cast<float>(spin * radius);
-                    box.angular_velocity = table.angular_velocity;
-                    box.friction = static_cast<float>(mu);
-                    riders.push_back({watched.size(), slot});
-                    watched.push_back(scene.bodies.size());
-                    scene.bodies.push_back(box);
-                }
+                const Turning table = add_turntable(scene, watched, round, {x, 0.5f, round ? -3 : 3}, mu, 0.9, radius);
+                for (const float half : {0.05f, 0.2f})
+                    riders.push_back(add_rider(scene, watched, table, half, 0, half < 0.1f ? 1.0f : -1.0f, mu));
             }
+            const Turning table = add_turntable(scene, watched, true, {x, 0.5f, 9}, mu, 0.06 / mu, radius);
+            for (int k = 0; k < 5; ++k)
+                stacked.push_back(add_rider(scene, watched, table, 0.1f, 0.2f * static_cast<float>(k), 1, mu));
             x += 6;
         }
     }
-    const vec3 low(-11, 0, -5), high(11, 1.5f, 5);
-    Promise promise(none_creeps(riders, 1, 0.001));
+    const vec3 low(-11, 0, -5), high(11, 1.5f, 11);
+    Promise promise(none_creeps("boxes at 0.9 of the limit", riders, 1, 0.001),
+                    none_creeps("stacks of five at a pull of 0.06 g", stacked, 1, 0.001));
     return awake({std::move(scene), view_of(low, high, 30, 40), low, high, 20, std::move(promise).watching(watched)});
 }
 

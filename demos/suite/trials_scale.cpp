@@ -2,7 +2,6 @@
 // shape come to rest.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "demos/scenes/demos.h"
 #include "demos/scenes/random.h"
@@ -15,13 +14,6 @@ namespace {
 
 constexpr float run_for = 20, last_part = 2;  // s
 
-Claim most_in_the_end(const char* what, double limit, const char* unit, double Statistics::*of) {
-    return at_most(what, limit, unit, "of any body, awake, at every step of the last two seconds", [of](const Trace& trace) {
-        double most = trace.samples.empty() ? no_number : 0;
-        for (const Trace::Sample& sample : trace.samples) most = std::max(most, sample.statistics.*of);
-        return most;
-    });
-}
 // Bodies of a stack, which must stay where they are.
 struct Stacked {
     std::size_t body;
@@ -40,11 +32,9 @@ Claim none_fell(std::vector<Stacked> stacked) {
 }
 
 DemoScene resting(Scene scene, vec3 low, vec3 high, std::vector<Claim> more) {
-    Promise promise(most_in_the_end("greatest speed when at rest", 0.005, "m/s", &Statistics::max_speed),
-                    most_in_the_end("greatest spin when at rest", 0.01, "rad/s", &Statistics::max_spin));
+    Promise promise(end_speed_below(0.005, last_part), end_spin_below(0.01, last_part));
     for (Claim& claim : more) promise.also(std::move(claim));
-    return awake({std::move(scene), view_of(low, high, 25, 15), low, high, run_for,
-                  std::move(promise).sampling({every_step, run_for - last_part})});
+    return awake({std::move(scene), view_of(low, high, 25, 15), low, high, run_for, std::move(promise)});
 }
 
 // `count` bodies of one shape, one on the other, displaced at random by up to `shift` and turned by up to `turn`.
@@ -61,16 +51,6 @@ void add_pile(Scene& scene, const Pile& pile, vec3 foot, Random& random, std::ve
         const float yaw = pile.yaw + random.between(-pile.turn, pile.turn);
         stacked.push_back({add_body(scene, pile.shape, foot + place, turned({0, 1, 0}, yaw)), pile.half});
     }
-}
-
-Hull flat_prism(int sides, float radius, float half_height) {
-    Hull hull;
-    for (int k = 0; k < sides; ++k) {
-        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(sides);
-        for (const float y : {-half_height, half_height})
-            hull.points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
-    }
-    return hull;
 }
 
 }  // namespace
@@ -109,9 +89,9 @@ DemoScene coins(const DemoOptions& options) {
         const float half = 0.1f * radius;
         std::vector<std::pair<Shape, int>> shapes = {{Cylinder{radius, half}, 10},
                                                      {Cylinder{radius, half}, 20},
-                                                     {flat_prism(8, radius, half), 10},
+                                                     {prism(8, radius, half), 10},
                                                      {Box{{radius, half, radius}}, 10}};
-        if (radius == 0.5f) shapes.push_back({flat_prism(5, radius, half), 10});
+        if (radius == 0.5f) shapes.push_back({prism(5, radius, half), 10});
         for (const auto& [shape, count] : shapes) {
             add_pile(scene, {shape, count, 2 * half, radius, 0, 0.04f * radius, 180 * degrees}, {x, 0, 0}, random, stacked);
             x += 3 * radius;

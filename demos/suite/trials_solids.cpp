@@ -1,7 +1,4 @@
 // Trial of cylinders, cones and hulls: they stand, ten hulls stack, a cylinder rolls as expected.
-#include <cmath>
-#include <numbers>
-
 #include "demos/scenes/demos.h"
 #include "demos/scenes/incline.h"
 #include "demos/scenes/scene_builder.h"
@@ -13,16 +10,6 @@ namespace scree::demos {
 namespace {
 
 const Incline incline{15 * degrees, 6, 1};
-
-Hull prism(int sides, float radius, float half_height) {
-    Hull hull;
-    for (int k = 0; k < sides; ++k) {
-        const float angle = 2 * std::numbers::pi_v<float> * static_cast<float>(k) / static_cast<float>(sides);
-        for (const float y : {-half_height, half_height})
-            hull.points.emplace_back(radius * std::cos(angle), y, radius * std::sin(angle));
-    }
-    return hull;
-}
 
 }  // namespace
 

@@ -51,15 +51,6 @@ std::vector<Experiment> all_experiments() {
     return all;
 }
 
-vec4 rotation(vec3 axis, double angle) {
-    return vec4(axis * static_cast<float>(std::sin(angle / 2)), static_cast<float>(std::cos(angle / 2)));
-}
-
-vec4 product(vec4 a, vec4 b) {
-    const vec3 u(a.x, a.y, a.z), v(b.x, b.y, b.z);
-    return vec4(v * a.w + u * b.w + glm::cross(u, v), a.w * b.w - glm::dot(u, v));
-}
-
 vec3 uphill_normal(double slope) {
     return {static_cast<float>(-std::sin(slope)), static_cast<float>(std::cos(slope)), 0};
 }
@@ -75,6 +66,19 @@ Body inclined_plane(double slope, float friction) {
     body.shape = Plane{uphill_normal(slope), 0};
     body.friction = friction;
     return body;
+}
+
+vec3 way_on_incline(const Lab& lab, double slope, double friction, vec3 half_extents, double yaw, double seconds) {
+    Scene scene;
+    scene.bodies.push_back(inclined_plane(slope, static_cast<float>(friction)));
+    const vec4 orientation =
+        physics::compose(turned({0, 0, 1}, static_cast<float>(slope)), turned({0, 1, 0}, static_cast<float>(yaw)));
+    Body box = box_at(uphill_normal(slope) * half_extents.y, half_extents, orientation);
+    box.friction = static_cast<float>(friction);
+    scene.bodies.push_back(box);
+    World world = lab.world(scene);
+    world.step(lab.steps(seconds));
+    return world.body(1).position - box.position;
 }
 
 }  // namespace scree::demos

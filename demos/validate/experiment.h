@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "compute/world.h"
+#include "demos/scenes/incline.h"
+#include "demos/scenes/scene_builder.h"
 
 namespace scree::demos {
 
@@ -62,20 +64,20 @@ std::string validation_table(const std::vector<Validation>& all, bool samples);
 std::string validation_json(const std::vector<Validation>& all, const std::string& backend, const std::string& device);
 // One HTML page with a plot (SVG) of each experiment.
 std::string validation_page(const std::vector<Validation>& all, const std::string& heading);
-// Laws and sources as a Markdown table, for tests/README.md.
-std::string experiments_as_markdown();
+// Laws, sources and allowed errors of experiments, as text and as a Markdown table, for tests/README.md.
+std::string experiments_of(const std::vector<Experiment>& experiments);
+std::string experiments_as_markdown(const std::vector<Experiment>& experiments);
 
 // ---- building blocks of experiments
-constexpr double gravity = 9.81;  // m/s^2
-constexpr double pi = std::numbers::pi, degree = pi / 180;
+using std::numbers::pi;
+constexpr double degree = pi / 180;  // rad
 
 // A fixed plane through the origin at `slope` (rad) to the horizontal: downhill is towards -x.
 Body inclined_plane(double slope, float friction);
 // Downhill direction of that plane, and its normal.
 vec3 downhill(double slope);
 vec3 uphill_normal(double slope);
-// A rotation about a unit axis by an angle, rad.
-vec4 rotation(vec3 axis, double angle);
-vec4 product(vec4 a, vec4 b);  // of quaternions
+// Displacement, m, of a box from rest on such a plane, turned by `yaw` (rad) about the normal, after the time (s).
+vec3 way_on_incline(const Lab& lab, double slope, double friction, vec3 half_extents, double yaw, double seconds);
 
 }  // namespace scree::demos

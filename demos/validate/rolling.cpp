@@ -21,7 +21,7 @@ double roll_down(const Lab& lab, double slope, Body body, double seconds) {
     Scene scene;
     scene.bodies.push_back(inclined_plane(slope, 1));
     body.position = uphill_normal(slope) * static_cast<float>(ball_radius);
-    body.orientation = rotation({1, 0, 0}, 90 * degree);  // a cylinder's y axis to z
+    body.orientation = turned({1, 0, 0}, 90 * degrees);  // a cylinder's y axis to z
     scene.bodies.push_back(body);
     World world = lab.world(scene);
     world.step(lab.steps(seconds));
@@ -50,7 +50,7 @@ std::vector<Experiment> rolling_experiments() {
                        0.005,
                        0.01,
                        {2, 5, 10, 20, 30},
-                       [part](double s) { return part * gravity * std::sin(s * degree); },
+                       [part](double s) { return part * earth_gravity * std::sin(s * degree); },
                        [shape](const Lab& lab, double s) { return 0.5 * roll_down(lab, s * degree, round_body(shape, 1), 2); }});
     };
     rolls("roll-ball", "a ball rolls down an incline", "a = 5/7 g sin s", Sphere{static_cast<float>(ball_radius)}, 5.0 / 7);
@@ -70,7 +70,7 @@ std::vector<Experiment> rolling_experiments() {
                        Scene scene;
                        scene.bodies.push_back(ball_on_plane(scene, friction, 7));
                        World world = lab.world(scene);
-                       world.step(lab.steps(2.0 / 7 * 7 / (friction * gravity) + 1));
+                       world.step(lab.steps(2.0 / 7 * 7 / (friction * earth_gravity) + 1));
                        return static_cast<double>(world.body(1).velocity.x);
                    }});
     all.push_back({"roll-to-rest",
@@ -82,7 +82,7 @@ std::vector<Experiment> rolling_experiments() {
                    0.01,
                    0.005,
                    {0.5, 1, 2, 3},
-                   [](double v) { return 0.7 * v * v * ball_radius / (gravity * 0.02); },
+                   [](double v) { return 0.7 * v * v * ball_radius / (earth_gravity * 0.02); },
                    [](const Lab& lab, double v) {
                        Scene scene;
                        Body ball = ball_on_plane(scene, 0.8, v);
@@ -90,7 +90,7 @@ std::vector<Experiment> rolling_experiments() {
                        ball.rolling_resistance = 0.02f;
                        scene.bodies.push_back(ball);
                        World world = lab.world(scene);
-                       world.step(lab.steps(1.4 * v * ball_radius / (gravity * 0.02) + 1));
+                       world.step(lab.steps(1.4 * v * ball_radius / (earth_gravity * 0.02) + 1));
                        return static_cast<double>(world.body(1).position.x);
                    }});
     return all;

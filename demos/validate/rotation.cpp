@@ -42,13 +42,13 @@ double arithmetic_geometric_mean(double a, double b) {
 constexpr double half_length = 0.5, half_width = 0.05;
 double pendulum_period(double amplitude) {
     const double inertia = (half_length * half_length + half_width * half_width) / 3 + half_length * half_length;
-    return 2 * pi * std::sqrt(inertia / (gravity * half_length)) / arithmetic_geometric_mean(1, std::cos(amplitude / 2));
+    return 2 * pi * std::sqrt(inertia / (earth_gravity * half_length)) / arithmetic_geometric_mean(1, std::cos(amplitude / 2));
 }
 double measured_pendulum(const Lab& lab, double amplitude) {
     Scene scene;
     Body rod;
     rod.shape = Box{{0.05f, 0.5f, 0.05f}};
-    rod.orientation = rotation({0, 0, 1}, amplitude);
+    rod.orientation = turned({0, 0, 1}, static_cast<float>(amplitude));
     rod.position = {static_cast<float>(half_length * std::sin(amplitude)), static_cast<float>(-half_length * std::cos(amplitude)),
                     0};
     scene.bodies.push_back(rod);
@@ -78,13 +78,13 @@ double measured_spring(const Lab& lab, double stiffness) {
 // A disc (radius 0.3, half thickness 0.05) that spins about a level axle of 0.4 m, held at the axle's end.
 constexpr double axle = 0.4;
 double precession(double spin) {
-    return gravity * axle / (0.5 * 0.3 * 0.3 * spin);
+    return earth_gravity * axle / (0.5 * 0.3 * 0.3 * spin);
 }
 double measured_precession(const Lab& lab, double spin) {
     Scene scene;
     Body disc;
     disc.shape = Cylinder{0.3f, 0.05f};
-    disc.orientation = rotation({0, 0, 1}, -90 * degree);  // its axis, y, along x
+    disc.orientation = turned({0, 0, 1}, -90 * degrees);  // its axis, y, along x
     disc.position = {static_cast<float>(axle), 0, 0};
     const double turn = precession(spin);
     disc.angular_velocity = {static_cast<float>(spin), static_cast<float>(turn), 0};

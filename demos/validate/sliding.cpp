@@ -1,55 +1,19 @@
 // Dry friction: sliding bodies against Coulomb's law.
 #include <cmath>
 
+#include "demos/suite/uniform_pressure.h"
 #include "demos/validate/experiment.h"
 
 namespace scree::demos {
 
 namespace {
 
-// A body at rest on an incline of friction 1, so that the pair's friction is sqrt(body's).
 struct Slide {
     double distance, aside;  // m, downhill and across after the time
 };
 Slide slide_down(const Lab& lab, double slope, double friction, vec3 half, double yaw, double seconds) {
-    Scene scene;
-    scene.bodies.push_back(inclined_plane(slope, static_cast<float>(friction)));
-    Body box;
-    box.shape = Box{half};
-    box.friction = static_cast<float>(friction);
-    box.orientation = product(rotation({0, 0, 1}, slope), rotation({0, 1, 0}, yaw));
-    box.position = uphill_normal(slope) * half.y;
-    scene.bodies.push_back(box);
-    World world = lab.world(scene);
-    world.step(lab.steps(seconds));
-    const vec3 way = world.body(1).position - box.position;
+    const vec3 way = way_on_incline(lab, slope, friction, half, yaw, seconds);
     return {static_cast<double>(glm::dot(way, downhill(slope))), static_cast<double>(way.z)};
-}
-
-// A disc that slides and spins on a plane under uniform pressure: distance slid, by integrating Coulomb friction over
-// the disc (Farkas, Bartels, Unger, Wolf, Phys. Rev. Lett. 90, 248302, 2003).
-double disc_distance(double radius, double friction, double speed, double spin) {
-    const auto [cells, turns] = std::pair{24, 48};
-    double distance = 0;
-    const double dt = 1e-3;
-    while (speed > 1e-4 || spin > 1e-3) {
-        double force = 0, torque = 0;  // of a unit weight
-        for (int i = 0; i < cells; ++i) {
-            const double r = radius * std::sqrt((i + 0.5) / cells);
-            for (int j = 0; j < turns; ++j) {
-                const double angle = 2 * pi * (j + 0.5) / turns;
-                const double vx = speed - spin * r * std::sin(angle), vy = spin * r * std::cos(angle);
-                const double v = std::hypot(vx, vy) + 1e-12;
-                force += vx / v / (cells * turns);
-                torque += r * (std::cos(angle) * vy - std::sin(angle) * vx) / v / (cells * turns);
-            }
-        }
-        const double a = friction * gravity * force * dt, b = friction * gravity * torque / (0.5 * radius * radius) * dt;
-        distance += (speed - a / 2) * dt;
-        speed = std::max(0.0, speed - a);
-        spin = std::max(0.0, spin - b);
-    }
-    return distance;
 }
 
 // A flat cylinder on a plane, standing on its face.
@@ -91,7 +55,7 @@ std::vector<Experiment> sliding_experiments() {
                    0.005,
                    0.01,
                    {20, 25, 30, 40, 50, 60},
-                   [](double s) { return gravity * (std::sin(s * degree) - 0.3 * std::cos(s * degree)); },
+                   [](double s) { return earth_gravity * (std::sin(s * degree) - 0.3 * std::cos(s * degree)); },
                    [plank](const Lab& lab, double s) { return 2 * slide_down(lab, s * degree, 0.3, plank, 0, 1).distance; }});
     all.push_back(
         {"slide-yaw",
@@ -103,7 +67,7 @@ std::vector<Experiment> sliding_experiments() {
          0.005,
          0,
          {0, 15, 30, 45, 60, 75, 90},
-         [](double) { return 2 * gravity * (0.5 - 0.3 * std::cos(30 * degree)); },
+         [](double) { return 2 * earth_gravity * (0.5 - 0.3 * std::cos(30 * degree)); },
          [plank](const Lab& lab, double yaw) { return slide_down(lab, 30 * degree, 0.3, plank, yaw * degree, 2).distance; }});
     all.push_back({"slide-course",
                    "a plank turned on the incline slides straight down",
@@ -128,7 +92,7 @@ std::vector<Experiment> sliding_experiments() {
                    0.01,
                    0.002,
                    {1, 2, 4, 8, 16},
-                   [](double v) { return v * v / (2 * 0.4 * gravity); },
+                   [](double v) { return v * v / (2 * 0.4 * earth_gravity); },
                    [](const Lab& lab, double v) {
                        Scene scene;
                        scene.bodies.push_back(inclined_plane(0, 0.4f));
@@ -139,7 +103,7 @@ std::vector<Experiment> sliding_experiments() {
                        box.velocity = {static_cast<float>(v * std::cos(0.5)), 0, static_cast<float>(v * std::sin(0.5))};
                        scene.bodies.push_back(box);
                        World world = lab.world(scene);
-                       world.step(lab.steps(v / (0.4 * gravity) + 0.5));
+                       world.step(lab.steps(v / (0.4 * earth_gravity) + 0.5));
                        const vec3 end = world.body(1).position;
                        return std::hypot(static_cast<double>(end.x), static_cast<double>(end.z));
                    }});
@@ -152,7 +116,7 @@ std::vector<Experiment> sliding_experiments() {
                    0.06,
                    0,
                    {0, 2, 5, 10, 20, 40},
-                   [](double spin) { return disc_distance(0.5, 0.3, 2, spin); },
+                   [](double spin) { return stop_of(disc(0.5), 0.3, 2, spin).distance; },
                    [](const Lab& lab, double spin) {
                        World world = lab.world(disc_on_plane(0.5, 0.3, 2, spin));
                        world.step(lab.steps(8));
@@ -167,7 +131,7 @@ std::vector<Experiment> sliding_experiments() {
                    0.02,
                    0.02,
                    {5, 10, 20, 40},
-                   [](double spin) { return 0.99 * 3 * 0.5 * spin / (4 * 0.3 * gravity); },
+                   [](double spin) { return 0.99 * 3 * 0.5 * spin / (4 * 0.3 * earth_gravity); },
                    [](const Lab& lab, double spin) { return spin_time(lab, disc_on_plane(0.5, 0.3, 0, spin), spin); }});
     return all;
 }

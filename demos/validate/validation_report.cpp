@@ -98,6 +98,14 @@ svg text { font-size: 11px; fill: #444 } .frame { fill: none; stroke: #bbb } .th
 svg circle { fill: #d95f02 }
 </style>)";
 
+std::vector<Cells> laws_of(const std::vector<Experiment>& experiments) {
+    std::vector<Cells> rows = {{"experiment", "what", "law", "source", "over", "allowed"}};
+    for (const Experiment& experiment : experiments)
+        rows.push_back(
+            {experiment.name, experiment.title, experiment.law, experiment.source, experiment.parameter, allowed_of(experiment)});
+    return rows;
+}
+
 }  // namespace
 
 std::string validation_table(const std::vector<Validation>& all, bool samples) {
@@ -160,12 +168,12 @@ std::string validation_page(const std::vector<Validation>& all, const std::strin
     return page + "</body></html>\n";
 }
 
-std::string experiments_as_markdown() {
-    std::vector<Cells> rows = {{"experiment", "what", "law", "source", "over", "allowed"}};
-    for (const Experiment& experiment : all_experiments())
-        rows.push_back(
-            {experiment.name, experiment.title, experiment.law, experiment.source, experiment.parameter, allowed_of(experiment)});
-    return markdown(rows);
+std::string experiments_of(const std::vector<Experiment>& experiments) {
+    return table(laws_of(experiments));
+}
+
+std::string experiments_as_markdown(const std::vector<Experiment>& experiments) {
+    return markdown(laws_of(experiments));
 }
 
 }  // namespace scree::demos

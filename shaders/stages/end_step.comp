@@ -24,7 +24,8 @@ void main() {
     velocity.angular = flush_tiny(velocity.angular + sum.change.angular);
     if (is_spin_limited(velocity, PARAMETERS)) atomicAdd(COUNTS.spin_limited, 1u);
     float pace = pace_of(body, velocity, PARAMETERS);
-    WORD(sleep_states, i) = sleep_state_after(WORD(sleep_states, i), pace, sum.carrying, sum.told, PARAMETERS.sleep_steps);
+    WORD(sleep_states, i) =
+        sleep_state_after(WORD(sleep_states, i), pace, sum.carrying, sum.least_payload, PARAMETERS.sleep_steps);
     if (is_asleep(WORD(sleep_states, i), PARAMETERS.sleep_steps)) {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);

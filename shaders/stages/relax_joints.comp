@@ -29,18 +29,18 @@ void take_stock(uint j) {
 }
 
 // The least quiet steps of all bodies of the block.
-float told_by_block() {
-    float told = FOREVER;
+float least_quiet_in_block() {
+    float quiet = FOREVER;
     for (uint j = block_first; j < block_joints; ++j) {
         if (!holds(j)) continue;
         for (uint side = 0u; side < 2u; ++side) {
             uint body = side == 0u ? joints.at[j].a : joints.at[j].b;
             if (body != NONE)
-                told = smaller(told,
-                               told_quiet(READ(properties, body).motion, READ(velocities, body), READ_WORD(sleep_states, body)));
+                quiet = smaller(quiet, quiet_steps_shown(READ(properties, body).motion, READ(velocities, body),
+                                                         READ_WORD(sleep_states, body)));
         }
     }
-    return told;
+    return quiet;
 }
 
 void end_pass() {
@@ -54,13 +54,13 @@ void end_pass() {
         if (struck)
             for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
     }
-    float told = FOREVER;
-    if (is_last_substep()) told = told_by_block();
+    float quiet = FOREVER;
+    if (is_last_substep()) quiet = least_quiet_in_block();
     note_pressing();
     for (uint m = block_first; m < block_bodies; ++m)
         if (joints.at[m].slot != NONE)
             slots.at[joints.at[m].slot] =
-                velocity_delta(joints.at[m].velocity, 1.0f, is_last_substep() ? told : joints.at[m].normal_sum);
+                velocity_delta(joints.at[m].velocity, 1.0f, is_last_substep() ? quiet : joints.at[m].normal_sum);
 }
 
 void main() {

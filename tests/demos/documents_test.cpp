@@ -32,7 +32,7 @@ TEST_CASE("the table of promises in tests/README.md is what the program prints",
 }
 
 TEST_CASE("the table of experiments in tests/README.md is what the program prints", "[demos]") {
-    const std::string table = scree::demos::experiments_as_markdown();
+    const std::string table = scree::demos::experiments_as_markdown(scree::demos::all_experiments());
     REQUIRE(table.find("| pendulum |") != std::string::npos);
     INFO("write the output of `scree validate --list` into tests/README.md, behind the line <!-- experiments -->");
     REQUIRE(tests_readme().find("<!-- experiments -->\n\n" + table + "\n<!-- end of experiments -->\n") != std::string::npos);

@@ -114,7 +114,7 @@ TEST_CASE("suite: a recorder looks when the promise asks, and no more often") {
                                 .sampling(2)
                                 .sampling({demos::every_step, 0.9, 1})
                                 .keeping({0.25, 0.75});
-    demos::Recorder recorder(world, promise);
+    demos::Recorder recorder(world, promise, 1);
     for (int i = 0; i < 60; ++i) CHECK(recorder.step() > 0);
     const Trace trace = recorder.finish();
     CHECK(trace.step_seconds.size() == 60);
@@ -136,7 +136,7 @@ TEST_CASE("suite: a script strikes once, at its time, whatever the rate") {
         World world(falling_ball(), settings, 1);
         int strikes = 0;
         const Promise promise(demos::drift_below(1000));
-        demos::Recorder recorder(world, promise, [&strikes](World& struck) {
+        demos::Recorder recorder(world, promise, 1, [&strikes](World& struck) {
             if (!demos::is_due(struck, 0.5)) return;
             ++strikes;
             struck.set_velocity(0, {7, 0, 0}, vec3(0));

@@ -34,15 +34,24 @@ Constraint patch(float twist_arm) {
     c.count = 4;
     return c;
 }
+// Without gravity; the anchor of friction has the default settings' spring and leak at 480 substeps a second.
+Parameters plain() {
+    Parameters parameters{};
+    parameters.h = 1.0f / 480;
+    parameters.bias_rate = 19;
+    parameters.impulse_scale = 0.052f;
+    parameters.max_spin = 377;
+    return parameters;
+}
 // The friction that the passes settle at while the body slides on at this velocity; normal impulse 1 N s.
 Impulse settled(const Constraint& c, vec3 slip, vec3 spin, const Mass& mass) {
     SolveResult s{};
-    Parameters parameters{};
+    const Parameters parameters = plain();
     for (int pass = 0; pass < 200; ++pass) {
         s.pair_velocity = {};
         s.pair_velocity.b.angular = spin;
         s.pair_velocity.b.linear = slip - cross3(spin, c.centre);
-        s = solve_patch_friction(c, s, 1, nothing(), mass, parameters);
+        s = solve_patch_friction(c, s, 1, nothing(), mass, false, parameters);
     }
     return s.impulse;
 }
@@ -90,7 +99,7 @@ TEST_CASE("friction stops a slow slip and spin at once") {
     s.pair_velocity.b.linear = vec3(0.01f, 0, 0.02f);
     s.pair_velocity.b.angular = vec3(0, 0.02f, 0);
     const Constraint c = patch(0.2f);
-    s = solve_patch_friction(c, s, 1, nothing(), mass, Parameters{});
+    s = solve_patch_friction(c, s, 1, nothing(), mass, false, plain());
     const vec3 left = velocity_at(lever_arms(c, c.centre, vec3(0)), s.pair_velocity);
     CHECK(std::hypot(left.x, left.z) < 1e-6f);
     CHECK(std::abs(s.pair_velocity.b.angular.y) < 1e-6f);
@@ -102,7 +111,7 @@ TEST_CASE("a contact that has all but let go gives its friction back, and nothin
         s.pair_velocity.b.linear = vec3(3, 0, 1);
         s.impulse.friction = vec3(5, 0, 2);
         s.impulse.twist = 0.5f;
-        s = solve_patch_friction(patch(0.2f), s, normal, nothing(), uneven(0.5), Parameters{});
+        s = solve_patch_friction(patch(0.2f), s, normal, nothing(), uneven(0.5), false, plain());
         INFO("normal impulse " << normal << " N s");
         CHECK(length3(s.impulse.friction) < 1e-9f);
         CHECK(std::abs(s.impulse.twist) < 1e-9f);
@@ -124,15 +133,62 @@ TEST_CASE("rolling resistance opposes the rotation of a body of any inertia") {
 TEST_CASE("what a turning body carries along is held against the curvature of its path") {
     // A turns about its centre, B goes with it at 2 m: friction makes up for half a substep of w^2 r.
     const Constraint c = patch(0.2f);
-    Parameters parameters{};
-    parameters.h = 1.0f / 480;
-    parameters.max_spin = 377;
+    const Parameters parameters = plain();
     SolveResult s{};
     s.impulse.center_offset = vec3(2, 0.3f, 0);
     s.pair_velocity.a.angular = s.pair_velocity.b.angular = vec3(0, 1.5f, 0);
     s.pair_velocity.b.linear = cross3(vec3(0, 1.5f, 0), s.impulse.center_offset);
-    s = solve_patch_friction(c, s, 1, nothing(), uneven(0), parameters);
+    s = solve_patch_friction(c, s, 1, nothing(), uneven(0), false, parameters);
     const LeverArms r = lever_arms(c, c.centre, s.impulse.center_offset);
     const double inwards = -static_cast<double>(velocity_at(r, s.pair_velocity).x);
     CHECK(inwards == Approx(0.5 / 480 * 1.5 * 1.5 * 2).epsilon(1e-3));
+}
+
+TEST_CASE("a patch that sticks is pulled back along its stretch, as a spring in the metric of the bodies") {
+    const Mass mass = uneven(0.5);
+    const Constraint c = patch(0.2f);
+    SolveResult s{};
+    s.impulse.stretch = vec3(1e-4f, 0, -2e-4f);
+    s.impulse.turn = 3e-4f;
+    const SolveResult after = solve_patch_friction(c, s, 1, nothing(), mass, true, plain());
+    const vec3 back = velocity_at(lever_arms(c, c.centre, vec3(0)), after.pair_velocity);
+    CHECK(back.x == Approx(-19 * 1e-4).epsilon(1e-3));
+    CHECK(back.z == Approx(19 * 2e-4).epsilon(1e-3));
+    CHECK(after.impulse.stretch.x == 1e-4f);
+    const SolveResult relaxed = solve_patch_friction(c, s, 1, nothing(), mass, false, plain());
+    CHECK(length3(relaxed.impulse.friction) == 0);  // the relax pass has no bias
+}
+
+TEST_CASE("a patch that has slid keeps the stretch at which the anchor bears its friction") {
+    const Mass mass = uneven(0.5);
+    const Constraint c = patch(0.2f);
+    SolveResult s{};
+    s.pair_velocity.b.linear = vec3(1, 0, 0.5f);
+    for (int pass = 0; pass < 100; ++pass) {
+        s = solve_patch_friction(c, s, 1, nothing(), mass, true, plain());
+        s.pair_velocity = {};
+        s.pair_velocity.b.linear = vec3(1, 0, 0.5f);
+    }
+    CHECK(length3(s.impulse.friction) == Approx(0.3).epsilon(1e-3));
+    // Without slip, friction stays as it is: spring and leak are in balance.
+    SolveResult at_rest = s;
+    at_rest.pair_velocity = {};
+    at_rest = solve_patch_friction(c, at_rest, 1.1f, nothing(), mass, true, plain());
+    CHECK(length3(at_rest.impulse.friction - s.impulse.friction) < 0.01f * length3(s.impulse.friction));
+}
+
+TEST_CASE("what touches in one point has no anchor, nor what bears nothing") {
+    Constraint c = patch(0);
+    c.count = 1;
+    SolveResult s{};
+    s.impulse.stretch = vec3(1e-4f, 0, 0);
+    s = solve_patch_friction(c, s, 1, nothing(), uneven(0), true, plain());
+    CHECK(length3(s.impulse.friction) == 0);
+    CHECK(length3(s.impulse.stretch) == 0);
+    VelocityPair sliding{};
+    sliding.b.linear = vec3(1, 0, 0);
+    CHECK(length3(stretched(patch(0.2f), Impulse{}, sliding, plain()).stretch) == 0);
+    Impulse bearing{};
+    bearing.normal.x = 1;
+    CHECK(stretched(patch(0.2f), bearing, sliding, plain()).stretch.x == Approx(1.0 / 480));
 }

@@ -52,7 +52,7 @@ bool kept(vec4 turn_a, vec4 turn_b, vec3 spin_b = vec3(0)) {
     return is_persistent(contact, impulse, box(0.5f), a, va, box(0.5f), b, vb);
 }
 
-Parameters relax_contact() {
+Parameters some_parameters() {
     Parameters parameters{};
     parameters.inverse_relaxation = 1 / 1.5f;
     parameters.speculative = 0.02f;
@@ -82,9 +82,9 @@ TEST_CASE("a corner resists twisting as a patch of a hundredth of the body, a ba
     contact.count = 1;
     contact.normal = vec3(0, 1, 0);
     contact.orientation_a = contact.orientation_b = vec4(0, 0, 0, 1);
-    CHECK(constraint_of(contact, box(0.5f), box(2), 0, 1, relax_contact()).twist_arm == Approx(0.005f));
-    CHECK(constraint_of(contact, box(0.5f), ball(2), 0, 1, relax_contact()).twist_arm == 0);
-    CHECK(constraint_of(contact, ball(0.5f), ball(2), 0, 1, relax_contact()).twist_arm == 0);
+    CHECK(constraint_of(contact, box(0.5f), box(2), 0, 1, some_parameters()).twist_arm == Approx(0.005f));
+    CHECK(constraint_of(contact, box(0.5f), ball(2), 0, 1, some_parameters()).twist_arm == 0);
+    CHECK(constraint_of(contact, ball(0.5f), ball(2), 0, 1, some_parameters()).twist_arm == 0);
 }
 
 TEST_CASE("the count of contacts that share a body lags behind those that carry") {
@@ -106,7 +106,7 @@ TEST_CASE("the count of contacts that share a body lags behind those that carry"
 }
 
 TEST_CASE("of a body's mass half is shared alike and half by what presses") {
-    const Parameters parameters = relax_contact();
+    const Parameters parameters = some_parameters();
     const float split_state = pack_split_state(3, 8);
     const float parts[] = {1 / split_factor(split_state, 4, parameters), 1 / split_factor(split_state, 4, parameters),
                            1 / split_factor(split_state, 0, parameters)};

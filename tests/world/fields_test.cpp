@@ -43,6 +43,8 @@ Scene brick() {
 Scene of_all() {
     Scene scene = brick();
     scene.bodies[0].tyre.emplace();
+    scene.bodies[0].filter = Filter{2, 5, -3};
+    scene.exclusions.push_back({0, 1});
     scene.bodies[0].fracture.emplace().impulse = 3;
     add_car(scene, {});
     scene.vehicles[0].controls.throttle = 1;

@@ -149,7 +149,7 @@ TEST_CASE("events: what is still to come goes into a saved scene", "[world]") {
            {"time": 0.2, "action": {"glide": {"body": "lift", "to": [6, 5, 0], "duration": 1}}},
            {"time": 1, "action": {"motor": {"joint": "axle", "speed": 3, "max_force": 500}}}])"));
     const World world = played(document, 42);  // 0.7 s
-    const std::vector<Event> coming = coming_events(document.events, world);
+    const std::vector<TimedEvent> coming = coming_events(document.events, world);
     REQUIRE(coming.size() == 2);
     CHECK(coming[0].time == 0);
     CHECK(std::get<GlideEvent>(coming[0].action).duration == Approx(0.5));

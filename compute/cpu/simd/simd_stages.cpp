@@ -56,20 +56,20 @@ struct Group {
           b(c.b),
           before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
 
-    SCREE_INLINE vec4 struck(const WideTables& tables) const {
+    SCREE_INLINE vec4 impacts_state(const WideTables& tables) const {
         if (none(c.restitution > 0.0f)) return vec4(0.0f);
         return choose(c.restitution > 0.0f,
                       impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)), vec4(0.0f));
     }
     SCREE_INLINE void hand_out(const WideTables& tables, const Impulse& after, const VelocityPair& share, Float carrying,
-                               Float told_a, Float told_b) const {
+                               Float payload_a, Float payload_b) const {
         scatter(tables.impulses, contacts.only(live), after);
-        hand_out(tables, share, carrying, told_a, told_b);
+        hand_out(tables, share, carrying, payload_a, payload_b);
     }
-    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float carrying, Float told_a,
-                               Float told_b) const {
-        scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, carrying, told_b));
-        scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, carrying, told_a));
+    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float carrying, Float payload_a,
+                               Float payload_b) const {
+        scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, carrying, payload_b));
+        scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, carrying, payload_a));
     }
 };
 
@@ -94,15 +94,15 @@ void solve(const WideTables& tables, std::size_t first, std::size_t last) {
         const Group group(tables, first, last);
         const Mass ma = split_mass(gather<Mass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<Mass>(tables.masses, group.b), group.impulse, p);
-        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.struck(tables), p);
+        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         group.hand_out(tables, after.impulse, share, impact_weight(after.impulse), 0.0f, 0.0f);
     }
 }
 
-SCREE_INLINE Float told_by(const std::uint32_t* told, const Indices& bodies) {
+SCREE_INLINE Float gather_quiet_steps(const std::uint32_t* quiet_steps, const Indices& bodies) {
     Words words;
-    for (int lane = 0; lane < lanes; ++lane) words[lane] = told[bodies.of[lane]];
+    for (int lane = 0; lane < lanes; ++lane) words[lane] = quiet_steps[bodies.of[lane]];
     return uintBitsToFloat(words);
 }
 
@@ -129,20 +129,20 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         const Group group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.struck(tables), p);
+        const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), p);
         if (tables.carried != nullptr) feel(tables, group, after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, group.c.count);
         impulse.normal_sum = normal_impulse(impulse);
         VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         const Float carrying = is_active(group.c, impulse, after.pair_velocity, p);
-        Float told_a = impulse.normal_sum, told_b = impulse.normal_sum;
-        if (tables.told == nullptr) {
+        Float payload_a = impulse.normal_sum, payload_b = impulse.normal_sum;
+        if (tables.quiet_steps == nullptr) {
             share = warm_start(group.c, impulse, share, ma, mb);
         } else {
-            told_a = told_by(tables.told, group.a);
-            told_b = told_by(tables.told, group.b);
+            payload_a = gather_quiet_steps(tables.quiet_steps, group.a);
+            payload_b = gather_quiet_steps(tables.quiet_steps, group.b);
         }
-        group.hand_out(tables, impulse, share, carrying, told_a, told_b);
+        group.hand_out(tables, impulse, share, carrying, payload_a, payload_b);
     }
 }
 
@@ -177,7 +177,7 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         velocity = integrate_velocity(velocity, change, load, properties, p);
         Mass mass = gather<Mass>(tables.masses, bodies);
         if (tables.first) mass.split = update_hysteresis(mass.split, sum.is_active, tables.steps);
-        mass.split = split_state_after(mass.split, sum.is_active, sum.told);
+        mass.split = split_state_after(mass.split, sum.is_active, sum.payload);
         const Indices live = bodies.only(living(first, last));
         scatter(tables.velocities, live, velocity);
         scatter(tables.masses, live, mass);
@@ -195,7 +195,7 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         Velocity velocity = gather<Velocity>(tables.velocities, bodies);
         velocity.linear = velocity.linear + sum.linear;
         velocity.angular = velocity.angular + sum.angular;
-        load.impacts = impacts_of(sum.is_active, sum.told);
+        load.impacts = impacts_of(sum.is_active, sum.payload);
         const RigidState after = integrate(gather<Pose>(tables.poses, bodies), velocity, properties, p.h);
         const Indices live = bodies.only(living(first, last));
         scatter(tables.forces, live, load);

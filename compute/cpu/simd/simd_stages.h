@@ -19,9 +19,9 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
-    const std::uint32_t* told = nullptr;  // quiet steps of each body, as floats; null but in the last pass
-    float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
-    std::uint32_t steps = 0;              // Counts::steps in the first substep, for the hysteresis of mass splitting
+    const std::uint32_t* quiet_steps = nullptr;  // quiet steps of each body, as floats; null but in the last pass
+    float* carried = nullptr;                    // normal impulse of each contact in the step, N s; null if no body may break
+    std::uint32_t steps = 0;                     // Counts::steps in the first substep, for the hysteresis of mass splitting
     bool first = false;
 };
 

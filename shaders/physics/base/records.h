@@ -86,7 +86,7 @@ struct BodyForces {
     vec3 acceleration;          // gravity and forces, m/s^2, constant over the step
     float kept;                 // part of its contacts' impulses that it keeps: < 1 if it breaks (fracture.h)
     vec3 angular_acceleration;  // rad/s^2
-    float impacts;              // contacts in an impact with restitution in this substep
+    float impacts;              // contacts in an impact with restitution in this substep; negative for a body on joints
 };
 
 // User action on a body in one step; at most one record per body (the host sums).
@@ -194,6 +194,8 @@ struct Impulse {
     float slide_distance;  // slide of B along A's surface in this step, m
     vec3 center_offset;    // centre of B minus centre of A at present, m: both bodies feel an impulse at one point
     float normal_sum;      // sum of `normal` as the substep began, N s
+    vec3 stretch;          // way of B over A since the patch sticks (friction.h), in the tangent plane, world, m
+    float turn;            // turn of B on A since, about the normal, rad
 };
 
 // ---- contacts: solver data of this step
@@ -222,7 +224,9 @@ struct VelocityDelta {  // velocity change of one body by one contact; summed in
     vec3 linear;        // m/s
     float is_active;    // 1: active in this substep or the next, counts in mass splitting
     vec3 angular;       // rad/s
-    float told;         // normal impulse, N s; in the last pass the other body's quiet steps (sleep.h)
+    // By the pass that writes the record: a contact's normal impulse, N s; in the solve pass 1 from a joint, 0 from a
+    // contact (impacts_of); in the step's last pass the other body's quiet steps (sleep.h).
+    float payload;
 };
 
 // ---- joints
@@ -415,7 +419,10 @@ struct Parameters {  // uniform over a step
     uint pieces_offset;
     uint tyres_offset;
     uint way_points_offset;
-    uint pad0;
+    uint filters_offset;
+    uint exclusions_offset;
+    uint removed;  // 1: bodies were removed since the last step; sleepers that touched them wake
+    uint pad0, pad1;
     Grip grips[4];  // MOST_GRIPS
 };
 
@@ -427,7 +434,8 @@ CONSTANT uint FEATURE_TYRES = 8u;
 CONSTANT uint FEATURE_PARTS = 16u;      // moving compounds
 CONSTANT uint FEATURE_REORDERED = 32u;  // rows in an order other than that of ids
 CONSTANT uint FEATURE_JOINTS = 64u;
-CONSTANT uint FEATURE_BREAKING = 128u;  // breakable bodies
+CONSTANT uint FEATURE_SUMS = 128u;     // contact impulses are summed over the step: breakable bodies, events
+CONSTANT uint FEATURE_FILTERS = 256u;  // collision filters, excluded pairs
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type

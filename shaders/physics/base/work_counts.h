@@ -71,7 +71,7 @@ LAW Counts emptied(Counts counts, Parameters parameters) {
     counts.contacts = 0u;
     counts.levels = 0u;
     counts.levels_stirring = 0u;
-    counts.large_stirring = 0u;
+    counts.large_stirring = parameters.removed;
     counts.sleepers = 0u;
     counts.solver_contacts = 0u;
     counts.pairs_coarse = 0u;

@@ -87,17 +87,17 @@ LAW float pace_of(BodyProperties properties, Velocity velocity, Parameters param
     return (length3(velocity.linear) + length3(velocity.angular) * bounding_radius(properties)) * reciprocal(limit);
 }
 // Quiet steps as seen by neighbours: < 0 for a moving kinematic body.
-LAW float told_quiet(uint motion, Velocity velocity, uint sleep_state) {
+LAW float quiet_steps_shown(uint motion, Velocity velocity, uint sleep_state) {
     if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? -1.0f : FOREVER;
     return (sleep_state & WOKEN) != 0u ? 0.0f : float(quiet_steps(sleep_state));
 }
-// The sleep state for the next step. `carrying`: number of active contacts; `told`: least quiet steps of their other
+// The sleep state for the next step. `carrying`: number of active contacts; `neighbours_quiet`: least quiet steps of their other
 // bodies.
-LAW uint sleep_state_after(uint sleep_state, float pace, float carrying, float told, uint sleep_steps) {
-    if (pace > 1.0f || carrying == 0.0f || told < 0.0f || sleep_steps == NO_SLEEP) return 0u;
+LAW uint sleep_state_after(uint sleep_state, float pace, float carrying, float neighbours_quiet, uint sleep_steps) {
+    if (pace > 1.0f || carrying == 0.0f || neighbours_quiet < 0.0f || sleep_steps == NO_SLEEP) return 0u;
     uint quiet = (sleep_state & WOKEN) != 0u ? 0u : quiet_steps(sleep_state);
     if (!is_shaken(sleep_state, sleep_steps)) {
-        uint least = uint(told) + (sleep_steps >> NEARNESS_SHIFT);
+        uint least = uint(neighbours_quiet) + (sleep_steps >> NEARNESS_SHIFT);
         quiet = (least < quiet ? least : quiet) + 1u;
         quiet = quiet < QUIET_BITS ? quiet : QUIET_BITS;
     } else if (pace > SHAKEN_SPEED) {

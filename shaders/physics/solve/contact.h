@@ -57,6 +57,8 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.slide_distance = 0.0f;
     impulse.center_offset = d;
     impulse.normal_sum = 0.0f;
+    impulse.stretch = vec3(0.0f);
+    impulse.turn = 0.0f;
     return impulse;
 }
 
@@ -103,7 +105,11 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     if (total > 0.0f) {
         impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);
         // A single point has no torsional friction that would reduce an inherited twist.
-        if (now.count > 1u) impulse.twist = was.twist;
+        if (now.count > 1u) {
+            impulse.twist = was.twist;
+            impulse.turn = was.turn;
+        }
+        impulse.stretch = was.stretch - now.normal * dot3(was.stretch, now.normal);
         impulse.rolling = was.rolling;
     }
     return impulse;

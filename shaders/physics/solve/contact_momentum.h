@@ -4,7 +4,7 @@
 // (`impulse_scale` in contact_solver.h). So a column's sag is compliance, not lack of convergence: 7.3 mm for ten boxes at 480
 // substeps a second, in proportion to the square of their number, of the substep, and to gravity, whatever the boxes' size.
 // A smaller leak is stiffer, but in slow modes a contact answers as k (s + r) / (s + L), with the bias rate r and the leak L; it
-// damps only while L > r, and by little: a column with half the leak falls.
+// damps only while L > r, and by little; with half the leak (L < r) columns are no longer damped.
 //
 // Momentum (Polyak, Some methods of speeding up the convergence of iteration methods, 1964) starts each substep with the impulse
 // extrapolated by `momentum` times its last change. For slow modes this divides both k and L by 1 - momentum: sag is
@@ -13,7 +13,7 @@
 // Measured (8 substeps at 60 Hz, 20 s awake; drift without and with both):
 //   columns of 10, 20, 40   7.3, 29, 117 mm    4.4, 17.5, 70 mm
 //   ten boxes, top x 100; x 300   142 mm; falls   82; 241 mm
-//   ten boxes of 2 cm             fall            5.5 mm
+//   ten boxes of 2 cm             fall            4.4 mm
 //   pyramid of 465; wall of 520   48; 21 mm       31; 12 mm
 //
 // A body that rests on a patch much narrower than itself rocks slowly, and momentum feeds that: of 27 slabs on slender
@@ -26,11 +26,12 @@
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/solve/jacobian.h"
+#include "shaders/physics/solve/motion.h"
 
 LAWS_BEGIN
 
-CONSTANT float MOMENTUM = 0.5f;        // with 0.6 a column of 40 sways at 65 mm/s
-CONSTANT float MOMENTUM_SPLIT = 4.0f;  // bodies split in more parts get less: with all of it, a tray under 500 boxes shakes
+CONSTANT float MOMENTUM = 0.5f;        // with 0.6 a column of 40 sways at 56 mm/s
+CONSTANT float MOMENTUM_SPLIT = 4.0f;  // bodies split into more parts, as under a heap, get less
 CONSTANT float LEAK_CUT = 0.8f;        // part of the momentum by which the leak is smaller
 
 // (r x n) . I^-1 (r x n) m of one body; 1 for a body that does not move.
@@ -40,12 +41,12 @@ LAW float lever_ratio(float inverse_effective_mass, float inverse_mass) {
 }
 // For a point of a contact between two split bodies; a contact of a single point does not rock.
 // Without gravity nothing bears a load, and impulses have no momentum.
-LAW float contact_momentum(JacobianRow row, uint points, Mass a, Mass b, vec3 gravity) {
+LAW float contact_momentum(JacobianRow row, uint points, Mass a, Mass b, Parameters parameters) {
     float lever = smaller(lever_ratio(row.inverse_effective_mass_a, a.inverse_mass),
                           lever_ratio(row.inverse_effective_mass_b, b.inverse_mass));
     float split = larger(a.split, b.split);
     float rocking = choose(points > 1u, smaller(1.0f, lever), 1.0f);
-    rocking = choose(dot3(gravity, gravity) > 0.0f, rocking, 0.0f);
+    rocking = choose(has_weight(parameters), rocking, 0.0f);
     return MOMENTUM * rocking * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(split));
 }
 

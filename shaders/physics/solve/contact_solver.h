@@ -93,7 +93,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;  // a third of all contacts are speculative and inactive
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
-            float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, c.count, a, b, parameters.gravity));
+            float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, c.count, a, b, parameters));
             change = choose(separation <= 0.0f, change - leak * before, change);
             float after = choose(gone, 0.0f, positive(before + change));
             impulse.normal[k] = choose(acts, after, before);
@@ -104,7 +104,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b, parameters);
+    return solve_patch_friction(c, result, normal, a, b, true, parameters);
 }
 
 // The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
@@ -113,8 +113,9 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     bool struck = is_impact(impulse) > 0.0f;
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
-    if (!none(struck)) met = refresh_round_contact(c, met_offset);
     bool follows = c.anchor == ANCHOR_ROUND;
+    if (!none(struck || follows)) met = refresh_round_contact(c, met_offset);
+    impulse = stretched(met, impulse, v, parameters);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < c.count && !follows;
         if (none(there)) break;
@@ -151,7 +152,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float mass = mass_along(row, a, b);
-            momentum[k] = choose(acts, contact_momentum(row, c.count, a, b, parameters.gravity), momentum[k]);
+            momentum[k] = choose(acts, contact_momentum(row, c.count, a, b, parameters), momentum[k]);
             acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
             float after = choose(gone, 0.0f, positive(before - mass * (speed + target)));
             impulse.normal[k] = choose(acts, after, before);
@@ -163,7 +164,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     result.impulse = with_momentum(impulse, c.count, momentum);
     if (!none(struck)) result.impulse = rebounding(c, result.impulse, rebound, state, parameters);
     result.pair_velocity = v;
-    return solve_patch_friction(c, result, normal, a, b, parameters);
+    return solve_patch_friction(c, result, normal, a, b, false, parameters);
 }
 
 // Warm start: `v` plus what the previous substep's impulses do to the whole (not split) bodies.
@@ -225,12 +226,12 @@ LAW VelocityPair to_body_deltas(VelocityPair before, VelocityPair after, Mass a,
     share.b.angular = (after.b.angular - before.b.angular) * share_b;
     return share;
 }
-LAW VelocityDelta velocity_delta(Velocity share, float carrying, float told) {
+LAW VelocityDelta velocity_delta(Velocity share, float carrying, float payload) {
     VelocityDelta slot;
     slot.linear = share.linear;
     slot.is_active = carrying;
     slot.angular = share.angular;
-    slot.told = told;
+    slot.payload = payload;
     return slot;
 }
 LAWS_END

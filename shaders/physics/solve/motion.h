@@ -8,6 +8,13 @@
 
 LAWS_BEGIN
 
+// Whether there is gravity. Without it no contact persists (persistence.h) and impulses have no momentum
+// (contact_momentum.h).
+LAW bool has_weight(Parameters parameters) {
+    vec3 pull = absolute3(parameters.gravity);
+    return pull.x > 1.0e-9f || pull.y > 1.0e-9f || pull.z > 1.0e-9f;
+}
+
 LAW BodyForces gravity_forces(BodyProperties properties, Parameters parameters) {
     BodyForces load;
     load.acceleration = choose(properties.motion == MOTION_DYNAMIC, parameters.gravity * properties.gravity_scale, vec3(0.0f));

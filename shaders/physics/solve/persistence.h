@@ -20,8 +20,11 @@ LAWS_BEGIN
 CONSTANT float KEPT_SLIP = 0.01f;     // anchors further apart end persistence
 CONSTANT float KEPT_SPEED = 0.1f;     // per second: faster is sliding, rolling or tipping
 CONSTANT float KEPT_TURN = 0.99905f;  // cosine of half the rotation (5 degrees) of a body that ends persistence
-// The same for one or two points (0.6 degrees, about what the slip tolerance allows with more): a body rocks about them
-// without slip, and while the normal of two edges is frozen and they turn, the rocking never ends.
+// Sine of half the rotation of a body about the normal that does (1 degree): the frozen offset of the centres lags behind,
+// and with 5 degrees what stood askew on a turntable crept outwards, ever faster.
+CONSTANT float KEPT_YAW = 0.00873f;
+// The limit of any rotation for one or two points (0.6 degrees, about what the slip tolerance allows with more): a body rocks
+// about them without slip, and while the normal of two edges is frozen and they turn, the rocking never ends.
 CONSTANT float KEPT_ROCKING = 0.9999875f;
 
 // A body that tips over two of its four points falls upon a corner that manifold reduction left out and rebounds:
@@ -41,12 +44,6 @@ LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
     vec3 mark_a = rotate(a.orientation, rotate_back(contact.orientation_a, arm - half_gap));
     vec3 mark_b = rotate(b.orientation, rotate_back(contact.orientation_b, (arm - contact.center_offset) + half_gap));
     return (b.position - a.position) + mark_b - mark_a;
-}
-
-// Whether there is gravity; without it no contact persists.
-LAW bool has_weight(Parameters parameters) {
-    vec3 pull = absolute3(parameters.gravity);
-    return pull.x > 1.0e-9f || pull.y > 1.0e-9f || pull.z > 1.0e-9f;
 }
 
 // cos| of half the angle between two orientations.
@@ -72,6 +69,7 @@ LAW bool is_persistent(Contact contact, Impulse impulse, BodyProperties ta, Pose
     if (!turned_little(contact.orientation_a, a.orientation, contact.count)) return false;
     if (!turned_little(contact.orientation_b, b.orientation, contact.count)) return false;
     vec4 since_a = turn_since(contact.orientation_a, a.orientation), since_b = turn_since(contact.orientation_b, b.orientation);
+    if (abs(dot3(xyz(since_a), contact.normal)) > KEPT_YAW || abs(dot3(xyz(since_b), contact.normal)) > KEPT_YAW) return false;
     vec3 tilt = xyz(since_a) - xyz(since_b);
     vec3 spin = vb.angular - va.angular;
     float size = smaller(patch_width(ta, a.orientation, contact.normal), patch_width(tb, b.orientation, contact.normal));
@@ -129,6 +127,8 @@ LAW Impulse carry_forward(Contact contact, Impulse was) {
     impulse.friction = was.friction;
     impulse.twist = was.twist;
     impulse.rolling = was.rolling;
+    impulse.stretch = was.stretch;
+    impulse.turn = was.turn;
     return impulse;
 }
 

@@ -194,6 +194,8 @@ LAW Impulse clear_impacts(Impulse impulse, uint count) {
     impulse.friction = choose(spent, vec3(0.0f), impulse.friction);
     impulse.twist = choose(spent, 0.0f, impulse.twist);
     impulse.rolling = choose(spent, vec3(0.0f), impulse.rolling);
+    impulse.stretch = choose(spent, vec3(0.0f), impulse.stretch);
+    impulse.turn = choose(spent, 0.0f, impulse.turn);
     return impulse;
 }
 

@@ -12,7 +12,8 @@ const bool PARTS = (FEATURES & FEATURE_PARTS) != 0u;
 const bool ROLLS = (FEATURES & FEATURE_ROLLS) != 0u;
 const bool REORDERED = (FEATURES & FEATURE_REORDERED) != 0u;
 const bool JOINTS = (FEATURES & FEATURE_JOINTS) != 0u;
-const bool BREAKING = (FEATURES & FEATURE_BREAKING) != 0u;
+const bool SUMS = (FEATURES & FEATURE_SUMS) != 0u;
+const bool FILTERS = (FEATURES & FEATURE_FILTERS) != 0u;
 
 // The variant of a shared module: the lines `variants` of its file.
 layout(constant_id = 3) const uint VARIANT = 0u;

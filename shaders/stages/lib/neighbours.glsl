@@ -3,6 +3,7 @@
 #ifndef SCREE_STAGES_NEIGHBOURS_GLSL
 #define SCREE_STAGES_NEIGHBOURS_GLSL
 
+#include "shaders/physics/collide/filter.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/stages/lib/ids.glsl"
 
@@ -19,7 +20,23 @@ bool kept_apart(uint body, uint other) {
     }
     return false;
 }
+// Whether filters and excluded pairs allow two rows to collide.
+bool may_collide(uint row, uint other) {
+    uvec4 own = READ_QUADS(filters, row);
+    if (!filters_allow(own, READ_QUADS(filters, other))) return false;
+    if (own.w == NONE) return true;
+    uint partner = id_of(body_of(other));
+    for (uint k = own.w; k != NONE;) {
+        uvec4 entry = READ_QUADS(exclusions, k);
+        if (entry.x == partner) return false;
+        k = entry.y;
+    }
+    return true;
+}
 void meets(uint body, uint other) {
+    if (FILTERS) {
+        if (!may_collide(body, other)) return;
+    }
     if (JOINTS) {
         if (kept_apart(body_of(body), body_of(other))) return;
     }
@@ -71,7 +88,11 @@ void carry_over(uint body) {
     for (uint k = READ_WORD(first_contacts, body); k < last; ++k) {
         uint a = READ(contacts_before, k).a;
         uint other = a == body ? READ(contacts_before, k).b : a;
-        if ((READ(bounds, other).level & INACTIVE) != 0u) found(other);
+        if ((READ(bounds, other).level & INACTIVE) == 0u) continue;
+        if (FILTERS) {
+            if (!may_collide(body, other)) continue;
+        }
+        found(other);
     }
 }
 

@@ -26,7 +26,7 @@ void begin_body(uint i, bool first) {
     velocities.at[i] = velocity;
     float split_state = READ(masses, i).split;
     if (first) split_state = update_hysteresis(split_state, sum.carrying, COUNTED.steps);
-    masses.at[i].split = split_state_after(split_state, sum.carrying, sum.normal_impulse);
+    masses.at[i].split = split_state_after(split_state, sum.carrying, sum.payload_sum);
 }
 
 // Applies the biased pass and integrates the pose by a substep.
@@ -39,7 +39,7 @@ void move_body(uint i) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
-        forces.at[i].impacts = impacts_of(sum.carrying, sum.normal_impulse);
+        forces.at[i].impacts = impacts_of(sum.carrying, sum.payload_sum);
     }
     RigidState after = integrate(READ(poses, i), velocity, body, PARAMETERS.h);
     poses.at[i] = after.pose;

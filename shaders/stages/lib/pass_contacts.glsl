@@ -27,6 +27,8 @@ void solve_contact(uint place) {
     }
     impulses.at[i].friction = after.impulse.friction;
     impulses.at[i].twist = after.impulse.twist;
+    impulses.at[i].stretch = after.impulse.stretch;
+    impulses.at[i].turn = after.impulse.turn;
     if (ROLLS) impulses.at[i].rolling = after.impulse.rolling;
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
     float blow = impact_weight(after.impulse);
@@ -50,7 +52,7 @@ void relax_contact(uint place, uint pass) {
     before.b = READ(velocities, c.b);
     vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
     SolveResult after = relax_contact(c, impulse, before, ma, mb, state, PARAMETERS);
-    if (BREAKING) {
+    if (SUMS) {
         float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
         SET_FLOAT(carried, i, sum);
@@ -66,21 +68,23 @@ void relax_contact(uint place, uint pass) {
     }
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
+    impulses.at[i].stretch = impulse.stretch;
+    impulses.at[i].turn = impulse.turn;
     if (ROLLS) impulses.at[i].rolling = impulse.rolling;
     impulses.at[i].slide_distance = impulse.slide_distance;
     impulses.at[i].center_offset = impulse.center_offset;
     impulses.at[i].normal_sum = impulse.normal_sum;
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
-    float told_a = impulse.normal_sum, told_b = impulse.normal_sum;
+    float payload_a = impulse.normal_sum, payload_b = impulse.normal_sum;
     if ((pass & LAST_SUBSTEP) == 0u) {
         share = warm_start(c, impulse, share, ma, mb);
     } else {
-        told_a = told_quiet(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
-        told_b = told_quiet(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
+        payload_a = quiet_steps_shown(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
+        payload_b = quiet_steps_shown(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
     }
     float carrying = is_active(c, impulse, after.pair_velocity, PARAMETERS);
-    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, carrying, told_b);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, carrying, told_a);
+    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, carrying, payload_b);
+    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, carrying, payload_a);
 }
 
 #endif

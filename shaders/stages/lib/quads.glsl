@@ -14,6 +14,12 @@
 uvec4 read_hulls(uint i) {
     return SCREE_QUAD(hulls, i);
 }
+uvec4 read_filters(uint i) {
+    return SCREE_QUAD(filters, i);
+}
+uvec4 read_exclusions(uint i) {
+    return SCREE_QUAD(exclusions, i);
+}
 SCREE_READER_PoseInBody(parts, SCREE_QUAD) SCREE_READER_Fracturing(fractures, SCREE_QUAD)
     SCREE_READER_PoseInBody(pieces, SCREE_QUAD) SCREE_READER_Tyre(tyres, SCREE_QUAD) SCREE_READER_WayPoint(way_points, SCREE_QUAD)
 

@@ -1,0 +1,70 @@
+// Queries of a world in batches: rays, shapes that are cast, and overlaps, against the bodies as they are now.
+//
+//     std::vector<scree::RayQuery> rays = ...;
+//     const std::vector<std::optional<scree::QueryHit>> hits = world.cast_rays(rays);  // the nearest of each
+//
+// Bodies may sleep, be fixed or kinematic. Results are complete and the same bits on every backend and with any number of
+// threads; of equally near hits the one with the lowest body, then part, counts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/glm.hpp>
+#include <span>
+#include <vector>
+
+#include "compute/scene.h"
+
+namespace scree {
+
+struct RayQuery {
+    vec3 from{0};                     // m
+    vec3 along{0, 0, -1};             // unit
+    float reach = unlimited;          // m, > 0
+    std::uint32_t mask = 0xFFFFFFFF;  // of the categories of bodies and parts (Filter) that it sees
+    bool solid = true;                // a body in which the ray begins is hit at distance 0; false: is not seen
+};
+
+// A convex shape that moves along a line without turning. No plane, no hull.
+struct ShapeCast {
+    SimpleShape shape = Sphere{};
+    vec3 from{0};                     // of its centre, m
+    vec4 orientation{0, 0, 0, 1};     // quaternion x, y, z, w of any length but 0
+    vec3 along{0, 0, -1};             // unit
+    float reach = 1;                  // m, 0 to 1e6
+    std::uint32_t mask = 0xFFFFFFFF;  // as of a ray
+};
+
+// A convex shape somewhere. No plane, no hull.
+struct ShapeOverlap {
+    SimpleShape shape = Sphere{};
+    vec3 position{0};              // of its centre, m
+    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w of any length but 0
+    std::uint32_t mask = 0xFFFFFFFF;
+};
+
+struct QueryHit {
+    std::size_t body = 0;
+    std::uint32_t part = 0;  // of a compound the part, of a mesh or height field the triangle
+    float distance = 0;      // along the ray or cast, m; 0 if it begins in the body
+    vec3 point{0};           // on the surface, m; of a cast the centre of the shape as it touches
+    vec3 normal{0};          // of the surface, unit, outward; where it begins in the body against its direction
+};
+
+// Lists of several queries, one after the other.
+template <class Item>
+struct QueryLists {
+    std::vector<std::size_t> starts;  // of each list, and the end of the last
+    std::vector<Item> items;
+    std::span<const Item> operator[](std::size_t query) const {
+        return std::span(items).subspan(starts[query], starts[query + 1] - starts[query]);
+    }
+};
+
+struct QueryPart {
+    std::size_t body = 0;
+    std::uint32_t part = 0;
+    bool operator==(const QueryPart& o) const { return body == o.body && part == o.part; }
+};
+
+}  // namespace scree

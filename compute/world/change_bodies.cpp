@@ -1,0 +1,223 @@
+// World: changing bodies: poses and velocities in bulk, materials, filters, motion.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "compute/fields/body.h"
+#include "compute/fields/check.h"
+#include "compute/scene/validator.h"
+#include "compute/step/state_editor.h"
+#include "compute/world/world_impl.h"
+
+namespace scree {
+
+namespace {
+
+bool all_within(vec3 v, float limit) {
+    return std::abs(v.x) <= limit && std::abs(v.y) <= limit && std::abs(v.z) <= limit;
+}
+
+// Checked as in a scene, but as an argument.
+void check(const BodyChange& change, const Body& body, const std::string& name) {
+    const auto demand = [&](bool condition, const char* what) {
+        if (!condition) throw std::invalid_argument(name + ": " + what);
+    };
+    demand(!change.position || all_within(*change.position, 1e6f), "the position must be within 1000000 m of 0");
+    if (change.orientation) {
+        const vec4 q = *change.orientation;
+        const double squared = glm::dot(glm::dvec4(q), glm::dvec4(q));
+        demand(std::isfinite(squared) && squared >= 1e-12, "the orientation must be finite and not of length 0");
+    }
+    for (const auto& velocity : {change.velocity, change.angular_velocity})
+        demand(!velocity || all_within(*velocity, 1e4f), "velocities must be within 10000 of 0 along each axis");
+    if (body.motion == Motion::fixed)
+        demand(!change.velocity && !change.angular_velocity, "a fixed body has no velocity; make it kinematic");
+    if (std::holds_alternative<Plane>(body.shape))
+        demand(!change.position && !change.orientation, "a plane has no pose, but a normal and an offset");
+}
+
+// As in a scene: what is of unit length, to rounding, stays.
+vec4 unit(vec4 q) {
+    fields::make_unit(Examination(), q, "");
+    return q;
+}
+
+// Ranges of several tables for ascending rows.
+TableRanges ranges_of(const std::vector<std::uint32_t>& rows, std::initializer_list<Table> tables) {
+    TableRanges ranges;
+    for (const Table table : tables)
+        for (std::size_t i = 0; i < rows.size(); ++i)
+            if (i > 0 && !ranges.empty() && ranges.back().table == table && ranges.back().first + ranges.back().count == rows[i])
+                ++ranges.back().count;
+            else
+                ranges.push_back({table, rows[i], 1});
+    return ranges;
+}
+
+}  // namespace
+
+void World::Impl::require_there(std::size_t body) const {
+    if (!physics::is_absent(state.properties[state.row_of(body)].motion)) return;
+    throw std::invalid_argument(name_of_body(body) + " is not there: it has broken, or is a fragment of one that has not");
+}
+
+void World::Impl::set(std::span<const BodyChange> bodies) {
+    if (bodies.empty()) return;
+    std::vector<std::uint32_t> rows;
+    for (const BodyChange& change : bodies) {
+        require_body(change.body);
+        check(change, scene.bodies[change.body], name_of_body(change.body));
+        rows.push_back(state.row_of(change.body));
+    }
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
+    TableRanges changed = ranges_of(rows, {Table::poses, Table::velocities, Table::sleep_states});
+    TableRanges needed = changed;
+    if (state.has_fractures()) append(needed, ranges_of(rows, {Table::properties}));
+    runner->download(needed);
+    for (const BodyChange& change : bodies) require_there(change.body);
+    for (const BodyChange& change : bodies) {
+        const std::uint32_t row = state.row_of(change.body);
+        physics::Pose& pose = state.poses[row];
+        physics::Velocity& velocity = state.velocities[row];
+        if (change.position) {
+            pose.position = *change.position;
+            pose.low_x = velocity.low_y = velocity.low_z = 0;
+        }
+        if (change.orientation) pose.orientation = unit(*change.orientation);
+        if (change.velocity) velocity.linear = *change.velocity;
+        if (change.angular_velocity) velocity.angular = *change.angular_velocity;
+        state.sleep_states[row] = 0;
+        const Body& body = scene.bodies[change.body];
+        if (body.motion == Motion::dynamic || !(change.position || change.orientation)) continue;
+        state.fixed().wake_all = 1;
+        append(changed, StateEditor(state).place_parts(static_cast<std::uint32_t>(change.body)));
+        if (body.motion != Motion::fixed) continue;
+        keep_original(change.body);
+        scene.bodies[change.body].position = pose.position;
+        scene.bodies[change.body].orientation = pose.orientation;
+        edits.clear();
+    }
+    runner->upload(changed);
+    ++changes;
+}
+
+void World::set_bodies(std::span<const BodyChange> changes) {
+    interior_->set(changes);
+}
+
+// Changes a body of the scene, checks it, and tells the runner.
+void World::Impl::change(std::size_t index, const std::function<void(Body&)>& edit, bool wakes_all) {
+    require_body(index);
+    if (state.has_fractures()) runner->download(row_ranges(state, state.row_of(index)));
+    require_there(index);
+    Body& body = scene.bodies[index];
+    Shape shape = std::exchange(body.shape, Box{});
+    Body changed = body;
+    body.shape = std::move(shape);
+    edit(changed);
+    fields::check_fields(Examination("bodies", "body", index, body.name), changed);
+    keep_original(index);
+    shape = std::move(body.shape);
+    body = std::move(changed);
+    body.shape = std::move(shape);
+    const TableLengths before = TableLengths::of(state);
+    send(StateEditor(state).change(body, static_cast<std::uint32_t>(index)), before);
+    if (wakes_all || body.motion != Motion::dynamic)
+        state.fixed().wake_all = 1;
+    else
+        actions[index];
+    edits.clear();
+}
+
+void World::set_material(std::size_t body, const Material& material) {
+    interior_->change(
+        body,
+        [&](Body& b) {
+            b.friction = material.friction;
+            b.restitution = material.restitution;
+            b.rolling_resistance = material.rolling_resistance;
+        },
+        false);
+}
+
+void World::Impl::refilter() {
+    const TableLengths before = TableLengths::of(state);
+    send(StateEditor(state).filter(scene), before);
+    state.fixed().wake_all = 1;
+    edits.clear();
+    ++changes;
+}
+
+void World::set_filter(std::size_t body, const Filter& filter) {
+    Impl& in = *interior_;
+    in.require_body(body);
+    in.keep_original(body);
+    in.scene.bodies[body].filter = filter;
+    in.refilter();
+}
+
+void World::set_exclusion(std::size_t a, std::size_t b, bool excluded) {
+    Impl& in = *interior_;
+    in.require_body(a);
+    in.require_body(b);
+    if (a == b) throw std::invalid_argument("body " + std::to_string(a) + " cannot collide with itself");
+    std::erase_if(in.scene.exclusions, [&](const Exclusion& e) { return e == Exclusion{a, b} || e == Exclusion{b, a}; });
+    if (excluded) in.scene.exclusions.push_back({a, b});
+    in.refilter();
+}
+
+void World::set_motion(std::size_t body, Motion motion) {
+    Impl& in = *interior_;
+    in.require_body(body);
+    const Body& now = in.scene.bodies[body];
+    const auto refuse = [&](const std::string& reason) {
+        throw SceneError("/bodies/" + std::to_string(body) + "/motion",
+                         reason + (now.name.empty() ? "" : " (body \"" + now.name + "\")"));
+    };
+    if (now.motion == motion) return;
+    if (std::holds_alternative<Plane>(now.shape)) refuse("a plane must be \"fixed\": it is infinite and cannot move");
+    const bool surface = std::holds_alternative<Mesh>(now.shape) || std::holds_alternative<HeightField>(now.shape);
+    if (motion == Motion::dynamic && surface) refuse("a mesh or height field is a surface, has no mass and cannot be dynamic");
+    if (motion == Motion::dynamic) {
+        const MassProperties mass = mass_properties(now.shape, now.density);
+        for (const float value : {mass.mass, mass.inertia.x, mass.inertia.y, mass.inertia.z})
+            if (!std::isnormal(value) || !std::isnormal(1 / value))
+                refuse("size and density give a mass or inertia out of the range of a float");
+    }
+    if (motion != Motion::dynamic && (now.fracture || now.piece_of != no_body))
+        refuse("only a dynamic body can break, or be a fragment");
+    bool joined = false;
+    for (std::size_t j = 0; j < in.scene.joints.size(); ++j) {
+        const Joint& joint = in.scene.joints[j];
+        if ((joint.a != body && joint.b != body) || joint.broken) continue;
+        joined = true;
+        const std::size_t other = joint.a == body ? joint.b : joint.a;
+        if (motion != Motion::dynamic && (other == the_world || in.scene.bodies[other].motion != Motion::dynamic))
+            refuse("joint " + std::to_string(j) + " would join two bodies that never move; remove it first");
+    }
+    for (const Vehicle& vehicle : in.scene.vehicles) {
+        const bool wheel = std::any_of(vehicle.wheels.begin(), vehicle.wheels.end(),
+                                       [&](const Wheel& one) { return in.scene.joints[one.joint].b == body; });
+        if (vehicle.chassis == body || wheel) refuse("the bodies of a vehicle must be dynamic");
+    }
+    in.change(
+        body, [&](Body& b) { b.motion = motion; }, true);
+    if (motion == Motion::fixed) {
+        const std::uint32_t row = in.state.row_of(body);
+        const TableRanges still{{Table::velocities, row, 1}};
+        in.runner->download({{Table::poses, row, 1}, {Table::velocities, row, 1}});
+        in.state.velocities[row] = {};
+        in.scene.bodies[body].position = in.state.poses[row].position;
+        in.scene.bodies[body].orientation = in.state.poses[row].orientation;
+        in.scene.bodies[body].velocity = in.scene.bodies[body].angular_velocity = vec3(0);
+        TableRanges changed = still;
+        append(changed, StateEditor(in.state).place_parts(static_cast<std::uint32_t>(body)));
+        in.runner->upload(changed);
+    }
+    if (joined) in.rejoin();
+}
+
+}  // namespace scree

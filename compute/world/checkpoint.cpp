@@ -1,0 +1,328 @@
+// World: its whole state as bytes.
+//
+// A head (magic, format, tables, scene, steps, length, hash), then the edits of the scene since the world was made, the
+// world's own values, and the tables of the state.
+#include "compute/checkpoint.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
+#include <map>
+#include <utility>
+
+#include "compute/scene/fracture.h"
+#include "compute/statistics.h"
+#include "compute/world/scene_bytes.h"
+#include "compute/world/world_impl.h"
+#include "shaders/physics/extra/tyre.h"
+
+namespace scree {
+
+namespace {
+
+constexpr std::uint32_t format = 1;
+
+struct Head {
+    char magic[8];
+    std::uint32_t format, settings_bytes;
+    std::uint64_t tables, scene, steps;
+    std::uint64_t bytes;  // behind the head
+    std::uint64_t hash;   // XXH64 of those, seeded with the hash of the head up to here
+};
+constexpr char magic[8] = {'s', 'c', 'r', 'e', 'e', ' ', 'c', '\n'};
+static_assert(sizeof(Head) == 56);
+
+std::uint64_t hash_of(const Head& head, std::span<const std::byte> rest) {
+    return XXH64(rest.data(), rest.size(), XXH64(&head, offsetof(Head, hash), 0));
+}
+
+[[noreturn]] void refuse(const std::string& reason) {
+    throw CheckpointError(reason);
+}
+
+Head checked_head(std::span<const std::byte> state) {
+    Head head;
+    if (state.size() < sizeof head || std::memcmp(state.data(), magic, sizeof magic) != 0)
+        refuse("this is no checkpoint of scree");
+    std::memcpy(&head, state.data(), sizeof head);
+    if (head.format != format)
+        refuse("the checkpoint has format " + std::to_string(head.format) + ", this version of scree reads format " +
+               std::to_string(format));
+    const auto rest = state.subspan(sizeof head);
+    if (rest.size() != head.bytes)
+        refuse("the checkpoint is " + std::string(rest.size() < head.bytes ? "cut short" : "too long") + ": it has " +
+               std::to_string(rest.size()) + " bytes behind its head instead of " + std::to_string(head.bytes));
+    if (hash_of(head, rest) != head.hash) refuse("the checkpoint is damaged: its bytes do not have the hash that it names");
+    if (head.tables != layout_of_tables() || head.settings_bytes != sizeof(Settings))
+        refuse("the checkpoint was written by another version of scree, whose tables differ");
+    return head;
+}
+
+// All members: their bytes in memory may have holes.
+template <class Visit>
+void for_each_setting(auto& s, const Visit& visit) {
+    visit(s.rate), visit(s.substeps), visit(s.contact_hertz), visit(s.contact_damping_ratio), visit(s.push_speed);
+    visit(s.relaxation), visit(s.speculative_distance), visit(s.restitution_threshold), visit(s.max_speed), visit(s.max_turn);
+    visit(s.sleeping), visit(s.sleep_speed), visit(s.sleep_time), visit(s.friction_factor), visit(s.least_restitution);
+    visit(s.reordering), visit(s.pairs_at_first), visit(s.contacts_at_first);
+}
+
+}  // namespace
+
+// Values of the world outside of its scene and tables.
+struct World::Impl::Own {
+    Settings settings;
+    vec3 gravity{0};
+    std::uint64_t steps = 0;
+    bool reorder_now = false;
+    std::map<std::size_t, physics::Action> actions;
+    std::array<std::optional<Held>, most_grips> grips;
+    Events events;
+};
+
+// The scene as it is to be: bodies of the start that changed (without shapes) or are gone, added ones with their fragments,
+// all joints, vehicles and exclusions.
+struct World::Impl::Edits {
+    std::size_t bodies = 0;
+    std::vector<std::uint32_t> generations;
+    std::vector<std::uint8_t> gone, origins;
+    std::vector<std::uint64_t> freed;
+    std::vector<std::pair<std::size_t, Body>> changed;
+    std::vector<std::pair<std::size_t, std::vector<Body>>> added;  // at an index, with the fragments behind it
+    std::vector<Joint> joints;
+    std::vector<Vehicle> vehicles;
+    std::vector<Exclusion> exclusions;
+};
+
+const std::vector<std::byte>& World::Impl::edits_now() const {
+    if (!edits.empty()) return edits;
+    ByteWriter out;
+    out.put(std::uint64_t{scene.bodies.size()});
+    out.put_list(std::span(generations));
+    out.put_list(std::span(gone));
+    out.put_list(std::as_bytes(std::span(origins)));
+    const std::vector<std::uint64_t> free_later(freed.begin(), freed.end());
+    out.put_list(std::span(free_later));
+    const auto is_of = [&](std::size_t i, Origin origin) { return (i < origins.size() ? origins[i] : Origin::start) == origin; };
+    std::vector<std::uint64_t> changed, added;
+    for (const auto& [i, body] : originals)
+        if (is_of(i, Origin::start)) changed.push_back(i);
+    for (std::size_t i = 0; i < origins.size(); ++i)
+        if (is_of(i, Origin::added)) added.push_back(i);
+    out.put_list(std::span<const std::uint64_t>(changed));
+    for (const std::uint64_t i : changed)
+        fields::for_each_field<Body>([&](const auto& field) {
+            if constexpr (!std::is_same_v<decltype(field.member), Shape Body::*>) put_value(out, scene.bodies[i].*field.member);
+        });
+    out.put_list(std::span<const std::uint64_t>(added));
+    for (const std::uint64_t i : added) put_value(out, scene.bodies[i]);
+    put_value(out, scene.joints);
+    put_value(out, scene.vehicles);
+    put_value(out, scene.exclusions);
+    edits = std::move(out.bytes());
+    return edits;
+}
+
+World::Impl::Edits World::Impl::read_edits(std::span<const std::byte> bytes) const {
+    ByteReader in(bytes);
+    Edits made;
+    made.bodies = in.take<std::uint64_t>();
+    made.generations = in.take_list<std::uint32_t>();
+    made.gone = in.take_list<std::uint8_t>();
+    made.origins = in.take_list<std::uint8_t>();
+    made.freed = in.take_list<std::uint64_t>();
+    for (const std::uint64_t index : in.take_list<std::uint64_t>()) {
+        Body& body = made.changed.emplace_back(index, Body{}).second;
+        fields::for_each_field<Body>([&](const auto& field) {
+            if constexpr (!std::is_same_v<decltype(field.member), Shape Body::*>) take_value(in, body.*field.member);
+        });
+    }
+    for (const std::uint64_t index : in.take_list<std::uint64_t>()) {
+        Scene one;
+        one.gravity = scene.gravity;
+        take_value(in, one.bodies.emplace_back());
+        try {
+            one = checked(std::move(one));
+        } catch (const SceneError& error) {
+            refuse(std::string("the checkpoint is damaged: ") + error.what());
+        }
+        for (Body& body : one.bodies) {
+            if (body.piece_of != no_body) body.piece_of += index;
+            if (body.fracture) body.fracture->first_piece += index;
+        }
+        if (index + one.bodies.size() > made.bodies) refuse("the checkpoint is damaged: it has a body behind the last one");
+        made.added.emplace_back(index, std::move(one.bodies));
+    }
+    take_value(in, made.joints);
+    take_value(in, made.vehicles);
+    take_value(in, made.exclusions);
+    if (made.bodies < bodies_at_start) refuse("the checkpoint is damaged: it lacks bodies of the scene");
+    return made;
+}
+
+void World::Impl::take_edits(Edits&& made, std::span<const std::byte> bytes) {
+    // Back to the start,
+    scene.bodies.resize(bodies_at_start);
+    for (auto& [i, body] : originals) {
+        const bool replaced = i < origins.size() && origins[i] != Origin::start;
+        if (!replaced) body.shape = std::move(scene.bodies[i].shape);
+        scene.bodies[i] = std::move(body);
+    }
+    originals.clear();
+    origins.clear();
+    gone.clear();
+    // and from there.
+    for (auto& [i, body] : made.changed) {
+        keep_original(i);
+        body.shape = std::move(scene.bodies[i].shape);
+        body.piece_of = scene.bodies[i].piece_of;
+        if (body.fracture) body.fracture = scene.bodies[i].fracture;  // with its cut
+        scene.bodies[i] = std::move(body);
+    }
+    scene.bodies.resize(made.bodies);
+    generations = std::move(made.generations);
+    gone = std::move(made.gone);
+    for (const std::uint8_t origin : made.origins) origins.push_back(static_cast<Origin>(origin));
+    free_indices.clear();
+    freed.assign(made.freed.begin(), made.freed.end());
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (i < bodies_at_start && origins[i] != Origin::start) originals[i] = std::move(scene.bodies[i]);
+        if (origins[i] == Origin::none) scene.bodies[i] = no_longer_there();
+    }
+    for (auto& [first, family] : made.added)
+        std::move(family.begin(), family.end(), scene.bodies.begin() + static_cast<std::ptrdiff_t>(first));
+    std::vector<std::size_t> later = std::exchange(freed, {});
+    for (std::size_t i = 0; i < origins.size(); ++i)
+        if (origins[i] == Origin::none && std::find(later.begin(), later.end(), i) == later.end()) freed.push_back(i);
+    release_indices();
+    freed = std::move(later);
+    scene.joints = std::move(made.joints);
+    scene.vehicles = std::move(made.vehicles);
+    scene.exclusions = std::move(made.exclusions);
+    edits.assign(bytes.begin(), bytes.end());
+}
+
+// Where the tables have the shapes of added bodies, so that further ones share them.
+void World::Impl::find_shapes_again() {
+    ShapePlaces& places = state.shape_places;
+    std::erase_if(places.hulls, [&](const auto& one) { return one.second >= shapes_at_start.hulls; });
+    std::erase_if(places.tyres, [&](const auto& one) { return one.second > shapes_at_start.tyres; });
+    std::erase_if(places.cuts, [&](const auto& one) { return one.second >= shapes_at_start.pieces; });
+    for (std::size_t i = shapes_at_start.tyres; i < state.tyres.size(); ++i)
+        places.tyres.try_emplace({state.tyres[i].best_slip, state.tyres[i].sliding}, static_cast<physics::uint>(i + 1));
+    for (std::size_t i = 0; i < origins.size(); ++i) {
+        if (origins[i] == Origin::start || origins[i] == Origin::none) continue;
+        const physics::BodyProperties& row = state.properties[state.row_of(i)];
+        if (const auto* hull = std::get_if<Hull>(&scene.bodies[i].shape)) places.hulls.try_emplace(hull->form, row.shape_data);
+        if (scene.bodies[i].fracture && row.fracture < state.fractures.size())
+            places.cuts.try_emplace(scene.bodies[i].fracture->cut, state.fractures[row.fracture].first_pose);
+    }
+}
+
+void World::Impl::put_world(ByteWriter& out) const {
+    for_each_setting(settings, [&](const auto& value) { out.put(value); });
+    out.put(scene.gravity);
+    out.put(steps);
+    out.put(reorder_now);
+    out.put(std::uint64_t{actions.size()});
+    for (const auto& [body, action] : actions) {
+        out.put(std::uint64_t{body});
+        out.put(action);
+    }
+    for (const std::optional<Held>& grip : grips) {
+        out.put(grip.has_value());
+        if (!grip) continue;
+        out.put(std::uint64_t{grip->body});
+        out.put(grip->anchor);
+        out.put(grip->target);
+        out.put(grip->spring);
+    }
+    events.put(out);
+}
+
+World::Impl::Own World::Impl::take_world(ByteReader& in) {
+    Own own;
+    for_each_setting(own.settings, [&](auto& value) { value = in.take<std::remove_reference_t<decltype(value)>>(); });
+    own.gravity = in.take<vec3>();
+    own.steps = in.take<std::uint64_t>();
+    own.reorder_now = in.take<bool>();
+    for (auto left = in.take<std::uint64_t>(); left > 0; --left) {
+        const auto body = in.take<std::uint64_t>();
+        own.actions[body] = in.take<physics::Action>();
+    }
+    for (auto& grip : own.grips) {
+        if (!in.take<bool>()) continue;
+        grip.emplace();
+        grip->body = in.take<std::uint64_t>();
+        grip->anchor = in.take<vec3>();
+        grip->target = in.take<vec3>();
+        grip->spring = in.take<GripSpring>();
+    }
+    own.events.restore(in);
+    return own;
+}
+
+std::vector<std::byte> World::save() const {
+    const Impl& in = *interior_;
+    in.runner->download(ranges_to_save(in.state));
+    ByteWriter out;
+    Head head{};
+    out.put(head);
+    out.put_list(std::span(in.edits_now()));
+    in.put_world(out);
+    put_state(out, in.state, in.shapes_at_start);
+    std::memcpy(head.magic, magic, sizeof magic);
+    head.format = format;
+    head.settings_bytes = sizeof(Settings);
+    head.tables = layout_of_tables();
+    head.scene = in.fingerprint;
+    head.steps = in.steps;
+    head.bytes = out.bytes().size() - sizeof head;
+    head.hash = hash_of(head, std::span(out.bytes()).subspan(sizeof head));
+    std::memcpy(out.bytes().data(), &head, sizeof head);
+    return std::move(out.bytes());
+}
+
+CheckpointInfo inspect_checkpoint(std::span<const std::byte> state) {
+    const Head head = checked_head(state);
+    return {head.steps, head.scene};
+}
+
+void World::restore(std::span<const std::byte> saved) {
+    Impl& in = *interior_;
+    const Head head = checked_head(saved);
+    if (head.scene != in.fingerprint)
+        refuse("the checkpoint is of another scene: its fingerprint is " + hash_text(head.scene) + ", this scene's " +
+               hash_text(in.fingerprint));
+    ByteReader reader(saved.subspan(sizeof head));
+    const auto edits = reader.take_records(1);
+    std::optional<Impl::Edits> made;  // none if the scene is the same
+    const std::vector<std::byte>& now = in.edits_now();
+    if (edits.size() != now.size() || std::memcmp(edits.data(), now.data(), now.size()) != 0) made = in.read_edits(edits);
+    Impl::Own own = Impl::take_world(reader);
+    const StateBytes tables(reader, in.shapes_at_start);
+    if (!reader.at_end()) refuse("the checkpoint is damaged: it has more bytes than it should");
+    in.broken = true;  // until it is done
+    if (made) in.take_edits(std::move(*made), edits);
+    in.settings = own.settings;
+    in.scene.gravity = own.gravity;
+    in.steps = own.steps;
+    in.reorder_now = own.reorder_now;
+    in.actions = std::move(own.actions);
+    in.grips = own.grips;
+    in.events = std::move(own.events);
+    in.state.sums_impulses = in.events.settings().contacts;
+    const TableRanges changed = tables.restore(in.state);
+    if (made) in.find_shapes_again();
+    in.find_spare_hulls();
+    in.runner->adapt();
+    in.runner->upload(changed);
+    ++in.arrangements;
+    ++in.changes;
+    in.broken = false;
+}
+
+}  // namespace scree

@@ -1,0 +1,108 @@
+// World: the table of hulls is used again where bodies were removed.
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <vector>
+
+#include "compute/world/world_impl.h"
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/collide/shape_data.h"
+#include "shaders/physics/collide/triangle.h"
+
+namespace scree {
+
+namespace {
+
+bool has_records(const physics::BodyProperties& row) {
+    return row.shape == physics::SHAPE_HULL || row.shape == physics::SHAPE_TRIANGLE;
+}
+
+// Quads of a hull (shape_data.h) or triangle.
+std::uint32_t records_of(const State& state, const physics::BodyProperties& row) {
+    if (row.shape == physics::SHAPE_TRIANGLE) return physics::TRIANGLE_RECORDS;
+    const physics::uvec4* const hull = state.hulls.data() + row.shape_data;
+    const std::uint32_t vertices = hull->x, faces = hull->y, across = hull->z;
+    const physics::uvec4 last = hull[1 + vertices + 2 * faces - 1];  // first corner and number of corners of the last face
+    const std::uint32_t corners = last.x + last.y;
+    return 1 + vertices + 2 * faces + 2 * 6 * across * across + (corners + 15) / 16;
+}
+
+}  // namespace
+
+void World::Impl::spare_hull_records(std::uint32_t place, std::uint32_t count) {
+    const auto next = spare_hulls.lower_bound(place);
+    if (next != spare_hulls.end() && next->first == place + count) {
+        count += next->second;
+        spare_hulls.erase(next);
+    }
+    const auto after = spare_hulls.lower_bound(place);
+    if (after != spare_hulls.begin()) {
+        const auto before = std::prev(after);
+        if (before->first + before->second == place) {
+            before->second += count;
+            return;
+        }
+    }
+    spare_hulls[place] = count;
+}
+
+std::map<std::uint32_t, std::uint32_t> World::Impl::hulls_of_added(const std::vector<std::uint32_t>& bodies) const {
+    std::set<std::uint32_t> rows;
+    for (const std::uint32_t body : bodies) rows.insert(state.row_of(body));
+    std::map<std::uint32_t, std::uint32_t> found;
+    const auto note = [&](const physics::BodyProperties& row) {
+        if (has_records(row) && row.shape_data >= shapes_at_start.hulls) found[row.shape_data] = records_of(state, row);
+    };
+    for (const std::uint32_t row : rows) note(state.properties[row]);
+    for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
+        if (physics::is_part(state.properties[row]) && rows.contains(state.properties[row].owner)) note(state.properties[row]);
+    return found;
+}
+
+void World::Impl::free_hulls(std::map<std::uint32_t, std::uint32_t> records) {
+    if (records.empty()) return;
+    for (const physics::BodyProperties& row : state.properties)
+        if (has_records(row)) records.erase(row.shape_data);  // shared with a body that stays
+    std::erase_if(state.shape_places.hulls, [&](const auto& one) { return records.contains(one.second); });
+    for (const auto& [place, count] : records) spare_hull_records(place, count);
+}
+
+// What a new body appended moves to where others were.
+void World::Impl::pack_hulls(std::size_t before, std::uint32_t body, TableRanges& changed) {
+    const auto count = static_cast<std::uint32_t>(state.hulls.size() - before);
+    const auto run = std::find_if(spare_hulls.begin(), spare_hulls.end(), [&](const auto& one) { return one.second >= count; });
+    if (count == 0 || run == spare_hulls.end()) return;
+    const auto [place, length] = *run;
+    spare_hulls.erase(run);
+    if (length > count) spare_hulls[place + count] = length - count;
+    std::copy(state.hulls.begin() + static_cast<std::ptrdiff_t>(before), state.hulls.end(), state.hulls.begin() + place);
+    state.hulls.resize(before);
+    const auto moved = [&](physics::uint& at) {
+        if (at >= before) at = static_cast<physics::uint>(at - before + place);
+    };
+    const std::uint32_t row = state.row_of(body);
+    if (has_records(state.properties[row])) moved(state.properties[row].shape_data);
+    if (state.properties[row].shape == physics::SHAPE_NONE)
+        for (std::uint32_t part = state.fixed().first_part; part < state.fixed().bodies; ++part)
+            if (has_records(state.properties[part]) && state.properties[part].owner == row)
+                moved(state.properties[part].shape_data);
+    for (auto& [form, at] : state.shape_places.hulls) moved(at);
+    std::erase_if(changed, [&](const TableRange& range) { return range.table == Table::hulls && range.first >= before; });
+    changed.push_back({Table::hulls, place, count});
+}
+
+// After a checkpoint: what no body uses behind the hulls of the start.
+void World::Impl::find_spare_hulls() {
+    std::map<std::uint32_t, std::uint32_t> used;
+    for (const physics::BodyProperties& row : state.properties)
+        if (has_records(row) && row.shape_data >= shapes_at_start.hulls) used[row.shape_data] = records_of(state, row);
+    spare_hulls.clear();
+    auto place = static_cast<std::uint32_t>(shapes_at_start.hulls);
+    for (const auto& [first, count] : used) {
+        if (first > place) spare_hulls[place] = first - place;
+        place = first + count;
+    }
+    if (state.hulls.size() > place) spare_hulls[place] = static_cast<std::uint32_t>(state.hulls.size()) - place;
+}
+
+}  // namespace scree

@@ -1,0 +1,335 @@
+// World: queries in batches, against all bodies at their present poses.
+#include "compute/queries.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+#include <tuple>
+
+#include "compute/scene/bounds_tree.h"
+#include "compute/scene/mesh.h"
+#include "compute/scene/shape_geometry.h"
+#include "compute/scene/surface_normal.h"
+#include "compute/scene/validator.h"
+#include "compute/step/threads.h"
+#include "compute/world/query_scene.h"
+#include "compute/world/world_impl.h"
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/collide/distance.h"
+
+namespace scree {
+
+namespace {
+
+constexpr float touching = 1e-4f;  // m, at which a cast shape has arrived
+constexpr int most_advances = 64;
+
+[[noreturn]] void refuse_query(const char* kind, std::size_t index, const std::string& reason) {
+    throw std::invalid_argument(std::string(kind) + " " + std::to_string(index) + ": " + reason);
+}
+
+bool is_unit(vec3 v) {
+    const float squared = glm::dot(v, v);
+    return std::isfinite(squared) && std::abs(squared - 1) < 2e-3f;
+}
+bool is_finite(vec3 v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void check_shape(const char* kind, std::size_t index, const SimpleShape& shape) {
+    if (std::holds_alternative<Plane>(shape) || std::holds_alternative<Hull>(shape))
+        refuse_query(kind, index, "its shape must be a sphere, capsule, box, cylinder, cone or ellipsoid");
+    std::visit(
+        [&](const auto& one) {
+            for_each_shape_field<decltype(one)>([&](const auto& field) {
+                const auto& value = one.*field.member;
+                const auto within = [&](float v) { return v >= field.range.least && v <= field.range.most; };
+                bool right = true;
+                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, float>) right = within(value);
+                if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, vec3>)
+                    right = within(value.x) && within(value.y) && within(value.z);
+                if (!right) refuse_query(kind, index, std::string(field.name) + " is out of range");
+            });
+        },
+        shape);
+}
+
+vec4 checked_turn(const char* kind, std::size_t index, vec4 q) {
+    const double squared = glm::dot(glm::dvec4(q), glm::dvec4(q));
+    if (!std::isfinite(squared) || squared < 1e-12)
+        refuse_query(kind, index, "its orientation must be finite and not of length 0");
+    return std::abs(squared - 1) <= 2.5e-7 ? q : vec4(glm::dvec4(q) / std::sqrt(squared));
+}
+
+// Of two hits the one that counts.
+bool nearer(const QueryHit& x, const QueryHit& y) {
+    return std::tie(x.distance, x.body, x.part) < std::tie(y.distance, y.body, y.part);
+}
+
+}  // namespace
+
+// ---- the bodies as a tree
+QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), state_(state) {
+    std::vector<BoundingBox> boxes;
+    const auto add = [&](std::uint32_t row, std::uint32_t body, std::uint32_t part) {
+        const physics::BodyProperties& properties = state.properties[row];
+        const vec3 centre = state.poses[row].position, half = physics::half_extents_of(properties, state.poses[row].orientation);
+        if (properties.shape == physics::SHAPE_PLANE) {
+            planes_.push_back({row, body, part});
+        } else if (is_finite(centre)) {
+            const vec3 slack = 1e-5f * (glm::abs(centre) + half) + 1e-6f;
+            boxes.push_back({centre - half - slack, centre + half + slack});
+            leaves_.push_back({row, body, part});
+        }
+    };
+    const physics::Parameters& p = state.fixed();
+    for (std::uint32_t id = 0; id < state.body_count; ++id) {
+        const std::uint32_t row = state.row_of(id);
+        if (!physics::is_absent(state.properties[row].motion) && state.properties[row].shape != physics::SHAPE_NONE)
+            add(row, id, 0);
+    }
+    std::uint32_t owner = physics::NONE, part = 0;
+    for (std::uint32_t row = p.first_part; row < p.bodies; ++row) {
+        if (!physics::is_part(state.properties[row])) continue;
+        part = state.properties[row].owner == owner ? part + 1 : 0;
+        owner = state.properties[row].owner;
+        add(row, state.id_of(owner), part);
+    }
+    tree_ = BoundsTree(boxes);
+}
+
+bool QueryScene::sees(const Leaf& leaf, std::uint32_t mask) const {
+    const std::uint32_t category = state_.filters.empty() ? 1u : state_.filters[leaf.row].x;
+    return (category & mask) != 0;
+}
+
+std::optional<QueryHit> QueryScene::hit(const Leaf& leaf, const RayQuery& ray) const {
+    if (!sees(leaf, ray.mask)) return std::nullopt;
+    const Shape& shape = scene_.bodies[leaf.body].shape;
+    QueryHit found{leaf.body, leaf.part, 0, ray.from, -ray.along};
+    const auto* compound = std::get_if<Compound>(&shape);
+    const physics::Pose& pose = state_.poses[compound ? leaf.row : state_.row_of(leaf.body)];
+    std::optional<float> at;
+    if (const MeshForm* form = mesh_form_of(shape)) {
+        at = ray_distance(*form, leaf.part, pose.position, pose.orientation, ray.from, ray.along);
+    } else {
+        const auto inside = [&](const auto& one) { return contains(one, pose.position, pose.orientation, ray.from); };
+        if (ray.solid && (compound ? inside(compound->parts[leaf.part].shape) : inside(shape))) return found;
+        at = compound ? ray_distance(compound->parts[leaf.part].shape, pose.position, pose.orientation, ray.from, ray.along)
+                      : ray_distance(shape, pose.position, pose.orientation, ray.from, ray.along);
+    }
+    if (!at || *at > ray.reach) return std::nullopt;
+    found.distance = *at;
+    return found;
+}
+
+// Point and normal, of the hits that are given back.
+void QueryScene::complete(QueryHit& hit, const RayQuery& ray) const {
+    if (hit.distance == 0) return;
+    hit.point = ray.from + ray.along * hit.distance;
+    const Shape& shape = scene_.bodies[hit.body].shape;
+    const physics::Pose& pose = state_.poses[state_.row_of(hit.body)];
+    const Ray line{ray.from, ray.along};
+    if (const MeshForm* form = mesh_form_of(shape)) {
+        hit.normal = physics::rotate(pose.orientation, form->triangles[hit.part].normal);
+    } else if (const auto* compound = std::get_if<Compound>(&shape)) {
+        const Part& part = compound->parts[hit.part];
+        hit.normal = surface_normal(part.shape, pose.position + physics::rotate(pose.orientation, part.position),
+                                    physics::compose(pose.orientation, part.orientation), line, hit.point);
+    } else {
+        hit.normal = surface_normal(shape, pose.position, pose.orientation, line, hit.point);
+    }
+}
+
+std::optional<QueryHit> QueryScene::nearest(const RayQuery& ray, bool any) const {
+    std::optional<QueryHit> best;
+    float reach = ray.reach;
+    const auto offer = [&](const Leaf& leaf) {
+        const std::optional<QueryHit> found = hit(leaf, ray);
+        if (!found || (best && !nearer(*found, *best))) return;
+        best = found;
+        reach = any ? -1 : found->distance;  // equally near ones are still met
+    };
+    for (const Leaf& plane : planes_) offer(plane);
+    if (!(any && best))
+        tree_.for_each_met(ray.from, ray.along, vec3(0), reach, [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+    return best;
+}
+
+std::vector<QueryHit> QueryScene::all(const RayQuery& ray) const {
+    std::vector<QueryHit> found;
+    const auto offer = [&](const Leaf& leaf) {
+        if (const std::optional<QueryHit> one = hit(leaf, ray)) found.push_back(*one);
+    };
+    for (const Leaf& plane : planes_) offer(plane);
+    tree_.for_each_met(ray.from, ray.along, vec3(0), ray.reach, [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+    std::sort(found.begin(), found.end(), nearer);
+    for (QueryHit& one : found) complete(one, ray);
+    return found;
+}
+
+physics::BodyProperties QueryScene::probe_of(const SimpleShape& shape) {
+    physics::BodyProperties probe{};
+    probe.shape = static_cast<physics::uint>(shape.index());
+    probe.size = record_size(shape);
+    return probe;
+}
+
+float QueryScene::gap(const Leaf& leaf, const physics::BodyProperties& probe, const physics::Pose& pose, vec3* normal) const {
+    const physics::DistanceBound bound = physics::distance_between_shapes(state_.properties[leaf.row], state_.poses[leaf.row],
+                                                                          probe, pose, 1e30f, state_.hull_table());
+    if (normal) *normal = bound.normal;
+    return bound.distance;
+}
+
+std::vector<QueryPart> QueryScene::overlapping(const ShapeOverlap& query, vec4 orientation) const {
+    const physics::BodyProperties probe = probe_of(query.shape);
+    const physics::Pose pose{query.position, 0, orientation};
+    const vec3 half = physics::half_extents_of(probe, orientation) * 1.00001f + 1e-6f;
+    std::vector<QueryPart> found;
+    const auto offer = [&](const Leaf& leaf) {
+        if (sees(leaf, query.mask) && gap(leaf, probe, pose) <= 0) found.push_back({leaf.body, leaf.part});
+    };
+    for (const Leaf& plane : planes_) offer(plane);
+    tree_.for_each_overlap({query.position - half, query.position + half}, [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+    std::sort(found.begin(), found.end(),
+              [](const QueryPart& x, const QueryPart& y) { return std::tie(x.body, x.part) < std::tie(y.body, y.part); });
+    return found;
+}
+
+// Conservative advancement (Mirtich 1996) along a line: the separation along a fixed axis never exceeds the distance.
+std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& cast, const physics::BodyProperties& probe,
+                                            vec4 orientation, float reach) const {
+    if (!sees(leaf, cast.mask)) return std::nullopt;
+    float way = 0;
+    vec3 normal(0);
+    for (int round = 0; round < most_advances; ++round) {
+        const physics::Pose pose{cast.from + cast.along * way, 0, orientation};
+        const float distance = gap(leaf, probe, pose, &normal);
+        if (distance <= (round == 0 ? 0 : touching)) {
+            if (round == 0) return QueryHit{leaf.body, leaf.part, 0, cast.from, -cast.along};
+            return QueryHit{leaf.body, leaf.part, way, pose.position, normal};
+        }
+        const float closing = -glm::dot(normal, cast.along);  // of the probe towards the body
+        if (!(closing > 1e-6f)) return std::nullopt;
+        way += std::max(distance - 0.5f * touching, 0.25f * touching) / closing;
+        if (!(way <= reach)) return std::nullopt;
+    }
+    return std::nullopt;
+}
+
+std::optional<QueryHit> QueryScene::nearest(const ShapeCast& cast, vec4 orientation) const {
+    const physics::BodyProperties probe = probe_of(cast.shape);
+    std::optional<QueryHit> best;
+    float reach = cast.reach;
+    const auto offer = [&](const Leaf& leaf) {
+        const std::optional<QueryHit> found = cast_at(leaf, cast, probe, orientation, reach);
+        if (!found || (best && !nearer(*found, *best))) return;
+        best = found;
+        reach = found->distance;
+    };
+    for (const Leaf& plane : planes_) offer(plane);
+    tree_.for_each_met(cast.from, cast.along, physics::half_extents_of(probe, orientation) + touching, reach,
+                       [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+    return best;
+}
+
+// ---- World
+const QueryScene& World::Impl::query_scene() const {
+    if (queried && queried_at == std::pair(steps, changes)) return *queried;
+    bring(body_ranges);
+    queried = std::make_shared<const QueryScene>(scene, state);
+    queried_at = {steps, changes};
+    return *queried;
+}
+
+namespace {
+
+void check_ray(const RayQuery& ray, std::size_t i) {
+    if (!is_finite(ray.from)) refuse_query("ray", i, "its origin must be finite");
+    if (!is_unit(ray.along)) refuse_query("ray", i, "its direction must be of length 1");
+    if (!(ray.reach > 0)) refuse_query("ray", i, "its reach must be above 0 m");
+}
+
+template <class Item>
+QueryLists<Item> joined_lists(std::vector<std::vector<Item>>&& lists) {
+    QueryLists<Item> made;
+    made.starts.push_back(0);
+    for (const std::vector<Item>& list : lists) made.starts.push_back(made.starts.back() + list.size());
+    made.items.reserve(made.starts.back());
+    for (const std::vector<Item>& list : lists) made.items.insert(made.items.end(), list.begin(), list.end());
+    return made;
+}
+
+}  // namespace
+
+std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> rays) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i);
+    const QueryScene& bodies = interior_->query_scene();
+    std::vector<std::optional<QueryHit>> hits(rays.size());
+    interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) {
+        hits[i] = bodies.nearest(rays[i], false);
+        if (hits[i]) bodies.complete(*hits[i], rays[i]);
+    });
+    return hits;
+}
+
+std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i);
+    const QueryScene& bodies = interior_->query_scene();
+    std::vector<std::uint8_t> hits(rays.size());
+    interior_->runner->threads().for_each(rays.size(),
+                                          [&](std::size_t i) { hits[i] = bodies.nearest(rays[i], true).has_value(); });
+    return hits;
+}
+
+QueryLists<QueryHit> World::cast_rays_through(std::span<const RayQuery> rays) const {
+    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i);
+    const QueryScene& bodies = interior_->query_scene();
+    std::vector<std::vector<QueryHit>> lists(rays.size());
+    interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) { lists[i] = bodies.all(rays[i]); });
+    return joined_lists(std::move(lists));
+}
+
+std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCast> casts) const {
+    std::vector<vec4> turns;
+    for (std::size_t i = 0; i < casts.size(); ++i) {
+        const ShapeCast& cast = casts[i];
+        check_shape("cast", i, cast.shape);
+        turns.push_back(checked_turn("cast", i, cast.orientation));
+        if (!is_finite(cast.from)) refuse_query("cast", i, "its origin must be finite");
+        if (!is_unit(cast.along)) refuse_query("cast", i, "its direction must be of length 1");
+        if (!(cast.reach >= 0 && cast.reach <= 1e6f)) refuse_query("cast", i, "its reach must be between 0 and 1000000 m");
+    }
+    const QueryScene& bodies = interior_->query_scene();
+    std::vector<std::optional<QueryHit>> hits(casts.size());
+    interior_->runner->threads().for_each(casts.size(), [&](std::size_t i) { hits[i] = bodies.nearest(casts[i], turns[i]); });
+    return hits;
+}
+
+QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> queries) const {
+    std::vector<vec4> turns;
+    for (std::size_t i = 0; i < queries.size(); ++i) {
+        check_shape("overlap", i, queries[i].shape);
+        turns.push_back(checked_turn("overlap", i, queries[i].orientation));
+        if (!is_finite(queries[i].position)) refuse_query("overlap", i, "its position must be finite");
+    }
+    const QueryScene& bodies = interior_->query_scene();
+    std::vector<std::vector<QueryPart>> lists(queries.size());
+    interior_->runner->threads().for_each(queries.size(),
+                                          [&](std::size_t i) { lists[i] = bodies.overlapping(queries[i], turns[i]); });
+    return joined_lists(std::move(lists));
+}
+
+std::optional<RayHit> World::cast_ray(const Ray& ray) const {
+    const float length = glm::length(ray.along);
+    if (!std::isfinite(glm::dot(ray.from, ray.from)) || !std::isfinite(length) || !(std::abs(length - 1) < 1e-3f))
+        throw std::invalid_argument("ray: it must be finite, and its direction of length 1");
+    const RayQuery query{.from = ray.from, .along = ray.along, .solid = false};
+    const std::optional<QueryHit> hit = cast_rays({&query, 1}).front();
+    if (!hit) return std::nullopt;
+    return RayHit{hit->body, hit->distance, hit->point, hit->normal};
+}
+
+}  // namespace scree

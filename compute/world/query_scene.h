@@ -1,0 +1,44 @@
+// The bodies of a world at one moment, for queries: a tree over bodies, parts and triangles; planes apart.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "compute/queries.h"
+#include "compute/scene/bounds_tree.h"
+#include "compute/step/state.h"
+
+namespace scree {
+
+class QueryScene {
+public:
+    // Refers to both, whose poses must be up to date.
+    QueryScene(const Scene& scene, const State& state);
+
+    // Without point and normal; `any`: not always the nearest one.
+    std::optional<QueryHit> nearest(const RayQuery& ray, bool any) const;
+    void complete(QueryHit& hit, const RayQuery& ray) const;
+    std::vector<QueryHit> all(const RayQuery& ray) const;
+    std::optional<QueryHit> nearest(const ShapeCast& cast, vec4 orientation) const;
+    std::vector<QueryPart> overlapping(const ShapeOverlap& query, vec4 orientation) const;
+
+private:
+    struct Leaf {
+        std::uint32_t row, body, part;
+    };
+    bool sees(const Leaf& leaf, std::uint32_t mask) const;
+    std::optional<QueryHit> hit(const Leaf& leaf, const RayQuery& ray) const;
+    std::optional<QueryHit> cast_at(const Leaf& leaf, const ShapeCast& cast, const physics::BodyProperties& probe,
+                                    vec4 orientation, float reach) const;
+    // Distance of a shape from a leaf, m: at most the true one, and not positive if they overlap; normal from the leaf.
+    float gap(const Leaf& leaf, const physics::BodyProperties& probe, const physics::Pose& pose, vec3* normal = nullptr) const;
+    static physics::BodyProperties probe_of(const SimpleShape& shape);
+
+    const Scene& scene_;
+    const State& state_;
+    std::vector<Leaf> leaves_, planes_;
+    BoundsTree tree_;
+};
+
+}  // namespace scree

@@ -1,0 +1,197 @@
+// The tables of a state as bytes.
+#include "compute/world/state_bytes.h"
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "compute/step/table_layout.h"
+#include "shaders/physics/base/work_counts.h"
+
+namespace scree {
+
+namespace {
+
+// Tables of rows, then of contacts. Statistics read the constraints of the last step.
+constexpr std::array row_tables{Table::properties,   Table::poses,   Table::velocities,
+                                Table::sleep_states, Table::strains, Table::masses};
+constexpr std::array contact_tables{Table::contacts, Table::impulses, Table::constraints};
+
+std::size_t record_bytes(Table table) {
+    return table_infos()[static_cast<std::size_t>(table)].record_bytes;
+}
+
+std::span<const std::byte> records_of(const State& state, Table table, std::size_t count) {
+    return state.raw(table).first(count * record_bytes(table));
+}
+
+template <class Record>
+std::uint64_t hash_of(const std::vector<Record>& records, std::uint64_t seed) {
+    return XXH64(records.data(), records.size() * sizeof(Record), seed);
+}
+
+template <class Record>
+void assign(std::vector<Record>& records, std::span<const std::byte> bytes, std::size_t after = 0) {
+    records.resize(after + bytes.size() / sizeof(Record));
+    if (!bytes.empty()) std::memcpy(records.data() + after, bytes.data(), bytes.size());
+}
+
+template <class Record>
+std::span<const Record> behind(const std::vector<Record>& records, std::size_t first) {
+    return std::span(records).subspan(first);
+}
+
+// Without what depends on the runner and its buffers: equal states have equal bytes, on every backend.
+physics::Parameters portable(physics::Parameters p) {
+    tell_offsets({}, p);
+    p.group_size = p.group_shift = p.pair_capacity = p.contact_capacity = p.actions = p.redo = 0;
+    p.held = 0;  // those in use are written before each step
+    for (physics::Grip& grip : p.grips) grip = {};
+    return p;
+}
+physics::Counts portable(const physics::Counts& counts) {
+    physics::Counts kept{};
+    kept.contacts = counts.contacts;
+    kept.steps = counts.steps;
+    kept.spin_limited = counts.spin_limited;
+    return kept;
+}
+
+[[noreturn]] void refuse() {
+    throw CheckpointError("the checkpoint is damaged: its tables do not fit together");
+}
+
+}  // namespace
+
+ShapeLengths ShapeLengths::of(const State& s) {
+    return {s.hulls.size(), s.pieces.size(), s.tyres.size()};
+}
+
+std::uint64_t fingerprint_of(const State& state) {
+    std::vector<physics::BodyProperties> properties = state.properties;
+    for (physics::BodyProperties& row : properties) row.large = 0;  // depends on the settings
+    std::uint64_t hash = hash_of(properties, 0);
+    const auto add = [&](const auto&... tables) { ((hash = hash_of(tables, hash)), ...); };
+    add(state.poses, state.velocities, state.hulls, state.parts, state.fractures, state.pieces, state.tyres, state.way_points,
+        state.filters, state.exclusions);
+    if (state.has_joints()) add(state.joints);
+    if (state.fixed().vehicles) add(state.vehicles);
+    return hash;
+}
+
+std::uint64_t layout_of_tables() {
+    std::uint64_t hash = 0;
+    for (const TableInfo& info : table_infos()) hash = XXH64(info.name, std::strlen(info.name), hash + info.record_bytes);
+    return hash;
+}
+
+TableRanges ranges_to_save(const State& state) {
+    TableRanges ranges = lasting_ranges(state);
+    ranges.push_back({Table::constraints, 0, state.live(BufferLength::contacts)});
+    return ranges;
+}
+
+void put_state(ByteWriter& out, const State& state, const ShapeLengths& at_start) {
+    const std::size_t rows = state.fixed().bodies, contacts = state.counted().contacts;
+    out.put(portable(state.fixed()));
+    out.put(portable(state.counted()));
+    out.put(static_cast<std::int32_t>(state.substeps));
+    out.put(state.body_count);
+    out.put_list(std::span(state.rows()));
+    out.put_list(std::span(state.joint_records));
+    std::size_t bytes = record_bytes(Table::first_contacts) * (rows + 1);
+    for (const Table table : row_tables) bytes += rows * record_bytes(table);
+    for (const Table table : contact_tables) bytes += contacts * record_bytes(table);
+    out.reserve(bytes + bytes / 16);
+    for (const Table table : row_tables) out.put_bytes(records_of(state, table, rows));
+    out.put_bytes(records_of(state, Table::first_contacts, rows + 1));
+    for (const Table table : contact_tables) out.put_bytes(records_of(state, table, contacts));
+    out.put_list(std::span(state.joints));
+    out.put_list(std::span(state.vehicles));
+    out.put_list(behind(state.hulls, at_start.hulls));
+    out.put_list(std::span(state.parts));  // those of removed bodies are used again
+    out.put_list(std::span(state.fractures));
+    out.put_list(behind(state.pieces, at_start.pieces));
+    out.put_list(behind(state.tyres, at_start.tyres));
+    out.put_list(std::span(state.filters));
+    out.put_list(std::span(state.exclusions));
+}
+
+StateBytes::StateBytes(ByteReader& in, const ShapeLengths& at_start)
+    : parameters_(in.take<physics::Parameters>()),
+      counts_(in.take<physics::Counts>()),
+      substeps_(in.take<std::int32_t>()),
+      body_count_(in.take<std::uint32_t>()),
+      rows_(in.take_list<std::uint32_t>()),
+      joint_records_(in.take_list<std::uint32_t>()),
+      at_start_(at_start) {
+    const std::size_t rows = parameters_.bodies, contacts = counts_.contacts;
+    const auto take = [&](Table table, std::size_t count) {
+        tables_.emplace_back(table, in.take_bytes(count * record_bytes(table)));
+    };
+    for (const Table table : row_tables) take(table, rows);
+    take(Table::first_contacts, rows + 1);
+    for (const Table table : contact_tables) take(table, contacts);
+    joints_ = in.take_records(sizeof(physics::Joint));
+    vehicles_ = in.take_records(sizeof(physics::Vehicle));
+    constexpr std::array sizes{sizeof(physics::uvec4),      sizeof(physics::PoseInBody), sizeof(physics::Fracturing),
+                               sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::uvec4),
+                               sizeof(physics::uvec4)};
+    for (std::size_t i = 0; i < sizes.size(); ++i) shapes_[i] = in.take_records(sizes[i]);
+    const std::size_t parts = shapes_[1].size() / sizeof(physics::PoseInBody);
+    const auto in_range = [](const auto& list, std::size_t end) {
+        return std::all_of(list.begin(), list.end(), [&](std::uint32_t one) { return one < end; });
+    };
+    if (body_count_ > parameters_.first_part || parameters_.first_part > rows || rows - parameters_.first_part != parts ||
+        (shapes_[5].size() != 0 && shapes_[5].size() != rows * sizeof(physics::uvec4)) ||
+        (!rows_.empty() && rows_.size() != body_count_) || !in_range(rows_, parameters_.first_part) ||
+        !in_range(joint_records_, joints_.size() / sizeof(physics::Joint)) ||
+        parameters_.vehicles > vehicles_.size() / sizeof(physics::Vehicle) || substeps_ < 1)
+        refuse();
+}
+
+TableRanges StateBytes::restore(State& state) const {
+    const physics::Parameters own = state.fixed();
+    physics::Parameters& p = state.fixed();
+    p = parameters_;
+    p.group_size = own.group_size;
+    p.group_shift = own.group_shift;
+    p.pair_capacity = own.pair_capacity;
+    p.contact_capacity = std::max(own.contact_capacity, counts_.contacts + counts_.contacts / 4);
+    state.counted() = physics::emptied(counts_, p);
+    state.counted().contacts = counts_.contacts;
+    state.substeps = substeps_;
+    state.body_count = body_count_;
+    state.joint_records = joint_records_;
+    assign(state.joints, joints_);
+    assign(state.vehicles, vehicles_);
+    assign(state.hulls, shapes_[0], at_start_.hulls);
+    assign(state.parts, shapes_[1]);
+    assign(state.fractures, shapes_[2]);
+    assign(state.pieces, shapes_[3], at_start_.pieces);
+    assign(state.tyres, shapes_[4], at_start_.tyres);
+    assign(state.filters, shapes_[5]);
+    assign(state.exclusions, shapes_[6]);
+    for (const auto& [table, bytes] : tables_) state.make(table);
+    state.allocate();
+    for (const auto& [table, bytes] : tables_)
+        if (!bytes.empty()) std::memcpy(state.raw(table).data(), bytes.data(), bytes.size());
+    state.take_rows(rows_);
+    TableRanges changed = ranges_to_save(state);
+    changed.push_back({Table::counts, 0, 1});
+    changed.push_back({Table::ids, 0, p.bodies});
+    const auto add = [&](Table table, std::size_t first, std::size_t size) {
+        if (size > first) changed.push_back({table, first, size - first});
+    };
+    add(Table::hulls, at_start_.hulls, state.hulls.size());
+    add(Table::parts, 0, state.parts.size());
+    add(Table::fractures, 0, state.fractures.size());
+    add(Table::pieces, at_start_.pieces, state.pieces.size());
+    add(Table::tyres, at_start_.tyres, state.tyres.size());
+    add(Table::filters, 0, state.filters.size());
+    add(Table::exclusions, 0, state.exclusions.size());
+    return changed;
+}
+
+}  // namespace scree

@@ -1,0 +1,41 @@
+// Checkpoints of worlds on a device: restored on the CPU and back, with the same bits.
+#include <catch2/catch.hpp>
+
+#include "compute/device/device_runner.h"
+#include "compute/world.h"
+#include "tests/world/museum.h"
+
+using namespace scree;
+
+TEST_CASE("a checkpoint of a device goes on on the CPU, and one of the CPU on a device", "[vulkan]") {
+    const auto device = host::Device::open(
+        {.which = "", .validation = true, .on_message = [](const std::string& message) { FAIL_CHECK(message); }});
+    const Scene scene = tests::museum(60);
+    World cpu(scene, {}, 2), there(scene, {}, make_device_runner(device));
+    const auto go_on = [](World& world, std::uint64_t steps) {
+        while (world.steps() < steps) {
+            tests::meddle(world);
+            world.step();
+        }
+        return world.state_hash();
+    };
+    for (const std::uint64_t moment : {0, 11, 24, 70}) {
+        INFO("saved after " << moment << " steps");
+        REQUIRE(go_on(cpu, moment) == go_on(there, moment));
+        const std::vector<std::byte> here = cpu.save(), from_there = there.save();
+        REQUIRE(here == from_there);
+        const std::uint64_t later = go_on(cpu, moment + 30);
+        REQUIRE(go_on(there, moment + 30) == later);
+        // Back, in both and crosswise; also to fewer bodies and joints than there are now.
+        cpu.restore(from_there);
+        there.restore(here);
+        REQUIRE(cpu.statistics().penetration_mean == there.statistics().penetration_mean);
+        REQUIRE(go_on(cpu, moment + 30) == later);
+        REQUIRE(go_on(there, moment + 30) == later);
+        World fresh(scene, {}, make_device_runner(device));
+        fresh.restore(from_there);
+        REQUIRE(go_on(fresh, moment + 30) == later);
+        cpu.restore(here);
+        there.restore(from_there);
+    }
+}
