@@ -10,7 +10,7 @@ namespace scree::demos {
 
 namespace {
 
-std::string quoted(const std::string& word) {
+std::string in_quotes(const std::string& word) {
     const auto plain = [](unsigned char c) {
         return std::isalnum(c) || std::string_view("_-./:,=+@%").find(static_cast<char>(c)) != std::string_view::npos;
     };
@@ -25,7 +25,7 @@ std::string quoted(const std::string& word) {
 std::string words_of_this_program() {
     std::ifstream file("/proc/self/cmdline", std::ios::binary);
     std::string text, word;
-    while (std::getline(file, word, '\0')) text += (text.empty() ? "" : " ") + quoted(word);
+    while (std::getline(file, word, '\0')) text += (text.empty() ? "" : " ") + in_quotes(word);
     return text;
 }
 
