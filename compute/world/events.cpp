@@ -26,7 +26,7 @@ bool happens_before(const Event& x, const Event& y) {
 }
 
 template <class Visit>
-void for_each_member(auto& e, const Visit& visit) {
+void for_each_value(auto& e, const Visit& visit) {
     visit(e.step), visit(e.kind), visit(e.a), visit(e.a_generation), visit(e.b), visit(e.b_generation), visit(e.part_a);
     visit(e.part_b), visit(e.joint), visit(e.speed), visit(e.impulse), visit(e.point), visit(e.normal);
 }
@@ -310,7 +310,7 @@ std::vector<Event> Events::take() {
 void Events::put(ByteWriter& out) const {
     out.put(settings_.contacts), out.put(settings_.hit_speed), out.put(settings_.breaks), out.put(settings_.sleep);
     out.put(std::uint64_t{events_.size()});
-    for (const Event& event : events_) for_each_member(event, [&](const auto& value) { out.put(value); });
+    for (const Event& event : events_) for_each_value(event, [&](const auto& value) { out.put(value); });
     out.put_list(std::span(before_));
     out.put(std::uint64_t{pairs_.size()});
     for (const auto& [pair, contacts] : pairs_) out.put(pair), out.put(contacts);
@@ -326,8 +326,7 @@ void Events::restore(ByteReader& in) {
     settings_.sleep = in.take<bool>();
     events_.clear();
     for (auto left = in.take<std::uint64_t>(); left > 0; --left)
-        for_each_member(events_.emplace_back(),
-                        [&](auto& value) { value = in.take<std::remove_reference_t<decltype(value)>>(); });
+        for_each_value(events_.emplace_back(), [&](auto& value) { value = in.take<std::remove_reference_t<decltype(value)>>(); });
     before_ = in.take_list<Entry>();
     pairs_.clear();
     for (auto left = in.take<std::uint64_t>(); left > 0; --left) {

@@ -64,7 +64,7 @@ physics::Counts portable(const physics::Counts& counts) {
 
 }  // namespace
 
-ShapeLengths ShapeLengths::of(const State& s) {
+StartLengths StartLengths::of(const State& s) {
     return {s.hulls.size(), s.pieces.size(), s.tyres.size()};
 }
 
@@ -92,7 +92,7 @@ TableRanges ranges_to_save(const State& state) {
     return ranges;
 }
 
-void put_state(ByteWriter& out, const State& state, const ShapeLengths& at_start) {
+void put_state(ByteWriter& out, const State& state, const StartLengths& at_start) {
     const std::size_t rows = state.fixed().bodies, contacts = state.counted().contacts;
     out.put(portable(state.fixed()));
     out.put(portable(state.counted()));
@@ -118,7 +118,7 @@ void put_state(ByteWriter& out, const State& state, const ShapeLengths& at_start
     out.put_list(std::span(state.exclusions));
 }
 
-StateBytes::StateBytes(ByteReader& in, const ShapeLengths& at_start)
+StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
     : parameters_(in.take<physics::Parameters>()),
       counts_(in.take<physics::Counts>()),
       substeps_(in.take<std::int32_t>()),

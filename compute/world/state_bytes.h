@@ -14,10 +14,10 @@ namespace scree {
 
 // Lengths of tables whose records never change: edits append to them. A checkpoint holds what lies behind those of the scene
 // with which the world was made.
-struct ShapeLengths {
+struct StartLengths {
     std::size_t hulls = 0, pieces = 0, tyres = 0;
-    static ShapeLengths of(const State& state);
-    bool operator==(const ShapeLengths&) const = default;
+    static StartLengths of(const State& state);
+    bool operator==(const StartLengths&) const = default;
 };
 
 // XXH64 over what a new state has from its scene; equal for all settings, backends and threads.
@@ -27,13 +27,13 @@ std::uint64_t layout_of_tables();
 
 // Ranges that a checkpoint needs from the runner.
 TableRanges ranges_to_save(const State& state);
-void put_state(ByteWriter& out, const State& state, const ShapeLengths& at_start);
+void put_state(ByteWriter& out, const State& state, const StartLengths& at_start);
 
 // The tables in a checkpoint, not yet restored. Refers to the reader's bytes.
 class StateBytes {
 public:
     // Throws CheckpointError where lengths contradict each other.
-    StateBytes(ByteReader& in, const ShapeLengths& at_start);
+    StateBytes(ByteReader& in, const StartLengths& at_start);
     // Replaces all lasting tables of a state with the same `at_start`. Capacities only grow; the runner is to be adapted,
     // and the returned ranges to be uploaded. Throws std::bad_alloc alone.
     TableRanges restore(State& state) const;
@@ -46,8 +46,8 @@ private:
     std::vector<std::uint32_t> rows_, joint_records_;
     std::vector<std::pair<Table, std::span<const std::byte>>> tables_;
     std::span<const std::byte> joints_, vehicles_;
-    std::array<std::span<const std::byte>, 7> shapes_;  // those of ShapeLengths: behind `at_start`
-    ShapeLengths at_start_;
+    std::array<std::span<const std::byte>, 7> shapes_;  // those of StartLengths: behind `at_start`
+    StartLengths at_start_;
 };
 
 }  // namespace scree

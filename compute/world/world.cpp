@@ -44,7 +44,7 @@ World::Impl::Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r)
       runner(std::move(r)),
       state(scene, settings, runner->group_size(), runner->in_place()),
       bodies_at_start(scene.bodies.size()),
-      shapes_at_start(ShapeLengths::of(state)),
+      shapes_at_start(StartLengths::of(state)),
       fingerprint(fingerprint_of(state)) {
     begin_in_order();
     runner->attach(state);

@@ -64,7 +64,7 @@ struct World::Impl {
 
     // For checkpoints: what the world was made with, and the edits of the scene since, as bytes (empty: to be made).
     std::size_t bodies_at_start;
-    ShapeLengths shapes_at_start;
+    StartLengths shapes_at_start;
     std::uint64_t fingerprint;
     mutable std::vector<std::byte> edits;
 
