@@ -7,7 +7,6 @@
 
 using namespace scree;
 using namespace scree::demos;
-using host::EventKind;
 using host::Key;
 using host::key_of;
 
@@ -23,8 +22,8 @@ struct Driven {
     Session session{options_of("drive"), [] { return make_reference_runner(1); }};
     Interaction hands{session, Extent{640, 360}};
 
-    void press(Key key) { hands.on({.kind = EventKind::key_pressed, .key = key}); }
-    void release(Key key) { hands.on({.kind = EventKind::key_released, .key = key}); }
+    void press(Key key) { hands.on({.kind = host::EventKind::key_pressed, .key = key}); }
+    void release(Key key) { hands.on({.kind = host::EventKind::key_released, .key = key}); }
     void pass(double seconds) {
         for (double passed = 0; passed < seconds - 1e-9; passed += 1.0 / 60) hands.advance(1.0 / 60 + 1e-12);
     }
@@ -104,6 +103,6 @@ TEST_CASE("where there is no vehicle the keys are what they were") {
     Interaction hands{session, Extent{640, 360}};
     REQUIRE_FALSE(hands.vehicle());
     REQUIRE_FALSE(hands.chases);
-    hands.on({.kind = EventKind::key_pressed, .key = Key::space});
+    hands.on({.kind = host::EventKind::key_pressed, .key = Key::space});
     REQUIRE(hands.thrown() == 1);
 }

@@ -9,8 +9,6 @@
 using namespace scree;
 using namespace scree::demos;
 using host::Button;
-using host::Event;
-using host::EventKind;
 using host::Key;
 using host::key_of;
 
@@ -33,12 +31,12 @@ struct Played {
               [] { return make_reference_runner(1); }),
           hands(session, extent) {}
 
-    void at(EventKind kind, glm::vec2 pixel, Button button = Button::left, bool shift = false) {
+    void at(host::EventKind kind, glm::vec2 pixel, Button button = Button::left, bool shift = false) {
         hands.on({.kind = kind, .x = pixel.x, .y = pixel.y, .button = button, .shift = shift});
     }
     void strike(Key key, bool shift = false) {
-        hands.on({.kind = EventKind::key_pressed, .key = key, .shift = shift});
-        hands.on({.kind = EventKind::key_released, .key = key, .shift = shift});
+        hands.on({.kind = host::EventKind::key_pressed, .key = key, .shift = shift});
+        hands.on({.kind = host::EventKind::key_released, .key = key, .shift = shift});
     }
     void pass(double seconds) {
         for (double passed = 0; passed < seconds - 1e-9; passed += 1.0 / 60) hands.advance(1.0 / 60 + 1e-12);
@@ -118,11 +116,11 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
     Played played;
     const vec3 start = played.session.world().body(top).position;
     const glm::vec2 pixel = played.pixel_of(top);
-    played.at(EventKind::moved, pixel);
-    played.at(EventKind::pressed, pixel);
+    played.at(host::EventKind::moved, pixel);
+    played.at(host::EventKind::pressed, pixel);
     REQUIRE(played.hands.selected() == top);
     for (int i = 1; i <= 30; ++i) {
-        played.at(EventKind::moved, pixel + glm::vec2(2, -2) * static_cast<float>(i));
+        played.at(host::EventKind::moved, pixel + glm::vec2(2, -2) * static_cast<float>(i));
         played.pass(1.0 / 60);
     }
     REQUIRE(played.hands.pull());
@@ -137,7 +135,7 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
     REQUIRE(now.x == Approx(pixel.x + 60).margin(1.5));
     REQUIRE(now.y == Approx(pixel.y - 60).margin(1.5));
     REQUIRE(glm::dot(played.session.world().body(top).position - start, eye.right()) > 1);
-    played.at(EventKind::released, pixel);
+    played.at(host::EventKind::released, pixel);
     REQUIRE_FALSE(played.hands.pull());
     const float height = played.session.world().body(top).position.y;
     played.pass(0.3);
@@ -151,13 +149,13 @@ TEST_CASE("a drag takes hold of the body under the pointer and draws it along") 
 TEST_CASE("the wheel draws a held body nearer, and else brings the eye nearer") {
     Played played;
     const float distance = played.hands.eye().distance();
-    played.hands.on({.kind = EventKind::scrolled, .amount = 2});
+    played.hands.on({.kind = host::EventKind::scrolled, .amount = 2});
     REQUIRE(played.hands.eye().distance() < distance);
     const glm::vec2 pixel = played.pixel_of(top);
-    played.at(EventKind::pressed, pixel);
+    played.at(host::EventKind::pressed, pixel);
     const vec3 target = played.hands.pull()->to;
     const float held = played.hands.eye().distance();
-    played.hands.on({.kind = EventKind::scrolled, .x = pixel.x, .y = pixel.y, .amount = -1});
+    played.hands.on({.kind = host::EventKind::scrolled, .x = pixel.x, .y = pixel.y, .amount = -1});
     REQUIRE(played.hands.eye().distance() == held);
     REQUIRE(glm::length(played.hands.pull()->to - played.hands.eye().position()) <
             glm::length(target - played.hands.eye().position()));
@@ -166,19 +164,19 @@ TEST_CASE("the wheel draws a held body nearer, and else brings the eye nearer") 
 TEST_CASE("beside bodies a drag looks round, and with the middle button it moves the view") {
     Played played;
     const OrbitCamera before = played.hands.eye();
-    played.at(EventKind::moved, {5, 5});
-    played.at(EventKind::pressed, {5, 5});  // the sky
-    played.at(EventKind::moved, {55, 5});
-    played.at(EventKind::released, {55, 5});
+    played.at(host::EventKind::moved, {5, 5});
+    played.at(host::EventKind::pressed, {5, 5});  // the sky
+    played.at(host::EventKind::moved, {55, 5});
+    played.at(host::EventKind::released, {55, 5});
     REQUIRE(played.hands.eye().target() == before.target());
     REQUIRE(glm::length(played.hands.eye().position() - before.position()) > 0.1f);
     REQUIRE(played.hands.eye().distance() == before.distance());
     REQUIRE_FALSE(played.hands.selected());
     const OrbitCamera turned = played.hands.eye();
     const glm::vec2 pixel = turned.pixel_of(turned.target(), extent).value();
-    played.at(EventKind::pressed, {55, 5}, Button::middle);
-    played.at(EventKind::moved, {75, 15});
-    played.at(EventKind::released, {75, 15}, Button::middle);
+    played.at(host::EventKind::pressed, {55, 5}, Button::middle);
+    played.at(host::EventKind::moved, {75, 15});
+    played.at(host::EventKind::released, {75, 15}, Button::middle);
     // The point at the centre moved with the pointer.
     const glm::vec2 now = played.hands.eye().pixel_of(turned.target(), extent).value();
     REQUIRE(now.x - pixel.x == Approx(20).margin(0.1));
@@ -190,7 +188,7 @@ TEST_CASE("the space bar throws a ball through the pointer, and b a box") {
     Played played;
     const std::size_t bodies = played.session.world().scene().bodies.size();
     const glm::vec2 pixel = played.pixel_of(5);
-    played.at(EventKind::moved, pixel);
+    played.at(host::EventKind::moved, pixel);
     played.strike(Key::space);
     REQUIRE(played.session.world().scene().bodies.size() == bodies + 1);
     REQUIRE(std::holds_alternative<Sphere>(played.session.world().scene().bodies.back().shape));
@@ -223,12 +221,12 @@ TEST_CASE("arrow keys push the selected body, as the view sees it, for as long a
     for (const auto& [key, sign] : {std::pair(Key::left, -1.0f), {Key::right, 1.0f}}) {
         Played played;
         const glm::vec2 pixel = played.pixel_of(top);
-        played.at(EventKind::pressed, pixel);
-        played.at(EventKind::released, pixel);
+        played.at(host::EventKind::pressed, pixel);
+        played.at(host::EventKind::released, pixel);
         const vec3 start = played.session.world().body(top).position;
-        played.hands.on({.kind = EventKind::key_pressed, .key = key});
+        played.hands.on({.kind = host::EventKind::key_pressed, .key = key});
         played.pass(0.5);
-        played.hands.on({.kind = EventKind::key_released, .key = key});
+        played.hands.on({.kind = host::EventKind::key_released, .key = key});
         REQUIRE(sign * glm::dot(played.session.world().body(top).position - start, played.hands.eye().right()) > 0.5f);
         const std::size_t acts = played.session.input().acts.size();
         played.pass(0.1);
@@ -238,7 +236,7 @@ TEST_CASE("arrow keys push the selected body, as the view sees it, for as long a
 
 TEST_CASE("an explosion throws apart what is near the pointer") {
     Played played;
-    played.at(EventKind::moved, played.pixel_of(3));
+    played.at(host::EventKind::moved, played.pixel_of(3));
     played.strike(key_of('X'));
     played.pass(1.0 / 60);
     REQUIRE(played.session.world().statistics().max_speed > 3);
@@ -288,14 +286,14 @@ TEST_CASE("the clock is true while steps are cheap, however few pictures are dra
 TEST_CASE("to begin again and to open the next demo let go of everything") {
     Played played;
     const glm::vec2 pixel = played.pixel_of(top);
-    played.at(EventKind::pressed, pixel);
+    played.at(host::EventKind::pressed, pixel);
     played.pass(0.1);
     played.strike(key_of('R'));
     REQUIRE(played.session.world().steps() == 0);
     REQUIRE_FALSE(played.hands.pull());
     REQUIRE_FALSE(played.hands.selected());
-    played.at(EventKind::moved, pixel + glm::vec2(50, 0));
-    played.at(EventKind::released, pixel);
+    played.at(host::EventKind::moved, pixel + glm::vec2(50, 0));
+    played.at(host::EventKind::released, pixel);
     REQUIRE(played.session.input().acts.empty());
 
     const std::string first = played.session.options().name;
@@ -307,10 +305,10 @@ TEST_CASE("to begin again and to open the next demo let go of everything") {
 
 TEST_CASE("the view follows the selected body") {
     Played played;
-    played.at(EventKind::pressed, played.pixel_of(top));
-    played.at(EventKind::released, played.pixel_of(top));
+    played.at(host::EventKind::pressed, played.pixel_of(top));
+    played.at(host::EventKind::released, played.pixel_of(top));
     played.strike(key_of('F'));
-    played.at(EventKind::moved, {0, 0});
+    played.at(host::EventKind::moved, {0, 0});
     played.strike(key_of('X'));
     played.pass(0.5);
     REQUIRE(glm::length(played.hands.eye().target() - played.session.world().body(top).position) < 1e-5f);
@@ -318,10 +316,10 @@ TEST_CASE("the view follows the selected body") {
 
 TEST_CASE("a window of another size sees another ray under the same pixel") {
     Played played;
-    played.hands.on({.kind = EventKind::resized, .x = 1280, .y = 720});
+    played.hands.on({.kind = host::EventKind::resized, .x = 1280, .y = 720});
     REQUIRE(played.hands.extent().width == 1280);
     const glm::vec2 pixel = played.hands.eye().pixel_of(played.session.world().body(top).position, {1280, 720}).value();
-    played.at(EventKind::pressed, pixel);
+    played.at(host::EventKind::pressed, pixel);
     REQUIRE(played.hands.selected() == top);
 }
 

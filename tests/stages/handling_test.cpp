@@ -112,7 +112,8 @@ TEST_CASE("every stage gives the same bits on both processors after the dials we
         }
         if (step % 7 == 3) {
             const Body box = thrown(Box{vec3(0.3f, 0.2f, 0.25f)}, vec3(0, 3 + step, 0), vec3(0, -10, 0));
-            lockstep.edit(&StateEditor::needed_to_add, [&](StateEditor& editor) { return editor.add(box); });
+            lockstep.edit([](const StateEditor& editor) { return editor.needed_to_add(); },
+                          [&](StateEditor& editor) { return editor.add(box); });
         }
         lockstep.step();
         require_equal(lockstep.result());

@@ -78,7 +78,8 @@ TEST_CASE("a compound that is added while others lie on a mesh gives the same bi
     const Body added = checked(more).bodies[0];
     // The first addition finds no free row before the parts, so these move; later ones find a row.
     for (int k = 0; k < 4; ++k) {
-        lockstep.edit(&StateEditor::needed_to_add, [&](StateEditor& editor) { return editor.add(added); });
+        lockstep.edit([](const StateEditor& editor) { return editor.needed_to_add(); },
+                      [&](StateEditor& editor) { return editor.add(added); });
         go(15);
     }
 }

@@ -167,11 +167,12 @@ TEST_CASE("a pile of ellipsoids, alone and as parts of compounds, comes to rest 
 TEST_CASE("an ellipsoid is met by a ray where its surface is, and breaks into pieces that weigh as much") {
     const vec4 upright(0, 0, 0, 1), lying(0, 0, std::sqrt(0.5f), std::sqrt(0.5f));
     const Ellipsoid stone{{1, 0.5f, 2}};
-    CHECK(ray_distance(stone, vec3(0), upright, {0, 5, 0}, {0, -1, 0}).value() == Approx(4.5f));
-    CHECK(ray_distance(stone, vec3(0), lying, {0, 5, 0}, {0, -1, 0}).value() == Approx(4));
-    CHECK(ray_distance(stone, vec3(0), upright, {0.6f, 5, 0}, {0, -1, 0}).value() == Approx(5 - 0.4f));
-    CHECK_FALSE(ray_distance(stone, vec3(0), upright, {1.01f, 5, 0}, {0, -1, 0}));
-    CHECK_FALSE(ray_distance(stone, vec3(0), upright, {0, 0.4f, 0}, {0, -1, 0}));  // origin inside
+    const Shape shape = stone;
+    CHECK(ray_distance(shape, vec3(0), upright, {0, 5, 0}, {0, -1, 0}).value() == Approx(4.5f));
+    CHECK(ray_distance(shape, vec3(0), lying, {0, 5, 0}, {0, -1, 0}).value() == Approx(4));
+    CHECK(ray_distance(shape, vec3(0), upright, {0.6f, 5, 0}, {0, -1, 0}).value() == Approx(5 - 0.4f));
+    CHECK_FALSE(ray_distance(shape, vec3(0), upright, {1.01f, 5, 0}, {0, -1, 0}));
+    CHECK_FALSE(ray_distance(shape, vec3(0), upright, {0, 0.4f, 0}, {0, -1, 0}));  // origin inside
     Scene scene;
     scene.bodies = {body_of(stone, {})};
     scene.bodies[0].fracture = Fracture{.impulse = 10, .pieces = 20};
