@@ -51,7 +51,8 @@ void add_export(CLI::App& program, int&) {
         "Seed of the random numbers that build the demo. Default: 1.");
     command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files instead.");
     command->footer(
-        "The file has the scene with its camera, colours, settings and duration; a demo's promise stays in the program.\n\n"
+        "The file has the scene with its camera, colours, settings and duration. A demo's promise, and what\n"
+        "its script does while it runs, stay in the program.\n\n"
         "Examples:\n  scree export wall -o wall.json\n  scree export pile --bodies 500 --seed 7 -o pile.json\n"
         "  scree export --schema -o scene.schema.json");
     command->callback([options] { write_out(*options); });

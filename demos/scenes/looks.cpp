@@ -50,6 +50,7 @@ const std::vector<Look>& looks() {
         {"shatter", by(body)},
         {"drive", by(body)},
         {"cars", by(speed, 14)},
+        {"fountain", by(speed, 9)},
     };
     return all;
 }

@@ -144,7 +144,7 @@ vec3 add_ball(Scene& scene, const Pit& pit) {
     ball.name = "ball";
     ball.shape = Sphere{1};
     ball.position = {out, height, out};
-    ball.rolling_resistance = 0.05f;
+    ball.rolling_resistance = 0.15f;  // stops the ball within 6 s where it rolls on the ground too
     scene.bodies.push_back(ball);
     const vec3 target(0.75f * pit.half, 0.3f * pit.wall, 0.75f * pit.half);
     return glm::normalize(target - ball.position) * 20.0f;

@@ -46,7 +46,7 @@ TEST_CASE("program: auto takes what measures faster, says so, and remembers it",
         place.write(paces, known.dump());
         const Outcome outcome = run_scree(run, with_cache_in(place));
         INFO(outcome.errors);
-        REQUIRE(says(outcome.errors, device_is_faster ? "took 1.0 ms on" : "took 1.5 ms on"));
+        REQUIRE_FALSE(says(outcome.errors, "took"));  // told once, when measured
         REQUIRE(report()["backend"] == (device_is_faster ? "vulkan" : "cpu"));
         REQUIRE(report()["state_hash"] == hash);
     }

@@ -126,13 +126,15 @@ TEST_CASE("program: every --help fits into 100 columns and tells each option's d
         }
     }
     const std::string run = run_scree("run --help").output;
-    for (const char* words : {"Worker threads for --backend cpu (0: one per core). Default: 0.", "Colour map.", "Default: 60."})
+    for (const char* words :
+         {"Worker threads for --backend cpu (0: one per core). Default: 0.", "Colour map: ember", "Default: 30."})
         REQUIRE(says(run, words));
 }
 
 TEST_CASE("program: an exported scene runs to the hash of its demo", "[program]") {
     const Place place;
     for (const std::string& name : demo_names()) {
+        if (name == "fountain") continue;  // a script adds and removes its bodies
         INFO(name);
         const std::string file = (place / (name + ".json")).string();
         REQUIRE(run_scree("export " + name + few_bodies(name) + " -o '" + file + "'").status == 0);
