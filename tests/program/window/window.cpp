@@ -89,7 +89,7 @@ void change_the_size(const Viewer& viewer) {
 // Clicks on the panel do not reach the scene behind it.
 void use_the_panel(const Viewer& viewer) {
     const std::size_t grabbed = viewer.report().at("grabbed").size();
-    viewer.point(38, 135);  // "Pause"
+    viewer.point(38, 211);  // "Pause"
     wait_for(0.3);
     viewer.hand("mousedown 1");
     wait_for(0.3);
