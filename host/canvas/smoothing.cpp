@@ -5,34 +5,12 @@
 #include <array>
 #include <cmath>
 
-#include "host/canvas/colors.h"
+#include "host/canvas/srgb_levels.h"
 
 namespace scree::host {
 namespace {
 
 constexpr int STEPS = 10;
-constexpr std::size_t LEVELS = 4096;
-
-const std::array<float, 256>& light_of_levels() {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> made{};
-        for (std::size_t i = 0; i < made.size(); ++i) made[i] = linear_from_srgb(static_cast<float>(i) / 255.0f);
-        return made;
-    }();
-    return table;
-}
-// Encoded levels by the square root of linear light.
-const std::array<std::uint8_t, LEVELS + 1>& levels_of_roots() {
-    static const std::array<std::uint8_t, LEVELS + 1> table = [] {
-        std::array<std::uint8_t, LEVELS + 1> made{};
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            const float root = static_cast<float>(i) / static_cast<float>(LEVELS);
-            made[i] = static_cast<std::uint8_t>(srgb_byte(root * root));
-        }
-        return made;
-    }();
-    return table;
-}
 
 class Smoother {
 public:
@@ -113,14 +91,13 @@ private:
     // Mixes a pixel with its neighbour across the edge, in linear light.
     void blend(int x, int y, float shift, int dx, int dy) {
         const auto& light = light_of_levels();
-        const auto& levels = levels_of_roots();
         const auto at = [&](int u, int v) {
             return 4 * (static_cast<std::size_t>(v) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(u));
         };
         const std::size_t here = at(x, y), there = at(std::clamp(x + dx, 0, width_ - 1), std::clamp(y + dy, 0, height_ - 1));
         for (std::size_t k = 0; k < 3; ++k) {
             const float mixed = light[before_[here + k]] * (1 - shift) + light[before_[there + k]] * shift;
-            image_.rgba[here + k] = levels[static_cast<std::size_t>(std::sqrt(mixed) * static_cast<float>(LEVELS) + 0.5f)];
+            image_.rgba[here + k] = level_of_light(mixed);
         }
     }
 

@@ -5,38 +5,14 @@
 #include <cstring>
 
 #include "host/canvas/colors.h"
+#include "host/canvas/srgb_levels.h"
 #include "host/pictures/image.h"
 
 namespace scree::host {
 namespace {
 
-constexpr std::size_t STEPS = 4096;  // of the table from linear light to sRGB; finer than a level of 8 bits nearly everywhere
-
-// Linear light of each encoded level.
-const std::array<float, 256>& light_of_levels() {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> made{};
-        for (std::size_t i = 0; i < made.size(); ++i) made[i] = linear_from_srgb(static_cast<float>(i) / 255.0f);
-        return made;
-    }();
-    return table;
-}
-// Encoded levels by the square root of linear light.
-const std::array<std::uint8_t, STEPS + 1>& levels_of_light() {
-    static const std::array<std::uint8_t, STEPS + 1> table = [] {
-        std::array<std::uint8_t, STEPS + 1> made{};
-        for (std::size_t i = 0; i < made.size(); ++i) {
-            const float root = static_cast<float>(i) / static_cast<float>(STEPS);
-            made[i] = static_cast<std::uint8_t>(srgb_byte(root * root));
-        }
-        return made;
-    }();
-    return table;
-}
-
 void reduce_bytes(const Image& image, std::size_t factor, Image& smaller) {
     const auto& light = light_of_levels();
-    const auto& levels = levels_of_light();
     const auto width = static_cast<std::size_t>(smaller.width), row = static_cast<std::size_t>(image.width) * 4;
     const float part = 1.0f / static_cast<float>(factor * factor);
     for (std::size_t y = 0; y < static_cast<std::size_t>(smaller.height); ++y) {
@@ -48,8 +24,7 @@ void reduce_bytes(const Image& image, std::size_t factor, Image& smaller) {
                     for (std::size_t k = 0; k < 3; ++k) sum[k] += light[from[k]];
             }
             std::uint8_t* to = &smaller.rgba[(y * width + x) * 4];
-            for (std::size_t k = 0; k < 3; ++k)
-                to[k] = levels[static_cast<std::size_t>(std::sqrt(sum[k] * part) * static_cast<float>(STEPS) + 0.5f)];
+            for (std::size_t k = 0; k < 3; ++k) to[k] = level_of_light(sum[k] * part);
             to[3] = 255;
         }
     }

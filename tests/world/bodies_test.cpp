@@ -29,22 +29,12 @@ Scene stack(int count) {
     return scene;
 }
 
-const Hull wedge{{{-0.5f, -0.3f, -0.4f}, {0.6f, -0.3f, -0.5f}, {0.1f, 0.7f, -0.1f}, {0.2f, -0.1f, 0.6f}, {-0.4f, 0.4f, 0.3f}},
-                 {}};
-
-Compound hammer() {
-    Compound made;
-    made.parts.push_back({Box{vec3(0.3f, 0.1f, 0.1f)}, vec3(0, 0.4f, 0)});
-    made.parts.push_back({Capsule{0.08f, 0.3f}, vec3(0)});
-    return made;
-}
-
 // The i-th of an endless supply of bodies.
 Body supply(int i, vec3 position) {
     Body made = body(Sphere{0.2f}, position);
     if (i % 5 == 1) made.shape = Box{vec3(0.2f, 0.15f, 0.25f)};
-    if (i % 5 == 2) made.shape = wedge;
-    if (i % 5 == 3) made.shape = hammer();
+    if (i % 5 == 2) made.shape = tests::wedge();
+    if (i % 5 == 3) made.shape = tests::hammer();
     if (i % 5 == 4) {
         made.shape = Box{vec3(0.3f)};
         made.fracture.emplace();

@@ -26,8 +26,11 @@ Body breakable(vec3 position, vec3 velocity) {
     return body;
 }
 
-const Hull wedge{{{-0.5f, -0.3f, -0.4f}, {0.6f, -0.3f, -0.5f}, {0.1f, 0.7f, -0.1f}, {0.2f, -0.1f, 0.6f}, {-0.4f, 0.4f, 0.3f}},
-                 {}};
+}  // namespace
+
+Hull wedge() {
+    return {{{-0.5f, -0.3f, -0.4f}, {0.6f, -0.3f, -0.5f}, {0.1f, 0.7f, -0.1f}, {0.2f, -0.1f, 0.6f}, {-0.4f, 0.4f, 0.3f}}, {}};
+}
 
 Compound hammer() {
     Compound made;
@@ -35,8 +38,6 @@ Compound hammer() {
     made.parts.push_back({Capsule{0.08f, 0.3f}, vec3(0)});
     return made;
 }
-
-}  // namespace
 
 Scene museum(int count) {
     Scene scene = heap(count);
@@ -49,7 +50,7 @@ Scene museum(int count) {
     scene.bodies.push_back(terrain);
     for (int k = 0; k < 3; ++k) {
         const float x = static_cast<float>(k);
-        scene.bodies.push_back(placed(wedge, {-12 + x, 2 + x, 0}));
+        scene.bodies.push_back(placed(wedge(), {-12 + x, 2 + x, 0}));
         scene.bodies.push_back(placed(hammer(), {-10, 2 + x, x - 1}));
         scene.bodies.push_back(breakable({-6, 2 + x, 3}, {0, -9, 0}));
         scene.bodies.push_back(placed(Cylinder{0.3f, 0.4f}, {-13 + x, 2, 2}));
@@ -86,7 +87,7 @@ void meddle(World& world) {
             break;
         case 13:
             world.set_motor(0, JointAxis::twist, {3, 40});
-            world.add_body(placed(wedge, {1, 7, 1}));
+            world.add_body(placed(wedge(), {1, 7, 1}));
             world.add_body(placed(hammer(), {2, 8, 1}));
             break;
         case 17:

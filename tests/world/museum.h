@@ -9,6 +9,10 @@ class World;
 
 namespace scree::tests {
 
+// A hull of five corners, and a compound of a box and a capsule.
+Hull wedge();
+Compound hammer();
+
 // A heap of `count` bodies beside one of each other thing.
 Scene museum(int count);
 

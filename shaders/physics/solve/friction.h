@@ -17,11 +17,11 @@
 //
 // A patch that sticks is anchored: its stretch, the way of B over A since it sticks, is a soft constraint as penetration is
 // (contact_solver.h), with the same spring, leak and relaxation; stretch and friction turn with the bodies. Without an
-// anchor what a pass leaves of the slip adds up: stacks of five on a turntable, at a fifth of what friction bears,
-// crept by 20 to 70 mm in 20 s; with it by 0.1 mm (by 9 and 13 mm with a third and a tenth of spring and leak). Where
-// friction slides, the stretch is that at which the soft constraint transmits its force (return mapping), so it can
-// stick again at once: with none, two boxes at 0.9 of what friction bears crept four times as fast. One and two points have no
-// anchor: what rolls would swing on it.
+// anchor what a pass leaves of the slip adds up. Stacks of five on a turntable, at a fifth of what friction bears, crept
+// in 20 s by 20 to 70 mm; by 4 mm once friction turned with the bodies; and by 0.1 mm with an anchor (by 9 and 13 mm
+// with a third and a tenth of its spring and leak). Where friction slides, the stretch is that at which the soft
+// constraint transmits its force (return mapping), so it can stick again at once: with none, two boxes at 0.9 of what
+// friction bears crept three times as fast. One and two points have no anchor: what rolls would swing on it.
 #ifndef SCREE_PHYSICS_FRICTION_H
 #define SCREE_PHYSICS_FRICTION_H
 
