@@ -1,5 +1,5 @@
-# Throws a ball at a wall of bricks that break, films it, and saves what is left as a scene.
-"""python3 breaking_wall.py [FOLDER]: frames in FOLDER, a log of what broke, and rubble.json for scree view."""
+# Throws a ball at a wall of bricks that break, films it, and exports it to Blender.
+"""python3 breaking_wall.py [FOLDER]: frames in FOLDER, wall.glb for Blender, and rubble.json for scree view."""
 import pathlib
 import sys
 
@@ -21,6 +21,7 @@ ball = scene.add(scree.Sphere(.45), position=(-.6, 1.6, 7), velocity=(0, 2.5, -2
 
 world = scree.World(scene, events=True)
 camera = scree.Camera((6, 3.2, 7), (0, 1.4, -1), 45)
+animation = world.export(folder / "wall.glb")
 frames, broken = 0, 0
 for frame in range(60):
     world.step(2)
@@ -30,6 +31,7 @@ for frame in range(60):
     world.render(camera, (960, 540), color="speed", color_range=(0, 12), legend=True, caption=caption).save(folder / f"frame_{frame:06}.png")
     frames += 1
 
+animation.close()
 standing = np.linalg.norm(world.position[bricks] - np.asarray(places), axis=1) < .05
 print(f"{frames} frames in {folder}: {broken} of {len(bricks)} bricks broke, {int((standing & world.exists[bricks]).sum())} stand")
 world.snapshot().save(folder / "rubble.json")

@@ -9,6 +9,7 @@
 #include "compute/scene_file/events.h"
 #include "compute/world.h"
 #include "demos/film/drawing.h"
+#include "demos/film/glb_export.h"
 #include "demos/program/backend.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/python/module/bindings.h"
@@ -24,16 +25,19 @@ struct Easel {
 
 struct WorldObject : std::enable_shared_from_this<WorldObject> {
     WorldObject(const SceneDocument& document, const Settings& settings, const demos::Backend& backend);
+    ~WorldObject();  // writes the animations that are still recorded
 
     demos::Backend machine;
     SceneDocument shown;  // how it is run and shown; without the scene, which the world has
     World world;
     std::optional<demos::LoadedScene> subject;  // for colour ranges; made for the first picture
     std::vector<Easel> easels;
-    int views = 0;      // arrays that look into its tables
-    bool busy = false;  // a thread is in it, without Python's lock
+    std::vector<std::shared_ptr<demos::GlbExport>> exports;  // being recorded
+    int views = 0;                                           // arrays that look into its tables
+    bool busy = false;                                       // a thread is in it, without Python's lock
 
     const demos::LoadedScene& as_subject();
+    void close_exports();
     // Throws BufferError while arrays look into the tables, naming what is to be done.
     void require_no_views(const char* what) const;
 };

@@ -3,8 +3,11 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdio>
 #include <map>
 #include <tuple>
+#include <utility>
+#include <vector>
 
 #include "compute/fields/document.h"
 #include "compute/scene_file/fields_read.h"
@@ -76,7 +79,8 @@ public:
         const bool has_events = !object_.shown.events.empty();
         for (int done = 0; done < count_;) {
             if (has_events) perform_due(object_.shown.events, object_.world);
-            const int batch = has_events ? 1 : std::min(batch_, count_ - done);
+            int batch = has_events ? 1 : std::min(batch_, count_ - done);
+            for (const auto& file : object_.exports) batch = std::min(batch, file->steps_until_due(object_.world));
             step(batch);
             done += batch;
             if (PyErr_CheckSignals() != 0) throw py::error_already_set();
@@ -92,6 +96,7 @@ private:
         const py::gil_scoped_release unlocked;
         const Clock::time_point start = Clock::now();
         object_.world.step(batch);
+        for (const auto& file : object_.exports) file->after_step(object_.world);
         const double seconds = seconds_since(start);
         if (seconds < 0.5 * batch_seconds) batch_ = std::min(2 * batch_, largest_batch);
         if (seconds > 2 * batch_seconds) batch_ = std::max(batch_ / 2, 1);
@@ -143,6 +148,32 @@ py::dict settings_dict(const Settings& settings) {
     return made;
 }
 
+// An animation that is recorded from now on. The file is there at once, and written again by close().
+struct Export {
+    std::shared_ptr<WorldObject> object;
+    std::shared_ptr<demos::GlbExport> file;
+};
+
+std::unique_ptr<Export> start_export(const std::shared_ptr<WorldObject>& object, const std::string& path, int every) {
+    if (every < 1) throw py::value_error("every: must be at least 1 step");
+    Use world(*object);
+    demos::GlbOptions options;
+    options.every = every;
+    auto file = std::make_shared<demos::GlbExport>(path, *world, options);
+    file->write();
+    object->exports.push_back(file);
+    return std::make_unique<Export>(Export{object, std::move(file)});
+}
+
+void close_export(Export& made) {
+    if (!made.file) return;
+    Use world(*made.object);
+    std::erase(made.object->exports, made.file);
+    const std::shared_ptr<demos::GlbExport> file = std::exchange(made.file, nullptr);
+    const py::gil_scoped_release unlocked;
+    file->write();
+}
+
 py::bytes save(WorldObject& object) {
     Use world(object);
     std::vector<std::byte> bytes;
@@ -179,6 +210,18 @@ WorldObject::WorldObject(const SceneDocument& document, const Settings& settings
       shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events},
       world(document.scene, settings, backend.make_runner()) {}
 
+WorldObject::~WorldObject() {
+    try {
+        close_exports();
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "scree: %s\n", error.what());
+    }
+}
+
+void WorldObject::close_exports() {
+    for (const auto& file : std::exchange(exports, {})) file->write();
+}
+
 const demos::LoadedScene& WorldObject::as_subject() {
     if (!subject) {
         SceneDocument document = shown;
@@ -196,9 +239,12 @@ void WorldObject::require_no_views(const char* what) const {
 }
 
 void bind_worlds(py::module_& module) {
+    py::class_<Export>(module, "Export", plain_class()).def("close", &close_export);
     WorldClass of_world(module, "World", plain_class());
     of_world.def(py::init(&make_world))
         .def("step", &step)
+        .def("export_to", &start_export)
+        .def("close_exports", &WorldObject::close_exports)
         .def("save", &save)
         .def("restore", &restore)
         .def("snapshot", &snapshot)

@@ -10,8 +10,6 @@
 
 Lengths in m, times in s, masses in kg, angles in rad; y is up. Arrays are in the order of ids.
 """
-import atexit as _atexit
-
 from scree import _native
 from scree._errors import CheckpointError, DeviceError, SceneError
 from scree._native import version as __version__
@@ -20,12 +18,9 @@ from scree.joints import Axis, Ball, ConeTwist, Distance, Fixed, Hinge, JointKin
 from scree.scene import Scene, demo, demos, from_json, load, schema
 from scree.shapes import (Box, Capsule, Compound, Cone, Cylinder, Ellipsoid, Filter, Fracture, HeightField, Hull, Mesh, Part, Plane,
                           Shape, Sphere, Tyre)
-from scree.world import EventKind, Tables, World
-
-# Devices are closed while their drivers are still there.
-_atexit.register(_native.close_backends)
+from scree.world import EventKind, Export, Tables, World
 
 __all__ = ["Axis", "Ball", "Box", "Camera", "Capsule", "CheckpointError", "Compound", "Cone", "ConeTwist", "Cylinder", "DeviceError",
-           "Distance", "Ellipsoid", "EventKind", "Filter", "Fixed", "Fracture", "HeightField", "Hinge", "Hull", "JointKind", "Limits",
+           "Distance", "Ellipsoid", "EventKind", "Export", "Filter", "Fixed", "Fracture", "HeightField", "Hinge", "Hull", "JointKind", "Limits",
            "Mesh", "Motor", "Part", "Picture", "Plane", "Scene", "SceneError", "Shape", "SixDof", "Slider", "Sphere", "Spring", "Tables",
            "Tyre", "World", "__version__", "demo", "demos", "from_json", "load", "schema", "write_png"]

@@ -2,8 +2,10 @@
 """Worlds: simulations of scenes, on the CPU or on a Vulkan device, with the same bits."""
 from __future__ import annotations
 
+import atexit
 import os
 import typing
+import weakref
 from enum import IntEnum
 from typing import Any, Dict, Optional, Tuple, Union
 
@@ -62,6 +64,38 @@ class Tables:
         return self._native.table("ids")
 
 
+class Export:
+    """An animation that is being recorded; see World.export."""
+
+    def __init__(self, native: Optional["_native.Export"]) -> None:
+        self._native = native
+
+    def close(self) -> None:
+        """Writes the file with all that was recorded; later steps are not."""
+        if self._native is not None:
+            self._native.close()
+        self._native = None
+
+    def __enter__(self) -> "Export":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+
+_worlds: "weakref.WeakSet[World]" = weakref.WeakSet()
+
+
+def _finish() -> None:
+    """Before Python ends: animations are written, and devices closed while their drivers are still there."""
+    for world in list(_worlds):
+        world._native.close_exports()
+    _native.close_backends()
+
+
+atexit.register(_finish)
+
+
 class World:
     """A simulation of a scene.
 
@@ -87,6 +121,7 @@ class World:
         described = scene if isinstance(scene, Scene) else load(scene)
         self._native = _native.World(described._native, json_text(settings, "/settings"), backend, str(device), threads, validate)
         self._told_of_events = False
+        _worlds.add(self)
         if events:
             self.set_events(**(events if isinstance(events, typing.Mapping) else {}))
 
@@ -381,6 +416,22 @@ class World:
         turns = vectors(orientation, len(place), 4, "orientation")
         starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, mask)
         return starts, parts.view(np.recarray)
+
+    # ---- files
+    def export(self, path: Union[str, "os.PathLike[str]"], every: int = 1) -> "Export":
+        """Writes an animation, .glb (glTF 2.0), for Blender and web viewers: the bodies as they are, and how they move from now on.
+
+        The file is there at once; steps to come are recorded, one in `every`, and written by close() of what is returned, at the
+        end of a with statement, or with the world's end. Bodies are those of now, coloured by their greatest momentum; fragments
+        appear as bodies break. Or .json: the scene as it is now. Raises OSError, and ValueError for more than 10,000 moving bodies.
+        """
+        name = os.fspath(path)
+        if name.endswith(".json"):
+            self.snapshot().save(name)
+            return Export(None)
+        if not name.endswith(".glb"):
+            raise ValueError(f"export: {name}: is neither a .glb nor a .json")
+        return Export(self._native.export_to(name, every))
 
     # ---- saving
     def save(self) -> bytes:
