@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t block_bytes = 1u << 20;
 
-[[noreturn]] void fail(const char* what, const std::filesystem::path& path, int error) {
+[[noreturn]] void refuse_path(const char* what, const std::filesystem::path& path, int error) {
     throw FileError(std::string("cannot ") + what + " " + path.string() + ": " + std::strerror(error));
 }
 
@@ -29,7 +29,7 @@ constexpr std::size_t block_bytes = 1u << 20;
 class Buffered {
 public:
     Buffered(std::filesystem::path path, int number) : path_(std::move(path)), number_(number) {
-        if (number_ < 0) fail("write", path_, errno);
+        if (number_ < 0) refuse_path("write", path_, errno);
         buffer_.reserve(block_bytes);
     }
     ~Buffered() {
@@ -53,7 +53,7 @@ public:
     void close() {
         flush();
         const int number = std::exchange(number_, -1);
-        if (::close(number) != 0) fail("write", path_, errno);
+        if (::close(number) != 0) refuse_path("write", path_, errno);
     }
     int number() const { return number_; }
 
@@ -61,7 +61,7 @@ public:
 
 private:
     void write(std::string_view bytes) const {
-        if (const int error = write_all(number_, bytes.data(), bytes.size())) fail("write", path_, error);
+        if (const int error = write_all(number_, bytes.data(), bytes.size())) refuse_path("write", path_, error);
     }
     std::filesystem::path path_;
     int number_;
@@ -78,7 +78,7 @@ struct GrowingFile::Impl {
 
 GrowingFile::GrowingFile(const std::filesystem::path& path) : interior_(std::make_unique<Impl>()) {
     std::error_code ignored;
-    if (std::filesystem::is_directory(path, ignored)) fail("write", path, EISDIR);
+    if (std::filesystem::is_directory(path, ignored)) refuse_path("write", path, EISDIR);
     interior_->target = std::filesystem::exists(path, ignored) ? std::filesystem::canonical(path, ignored) : path;
     if (interior_->target.empty()) interior_->target = path;
     const bool in_place = std::filesystem::is_other(path, ignored);  // a device or a pipe
@@ -107,7 +107,7 @@ std::uint64_t GrowingFile::size() const {
 void GrowingFile::commit() {
     interior_->file->close();
     if (!interior_->part.empty() && ::rename(interior_->part.c_str(), interior_->target.c_str()) != 0)
-        fail("write", interior_->target, errno);
+        refuse_path("write", interior_->target, errno);
     interior_->file.reset();
 }
 
@@ -138,14 +138,15 @@ std::uint64_t ScratchFile::size() const {
 void ScratchFile::rewind() {
     interior_->file->flush();
     interior_->block.resize(block_bytes);
-    if (::lseek(interior_->file->number(), 0, SEEK_SET) != 0) fail("read back what was written for", interior_->beside, errno);
+    if (::lseek(interior_->file->number(), 0, SEEK_SET) != 0)
+        refuse_path("read back what was written for", interior_->beside, errno);
 }
 
 std::string_view ScratchFile::next() {
     for (;;) {
         const ssize_t count = ::read(interior_->file->number(), interior_->block.data(), interior_->block.size());
         if (count >= 0) return {interior_->block.data(), static_cast<std::size_t>(count)};
-        if (errno != EINTR) fail("read back what was written for", interior_->beside, errno);
+        if (errno != EINTR) refuse_path("read back what was written for", interior_->beside, errno);
     }
 }
 

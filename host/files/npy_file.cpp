@@ -62,75 +62,75 @@ private:
 };
 
 template <class Number>
-void put(std::string& to, Number value) {
+void put_number(std::string& to, Number value) {
     for (std::size_t k = 0; k < sizeof value; ++k) to += static_cast<char>(value >> (8 * k) & 0xFF);
 }
 
-struct Entry {
+struct ZipEntry {
     std::string name;
     std::uint32_t crc = 0;
     std::uint64_t bytes = 0, offset = 0;
 };
 
 // What the local header and the central directory have in common, and the lengths in ZIP64's way.
-std::string common_header(const Entry& entry, bool with_offset) {
+std::string common_header(const ZipEntry& entry, bool with_offset) {
     std::string made;
-    put(made, std::uint16_t{45});  // needs ZIP64
-    put(made, std::uint16_t{0});
-    put(made, std::uint16_t{0});   // stored
-    put(made, std::uint16_t{0});   // time
-    put(made, std::uint16_t{33});  // 1 January 1980: equal runs give equal files
-    put(made, entry.crc);
-    put(made, too_long);
-    put(made, too_long);
-    put(made, static_cast<std::uint16_t>(entry.name.size()));
-    put(made, static_cast<std::uint16_t>(with_offset ? 28 : 20));  // of the ZIP64 field
+    put_number(made, std::uint16_t{45});  // needs ZIP64
+    put_number(made, std::uint16_t{0});
+    put_number(made, std::uint16_t{0});   // stored
+    put_number(made, std::uint16_t{0});   // time
+    put_number(made, std::uint16_t{33});  // 1 January 1980: equal runs give equal files
+    put_number(made, entry.crc);
+    put_number(made, too_long);
+    put_number(made, too_long);
+    put_number(made, static_cast<std::uint16_t>(entry.name.size()));
+    put_number(made, static_cast<std::uint16_t>(with_offset ? 28 : 20));  // of the ZIP64 field
     return made;
 }
-std::string long_field(const Entry& entry, bool with_offset) {
+std::string long_field(const ZipEntry& entry, bool with_offset) {
     std::string made;
-    put(made, std::uint16_t{1});
-    put(made, static_cast<std::uint16_t>(with_offset ? 24 : 16));
-    put(made, entry.bytes);
-    put(made, entry.bytes);
-    if (with_offset) put(made, entry.offset);
+    put_number(made, std::uint16_t{1});
+    put_number(made, static_cast<std::uint16_t>(with_offset ? 24 : 16));
+    put_number(made, entry.bytes);
+    put_number(made, entry.bytes);
+    if (with_offset) put_number(made, entry.offset);
     return made;
 }
-std::string local_header(const Entry& entry) {
+std::string local_header(const ZipEntry& entry) {
     std::string made = "PK\x03\x04";
     return made + common_header(entry, false) + entry.name + long_field(entry, false);
 }
-std::string directory_entry(const Entry& entry) {
+std::string directory_entry(const ZipEntry& entry) {
     std::string made = "PK\x01\x02";
-    put(made, std::uint16_t{45});
+    put_number(made, std::uint16_t{45});
     made += common_header(entry, true);
-    put(made, std::uint16_t{0});  // comment
-    put(made, std::uint16_t{0});  // disk
-    put(made, std::uint16_t{0});  // attributes
-    put(made, std::uint32_t{0});
-    put(made, too_long);  // offset
+    put_number(made, std::uint16_t{0});  // comment
+    put_number(made, std::uint16_t{0});  // disk
+    put_number(made, std::uint16_t{0});  // attributes
+    put_number(made, std::uint32_t{0});
+    put_number(made, too_long);  // offset
     return made + entry.name + long_field(entry, true);
 }
 std::string end_of_directory(std::uint64_t entries, std::uint64_t offset, std::uint64_t bytes) {
     std::string made = "PK\x06\x06";
-    put(made, std::uint64_t{44});
-    put(made, std::uint16_t{45});
-    put(made, std::uint16_t{45});
-    put(made, std::uint32_t{0});
-    put(made, std::uint32_t{0});
-    put(made, entries);
-    put(made, entries);
-    put(made, bytes);
-    put(made, offset);
+    put_number(made, std::uint64_t{44});
+    put_number(made, std::uint16_t{45});
+    put_number(made, std::uint16_t{45});
+    put_number(made, std::uint32_t{0});
+    put_number(made, std::uint32_t{0});
+    put_number(made, entries);
+    put_number(made, entries);
+    put_number(made, bytes);
+    put_number(made, offset);
     made += "PK\x06\x07";
-    put(made, std::uint32_t{0});
-    put(made, offset + bytes);
-    put(made, std::uint32_t{1});
+    put_number(made, std::uint32_t{0});
+    put_number(made, offset + bytes);
+    put_number(made, std::uint32_t{1});
     made += "PK\x05\x06";
-    for (int k = 0; k < 4; ++k) put(made, std::uint16_t{static_cast<std::uint16_t>(k < 2 ? 0 : entries)});
-    put(made, too_long);
-    put(made, too_long);
-    put(made, std::uint16_t{0});
+    for (int k = 0; k < 4; ++k) put_number(made, std::uint16_t{static_cast<std::uint16_t>(k < 2 ? 0 : entries)});
+    put_number(made, too_long);
+    put_number(made, too_long);
+    put_number(made, std::uint16_t{0});
     return made;
 }
 
@@ -158,7 +158,7 @@ struct NpzFile::Impl {
     std::filesystem::path path;
     GrowingFile file;
     std::deque<Array> arrays;
-    std::vector<Entry> entries;
+    std::vector<ZipEntry> entries;
 
     void write(Array& array) {
         std::vector<std::size_t> shape = array.row;
@@ -168,8 +168,8 @@ struct NpzFile::Impl {
         Crc crc;
         crc.take(head);
         array.rows->read([&](std::string_view block) { crc.take(block); });
-        const Entry& entry =
-            entries.emplace_back(Entry{array.name + ".npy", crc.value(), head.size() + array.rows->size(), file.size()});
+        const ZipEntry& entry =
+            entries.emplace_back(ZipEntry{array.name + ".npy", crc.value(), head.size() + array.rows->size(), file.size()});
         file.append(local_header(entry));
         file.append(head);
         array.rows->read([&](std::string_view block) { file.append(block); });
@@ -191,7 +191,7 @@ void NpzFile::append(std::size_t array, std::span<const std::byte> rows) {
 void NpzFile::finish() {
     for (Impl::Array& array : interior_->arrays) interior_->write(array);
     const std::uint64_t offset = interior_->file.size();
-    for (const Entry& entry : interior_->entries) interior_->file.append(directory_entry(entry));
+    for (const ZipEntry& entry : interior_->entries) interior_->file.append(directory_entry(entry));
     interior_->file.append(end_of_directory(interior_->entries.size(), offset, interior_->file.size() - offset));
     interior_->file.commit();
 }
