@@ -95,7 +95,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             float change = -mass_along(row, a, b) * excess;
             float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, c.count, a, b, parameters));
             change = choose(separation <= 0.0f, change - leak * before, change);
-            float after = choose(gone, 0.0f, positive(before + change));
+            float after = choose(gone, 0.0f, positive(flush_tiny(before + change)));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
@@ -154,7 +154,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             float mass = mass_along(row, a, b);
             momentum[k] = choose(acts, contact_momentum(row, c.count, a, b, parameters), momentum[k]);
             acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
-            float after = choose(gone, 0.0f, positive(before - mass * (speed + target)));
+            float after = choose(gone, 0.0f, positive(flush_tiny(before - mass * (speed + target))));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
