@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -41,8 +42,8 @@ struct EventSettings {
 struct Event {
     std::uint64_t step = 0;  // the number of steps done after the one in which it happened
     EventKind kind = EventKind::begin;
-    // Bodies by index and generation (BodyHandle): of pairs a is the lower index. Of the world in place of a body the index
-    // is all ones.
+    // Bodies by index and generation (BodyHandle): of pairs that touch a is the lower index. Of the world in place of a body the
+    // index is all ones.
     std::uint32_t a = 0, a_generation = 0, b = 0, b_generation = 0;
     std::uint32_t part_a = 0, part_b = 0;  // of compounds; else 0. The triangles of a mesh count as one part
     std::uint32_t joint = 0;

@@ -52,10 +52,21 @@ struct Fracture {
     std::size_t first_piece = no_body;  // index of its first fragment; all are contiguous
 };
 
+// Mass properties of a body in place of those of its shape at its density. When the scene is checked, the body's frame is
+// moved to the centre and the principal axes: `centre` becomes 0, `frame` no turn, and a shape that is then elsewhere a
+// compound.
+struct Inertial {
+    float mass = 1;          // kg, 1e-9 to 1e15
+    vec3 centre{0};          // centre of mass, in the frame of the shape, m
+    vec3 inertia{1};         // principal moments of inertia, kg m^2, 1e-20 to 1e25; none above the sum of the others
+    vec4 frame{0, 0, 0, 1};  // principal axes to the frame of the shape, quaternion
+};
+
 struct Body {
     std::string name;  // for messages; may be empty
     Motion motion = Motion::dynamic;
     Shape shape = Box{};
+    Role role = Role::solid;  // of the shape, and of all its parts if not solid; no mesh or height field
     // Position of the centre of mass, m. For a hull or compound, until the scene is checked, the origin of its points
     // or parts; for a mesh or height field always.
     vec3 position{0};

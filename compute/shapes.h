@@ -72,7 +72,7 @@ struct Part {  // of a compound
     std::optional<Filter> filter{};  // none: the body's own
 };
 struct Compound {             // several convex shapes on one rigid body
-    std::vector<Part> parts;  // at least one; no planes. The masses of overlapping parts add up
+    std::vector<Part> parts;  // no planes; none: a body without a shape. The masses of overlapping parts add up
 };
 struct MeshForm;  // compute/scene/mesh.h
 // A triangle mesh, one-sided: solid behind its faces; for fixed and kinematic bodies. Bodies from behind pass through.

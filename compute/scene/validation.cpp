@@ -7,6 +7,7 @@
 #include "compute/fields/check.h"
 #include "compute/fields/document.h"
 #include "compute/scene/fracture.h"
+#include "compute/scene/inertial.h"
 #include "compute/scene/joint_validation.h"
 #include "compute/scene/shape_validation.h"
 #include "compute/scene/vehicle_validation.h"
@@ -22,13 +23,16 @@ Shift examine(const Examination& body, Body& b, CheckedHulls& hulls, std::vector
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
         body.refuse("/velocity", "a fixed body has no velocity; use \"kinematic\" for a body that moves regardless of contacts");
     }
-    const MassProperties properties = mass_properties(b.shape, b.density);
+    const MassProperties properties = mass_properties(b);
     const bool representable = std::isnormal(properties.mass) && std::isnormal(properties.inertia.x) &&
                                std::isnormal(properties.inertia.y) && std::isnormal(properties.inertia.z) &&
                                std::isnormal(1 / properties.mass) && std::isnormal(1 / properties.inertia.x) &&
                                std::isnormal(1 / properties.inertia.y) && std::isnormal(1 / properties.inertia.z);
     if (b.motion == Motion::dynamic && !representable) {
-        body.refuse("/density", "size and density give a mass or inertia out of the range of a float");
+        if (properties.mass == 0) body.refuse("/inertial", "a dynamic body none of whose parts is solid needs one");
+        body.refuse(b.inertial ? "/inertial" : "/density",
+                    b.inertial ? "mass or inertia is out of the range of a float"
+                               : "size and density give a mass or inertia out of the range of a float");
     }
     return shift;
 }

@@ -88,7 +88,7 @@ ordered_json schemas_with_lists() {
         {
             "required": ["compound"],
             "additionalProperties": false,
-            "description": "several convex shapes on one body; the body's position is the origin of the parts. Masses of overlapping parts add up",
+            "description": "several convex shapes on one body, or none; the body's position is the origin of the parts. Masses of overlapping parts add up",
             "properties": {
                 "compound": {
                     "type": "object",
@@ -97,7 +97,6 @@ ordered_json schemas_with_lists() {
                     "properties": {
                         "parts": {
                             "type": "array",
-                            "minItems": 1,
                             "maxItems": 10000,
                             "items": {
                                 "type": "object",

@@ -76,9 +76,10 @@ vec3 size_of_whole(const Shape& shape) {
     vec3 size(1e30f, 0, 0);
     for (const Part& part : std::get<Compound>(shape).parts) {
         const physics::BodyProperties form = simple_form(part.shape);
-        size.x = std::min(size.x, physics::min_half_width(form));
+        if (part.role == Role::solid) size.x = std::min(size.x, physics::min_half_width(form));
         size.y = std::max(size.y, glm::length(part.position) + physics::bounding_radius(form));
     }
+    if (size.x == 1e30f) size.x = 1;  // nothing that collides
     return size;
 }
 
@@ -178,8 +179,9 @@ physics::BodyProperties SceneCompiler::properties_of(const Body& body, std::uint
     made.joints = physics::NONE;
     set_mass(made, body);
     if (body.piece_of != no_body) made.motion = physics::MOTION_PENDING;
+    made.flags |= flags_of(body.role);
     set_material(made, body);
-    if (made.shape == physics::SHAPE_PLANE) made.large = 1;
+    if (made.shape == physics::SHAPE_PLANE && body.role == Role::solid) made.flags |= physics::ROW_LARGE;
     return made;
 }
 
@@ -188,7 +190,7 @@ void SceneCompiler::set_mass(physics::BodyProperties& properties, const Body& bo
     properties.inverse_mass = 0;
     properties.inverse_inertia = vec3(0);
     if (body.motion != Motion::dynamic) return;
-    const MassProperties mass = mass_properties(body.shape, body.density);
+    const MassProperties mass = mass_properties(body);
     properties.inverse_mass = 1 / mass.mass;
     properties.inverse_inertia = vec3(1 / mass.inertia.x, 1 / mass.inertia.y, 1 / mass.inertia.z);
 }
@@ -225,7 +227,7 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
             part.size = triangle.half_extents;
             const std::vector<physics::uvec4> records = triangle_records(triangle);
             state_.hulls.insert(state_.hulls.end(), records.begin(), records.end());
-            append(part, triangle.middle, vec4(0, 0, 0, 1));
+            append(part, triangle.middle, vec4(0, 0, 0, 1), own);
         }
     }
 }

@@ -105,7 +105,7 @@ struct SceneFeatures {
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 14 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 15 * sizeof(bool));  // everything() names all
 
 inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 

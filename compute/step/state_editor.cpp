@@ -240,6 +240,7 @@ TableRanges StateEditor::remove(std::span<const std::uint32_t> ids) {
     }
     std::sort(rows.begin(), rows.end());
     TableRanges runs;
+    SceneCompiler compiler(state_);
     for (const std::uint32_t row : rows) {
         state_.properties[row] = spare_row(row < state_.fixed().first_part ? row : 0);
         state_.poses[row] = {vec3(0), 0, vec4(0, 0, 0, 1)};
@@ -261,6 +262,8 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     const std::uint32_t row = state_.row_of(id);
     const auto [first, count] = parts_of(row);
     physics::BodyProperties& whole = state_.properties[row];
+    SceneCompiler compiler(state_);
+    const ShapeLengths before = shape_lengths(state_);
     SceneCompiler::set_mass(whole, body);
     SceneCompiler::set_material(whole, body);
     for (std::uint32_t part = first; part < first + count; ++part) {
@@ -272,7 +275,6 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     }
     state_.note_content(row, 1);
     state_.note_content(first, count);
-    TableRanges changed{{Table::properties, row, 1}};
     if (count > 0) changed.push_back({Table::properties, first, count});
     return changed;
 }

@@ -182,7 +182,7 @@ void World::set_motion(std::size_t body, Motion motion) {
     const bool surface = std::holds_alternative<Mesh>(now.shape) || std::holds_alternative<HeightField>(now.shape);
     if (motion == Motion::dynamic && surface) refuse("a mesh or height field is a surface, has no mass and cannot be dynamic");
     if (motion == Motion::dynamic) {
-        const MassProperties mass = mass_properties(now.shape, now.density);
+        const MassProperties mass = mass_properties(now);
         for (const float value : {mass.mass, mass.inertia.x, mass.inertia.y, mass.inertia.z})
             if (!std::isnormal(value) || !std::isnormal(1 / value))
                 refuse("size and density give a mass or inertia out of the range of a float");

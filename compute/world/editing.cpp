@@ -101,7 +101,7 @@ void World::explode(vec3 centre, float radius, float speed) {
         const float distance = glm::length(apart);
         if (!(distance < radius)) continue;
         const vec3 direction = distance > 1e-6f * radius ? apart / distance : vec3(0, 1, 0);
-        const float mass = mass_properties(body.shape, body.density).mass;
+        const float mass = mass_properties(body).mass;
         apply_impulse(i, direction * (mass * speed * (1 - distance / radius)));
     }
 }

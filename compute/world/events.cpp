@@ -2,6 +2,7 @@
 #include "compute/world/events.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
@@ -72,7 +73,7 @@ TableRanges Events::needed(const Scene& scene, const State& state) const {
 }
 
 void Events::after_step(const Scene& scene, const State& state, const std::vector<std::uint32_t>& generations,
-                        std::uint64_t arrangement, std::uint64_t step) {
+                        std::uint64_t arrangement, std::uint64_t step, const Threads& threads) {
     const Seen seen{scene, state, generations, step};
     const std::size_t first = events_.size();
     if (settings_.contacts) {

@@ -10,6 +10,7 @@
 #include "compute/scene.h"
 #include "compute/step/state.h"
 #include "compute/step/table_ranges.h"
+#include "compute/step/threads.h"
 #include "compute/world/byte_stream.h"
 
 namespace scree {
@@ -23,7 +24,7 @@ public:
     void before_step(const State& state) { velocities_ = state.velocities; }
     // `arrangement`: a number that changes with the rows of bodies.
     void after_step(const Scene& scene, const State& state, const std::vector<std::uint32_t>& generations,
-                    std::uint64_t arrangement, std::uint64_t step);
+                    std::uint64_t arrangement, std::uint64_t step, const Threads& threads);
     // Before bodies are removed: ends their contacts. `gone`: ascending.
     void end_contacts_of(const std::vector<std::size_t>& gone, const State& state, const std::vector<std::uint32_t>& generations,
                          std::uint64_t step);

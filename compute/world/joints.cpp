@@ -1,4 +1,5 @@
 // World: joints, their state and motors.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -139,7 +140,9 @@ std::size_t World::add_joint(const Joint& joint) {
                     "body " + std::to_string(body) + " is not there: it has broken, or is a piece of one that has not");
     } catch (const SceneError&) {
         in.scene.joints.pop_back();
-        throw;
+        const std::string first = "/joints/0";
+        throw SceneError("/joints/" + std::to_string(index) + error.pointer.substr(first.size()),
+                         std::string(error.what()).substr(error.pointer.size() + 2));
     }
     in.rejoin();
     in.wake(joint);

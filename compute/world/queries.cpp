@@ -17,6 +17,7 @@
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/distance.h"
+#include "shaders/physics/collide/grid.h"
 
 namespace scree {
 
@@ -75,6 +76,7 @@ QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), 
     const auto add = [&](std::uint32_t row, std::uint32_t body, std::uint32_t part) {
         const physics::BodyProperties& properties = state.properties[row];
         const vec3 centre = state.poses[row].position, half = physics::half_extents_of(properties, state.poses[row].orientation);
+        if (physics::is_apart(properties)) return;
         if (properties.shape == physics::SHAPE_PLANE) {
             planes_.push_back({row, body, part});
         } else if (is_finite(centre)) {

@@ -70,7 +70,7 @@ StartLengths StartLengths::of(const State& s) {
 
 std::uint64_t fingerprint_of(const State& state) {
     std::vector<physics::BodyProperties> properties = state.properties;
-    for (physics::BodyProperties& row : properties) row.large = 0;  // depends on the settings
+    for (physics::BodyProperties& row : properties) row.flags &= ~physics::ROW_LARGE;  // depends on the settings
     std::uint64_t hash = hash_of(properties, 0);
     const auto add = [&](const auto&... tables) { ((hash = hash_of(tables, hash)), ...); };
     add(state.poses, state.velocities, state.hulls, state.parts, state.fractures, state.pieces, state.tyres, state.way_points,

@@ -102,7 +102,7 @@ void World::Impl::step() {
     ++steps;
     if (watched) {
         runner->download(events.needed(scene, state));
-        events.after_step(scene, state, generations, arrangements, steps);
+        events.after_step(scene, state, generations, arrangements, steps, runner->threads());
     }
     broken = false;
 }

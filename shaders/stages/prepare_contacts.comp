@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
 Constraint on_tyre_of(BodyProperties ta, BodyProperties tb, Constraint constraint, vec3 d, VelocityPair now) {

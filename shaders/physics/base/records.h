@@ -31,7 +31,7 @@ struct BodyProperties {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;       // 1: not in the grid but in the list of large bodies
+    uint flags;       // ROW_*
     uint owner;       // row of the body that this part belongs to; itself for a body
     uint fracture;    // index into the table of fractures; NONE: unbreakable
     uint joints;      // head of its list of joints; NONE: no joints
@@ -422,7 +422,7 @@ struct Parameters {  // uniform over a step
     uint filters_offset;
     uint exclusions_offset;
     uint removed;  // 1: bodies were removed since the last step; sleepers that touched them wake
-    uint pad0, pad1;
+    uint pad0;
     Grip grips[4];  // MOST_GRIPS
 };
 
@@ -465,7 +465,7 @@ struct Counts {  // counted on the device in a step
     uint steps;                // completed steps
     uint pairs_coarse;         // pairs / 256, rounded up per body: detects overflow of the 32-bit count
     uint levels_stirring;      // bit l: some active body is on level l
-    uint large_stirring;       // 1: some large body is active
+    uint large_stirring;       // bit 0: some large body is active; bit 1: some body that is in no grid is
     uint sleepers;             // 1: some body is asleep as the step begins
     uint solver_contacts;      // contacts that the solver processes, with at least one movable body
     uint pair_type_first[20];  // pairs of type k are [pair_type_first[k], pair_type_first[k + 1]) of pairs_by_type

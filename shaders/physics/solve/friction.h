@@ -291,7 +291,7 @@ LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, 
                                      Parameters parameters) {
     bool acts = normal != 0.0f || has_friction(s.impulse);
     if (none(acts)) return s;
-    bool resists = acts && c.rolling_resistance > 0.0f;
+    bool resists = acts && c.rolling_resistance != 0.0f;
     SolveResult after = s;
     if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
     return choose(acts, solve_friction(c, after, normal, a, b, biased, parameters), s);
