@@ -70,15 +70,20 @@ struct Body {
     // Position of the centre of mass, m. For a hull or compound, until the scene is checked, the origin of its points
     // or parts; for a mesh or height field always.
     vec3 position{0};
-    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
-    vec3 velocity{0};              // m/s, at most Settings::max_speed
-    vec3 angular_velocity{0};      // rad/s, world axes
-    float density = 1000;          // kg/m^3
-    float friction = 0.6f;         // Coulomb coefficient, >= 0; a pair takes sqrt(a b)
-    float restitution = 0;         // 0 to 1; a pair takes the larger
+    vec4 orientation{0, 0, 0, 1};        // quaternion x, y, z, w; normalised when the scene is checked
+    vec3 velocity{0};                    // m/s, at most Settings::max_speed
+    vec3 angular_velocity{0};            // rad/s, world axes
+    float density = 1000;                // kg/m^3
+    std::optional<Inertial> inertial{};  // none: from shape and density. Required of a dynamic body without solid parts
+    // Its material (Material), but for parts that have their own.
+    float friction = 0.6f;         // Coulomb coefficient, >= 0; a pair takes sqrt(a b), unless friction_rule says otherwise
+    float restitution = 0;         // 0 to 1; a pair takes the larger, unless restitution_rule says otherwise
     float rolling_resistance = 0;  // m, lever arm of the normal force that resists rolling, >= 0; a pair takes the larger
-    float linear_damping = 0;      // 1/s, >= 0
-    float angular_damping = 0;     // 1/s, >= 0
+    float static_friction = unset, spinning_resistance = unset, restitution_threshold = unset;
+    vec3 surface_velocity{0};  // m/s, in the body's frame
+    CombineRule friction_rule = CombineRule::usual, restitution_rule = CombineRule::usual;
+    float linear_damping = 0;   // 1/s, >= 0
+    float angular_damping = 0;  // 1/s, >= 0
     float gravity_scale = 1;
     std::optional<Filter> filter{};      // which bodies it collides with; none: all
     std::optional<Tyre> tyre{};          // of spheres, capsules, cylinders, also as parts; none: Coulomb friction
@@ -254,5 +259,9 @@ struct MassProperties {
     vec3 inertia{0};
 };
 MassProperties mass_properties(const Shape& shape, float density);
+MassProperties mass_properties(const Body& body);  // of a checked body
+
+Material material_of(const Body& body);
+void set_material(Body& body, const Material& material);  // parts keep those of their own
 
 }  // namespace scree

@@ -9,6 +9,10 @@ namespace scree::fields {
 template <>
 inline constexpr auto words<Motion> = std::array{"dynamic", "fixed", "kinematic"};
 template <>
+inline constexpr auto words<Role> = std::array{"solid", "sensor", "drawn"};
+template <>
+inline constexpr auto words<CombineRule> = std::array{"usual", "geometric", "average", "minimum", "multiply", "maximum"};
+template <>
 inline constexpr auto words<Cutting> = std::array{"voronoi", "boxes", "splinters"};
 
 constexpr Range any_bits = between(0, 4294967295.0);
@@ -21,6 +25,43 @@ inline constexpr auto table<Filter> = table_of(
     field("category", &Filter::category, any_bits, "", "Bits: what it is").written(),
     field("mask", &Filter::mask, any_bits, "", "Bits: the categories that it collides with").written(),
     field("group", &Filter::group, within(2147483647), "", "0: none"));
+
+template <>
+inline constexpr auto table<Inertial> = table_of(
+    "inertial", "Mass properties of a body, in place of those of its shape at its density",
+    field("mass", &Inertial::mass, between(1e-9, 1e15), "kg", "Mass").required(),
+    field("centre", &Inertial::centre, within(1e5), "m", "Centre of mass in the frame of the shape").written(),
+    field("inertia", &Inertial::inertia, between(1e-20, 1e25), "kg m^2",
+          "Principal moments of inertia about the centre; none above the sum of the others")
+        .required(),
+    field("frame", &Inertial::frame, "Principal axes in the frame of the shape: quaternion x, y, z, w of any length but 0"));
+
+// The fields of a material, which are also members of a body.
+template <class Owner>
+inline constexpr auto material_fields = std::tuple{
+    field("friction", &Owner::friction, between(0, 100), "",
+          "Coulomb coefficient of what slides; a pair takes the geometric mean, unless friction_rule says otherwise"),
+    field("restitution", &Owner::restitution, between(0, 1), "",
+          "Speed after an impact over the speed before; a pair takes the larger, unless restitution_rule says otherwise"),
+    field("rolling_resistance", &Owner::rolling_resistance, between(0, 1e5), "m",
+          "Lever arm of the normal force that resists rolling; a pair takes the larger"),
+    field("static_friction", &Owner::static_friction, between(0, 100), "",
+          "Coulomb coefficient of what sticks; left out, or below friction: that"),
+    field("spinning_resistance", &Owner::spinning_resistance, between(0, 1e5), "m",
+          "Lever arm of the normal force that resists spinning about the normal; a pair takes the larger; left out of both: "
+          "rolling_resistance resists spinning, too"),
+    field("restitution_threshold", &Owner::restitution_threshold, at_least(0), "m/s",
+          "Speed of impacts below which they have no restitution; a pair takes the larger; left out of both: the settings' own"),
+    field("surface_velocity", &Owner::surface_velocity, within(1e3), "m/s",
+          "Velocity of the surface over the body, in the body's frame: a conveyor belt that does not move"),
+    field("friction_rule", &Owner::friction_rule,
+          "How friction follows from that of both; of two rules the later one counts: usual (geometric), geometric, average, "
+          "minimum, multiply, maximum"),
+    field("restitution_rule", &Owner::restitution_rule, "The same for restitution; usual: maximum")};
+
+template <>
+inline constexpr auto table<Material> =
+    std::apply([](auto... each) { return table_of("material", "The surface of a part", each...); }, material_fields<Material>);
 
 template <>
 inline constexpr auto table<Tyre> = table_of(

@@ -16,10 +16,30 @@ namespace scree {
 
 namespace {
 
+// Into the body's new frame.
+void turn_surfaces(Body& b, glm::dquat back) {
+    const auto turn = [&](vec3& velocity) {
+        if (velocity != vec3(0)) velocity = vec3(back * glm::dvec3(velocity));
+    };
+    turn(b.surface_velocity);
+    if (auto* compound = std::get_if<Compound>(&b.shape))
+        for (Part& part : compound->parts)
+            if (part.material) turn(part.material->surface_velocity);
+}
+
+void check_role(const Examination& body, const Body& b) {
+    if (b.role == Role::solid) return;
+    if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape))
+        body.refuse("/role", "a mesh or height field is solid; a sensor is of convex shapes");
+    if (b.fracture) body.refuse("/role", "a body that can break is solid");
+}
+
 Shift examine(const Examination& body, Body& b, CheckedHulls& hulls, std::vector<std::string>* notes) {
     check_shape(body, b.shape, b.motion);
     fields::check_fields(body, b);
-    const Shift shift = bring_to_centre(body, b, hulls, notes);
+    const Shift shift = bring_to_inertial(body, b, bring_to_centre(body, b, hulls, notes));
+    if (shift) turn_surfaces(b, glm::conjugate(shift->axes));
+    check_role(body, b);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
         body.refuse("/velocity", "a fixed body has no velocity; use \"kinematic\" for a body that moves regardless of contacts");
     }

@@ -127,7 +127,13 @@ ordered_json schemas_with_lists() {
                                         "default": 0,
                                         "description": "kg/m^3; 0: the body's own"
                                     },
-                                    "filter": {"$ref": "#/$defs/filter", "description": "left out: the body's own"}
+                                    "filter": {"$ref": "#/$defs/filter", "description": "left out: the body's own"},
+                                    "role": {
+                                        "enum": ["solid", "sensor", "drawn"],
+                                        "default": "solid",
+                                        "description": "solid, a sensor, or only drawn; only solid parts have mass. All are as the body if that is not solid"
+                                    },
+                                    "material": {"$ref": "#/$defs/material", "description": "left out: the body's own"}
                                 }
                             }
                         }

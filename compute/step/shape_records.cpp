@@ -15,6 +15,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/triangle.h"
 #include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/material.h"
 
 namespace scree {
 
@@ -196,9 +197,7 @@ void SceneCompiler::set_mass(physics::BodyProperties& properties, const Body& bo
 }
 
 void SceneCompiler::set_material(physics::BodyProperties& properties, const Body& body) {
-    properties.friction = body.friction;
-    properties.restitution = body.restitution;
-    properties.rolling_resistance = body.rolling_resistance;
+    set_surface(properties, material_of(body));
     properties.gravity_scale = body.gravity_scale;
     properties.linear_damping = body.linear_damping;
     properties.angular_damping = body.angular_damping;
@@ -206,18 +205,21 @@ void SceneCompiler::set_material(physics::BodyProperties& properties, const Body
 
 void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
     const physics::BodyProperties whole = state_.properties[owner];
-    const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn) {
+    const Material own = material_of(body);
+    const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn, const Material& material) {
         part.motion = whole.motion | physics::MOTION_OF_PART;
         part.owner = owner;
         part.fracture = part.joints = physics::NONE;
-        part.friction = whole.friction;
-        part.restitution = whole.restitution;
-        part.rolling_resistance = whole.rolling_resistance;
+        set_surface(part, material);
         state_.properties.push_back(part);
         state_.parts.push_back({place, 0, turn});
     };
     if (const auto* compound = std::get_if<Compound>(&body.shape))
-        for (const Part& part : compound->parts) append(form_of(part.shape, body.tyre), part.position, part.orientation);
+        for (const Part& part : compound->parts) {
+            physics::BodyProperties form = form_of(part.shape, body.tyre);
+            form.flags |= flags_of(body.role != Role::solid ? body.role : part.role);
+            append(form, part.position, part.orientation, part.material.value_or(own));
+        }
     if (const MeshForm* form = mesh_form_of(body.shape)) {
         state_.hulls.reserve(state_.hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
         for (const MeshForm::Triangle& triangle : form->triangles) {

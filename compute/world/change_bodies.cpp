@@ -134,13 +134,7 @@ void World::Impl::change(std::size_t index, const std::function<void(Body&)>& ed
 
 void World::set_material(std::size_t body, const Material& material) {
     interior_->change(
-        body,
-        [&](Body& b) {
-            b.friction = material.friction;
-            b.restitution = material.restitution;
-            b.rolling_resistance = material.rolling_resistance;
-        },
-        false);
+        body, [&](Body& b) { scree::set_material(b, material); }, false);
 }
 
 void World::Impl::refilter() {

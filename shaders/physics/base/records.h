@@ -16,6 +16,12 @@ CONSTANT uint MOTION_BROKEN = 4u;   // replaced by its fragments
 // Flag, combined with the motion of the owner: the row is a part, which the solver never moves (compound.h).
 CONSTANT uint MOTION_OF_PART = 8u;
 
+// BodyProperties.flags.
+CONSTANT uint ROW_LARGE = 1u;          // not in the grid but in the list of large bodies
+CONSTANT uint ROW_APART = 2u;          // collides with nothing: only drawn, or a sensor
+CONSTANT uint ROW_SENSOR = 4u;         // one of the latter that is a sensor
+CONSTANT uint ROW_SURFACE_SHIFT = 8u;  // above: index into the table of surfaces plus 1; 0: none
+
 CONSTANT uint NONE = 0xFFFFFFFFu;
 
 // ---- bodies: constant, but for the motion of a body that breaks and of its fragments
@@ -52,6 +58,22 @@ struct Fracturing {
     uint first_pose;   // of its fragments, in the table of pieces; shared by equal bodies
     uint pad0, pad1, pad2;
 };
+// What a material says beyond friction, restitution and rolling resistance (material.h).
+struct Surface {
+    vec3 velocity;                // over its body, body axes, m/s
+    float static_friction;        // Coulomb coefficient of what sticks
+    float spinning_resistance;    // m; < 0: as rolling
+    float restitution_threshold;  // m/s; < 0: Parameters.restitution_threshold
+    uint friction_rule;           // COMBINE_*
+    uint restitution_rule;
+};
+// How a value of two surfaces follows; of two rules the greater counts.
+CONSTANT uint COMBINE_USUAL = 0u;
+CONSTANT uint COMBINE_GEOMETRIC = 1u;
+CONSTANT uint COMBINE_AVERAGE = 2u;
+CONSTANT uint COMBINE_MINIMUM = 3u;
+CONSTANT uint COMBINE_MULTIPLY = 4u;
+CONSTANT uint COMBINE_MAXIMUM = 5u;
 // Tyre friction (tyre.h).
 struct Tyre {
     float best_slip;  // slip of greatest friction
@@ -205,14 +227,17 @@ CONSTANT uint ANCHOR_B = 1u;
 CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the single point of two round bodies follows both
 
 struct Constraint {
-    uint a, b;                 // rows of bodies, never of parts
-    uint slot_a, slot_b;       // slots of their VelocityDelta; NONE for a body that contacts do not move
-    vec3 normal;               // unit, world, from A to B
-    float friction;            // Coulomb coefficient of the pair
-    vec4 arms[4];              // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature)
+    uint a, b;            // rows of bodies, never of parts
+    uint slot_a, slot_b;  // slots of their VelocityDelta; NONE for a body that contacts do not move
+    vec3 normal;          // unit, world, from A to B
+    float friction;       // Coulomb coefficient of the pair
+    // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature). w, of materials (material.h): of
+    // the first two the slip of B's surface over A's while the bodies stand still, along both tangents of the normal, m/s; of
+    // the third the coefficient of static friction, or 0; of the last the speed of the slowest impacts, m/s, or 0.
+    vec4 arms[4];
     vec3 centre;               // of the friction patch, m (ANCHOR_ROUND: from B's centre to its centre of curvature)
     float twist_arm;           // of torsional friction, m: mean distance of the patch from its centre
-    float rolling_resistance;  // of the pair, m
+    float rolling_resistance;  // of the pair, m; < 0: resists rolling alone, not spinning
     float restitution;         // of the pair
     uint count;                // points
     uint anchor;               // ANCHOR_*
@@ -421,6 +446,7 @@ struct Parameters {  // uniform over a step
     uint way_points_offset;
     uint filters_offset;
     uint exclusions_offset;
+    uint surfaces_offset;
     uint removed;  // 1: bodies were removed since the last step; sleepers that touched them wake
     uint pad0;
     Grip grips[4];  // MOST_GRIPS
@@ -434,8 +460,9 @@ CONSTANT uint FEATURE_TYRES = 8u;
 CONSTANT uint FEATURE_PARTS = 16u;      // moving compounds
 CONSTANT uint FEATURE_REORDERED = 32u;  // rows in an order other than that of ids
 CONSTANT uint FEATURE_JOINTS = 64u;
-CONSTANT uint FEATURE_SUMS = 128u;     // contact impulses are summed over the step: breakable bodies, events
-CONSTANT uint FEATURE_FILTERS = 256u;  // collision filters, excluded pairs
+CONSTANT uint FEATURE_SUMS = 128u;      // contact impulses are summed over the step: breakable bodies, events
+CONSTANT uint FEATURE_FILTERS = 256u;   // collision filters, excluded pairs
+CONSTANT uint FEATURE_SURFACES = 512u;  // materials with more than friction, restitution and rolling resistance
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type
