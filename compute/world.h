@@ -259,6 +259,8 @@ public:
     // Throws std::invalid_argument for a speed below 0.
     void set_events(const EventSettings& settings);
     const EventSettings& event_settings() const;
+    // What overlaps sensors at present, in order. Reads all bodies.
+    std::vector<SensorOverlap> sensed() const;
     std::vector<Event> take_events();  // since the last call, in order
     // The first surface that a ray meets from outside, m. Shapes in which it begins, and back faces of planes and
     // surfaces, are ignored. Throws std::invalid_argument for a ray that is not

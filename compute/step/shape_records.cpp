@@ -71,6 +71,11 @@ std::vector<physics::uvec4> hull_records(const Hull& hull) {
     return records;
 }
 
+physics::uint flags_of(Role role) {
+    if (role == Role::solid) return 0;
+    return role == Role::sensor ? physics::ROW_APART | physics::ROW_SENSOR : physics::ROW_APART;
+}
+
 // Size of a body of which only parts collide, as for SHAPE_NONE.
 vec3 size_of_whole(const Shape& shape) {
     if (const MeshForm* form = mesh_form_of(shape)) return {1e30f, form->reach, 0};

@@ -56,6 +56,8 @@ private:
     void match(const Seen& seen);
     void compare_bodies(const Seen& seen);
     void compare_joints(const Seen& seen);
+    void compare_sensors(const Seen& seen, const Threads& threads);
+    void tell_sensor(EventKind kind, const SensorOverlap& one, const std::vector<std::uint32_t>& generations, std::uint64_t step);
     Pair pair_of(const Entry& entry, const State& state) const;
     void add(const Pair& pair, const Entry& entry, const Seen& seen);
     void drop(const Pair& pair, const std::vector<std::uint32_t>& generations, std::uint64_t step);
@@ -71,7 +73,8 @@ private:
     std::vector<physics::Velocity> velocities_;  // before the step
     std::vector<std::uint8_t> bodies_;           // by id
     std::vector<std::uint8_t> joints_;           // by joint of the scene: broken
-    std::vector<std::uint32_t> part_numbers_;    // by part row behind the first
+    std::vector<SensorOverlap> sensed_;
+    std::vector<std::uint32_t> part_numbers_;  // by part row behind the first
     std::uint32_t first_part_ = 0;
     std::uint64_t arrangement_ = 0;
 };
