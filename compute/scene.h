@@ -85,6 +85,7 @@ struct Body {
     float linear_damping = 0;   // 1/s, >= 0
     float angular_damping = 0;  // 1/s, >= 0
     float gravity_scale = 1;
+    std::uint64_t user_data = 0;         // the user's own; no result depends on it
     std::optional<Filter> filter{};      // which bodies it collides with; none: all
     std::optional<Tyre> tyre{};          // of spheres, capsules, cylinders, also as parts; none: Coulomb friction
     std::optional<Fracture> fracture{};  // none: unbreakable

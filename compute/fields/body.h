@@ -92,31 +92,38 @@ inline constexpr auto table<Fracture> = table_of(
 // Limits of ranges: below a density of 1e-3 kg/m^3 or a size of 1e-3 m inverse inertias leave the range of a float, and
 // at 1e6 m a float resolves 6 cm.
 template <>
-inline constexpr auto table<Body> = table_of(
-    "body", "A rigid body",  //
-    field("name", &Body::name, "Name for messages, and for joints and vehicles to refer to"),
-    field("motion", &Body::motion,
-          "Moved by forces and contacts, never moved, or moved with its velocity regardless of contacts"),
-    field("shape", &Body::shape).required(),
-    field("position", &Body::position, within(1e6), "m",
-          "Position of the centre of mass; of a hull, compound, mesh or height field, of the origin of its points or parts")
-        .written(),
-    field("orientation", &Body::orientation, "Quaternion x, y, z, w of any length but 0"),
-    field("velocity", &Body::velocity, within(1e4), "m/s", "Velocity of the centre of mass"),
-    field("angular_velocity", &Body::angular_velocity, within(1e4), "rad/s", "Angular velocity, world axes"),
-    // its material
-    field("density", &Body::density, between(1e-3, 1e6), "kg/m^3", "Mass per volume"),
-    field("friction", &Body::friction, between(0, 100), "", "Coulomb coefficient; a pair takes the geometric mean"),
-    field("restitution", &Body::restitution, between(0, 1), "",
-          "Speed after an impact over the speed before; a pair takes the larger"),
-    field("rolling_resistance", &Body::rolling_resistance, between(0, 1e5), "m",
-          "Lever arm of the normal force that resists rolling; a pair takes the larger"),
-    // how it moves
-    field("linear_damping", &Body::linear_damping, between(0, 1e4), "1/s", "Rate at which its velocity decays"),
-    field("angular_damping", &Body::angular_damping, between(0, 1e4), "1/s", "Rate at which its angular velocity decays"),
-    field("gravity_scale", &Body::gravity_scale, within(1e3), "", "Factor on gravity"),
-    field("filter", &Body::filter, "Which bodies it collides with; left out: all"),
-    field("tyre", &Body::tyre, "Tyre friction of spheres, capsules and cylinders, also as parts; left out: Coulomb friction"),
-    field("fracture", &Body::fracture, "Fracture of a dynamic body; left out: unbreakable"));
+inline constexpr auto table<Body> = std::apply(
+    [](auto... material) {
+        return table_of(
+            "body", "A rigid body",  //
+            field("name", &Body::name, "Name for messages, and for joints and vehicles to refer to"),
+            field("motion", &Body::motion,
+                  "Moved by forces and contacts, never moved, or moved with its velocity regardless of contacts"),
+            field("shape", &Body::shape).required(),
+            field(
+                "role", &Body::role,
+                "What the shape is for: solid, a sensor, which finds what overlaps it and collides with nothing, or only drawn"),
+            field(
+                "position", &Body::position, within(1e6), "m",
+                "Position of the centre of mass; of a hull, compound, mesh or height field, of the origin of its points or parts")
+                .written(),
+            field("orientation", &Body::orientation, "Quaternion x, y, z, w of any length but 0"),
+            field("velocity", &Body::velocity, within(1e4), "m/s", "Velocity of the centre of mass"),
+            field("angular_velocity", &Body::angular_velocity, within(1e4), "rad/s", "Angular velocity, world axes"),
+            // its material
+            field("density", &Body::density, between(1e-3, 1e6), "kg/m^3", "Mass per volume"),
+            field("inertial", &Body::inertial, "Mass properties; left out: those of the shape at the density"), material...,
+            // how it moves
+            field("linear_damping", &Body::linear_damping, between(0, 1e4), "1/s", "Rate at which its velocity decays"),
+            field("angular_damping", &Body::angular_damping, between(0, 1e4), "1/s", "Rate at which its angular velocity decays"),
+            field("gravity_scale", &Body::gravity_scale, within(1e3), "", "Factor on gravity"),
+            field("user_data", &Body::user_data, between(0, 18446744073709551615.0), "",
+                  "A number of the user's own; no result depends on it"),
+            field("filter", &Body::filter, "Which bodies it collides with; left out: all"),
+            field("tyre", &Body::tyre,
+                  "Tyre friction of spheres, capsules and cylinders, also as parts; left out: Coulomb friction"),
+            field("fracture", &Body::fracture, "Fracture of a dynamic body; left out: unbreakable"));
+    },
+    material_fields<Body>);
 
 }  // namespace scree::fields

@@ -208,6 +208,48 @@ void SceneCompiler::set_material(physics::BodyProperties& properties, const Body
     properties.angular_damping = body.angular_damping;
 }
 
+// Index plus 1; 0: the material says no more than the properties.
+physics::uint SceneCompiler::place_of(const Material& material) {
+    if (material.static_friction <= material.friction && material.spinning_resistance < 0 && material.restitution_threshold < 0 &&
+        material.surface_velocity == vec3(0) && material.friction_rule == CombineRule::usual &&
+        material.restitution_rule == CombineRule::usual)
+        return 0;
+    const physics::Surface made{material.surface_velocity,
+                                material.static_friction,
+                                material.spinning_resistance,
+                                material.restitution_threshold,
+                                static_cast<physics::uint>(material.friction_rule),
+                                static_cast<physics::uint>(material.restitution_rule)};
+    const auto [known, fresh] = state_.shape_places.surfaces.try_emplace(std::bit_cast<std::array<physics::uint, 8>>(made));
+    if (fresh && !state_.spare_surfaces.empty()) {
+        known->second = state_.spare_surfaces.back();
+        state_.spare_surfaces.pop_back();
+        state_.surfaces[known->second] = made;
+    } else if (fresh) {
+        known->second = static_cast<physics::uint>(state_.surfaces.size());
+        state_.surfaces.push_back(made);
+        state_.surface_users.push_back(0);
+    }
+    ++state_.surface_users[known->second];
+    return known->second + 1;
+}
+
+void SceneCompiler::release_surface(physics::BodyProperties& row) {
+    const physics::uint surface = physics::surface_of(row);
+    row.flags &= (1u << physics::ROW_SURFACE_SHIFT) - 1u;
+    if (surface == 0 || --state_.surface_users[surface - 1] > 0) return;
+    state_.shape_places.surfaces.erase(std::bit_cast<std::array<physics::uint, 8>>(state_.surfaces[surface - 1]));
+    state_.spare_surfaces.push_back(surface - 1);
+}
+
+void SceneCompiler::set_surface(physics::BodyProperties& row, const Material& material) {
+    release_surface(row);
+    row.friction = material.friction;
+    row.restitution = material.restitution;
+    row.rolling_resistance = material.rolling_resistance;
+    row.flags |= place_of(material) << physics::ROW_SURFACE_SHIFT;
+}
+
 void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
     const physics::BodyProperties whole = state_.properties[owner];
     const Material own = material_of(body);

@@ -323,7 +323,7 @@ TableRanges StateEditor::needed_to_rejoin() const {
     return needed;
 }
 
-TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without) {
+TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without, std::span<const std::size_t> fresh) {
     const std::vector<physics::Joint> joints_before = state_.joints;
     const std::vector<physics::Vehicle> vehicles_before = state_.vehicles;
     TableRanges changed;
@@ -349,6 +349,7 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
     state_.joint_records = std::move(made.record_of);
     state_.fixed().joint_blocks = made.blocks;
     for (std::size_t j = 0; j < std::min(before.size(), state_.joint_records.size()); ++j) {
+        if (std::find(fresh.begin(), fresh.end(), j) != fresh.end()) continue;
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         const physics::Joint& was = before[j];
         std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with their warm start

@@ -39,9 +39,10 @@ public:
     TableRanges place_parts(std::uint32_t id);  // of a body that does not move by itself
     // The filters of all rows, and the excluded pairs.
     TableRanges filter(const Scene& scene);
-    // Replaces the joints by the scene's: the present ones without `without`, then new ones.
+    // Replaces the joints by the scene's: the present ones without `without`, but for `fresh` ones, which are new.
     TableRanges needed_to_rejoin() const;
-    TableRanges rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
+    TableRanges rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt,
+                       std::span<const std::size_t> fresh = {});
 
 private:
     bool has_room_for(std::uint32_t bodies, bool with_parts) const;

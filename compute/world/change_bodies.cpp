@@ -90,6 +90,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         if (change.velocity) velocity.linear = *change.velocity;
         if (change.angular_velocity) velocity.angular = *change.angular_velocity;
         state.sleep_states[row] = 0;
+        arrivals.erase(change.body);
         const Body& body = scene.bodies[change.body];
         if (body.motion == Motion::dynamic || !(change.position || change.orientation)) continue;
         state.fixed().wake_all = 1;
@@ -199,6 +200,7 @@ void World::set_motion(std::size_t body, Motion motion) {
     }
     in.change(
         body, [&](Body& b) { b.motion = motion; }, true);
+    in.arrivals.erase(body);
     if (motion == Motion::fixed) {
         const std::uint32_t row = in.state.row_of(body);
         const TableRanges still{{Table::velocities, row, 1}};

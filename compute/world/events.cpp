@@ -297,6 +297,10 @@ void Events::note_joints(const Scene& scene, const State& state) {
     for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j] = state.joints[state.joint_records[j]].broken != 0;
 }
 
+void Events::forget_joint(std::size_t joint) {
+    if (joint < joints_.size()) joints_[joint] = 1;
+}
+
 void Events::compare_joints(const Seen& seen) {
     if (joints_.size() != seen.scene.joints.size()) return note_joints(seen.scene, seen.state);
     for (std::size_t j = 0; j < joints_.size(); ++j) {

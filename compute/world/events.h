@@ -29,6 +29,7 @@ public:
     void end_contacts_of(const std::vector<std::size_t>& gone, const State& state, const std::vector<std::uint32_t>& generations,
                          std::uint64_t step);
     void note_joints(const Scene& scene, const State& state);  // their indices have changed
+    void forget_joint(std::size_t joint);                      // it is removed
     std::vector<Event> take();
 
     void put(ByteWriter& out) const;
