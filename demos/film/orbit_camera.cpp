@@ -9,14 +9,14 @@ namespace scree::demos {
 
 namespace {
 constexpr float steepest = 1.55f;                      // rad: the azimuth is undefined at the pole
-constexpr float nearest = 0.05f, farthest = 20000.0f;  // m
+constexpr float least_distance = 0.05f, greatest_distance = 20000.0f;  // m
 constexpr float turn_of_a_pixel = 0.006f;              // rad
 constexpr float chasing_elevation = 0.28f;             // rad
 }  // namespace
 
 OrbitCamera::OrbitCamera(const Viewpoint& view) : target_(view.target), vertical_fov_(view.vertical_fov) {
     const vec3 back = view.eye - view.target;
-    distance_ = std::clamp(glm::length(back), nearest, farthest);
+    distance_ = std::clamp(glm::length(back), least_distance, greatest_distance);
     azimuth_ = std::atan2(back.x, back.z);
     elevation_ = std::clamp(std::asin(std::clamp(back.y / glm::length(back), -1.0f, 1.0f)), -steepest, steepest);
 }
@@ -51,7 +51,7 @@ void OrbitCamera::pan(double dx, double dy, Extent extent) {
 }
 
 void OrbitCamera::zoom(double clicks) {
-    distance_ = std::clamp(distance_ * std::pow(0.88f, static_cast<float>(clicks)), nearest, farthest);
+    distance_ = std::clamp(distance_ * std::pow(0.88f, static_cast<float>(clicks)), least_distance, greatest_distance);
 }
 
 void OrbitCamera::chase(vec3 target, vec3 ahead, float distance, double seconds) {

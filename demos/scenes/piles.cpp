@@ -10,8 +10,8 @@ namespace scree::demos {
 
 namespace {
 
-constexpr float largest_reach = 0.42f;  // m
-constexpr float cell = 2 * largest_reach;
+constexpr float pile_reach = 0.42f;  // m
+constexpr float pile_cell = 2 * pile_reach;
 
 // Bodies in a lattice above a pit that is twice as wide as the lattice is high.
 DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), float smallest_reach) {
@@ -20,18 +20,18 @@ DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), f
     Scene scene;
     scene.bodies.reserve(count + 5);
     scene.bodies.push_back(ground());
-    const float half = 0.5f * cell * static_cast<float>(side) + 0.1f;
-    const float wall = 0.4f * cell * static_cast<float>(side);
+    const float half = 0.5f * pile_cell * static_cast<float>(side) + 0.1f;
+    const float wall = 0.4f * pile_cell * static_cast<float>(side);
     add_pit(scene, {half, wall, half}, 0.5f);
     Random random(options.seed);
     float top = 0;
     for (std::size_t i = 0; i < count; ++i) {
         const auto n = static_cast<std::size_t>(side);
-        Body body = make(random.between(smallest_reach, largest_reach), random);
+        Body body = make(random.between(smallest_reach, pile_reach), random);
         const vec3 place(static_cast<float>(i % n) - 0.5f * static_cast<float>(side - 1), static_cast<float>(i / (n * n)) + 0.55f,
                          static_cast<float>(i / n % n) - 0.5f * static_cast<float>(side - 1));
-        body.position = place * cell;
-        top = body.position.y + largest_reach;
+        body.position = place * pile_cell;
+        top = body.position.y + pile_reach;
         scene.bodies.push_back(body);
     }
     const float outside = half + 0.5f;

@@ -171,14 +171,16 @@ private:
     fs::path folder_;
 };
 
+// Lines are stripped before optimising, which takes a quarter longer with them; messages about inexact instructions
+// name lines, so a module that has any is optimised again with them.
 bool embed_words(const Task& task, const Variant& variant, const std::vector<std::uint32_t>& compiled) {
-    const std::vector<std::uint32_t> words = optimized(compiled);
-    const std::vector<std::string> inexact = task.forbid_inexact ? inexact_instructions(words) : std::vector<std::string>{};
-    for (const std::string& instruction : inexact)
-        std::cerr << task.source.string() << ": " << instruction << ": its result differs between devices; spell it with + - *\n";
-    const std::vector<std::uint32_t> ready = without_lines(without_contraction(words));
+    const std::vector<std::uint32_t> words = optimized(without_lines(compiled));
+    const std::vector<std::uint32_t> ready = without_contraction(words);
     write_atomically(task.folder / (variant.name + ".words"), std::as_bytes(std::span(ready)));
-    return inexact.empty();
+    if (!task.forbid_inexact || inexact_instructions(words).empty()) return true;
+    for (const std::string& instruction : inexact_instructions(optimized(compiled)))
+        std::cerr << task.source.string() << ": " << instruction << ": its result differs between devices; spell it with + - *\n";
+    return false;
 }
 
 int compile(const Task& task) {
