@@ -85,6 +85,7 @@ struct Body {
     float linear_damping = 0;   // 1/s, >= 0
     float angular_damping = 0;  // 1/s, >= 0
     float gravity_scale = 1;
+    float drag = 1;                      // drag coefficient, >= 0, in Fields::wind and Fields::water
     std::uint64_t user_data = 0;         // the user's own; no result depends on it
     std::optional<Filter> filter{};      // which bodies it collides with; none: all
     std::optional<Tyre> tyre{};          // of spheres, capsules, cylinders, also as parts; none: Coulomb friction
@@ -225,12 +226,39 @@ struct Exclusion {
     bool operator==(const Exclusion& o) const { return a == o.a && b == o.b; }
 };
 
+// ---- fields, which act on all dynamic bodies that are awake
+struct Wind {
+    vec3 velocity{0};      // m/s
+    float density = 1.2f;  // of the air, kg/m^3; 0.5 density drag area speed^2 is the force on a body
+};
+// A plane of water: buoyancy by the submerged volume, drag, damping.
+struct Water {
+    vec3 normal{0, 1, 0};  // up; normalised when the scene is checked
+    float offset = 0;      // m, of the surface along the normal from the origin
+    float density = 1000;  // kg/m^3
+    vec3 velocity{0};      // m/s
+    float damping = 0.5f;  // 1/s, of velocity and spin of what is submerged
+};
+struct Attractor {  // pulls with strength / distance^2
+    vec3 position{0};
+    float strength = 0;  // m^3/s^2; < 0: pushes away
+};
+constexpr std::size_t most_attractors = 4;
+struct Fields {
+    std::optional<Wind> wind{};
+    std::optional<Water> water{};
+    std::vector<Attractor> attractors{};  // at most most_attractors
+    float attractor_radius = 0.5f;        // m, within which their pull no longer grows
+    bool any() const { return wind || water || !attractors.empty(); }
+};
+
 struct Scene {
     vec3 gravity{0, -9.81f, 0};  // m/s^2
     std::vector<Body> bodies;
     std::vector<Joint> joints;
     std::vector<Vehicle> vehicles{};
     std::vector<Exclusion> exclusions{};
+    Fields fields{};
 };
 
 // A joint of two bodies of the scene (or the world) at their present poses, from anchor and x axis in world
@@ -261,6 +289,9 @@ struct MassProperties {
 };
 MassProperties mass_properties(const Shape& shape, float density);
 MassProperties mass_properties(const Body& body);  // of a checked body
+
+// Refuses fields out of range with SceneError, and makes the water's normal a unit vector; checked() calls it.
+void check_world_fields(Fields& fields);
 
 Material material_of(const Body& body);
 void set_material(Body& body, const Material& material);  // parts keep those of their own

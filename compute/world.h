@@ -200,6 +200,7 @@ public:
     // From the next step on; these wake all bodies. They throw like the validation of a scene or of Settings.
     void set_gravity(vec3 gravity);          // m/s^2
     void set_friction_factor(float factor);  // scales the friction of every pair, 0 to 10
+    void set_fields(const Fields& fields);   // wind, water, attractors; throws SceneError
     // Lower bound of every pair's restitution, 0 to 1.
     void set_least_restitution(float restitution);
     // From the next step on. Reads contacts and joints back and uploads them again once.
@@ -301,8 +302,10 @@ public:
     QueryLists<QueryHit> cast_rays_through(
         std::span<const RayQuery> rays) const;  // the first of each body and part, near ones first
     std::vector<std::optional<QueryHit>> cast_shapes(std::span<const ShapeCast> casts) const;  // the nearest of each
-    QueryLists<QueryPart> overlaps(std::span<const ShapeOverlap> shapes) const;                // all, by body and part
-    JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
+    // The nearest point of each; `distance` is that from the query's point, 0 in a body.
+    std::vector<std::optional<QueryHit>> closest_points(std::span<const ClosestQuery> points) const;
+    QueryLists<QueryPart> overlaps(std::span<const ShapeOverlap> shapes) const;  // all, by body and part
+    JointState joint(std::size_t index) const;                                   // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
     VehicleState vehicle(std::size_t index) const;  // throws std::out_of_range; reads all vehicles
     std::vector<VehicleState> vehicles() const;

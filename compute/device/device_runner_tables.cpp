@@ -65,6 +65,7 @@ std::size_t room_behind(const State& state, BufferLength length) {
         case BufferLength::pieces:
         case BufferLength::tyres:
         case BufferLength::surfaces:
+        case BufferLength::immersions:
         case BufferLength::filters:
         case BufferLength::exclusions:
         case BufferLength::joints:

@@ -116,6 +116,7 @@ inline constexpr auto table<Body> = std::apply(
             // how it moves
             field("linear_damping", &Body::linear_damping, between(0, 1e4), "1/s", "Rate at which its velocity decays"),
             field("angular_damping", &Body::angular_damping, between(0, 1e4), "1/s", "Rate at which its angular velocity decays"),
+            field("drag", &Body::drag, between(0, 1e3), "", "Drag coefficient in wind and water"),
             field("gravity_scale", &Body::gravity_scale, within(1e3), "", "Factor on gravity"),
             field("user_data", &Body::user_data, between(0, 18446744073709551615.0), "",
                   "A number of the user's own; no result depends on it"),

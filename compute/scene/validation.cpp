@@ -75,9 +75,19 @@ void check_exclusions(const Scene& scene) {
 SceneError::SceneError(std::string place, const std::string& reason)
     : std::runtime_error(place.empty() ? reason : place + ": " + reason), pointer(std::move(place)) {}
 
+void check_world_fields(Fields& of_world) {
+    const Examination at = Examination() / "fields";
+    if (of_world.water) at.make_unit("/water/normal", of_world.water->normal, "it says which way the water faces");
+    if (of_world.attractors.size() > most_attractors)
+        at.refuse("/attractors", "at most " + std::to_string(most_attractors) + " attractors, are " +
+                                     std::to_string(of_world.attractors.size()));
+    fields::check_fields(at, of_world);
+}
+
 Scene checked(Scene scene, std::vector<std::string>* notes) {
     CheckedHulls hulls;
     fields::check_field(Examination(), scene, fields::field_of(&Scene::gravity));
+    check_world_fields(scene.fields);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].piece_of != no_body) continue;  // fragments of a scene checked before
         const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], hulls, notes);

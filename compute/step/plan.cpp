@@ -81,6 +81,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     // forces and actions, world bounds
     s.add("begin_step");
     s.add("apply_actions");
+    if (features.fields) s.add("apply_fields");  // after impulses: a repeated step sees the same velocities
     if (features.vehicles) s.add("drive_vehicles");
     if (features.moving_parts) s.add("pose_parts");
     s.add("compute_bounds");

@@ -120,6 +120,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
     filter(scene);
+    set_fields(scene);
     state_.allocate();
     for (std::uint32_t i = 0; i < n; ++i) {
         state_.poses[i] = start_of(scene.bodies[i]);

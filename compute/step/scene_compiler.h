@@ -38,6 +38,10 @@ public:
     void release_surface(physics::BodyProperties& row);
     static void set_mass(physics::BodyProperties& properties, const Body& body);  // and motion
 
+    // field_records.cpp: parameters of fields, and how bodies meet air and water (none in a scene without both).
+    void set_fields(const Scene& scene);
+    static physics::Immersion immersion_of(const Body& body);
+
     // filter_records.cpp: the tables of filters and exclusions, empty if the scene has none.
     void filter(const Scene& scene);
 

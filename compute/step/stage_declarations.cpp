@@ -209,6 +209,9 @@ std::vector<StageDeclaration> declare() {
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
         {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {forces, A::actions}},
         {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
+    all.push_back({"apply_fields", DispatchDomain::bodies, apply_fields,
+        {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}},
+        {some_only({forces, A::movers})}, physics::FEATURE_REORDERED});
     all.push_back({"drive_vehicles", DispatchDomain::vehicles, drive_vehicles,
         {{counts}, {vehicles, A::vehicles}, {properties}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {way_points}},
         {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({sleep_states, A::joints})}});

@@ -79,6 +79,8 @@ std::size_t State::allocated(BufferLength length) const {
             return tyres.size();
         case BufferLength::surfaces:
             return surfaces.size();
+        case BufferLength::immersions:
+            return immersions.size();
         case BufferLength::way_points:
             return way_points.size();
         case BufferLength::filters:
@@ -121,6 +123,7 @@ SceneFeatures State::features() const {
     found.joints = has_joints();
     found.vehicles = fixed().vehicles != 0;
     found.reordered = reordered();
+    found.fields = fixed().air_density > 0 || fixed().water_density > 0 || fixed().attractors > 0;
     found.surfaces = !surfaces.empty();
     found.filters = !filters.empty();
     found.sums = found.breaking || sums_impulses;

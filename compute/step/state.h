@@ -40,6 +40,7 @@ enum class BufferLength {
     pieces,
     tyres,
     surfaces,
+    immersions,
     way_points,
     filters,
     exclusions,
@@ -86,6 +87,7 @@ struct SceneFeatures {
     bool round = false;      // there are spheres or capsules
     bool tyres = false;      // some body has a tyre
     bool reordered = false;  // rows differ from ids
+    bool fields = false;     // there is wind, water or an attractor
     bool surfaces = false;   // some material has more than friction, restitution and rolling resistance
     bool filters = false;    // some body has a collision filter or an excluded partner
     bool sums = false;       // contacts sum their impulses over the step
@@ -102,13 +104,14 @@ struct SceneFeatures {
                 .round = true,
                 .tyres = true,
                 .reordered = true,
+                .fields = true,
                 .surfaces = true,
                 .filters = true,
                 .sums = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 15 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 16 * sizeof(bool));  // everything() names all
 
 inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 

@@ -213,6 +213,11 @@ TableRanges StateEditor::put(const Body& body, std::uint32_t id) {
         changed.push_back({Table::fractures, state_.properties[row].fracture, 1});
     append(changed, surface_ranges(row, 1));
     append(changed, surface_ranges(first_part, parts));
+    if (!state_.immersions.empty()) {
+        state_.immersions.resize(state_.body_count);
+        state_.immersions[id] = SceneCompiler::immersion_of(body);
+        changed.push_back({Table::immersions, id, 1});
+    }
     append(changed, rows_added(rows_before, p.bodies - rows_before));
     append(changed, shapes_added(state_, before));
     return changed;
@@ -306,6 +311,13 @@ TableRanges StateEditor::place_parts(std::uint32_t id) {
     SceneCompiler compiler(state_);
     for (std::uint32_t part = first; part < first + count; ++part) compiler.place(part);
     return {{Table::poses, first, count}, {Table::velocities, first, count}, {Table::sleep_states, first, count}};
+}
+
+TableRanges StateEditor::set_fields(const Scene& scene) {
+    const std::vector<physics::Immersion> before = state_.immersions;
+    SceneCompiler(state_).set_fields(scene);
+    state_.allocate();
+    return differing(Table::immersions, before, state_.immersions);
 }
 
 TableRanges StateEditor::filter(const Scene& scene) {

@@ -37,6 +37,7 @@ public:
     // Material, mass and motion of a body and its parts. Needs their properties.
     TableRanges change(const Body& body, std::uint32_t id);
     TableRanges place_parts(std::uint32_t id);  // of a body that does not move by itself
+    TableRanges set_fields(const Scene& scene);
     // The filters of all rows, and the excluded pairs.
     TableRanges filter(const Scene& scene);
     // Replaces the joints by the scene's: the present ones without `without`, but for `fresh` ones, which are new.

@@ -99,6 +99,7 @@ struct World::Impl::Edits {
     std::uint32_t births = 0;
     std::vector<Vehicle> vehicles;
     std::vector<Exclusion> exclusions;
+    Fields fields;
 };
 
 const std::vector<std::byte>& World::Impl::edits_now() const {
@@ -129,6 +130,7 @@ const std::vector<std::byte>& World::Impl::edits_now() const {
     out.put(births);
     put_value(out, scene.vehicles);
     put_value(out, scene.exclusions);
+    put_value(out, scene.fields);
     edits = std::move(out.bytes());
     return edits;
 }
@@ -171,6 +173,7 @@ World::Impl::Edits World::Impl::read_edits(std::span<const std::byte> bytes) con
         refuse("the checkpoint is damaged: its joints do not fit together");
     take_value(in, made.vehicles);
     take_value(in, made.exclusions);
+    take_value(in, made.fields);
     if (made.bodies < bodies_at_start) refuse("the checkpoint is damaged: it lacks bodies of the scene");
     return made;
 }
@@ -217,6 +220,7 @@ void World::Impl::take_edits(Edits&& made, std::span<const std::byte> bytes) {
     births = made.births;
     scene.vehicles = std::move(made.vehicles);
     scene.exclusions = std::move(made.exclusions);
+    scene.fields = std::move(made.fields);
     edits.assign(bytes.begin(), bytes.end());
 }
 

@@ -117,6 +117,17 @@ void World::Impl::retune(const Settings& changed) {
     runner->upload(ranges);
 }
 
+void World::set_fields(const Fields& fields) {
+    Impl& in = *interior_;
+    Fields changed = fields;
+    check_world_fields(changed);
+    in.scene.fields = std::move(changed);
+    const TableLengths before = TableLengths::of(in.state);
+    in.send(StateEditor(in.state).set_fields(in.scene), before);
+    in.edits.clear();
+    wake_all();
+}
+
 void World::set_gravity(vec3 gravity) {
     interior_->scene.gravity = checked(Scene{gravity, {}, {}}).gravity;
     interior_->retune(interior_->settings);

@@ -31,9 +31,13 @@ std::string name_of(const Joint& joint, std::size_t index) {
 
 }  // namespace
 
+void World::Impl::require_joint_index(std::size_t joint) const {
+    if (joint < scene.joints.size()) return;
+    throw std::out_of_range("joint " + std::to_string(joint) + " of " + std::to_string(scene.joints.size()));
+}
+
 void World::Impl::require_joint(std::size_t joint) const {
-    if (joint >= scene.joints.size())
-        throw std::out_of_range("joint " + std::to_string(joint) + " of " + std::to_string(scene.joints.size()));
+    require_joint_index(joint);
     if (is_joint_gone(joint)) throw std::out_of_range(name_of(scene.joints[joint], joint) + " has been removed");
 }
 
@@ -88,7 +92,7 @@ void World::Impl::wake(const Joint& joint) {
 }
 
 JointState World::joint(std::size_t index) const {
-    interior_->require_joint(index);
+    interior_->require_joint_index(index);
     interior_->bring(body_ranges);
     interior_->bring(joint_ranges);
     return interior_->joint_state(index);

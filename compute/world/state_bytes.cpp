@@ -117,6 +117,7 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put_list(std::span(state.filters));
     out.put_list(std::span(state.exclusions));
     out.put_list(std::span(state.surfaces));
+    out.put_list(std::span(state.immersions));
 }
 
 StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
@@ -138,7 +139,7 @@ StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
     vehicles_ = in.take_records(sizeof(physics::Vehicle));
     constexpr std::array sizes{sizeof(physics::uvec4),      sizeof(physics::PoseInBody), sizeof(physics::Fracturing),
                                sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::uvec4),
-                               sizeof(physics::uvec4),      sizeof(physics::Surface)};
+                               sizeof(physics::uvec4),      sizeof(physics::Surface),    sizeof(physics::Immersion)};
     for (std::size_t i = 0; i < sizes.size(); ++i) shapes_[i] = in.take_records(sizes[i]);
     const std::size_t parts = shapes_[1].size() / sizeof(physics::PoseInBody);
     const auto in_range = [](const auto& list, std::size_t end) {
@@ -175,6 +176,7 @@ TableRanges StateBytes::restore(State& state) const {
     assign(state.filters, shapes_[5]);
     assign(state.exclusions, shapes_[6]);
     assign(state.surfaces, shapes_[7]);
+    assign(state.immersions, shapes_[8]);
     for (const auto& [table, bytes] : tables_) state.make(table);
     state.allocate();
     for (const auto& [table, bytes] : tables_)
@@ -195,6 +197,7 @@ TableRanges StateBytes::restore(State& state) const {
     add(Table::filters, 0, state.filters.size());
     add(Table::exclusions, 0, state.exclusions.size());
     add(Table::surfaces, 0, state.surfaces.size());
+    add(Table::immersions, 0, state.immersions.size());
     return changed;
 }
 

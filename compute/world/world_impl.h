@@ -89,7 +89,8 @@ struct World::Impl {
     void bring(TableRanges (*ranges)(const State&)) const { runner->download(ranges(state)); }
 
     // joints.cpp
-    void require_joint(std::size_t joint) const;  // throws std::out_of_range
+    void require_joint_index(std::size_t joint) const;  // throws std::out_of_range
+    void require_joint(std::size_t joint) const;        // likewise for one that was removed
     JointState joint_state(std::size_t i) const;
     // Rebuilds the joint records from the scene; those of `fresh` joints are new, not those of joints that had their indices.
     void rejoin(std::optional<std::size_t> without = std::nullopt, std::span<const std::size_t> fresh = {});

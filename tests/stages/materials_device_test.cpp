@@ -18,6 +18,19 @@ TEST_CASE("every stage gives the same bits on both processors for materials, sen
     for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
 }
 
+TEST_CASE("every stage gives the same bits on both processors in wind and water", "[vulkan]") {
+    std::shared_ptr<host::Device> device = host::Device::open({.which = "", .validation = true, .on_message = {}});
+    Scene scene = tests::belts(40);
+    scene.fields = {.wind = Wind{.velocity = {4, 0, 1}},
+                    .water = Water{.offset = 0.4f, .velocity = {0.3f, 0, 0}},
+                    .attractors = {{.position = {0, 3, 0}, .strength = 20}}};
+    const LockstepResult result = compare_in_lockstep(scene, {}, device, 1, 60);
+    INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                 << result.detail);
+    REQUIRE(result.equal);
+    for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
+}
+
 TEST_CASE("a device gives the bits and the events of the CPU while materials change and kinematic bodies move to targets",
           "[vulkan]") {
     const auto device = host::Device::open(

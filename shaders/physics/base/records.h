@@ -74,6 +74,16 @@ CONSTANT uint COMBINE_AVERAGE = 2u;
 CONSTANT uint COMBINE_MINIMUM = 3u;
 CONSTANT uint COMBINE_MULTIPLY = 4u;
 CONSTANT uint COMBINE_MAXIMUM = 5u;
+// How a body meets air and water (fields.h).
+struct Immersion {
+    vec3 half_extents;  // of a box, or of an ellipsoid, of the body's volume, body axes, m
+    float volume;       // m^3
+    vec3 centre;        // of the volume, from the centre of mass, body axes, m
+    float drag;         // coefficient
+    uint is_round;      // 1: an ellipsoid
+    uint pad0, pad1, pad2;
+};
+CONSTANT uint MOST_ATTRACTORS = 4u;
 // Tyre friction (tyre.h).
 struct Tyre {
     float best_slip;  // slip of greatest friction
@@ -447,9 +457,21 @@ struct Parameters {  // uniform over a step
     uint filters_offset;
     uint exclusions_offset;
     uint surfaces_offset;
+    uint immersions_offset;
     uint removed;  // 1: bodies were removed since the last step; sleepers that touched them wake
+    // Fields (fields.h).
+    vec3 wind;               // m/s
+    float air_density;       // kg/m^3; 0: no air
+    vec3 water_normal;       // unit, up
+    float water_offset;      // of its surface along the normal, m
+    vec3 water_velocity;     // m/s
+    float water_density;     // kg/m^3; 0: no water
+    float water_damping;     // 1/s
+    float attractor_radius;  // m
+    uint attractors;         // number of them
     uint pad0;
-    Grip grips[4];  // MOST_GRIPS
+    vec4 attractor[4];  // MOST_ATTRACTORS. xyz: position, m; w: strength, m^3/s^2
+    Grip grips[4];      // MOST_GRIPS
 };
 
 // Features of a scene; shaders are specialised to leave out the others.
