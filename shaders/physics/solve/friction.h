@@ -26,6 +26,7 @@
 #define SCREE_PHYSICS_FRICTION_H
 
 #include "shaders/physics/solve/jacobian.h"
+#include "shaders/physics/solve/surface.h"
 
 LAWS_BEGIN
 
@@ -51,15 +52,21 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
     float determinant = reciprocal(dot3(x, yz));
     vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
     vec3 stopping = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
-    vec3 before = s.impulse.rolling;
-    float most = c.rolling_resistance * normal;
-    vec3 after = flush_tiny(before - stopping);
+    bool spins = c.rolling_resistance < 0.0f;  // freely, but for the friction of the patch
+    if (!none(spins)) {
+        spin = choose(spins, spin - c.normal * dot3(c.normal, spin), spin);
+        stopping = choose(spins, stopping - c.normal * dot3(c.normal, stopping), stopping);
+    }
+    vec3 before = s.impulse.rolling, from = before;
+    if (!none(spins)) from = choose(spins, before - c.normal * dot3(c.normal, before), before);
+    float most = abs(c.rolling_resistance) * normal;
+    vec3 after = flush_tiny(from - stopping);
     bool rolls = dot3(after, after) > most * most;
     if (!none(rolls)) {
         // The greatest row sum is not below the greatest eigenvalue, and equal to it for a ball.
         vec3 sums = (absolute3(x) + absolute3(y)) + absolute3(z);
         float greatest = larger(sums.x, larger(sums.y, sums.z));
-        after = choose(rolls, flush_tiny(shortened(flush_tiny(before - spin * reciprocal(greatest)), most)), after);
+        after = choose(rolls, flush_tiny(shortened(flush_tiny(from - spin * reciprocal(greatest)), most)), after);
     }
     s.impulse.rolling = after;
     s.pair_velocity = twisted(s.pair_velocity, after - before, a, a.split, b, b.split);
@@ -106,6 +113,8 @@ LAW Anchor anchor_of_pass(Constraint c, bool biased, Parameters parameters) {
 LAW Impulse stretched(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
     vec3 slip = velocity_at(r, v);
+    bool driven = is_driven(c);
+    if (!none(driven)) slip = choose(driven, slip + drive_of(c), slip);
     vec3 wa = v.a.angular, wb = v.b.angular;
     bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
     if (!none(turns)) {
@@ -222,6 +231,12 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
         v.b.angular = v.b.angular + response_b * stopping;
     }
     FrictionBlock k = friction_block(lever_arms(c, c.centre, s.impulse.center_offset), c.normal, v, a, b, parameters);
+    // The block's tangents are those of the drive.
+    bool driven = is_driven(c);
+    if (!none(driven)) {
+        k.slip1 = choose(driven, k.slip1 + c.arms[0].w * k.unit, k.slip1);
+        k.slip2 = choose(driven, k.slip2 + c.arms[1].w * k.unit, k.slip2);
+    }
     if (!none(slips)) {
         float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * k.unit, MAX_COMPLIANCE);
         k = with_compliance(k, slips, compliance, before.friction);
@@ -236,7 +251,11 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     // Beyond the limit surface?
     float arm = choose(twists, c.twist_arm, 1.0f);
     float hold = reciprocal(larger(most, LEAST_HOLD));
-    float x = dot3(after.friction, after.friction) * hold * hold, y = after.twist * hold;
+    // What sticks holds up to the static friction; what does not slides by the dynamic one.
+    float hold_sticking = hold;
+    bool clings = c.arms[2].w > 0.0f;
+    if (!none(clings)) hold_sticking = choose(clings, reciprocal(larger(c.arms[2].w * normal, LEAST_HOLD)), hold);
+    float x = dot3(after.friction, after.friction) * hold_sticking * hold_sticking, y = after.twist * hold_sticking;
     y = smaller(y * y, 4.0f * arm * arm);
     bool slides = holds && x * (arm * arm + LIMIT_COUPLING * y) + y > arm * arm;
     if (!none(slides)) {
@@ -291,7 +310,7 @@ LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, 
                                      Parameters parameters) {
     bool acts = normal != 0.0f || has_friction(s.impulse);
     if (none(acts)) return s;
-    bool resists = acts && c.rolling_resistance > 0.0f;
+    bool resists = acts && c.rolling_resistance != 0.0f;
     SolveResult after = s;
     if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
     return choose(acts, solve_friction(c, after, normal, a, b, biased, parameters), s);
