@@ -8,10 +8,10 @@
 namespace scree::demos {
 
 namespace {
-constexpr float steepest = 1.55f;                      // rad: the azimuth is undefined at the pole
+constexpr float steepest = 1.55f;                                      // rad: the azimuth is undefined at the pole
 constexpr float least_distance = 0.05f, greatest_distance = 20000.0f;  // m
-constexpr float turn_of_a_pixel = 0.006f;              // rad
-constexpr float chasing_elevation = 0.28f;             // rad
+constexpr float turn_of_a_pixel = 0.006f;                              // rad
+constexpr float chasing_elevation = 0.28f;                             // rad
 }  // namespace
 
 OrbitCamera::OrbitCamera(const Viewpoint& view) : target_(view.target), vertical_fov_(view.vertical_fov) {

@@ -10,6 +10,7 @@
 #include "compute/step/state.h"
 #include "demos/film/camera.h"
 #include "demos/film/camera_track.h"
+#include "demos/film/channel_writer.h"
 #include "demos/film/drawing.h"
 #include "demos/film/style.h"
 #include "demos/program/option_parsing.h"
@@ -86,6 +87,7 @@ struct Pictures::Impl {
     int factor;  // by which pictures are drawn larger
     CameraTrack track;
     std::string cameras;  // file; may be empty
+    std::optional<ChannelWriter> channels;
     PictureTimes times;
     int begun = 0;             // pictures
     int before = 0;            // of those, due before a resumed run
@@ -124,6 +126,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
                    factor_of(options),
                    CameraTrack(options.width, options.height),
                    options.cameras,
+                   {},
                    {}}) {
     Impl& in = *interior_;
     host::FrameWriterOptions writer;
@@ -137,6 +140,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
     in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world));
+    if (!options.channels.empty()) in.channels.emplace(options, world);
     if (world.steps() > 0) {
         const double half_step = 0.5 / world.settings().rate;
         in.begun = in.before = static_cast<int>(std::ceil((world.time() + half_step) * in.fps));
@@ -157,6 +161,7 @@ void Pictures::after_step() {
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
         if (!in.cameras.empty()) in.track.add(in.world.time(), camera);
         in.drawing->canvas().begin(camera, in.scale, in.caption(), in.low, in.high);
+        if (in.channels) in.channels->add(in.world, camera);
     });
     in.drawing_one = true;
     ++in.begun;

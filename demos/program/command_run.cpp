@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <limits>
+#include <memory>
 
 #include "demos/film/pictures.h"
 #include "demos/play/replay.h"
@@ -14,11 +16,13 @@
 #include "demos/program/commands.h"
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
+#include "demos/program/export_file.h"
 #include "demos/program/interrupt.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/output_check.h"
 #include "demos/program/progress.h"
 #include "demos/program/report.h"
+#include "demos/program/trajectory.h"
 #include "demos/scenes/demos.h"
 #include "demos/suite/recorder.h"
 #include "host/files/file.h"
@@ -32,6 +36,8 @@ struct RunOptions {
     MachineOptions machine;
     PictureOptions pictures;
     CheckpointOptions checkpoints;
+    TrajectoryOptions trajectory;
+    ExportOptions animation;
     std::string report;
     std::string save;             // file for the final scene; may be empty
     std::string input;            // file of recorded input; may be empty
@@ -94,9 +100,35 @@ void hold_to_promise(const LoadedScene& subject, const World& world, std::option
 // One step in this many has stage timestamps, which cost up to a third of a small step on lavapipe.
 constexpr int steps_a_timed_one = 16;
 
+// Files of motion that are written while the run steps.
+class Records {
+public:
+    Records(const RunOptions& options, const World& world) : animation_(make_export(options.animation, world)) {
+        if (!options.trajectory.file.empty()) trajectory_.emplace(options.trajectory, world);
+    }
+    int steps_until_due(const World& world) const {
+        int steps = std::numeric_limits<int>::max();
+        if (trajectory_) steps = std::min(steps, trajectory_->steps_until_due(world));
+        if (animation_) steps = std::min(steps, animation_->steps_until_due(world));
+        return steps;
+    }
+    void after_step(const World& world) {
+        if (trajectory_) trajectory_->after_step(world);
+        if (animation_) animation_->after_step(world);
+    }
+    void finish() {
+        if (trajectory_) trajectory_->finish();
+        if (animation_) animation_->write();
+    }
+
+private:
+    std::optional<Trajectory> trajectory_;
+    std::unique_ptr<GlbExport> animation_;
+};
+
 // Returns false if interrupted.
-bool simulate(const RunOptions& options, const LoadedScene& subject, World& world, Pictures* pictures, Adviser* adviser,
-              RunReport& report) {
+bool simulate(const RunOptions& options, const LoadedScene& subject, World& world, Pictures* pictures, Records& records,
+              Adviser* adviser, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds, world.settings().rate);
     std::optional<Recorder> recorder;
     if (subject.promise) recorder.emplace(world, *subject.promise, subject.seconds, subject.before_step);
@@ -106,6 +138,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
     simulated.substeps = world.settings().substeps;
     Checkpoints checkpoints(options.checkpoints, simulated, steps, options.input);
     if (pictures) pictures->after_step();
+    records.after_step(world);
     const bool reports = !options.report.empty();
     for (int done = static_cast<int>(world.steps()); done < steps;) {
         if (is_interrupted()) {
@@ -120,11 +153,13 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         int unwatched = std::min(steps - done - (reports ? 1 : 0), most_at_once - done % most_at_once);
         unwatched = std::min(unwatched, checkpoints.steps_until_due(world));
         if (adviser) unwatched = std::min(unwatched, adviser->steps_to_next(world));
+        unwatched = std::min(unwatched, records.steps_until_due(world));
         const int count = watched || !waits ? 1 : unwatched;
         steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
         done += count;
         hold_to_promise(subject, world, recorder, report);
         if (pictures) pictures->after_step();
+        records.after_step(world);
         if (done < steps) checkpoints.after_step(world);
         if (adviser) adviser->after_step(world);
         progress.done(done);
@@ -208,8 +243,10 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     const auto start = std::chrono::steady_clock::now();
     std::optional<Adviser> adviser;
     if (!options.quiet || !options.report.empty()) adviser.emplace(world);
-    report.interrupted = !simulate(options, subject, world, pictures, adviser ? &*adviser : nullptr, report);
+    Records records(options, world);
+    report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
     finish_pictures(pictures, report);
+    records.finish();  // an interrupted run has them, too
     report.seconds_running = seconds_since(start);
     report.name = subject.name;
     report.promised = subject.promise.has_value();
@@ -320,6 +357,8 @@ void take_resumed(const CLI::App& command, RunOptions& options) {
 
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command, options.report);
+    require_sense(command, options.trajectory);
+    require_sense(command, options.animation);
     if (!options.checkpoints.resume.empty()) take_resumed(command, options);
     if (!options.input.empty()) {
         options.played = load_input(options.input);
@@ -340,6 +379,8 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->machine);
     add_options(*command, options->pictures);
     add_options(*command, options->checkpoints);
+    add_options(*command, options->trajectory);
+    add_options(*command, options->animation);
     command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command->add_option("--save", options->save, "Scene file of the final state, to continue from in scree or elsewhere.");
     command->add_option(
@@ -356,7 +397,10 @@ void add_run(CLI::App& program, int& status) {
         "  scree run pile --bodies 10k --no-sleep --seconds 15 --save settled.json\n"
         "  scree run settled.json --video later.mp4\n"
         "  scree run avalanche --bodies 100k --seconds 60 --checkpoint run.checkpoint --every 5\n"
-        "  scree run --resume run.checkpoint --checkpoint run.checkpoint");
+        "  scree run --resume run.checkpoint --checkpoint run.checkpoint\n"
+        "  scree run pile --frames out --channels depth,ids,normals,flow --size 640x480\n"
+        "  scree run dominoes --trajectory run.npz\n"
+        "  scree run wrecking --export wrecking.glb");
     command->callback([command, options, &status] {
         options->command_line = words_of_this_program();
         status = run(*command, *options);

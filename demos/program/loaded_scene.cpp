@@ -104,19 +104,12 @@ void require_memory_for_pieces(const Scene& scene, const std::string& what) {
 
 LoadedScene from_file(const std::string& path) {
     LoadedScene subject;
-    subject.name = path;
     try {
         SceneDocument document = load_scene(path, most_bodies());
         require_memory_for_pieces(document.scene, path);
         std::vector<std::string> notes;
-        subject.scene = checked(std::move(document.scene), &notes);
+        subject = subject_of(std::move(document), path, &notes);
         for (const std::string& note : notes) say("scree: note: {}: {}\n", path, note);
-        set_bounds(subject);
-        subject.viewpoint = document.viewpoint ? *document.viewpoint : view_of(subject.low, subject.high, 30, 20);
-        if (document.settings) subject.of_scene = *document.settings;
-        if (document.duration > 0) subject.seconds = static_cast<double>(document.duration);
-        if (document.picture) subject.style = *document.picture;
-        subject.events = std::move(document.events);
     } catch (const SceneError& error) {
         throw UsageError(path + ": " + error.what());
     }
@@ -137,6 +130,19 @@ void require_memory_for(std::size_t bodies) {
     if (bodies <= most_bodies()) return;
     throw UsageError(fmt::format("--bodies {}: beyond memory: they need about {:.3g} GB, {}; ask for fewer", bodies,
                                  static_cast<double>(bodies) * bytes_per_body / 1e9, free_memory()));
+}
+
+LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std::string>* notes) {
+    LoadedScene subject;
+    subject.name = std::move(name);
+    subject.scene = checked(std::move(document.scene), notes);
+    set_bounds(subject);
+    subject.viewpoint = document.viewpoint ? *document.viewpoint : view_of(subject.low, subject.high, 30, 20);
+    if (document.settings) subject.of_scene = *document.settings;
+    if (document.duration > 0) subject.seconds = static_cast<double>(document.duration);
+    if (document.picture) subject.style = *document.picture;
+    subject.events = std::move(document.events);
+    return subject;
 }
 
 Settings LoadedScene::settings(const SceneOptions& options) const {

@@ -3,6 +3,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compute/scene.h"
 #include "compute/scene_file/scene_json.h"
@@ -31,6 +32,9 @@ struct LoadedScene {
 // Throws UsageError naming the nearest demo, the JSON pointer of an error in a file, or how many bodies (fragments
 // included) fit into memory.
 LoadedScene load_subject(const SceneOptions& options);
+
+// A scene that is described in the program. Checks it: throws SceneError. `notes`: as of scree::checked.
+LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std::string>* notes = nullptr);
 
 // The scene as a file says it.
 SceneDocument document_of(const LoadedScene& subject);

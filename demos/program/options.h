@@ -55,6 +55,8 @@ struct CameraOptions {
 struct PictureOptions {
     std::string frames, video, preview, raw;  // empty: none
     std::string cameras;                      // JSON file of each picture's camera; may be empty
+    std::vector<std::string> channels;        // depth, ids, parts, normals, flow (demos/film/channels.h)
+    std::string channel_files = "both";       // npy, png or both
     std::string canvas = "auto";              // auto, vulkan or gl
     int width = 1280, height = 720;
     int bits = 8;  // per channel

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 
+#include "demos/film/channels.h"
 #include "demos/film/style.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
@@ -113,6 +114,23 @@ void add_outputs(CLI::App& command, PictureOptions& options) {
                     "JSON file with the camera of each picture: pose, world-to-camera matrix, focal length in pixels.")
         ->group(group);
     command
+        .add_option("--channels", options.channels,
+                    "Channels of each frame as files beside it, separated by commas: depth (m, along the optical axis), ids (of "
+                    "bodies), parts (of compounds, triangles of meshes), normals (of the world), flow (pixels since the frame "
+                    "before). Exact at pixel centres, and the same bits on every backend; needs --frames.")
+        ->check(one_of(channel_words()))
+        ->delimiter(',')
+        ->expected(1)
+        ->take_all()
+        ->group(group);
+    command
+        .add_option(
+            "--channel-files", options.channel_files,
+            "Files of --channels: npy (float32 and int32; nothing is inf, -1 or 0), png (16 bits: depth in mm, ids and "
+            "parts + 1, 0 for nothing, normals from -1 to 1, flow 64 levels a pixel about 32768), or both. Default: both.")
+        ->check(one_of({"npy", "png", "both"}))
+        ->group(group);
+    command
         .add_option_function<std::string>("--size", Set([&options](const std::string& word) { set_size(options, word); }),
                                           "Picture size in pixels, WIDTHxHEIGHT. Default: 1280x720.")
         ->group(group);
@@ -143,6 +161,9 @@ void PictureOptions::require_sense(const CLI::App& command, const std::string& r
         const auto [other, is_new] = taken.emplace(place, option);
         if (!is_new) throw UsageError(fmt::format("{} and {}: both are {}; name another file", other->second, option, *name));
     }
+    if (!channels.empty() && frames.empty()) throw UsageError("--channels: are files beside frames; add --frames DIR");
+    if (channels.empty() && command.count("--channel-files") != 0)
+        throw UsageError("--channel-files: no channels are asked for; add --channels depth,ids");
     if (wanted()) return;
     for (const CLI::Option* option : command.get_options()) {
         const std::string& group = option->get_group();

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 
@@ -168,6 +169,24 @@ void set_scale(Frame& frame, const ColorScale& scale) {
 }
 
 }  // namespace
+
+PixelRays pixel_rays(const Camera& camera, int width, int height) {
+    CanvasOptions options;
+    options.width = width;
+    options.height = height;
+    Frame frame{};
+    set_camera(frame, camera, options);
+    const float before = camera.orthographic ? (ORTHOGRAPHIC_REACH - 1) * glm::length(camera.target - camera.eye) : 0;
+    return {camera.eye,          vec3(frame.ray_corner), vec3(frame.ray_right), vec3(frame.ray_down),
+            vec3(frame.forward), frame.ray_corner.w,     camera.orthographic,   before};
+}
+
+glm::vec2 PixelRays::pixel_of(vec3 point) const {
+    const float ahead = glm::dot(point, forward);
+    if (!orthographic && !(ahead > 0)) return glm::vec2(std::numeric_limits<float>::infinity());
+    const vec3 from_corner = (orthographic ? point - forward * ahead : point / ahead) - corner;
+    return {glm::dot(from_corner, right) / glm::dot(right, right), glm::dot(from_corner, down) / glm::dot(down, down)};
+}
 
 Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOptions& options, vec3 scene_low, vec3 scene_high) {
     Frame frame{};

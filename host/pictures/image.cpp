@@ -15,6 +15,7 @@
 #include <string>
 
 #include "host/files/file.h"
+#include "host/pictures/png_encoder.h"
 
 namespace scree::host {
 namespace {
@@ -91,8 +92,7 @@ std::vector<std::uint8_t> rgb_bytes(const Image& image) {
     return rgb;
 }
 
-std::vector<std::uint8_t> png_bytes(const Image& image) {
-    require_whole(image);
+std::vector<std::uint8_t> encoded_png(const PngShape& shape, std::span<const std::byte> pixels) {
     const Context context(spng_ctx_new(SPNG_CTX_ENCODER), &spng_ctx_free);
     if (!context) throw ImageError("PNG: out of memory");
     spng_set_option(context.get(), SPNG_ENCODE_TO_BUFFER, 1);
@@ -100,21 +100,29 @@ std::vector<std::uint8_t> png_bytes(const Image& image) {
     spng_set_option(context.get(), SPNG_IMG_COMPRESSION_LEVEL, 1);
     spng_set_option(context.get(), SPNG_FILTER_CHOICE, SPNG_FILTER_CHOICE_SUB);
     spng_ihdr header{};
-    header.width = static_cast<std::uint32_t>(image.width);
-    header.height = static_cast<std::uint32_t>(image.height);
-    header.bit_depth = static_cast<std::uint8_t>(image.bits);
-    const bool rgb = opaque(image);
-    header.color_type = rgb ? SPNG_COLOR_TYPE_TRUECOLOR : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
+    header.width = static_cast<std::uint32_t>(shape.width);
+    header.height = static_cast<std::uint32_t>(shape.height);
+    header.bit_depth = static_cast<std::uint8_t>(shape.bits);
+    header.color_type = shape.content == PngContent::grey  ? SPNG_COLOR_TYPE_GRAYSCALE
+                        : shape.content == PngContent::rgb ? SPNG_COLOR_TYPE_TRUECOLOR
+                                                           : SPNG_COLOR_TYPE_TRUECOLOR_ALPHA;
     require(spng_set_ihdr(context.get(), &header), "PNG header");
-    spng_set_srgb(context.get(), 0);
-    const std::vector<std::uint8_t> packed = rgb ? rgb_bytes(image) : image.rgba;
-    require(spng_encode_image(context.get(), packed.data(), packed.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE), "PNG encoding");
+    if (shape.is_light) spng_set_srgb(context.get(), 0);
+    require(spng_encode_image(context.get(), pixels.data(), pixels.size(), SPNG_FMT_PNG, SPNG_ENCODE_FINALIZE), "PNG encoding");
     int error = 0;
     std::size_t size = 0;
     const std::unique_ptr<void, decltype(&std::free)> bytes(spng_get_png_buffer(context.get(), &size, &error), &std::free);
     require(error, "PNG encoding");
     const auto* first = static_cast<const std::uint8_t*>(bytes.get());
     return {first, first + size};
+}
+
+std::vector<std::uint8_t> png_bytes(const Image& image) {
+    require_whole(image);
+    const bool rgb = opaque(image);
+    const std::vector<std::uint8_t> packed = rgb ? rgb_bytes(image) : image.rgba;
+    return encoded_png({image.width, image.height, image.bits, rgb ? PngContent::rgb : PngContent::rgba},
+                       std::as_bytes(std::span(packed)));
 }
 
 void write_png(const std::filesystem::path& path, const Image& image) {

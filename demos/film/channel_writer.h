@@ -1,0 +1,35 @@
+// Channels of the pictures of a run as files, beside its frames.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "compute/world.h"
+#include "demos/film/channels.h"
+#include "demos/program/options.h"
+
+namespace scree::demos {
+
+class ChannelWriter {
+public:
+    // Throws UsageError for bodies that a PNG's 16 bits cannot number.
+    ChannelWriter(const PictureOptions& options, const World& world);
+    // Writes the channels of the world as it is: DIR/depth_000000.npy and so on. Throws host::FileError, host::ImageError.
+    void add(const World& world, const host::Camera& camera);
+
+private:
+    void write_numpy(const Channels& made) const;
+    void write_png(const Channels& made) const;
+    std::filesystem::path file(const char* channel, const char* ending) const;
+
+    std::filesystem::path folder_;
+    ChannelChoice choice_;
+    bool numpy_, png_;
+    int width_, height_;
+    int count_ = 0;
+    std::optional<host::Camera> camera_before_;
+    double time_before_ = 0;  // s
+};
+
+}  // namespace scree::demos

@@ -1,0 +1,49 @@
+// Channels of a picture besides colour: depth, bodies, parts, normals and flow, exact at every pixel's centre.
+//
+// They are cast as rays (World::cast_rays) through the pixels of the same camera, not drawn: surfaces are the shapes that
+// collide and not their triangles, and the values are the same bits on every backend and with any canvas.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "compute/world.h"
+#include "host/canvas/camera.h"
+
+namespace scree::demos {
+
+struct ChannelChoice {
+    bool depth = false, body = false, part = false, normal = false, flow = false;
+    bool any() const { return depth || body || part || normal || flow; }
+};
+
+// Row by row from the upper left; empty where not chosen.
+struct Channels {
+    int width = 0, height = 0;       // pixels
+    std::vector<float> depth;        // m, along the optical axis from the eye; infinite where there is nothing
+    std::vector<std::int32_t> body;  // index of the body; -1: nothing
+    std::vector<std::int32_t> part;  // of a compound the part, of a mesh or height field the triangle, else 0; -1: nothing
+    std::vector<float> normal;       // x, y, z in the world, unit, outward; 0 where there is nothing
+    std::vector<float> flow;         // x to the right, y down, pixels: motion of what is seen since the moment before
+};
+
+// What `flow` compares with: the camera of an earlier moment.
+struct Before {
+    host::Camera camera;
+    float seconds = 0;  // ago. Bodies are taken to have moved with their present velocities
+};
+
+// Throws std::invalid_argument for a camera whose direction is undefined.
+Channels channels_of(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
+                     const Before& before);
+
+// The rays through the centres of all pixels, row by row from the upper left, which the channels are cast with.
+std::vector<RayQuery> rays_through_pixels(const host::Camera& camera, int width, int height);
+
+// The words of --channels: depth, ids, parts, normals, flow; others are ignored.
+const std::vector<std::string>& channel_words();
+ChannelChoice channels_named(const std::vector<std::string>& words);
+
+}  // namespace scree::demos

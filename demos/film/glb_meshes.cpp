@@ -1,0 +1,160 @@
+// Shapes as triangles for files of animations.
+#include "demos/film/glb_meshes.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <variant>
+
+#include "compute/scene/mesh.h"
+#include "demos/film/solid_meshes.h"
+#include "shaders/physics/base/arithmetic.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr int meridians = 24, parallels = 12;
+
+// A convex shape with a key that bodies alike share, and the scale that makes it of the mesh.
+struct SharedShape {
+    std::string key;
+    vec3 scale{1};
+    Triangles triangles;
+};
+
+Triangles of_corners(const host::SolidMesh& mesh) {
+    Triangles made;
+    for (std::size_t i = 0; i < mesh.corners.size(); i += 2) {
+        made.points.emplace_back(mesh.corners[i]);
+        made.normals.push_back(glm::normalize(vec3(mesh.corners[i + 1])));
+    }
+    return made;
+}
+
+void add_triangle(Triangles& to, vec3 a, vec3 b, vec3 c, vec3 na, vec3 nb, vec3 nc) {
+    to.points.insert(to.points.end(), {a, b, c});
+    to.normals.insert(to.normals.end(), {na, nb, nc});
+}
+
+// A ball of this radius whose halves are apart along y by twice `half_height`.
+Triangles round_mesh(float radius, float half_height) {
+    constexpr float pi = std::numbers::pi_v<float>;
+    const auto direction = [&](int ring, int k) {
+        const float down = pi * static_cast<float>(ring) / parallels, around = 2 * pi * static_cast<float>(k) / meridians;
+        return vec3(std::sin(down) * std::cos(around), std::cos(down), std::sin(down) * std::sin(around));
+    };
+    Triangles made;
+    const auto quad = [&](vec3 na, vec3 nb, vec3 nc, vec3 nd, float above, float below) {
+        const auto at = [&](vec3 n, float height) { return n * radius + vec3(0, height, 0); };
+        add_triangle(made, at(na, above), at(nb, above), at(nc, below), na, nb, nc);
+        add_triangle(made, at(na, above), at(nc, below), at(nd, below), na, nc, nd);
+    };
+    for (int k = 0; k < meridians; ++k) {
+        for (int ring = 0; ring < parallels; ++ring) {
+            const float height = ring < parallels / 2 ? half_height : -half_height;
+            quad(direction(ring, k), direction(ring, k + 1), direction(ring + 1, k + 1), direction(ring + 1, k), height, height);
+        }
+        const vec3 a = direction(parallels / 2, k), b = direction(parallels / 2, k + 1);
+        if (half_height > 0) quad(a, b, b, a, half_height, -half_height);
+    }
+    return made;
+}
+
+Triangles cube_mesh() {
+    Triangles made;
+    for (int axis = 0; axis < 3; ++axis)
+        for (const float side : {1.0f, -1.0f}) {
+            vec3 out(0), u(0), v(0);
+            out[axis] = side;
+            u[(axis + 1) % 3] = 1;
+            v[(axis + 2) % 3] = side;
+            add_triangle(made, out - u - v, out + u - v, out + u + v, out, out, out);
+            add_triangle(made, out - u - v, out + u + v, out - u + v, out, out, out);
+        }
+    return made;
+}
+
+SharedShape shared_shape(const Sphere& s) {
+    return {"sphere", vec3(s.radius), round_mesh(1, 0)};
+}
+SharedShape shared_shape(const Ellipsoid& s) {
+    return {"sphere", s.radii, round_mesh(1, 0)};
+}
+SharedShape shared_shape(const Capsule& s) {
+    return {fmt::format("capsule {} {}", s.radius, s.half_height), vec3(1), round_mesh(s.radius, s.half_height)};
+}
+SharedShape shared_shape(const Box& s) {
+    return {"box", s.half_extents, cube_mesh()};
+}
+SharedShape shared_shape(const Cylinder& s) {
+    return {"cylinder", vec3(s.radius, s.half_height, s.radius), of_corners(cylinder_mesh())};
+}
+SharedShape shared_shape(const Cone& s) {
+    return {"cone", vec3(s.radius, s.height, s.radius), of_corners(cone_mesh())};
+}
+SharedShape shared_shape(const Hull& s) {
+    return {fmt::format("hull {}", static_cast<const void*>(s.form.get())), vec3(1), of_corners(hull_mesh(s))};
+}
+SharedShape shared_shape(const Plane&) {
+    return {};
+}
+
+// Moved into a compound's frame.
+void append(Triangles& to, const SharedShape& part, vec3 position, vec4 orientation) {
+    for (const vec3& point : part.triangles.points)
+        to.points.push_back(position + physics::rotate(orientation, point * part.scale));
+    for (const vec3& normal : part.triangles.normals)
+        to.normals.push_back(physics::rotate(orientation, glm::normalize(normal / part.scale)));
+}
+
+Triangles plane_mesh(const Plane& plane, float reach, vec3 middle) {
+    const vec3 n = plane.normal, centre = middle + n * (plane.offset - glm::dot(n, middle));
+    const vec3 u = glm::normalize(glm::cross(std::abs(n.y) < 0.9f ? vec3(0, 1, 0) : vec3(0, 0, 1), n)) * reach,
+               v = glm::normalize(glm::cross(n, u)) * reach;
+    Triangles made;
+    add_triangle(made, centre - u - v, centre + u - v, centre + u + v, n, n, n);
+    add_triangle(made, centre - u - v, centre + u + v, centre - u + v, n, n, n);
+    return made;
+}
+
+}  // namespace
+
+Drawn MeshCollection::shared(const std::string& key, vec3 scale, Triangles&& made) {
+    const auto [found, fresh] = known_.try_emplace(key, meshes_.size());
+    if (fresh) meshes_.push_back(std::move(made));
+    return {found->second, scale};
+}
+
+Drawn MeshCollection::add(const Shape& shape, float plane_reach, vec3 middle) {
+    if (const auto* plane = std::get_if<Plane>(&shape)) {
+        meshes_.push_back(plane_mesh(*plane, plane_reach, middle));
+        return {meshes_.size() - 1, vec3(1)};
+    }
+    if (const std::optional<SimpleShape> simple = simple_shape(shape)) {
+        SharedShape made = std::visit([](const auto& one) { return shared_shape(one); }, *simple);
+        return shared(made.key, made.scale, std::move(made.triangles));
+    }
+    if (const MeshForm* form = mesh_form_of(shape)) {
+        Triangles made;
+        for (const MeshForm::Triangle& one : form->triangles) {
+            for (const vec3& corner : one.corners) made.points.push_back(one.middle + corner);
+            made.normals.insert(made.normals.end(), 3, one.normal);
+        }
+        return shared(fmt::format("mesh {}", static_cast<const void*>(form)), vec3(1), std::move(made));
+    }
+    Triangles made;
+    std::string key = "compound";
+    for (const Part& part : std::get<Compound>(shape).parts) {
+        const SharedShape one = std::visit([](const auto& convex) { return shared_shape(convex); }, part.shape);
+        append(made, one, part.position, part.orientation);
+        key += fmt::format(" {} {} {} {} {} {} {} {} {} {} {}", one.key, one.scale.x, one.scale.y, one.scale.z, part.position.x,
+                           part.position.y, part.position.z, part.orientation.x, part.orientation.y, part.orientation.z,
+                           part.orientation.w);
+    }
+    return shared(key, vec3(1), std::move(made));
+}
+
+}  // namespace scree::demos

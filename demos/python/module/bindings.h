@@ -1,0 +1,56 @@
+// The parts of the Python module scree._native, and what they share.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <glm/glm.hpp>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "compute/scene_file/scene_json.h"
+
+namespace scree::python {
+
+namespace py = pybind11;
+using glm::vec3;
+using glm::vec4;
+
+// Arrays as the package hands them over: float32 and int64, in C order.
+using Floats = py::array_t<float, py::array::c_style | py::array::forcecast>;
+using Indices = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+
+// Classes are of Python's own kind, as the stubs say: none has static properties, for which pybind11 has another.
+inline py::metaclass plain_class() {
+    return py::metaclass(py::handle(reinterpret_cast<PyObject*>(&PyType_Type)));
+}
+
+// A scene that is being described.
+struct Description {
+    SceneDocument document;
+    std::vector<std::string> notes;  // what was changed or left out in reading it
+};
+
+void bind_errors(py::module_& module);
+void bind_scenes(py::module_& module);
+void bind_worlds(py::module_& module);
+
+// Throws SceneError with the place in the text.
+nlohmann::json json_of(const std::string& text);
+
+// Requires `array` to have the shape (n, width), or (n,) for a width of 0; the package has shaped it, so this is for those
+// who call past it.
+inline void require_shape(const py::array& array, py::ssize_t n, py::ssize_t width, const char* name) {
+    const bool right = width == 0 ? array.ndim() == 1 && array.shape(0) == n
+                                  : array.ndim() == 2 && array.shape(0) == n && array.shape(1) == width;
+    if (!right) throw py::value_error(std::string(name) + ": has another shape than its bodies, rays or shapes");
+}
+inline vec3 vec3_at(const float* values, std::size_t i) {
+    return {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
+}
+inline vec4 vec4_at(const float* values, std::size_t i) {
+    return {values[4 * i], values[4 * i + 1], values[4 * i + 2], values[4 * i + 3]};
+}
+
+}  // namespace scree::python

@@ -1,0 +1,201 @@
+// Worlds: bodies that come and go, their materials and joints, and what acts on them.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "compute/fields/document.h"
+#include "compute/scene_file/fields_read.h"
+#include "demos/python/module/world_object.h"
+
+namespace scree::python {
+
+namespace {
+
+using namespace json_reading;
+
+const Place root{nullptr, nullptr, 0};
+
+template <class Value>
+Value value_of(const std::string& text, const char* name) {
+    Value made{};
+    read_value(json_of(text), root / name, made, "", {});
+    return made;
+}
+
+vec3 vec3_of(const Floats& values, const char* name) {
+    if (values.size() != 3) throw py::value_error(std::string(name) + ": is three numbers");
+    return vec3_at(values.data(), 0);
+}
+
+// Bodies of a description, added to a world that runs: index and generation of each.
+Indices add(WorldObject& object, const Description& scene) {
+    object.require_no_views("added to");
+    Use world(object);
+    std::vector<BodyHandle> handles;
+    {
+        const py::gil_scoped_release unlocked;
+        handles = world->add_bodies(scene.document.scene.bodies);
+    }
+    Indices made({static_cast<py::ssize_t>(handles.size()), py::ssize_t{2}});
+    for (std::size_t i = 0; i < handles.size(); ++i) {
+        made.mutable_data()[2 * i] = handles[i].index;
+        made.mutable_data()[2 * i + 1] = handles[i].generation;
+    }
+    return made;
+}
+
+BodyHandle handle_at(const Indices& handles, std::size_t i) {
+    const std::int64_t index = handles.data()[2 * i], generation = handles.data()[2 * i + 1];
+    if (index < 0 || index > 0xFFFFFFFF || generation < 0 || generation > 0xFFFFFFFF)
+        throw py::index_error("body " + std::to_string(index) + ": no handle of a body");
+    return {static_cast<std::uint32_t>(index), static_cast<std::uint32_t>(generation)};
+}
+
+// `handles`: (n, 2), index and generation
+void remove(WorldObject& object, const Indices& handles) {
+    object.require_no_views("taken from");
+    Use world(object);
+    require_shape(handles, handles.ndim() > 0 ? handles.shape(0) : 0, 2, "handles");
+    std::vector<BodyHandle> named;
+    for (std::size_t i = 0; i < static_cast<std::size_t>(handles.shape(0)); ++i) named.push_back(handle_at(handles, i));
+    const py::gil_scoped_release unlocked;
+    world->remove_bodies(named);
+}
+
+Indices handles(WorldObject& object, const Indices& ids) {
+    Use world(object);
+    Indices made({ids.size(), py::ssize_t{2}});
+    for (py::ssize_t i = 0; i < ids.size(); ++i) {
+        const std::int64_t id = ids.data()[i];
+        if (id < 0) throw py::index_error("body " + std::to_string(id));
+        const BodyHandle handle = world->handle_of(static_cast<std::size_t>(id));
+        made.mutable_data()[2 * i] = handle.index;
+        made.mutable_data()[2 * i + 1] = handle.generation;
+    }
+    return made;
+}
+
+py::array_t<bool> are_valid(WorldObject& object, const Indices& handles) {
+    Use world(object);
+    require_shape(handles, handles.ndim() > 0 ? handles.shape(0) : 0, 2, "handles");
+    py::array_t<bool> made(handles.shape(0));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(handles.shape(0)); ++i)
+        made.mutable_data()[i] = world->is_valid(handle_at(handles, i));
+    return made;
+}
+
+std::size_t add_joint(WorldObject& object, const std::string& text, const std::optional<Floats>& anchor, const Floats& axis) {
+    Use world(object);
+    Joint joint = value_of<Joint>(text, "joint");
+    if (anchor) {
+        const Joint placed = world->joint_at(joint.kind, joint.a, joint.b, vec3_of(*anchor, "anchor"), vec3_of(axis, "axis"));
+        joint.anchor_a = placed.anchor_a;
+        joint.anchor_b = placed.anchor_b;
+        joint.frame_a = placed.frame_a;
+        joint.frame_b = placed.frame_b;
+    }
+    return world->add_joint(joint);
+}
+
+JointAxis axis_named(const std::string& name) {
+    const Names words = {"x", "y", "z", "twist", "swing_y", "swing_z"};
+    const auto found = std::find(words.begin(), words.end(), name);
+    if (found == words.end()) throw py::value_error(unknown("axis", name, words));
+    return static_cast<JointAxis>(found - words.begin());
+}
+
+Motion motion_named(const std::string& name) {
+    const Names words(fields::words<Motion>.begin(), fields::words<Motion>.end());
+    const auto found = std::find(words.begin(), words.end(), name);
+    if (found == words.end()) throw py::value_error(unknown("motion", name, words));
+    return static_cast<Motion>(found - words.begin());
+}
+
+void set_material(WorldObject& object, std::size_t body, std::optional<float> friction, std::optional<float> restitution,
+                  std::optional<float> rolling_resistance) {
+    Use world(object);
+    world->handle_of(body);
+    const Body& now = world->scene().bodies[body];
+    world->set_material(body, {friction.value_or(now.friction), restitution.value_or(now.restitution),
+                               rolling_resistance.value_or(now.rolling_resistance)});
+}
+
+void tune(WorldObject& object, const std::string& what, double value) {
+    Use world(object);
+    if (what == "friction_factor") return world->set_friction_factor(static_cast<float>(value));
+    if (what == "least_restitution") return world->set_least_restitution(static_cast<float>(value));
+    if (what == "substeps") return world->set_substeps(static_cast<int>(value));
+    if (what == "sleeping") return world->set_sleeping(value != 0);
+    throw py::key_error(what);
+}
+
+void bind_bodies(WorldClass& of_world) {
+    of_world.def("add", &add)
+        .def("remove", &remove)
+        .def("handles", &handles)
+        .def("are_valid", &are_valid)
+        .def("wake",
+             [](WorldObject& object, const Indices& ids) {
+                 Use world(object);
+                 for (py::ssize_t i = 0; i < ids.size(); ++i) world->wake(static_cast<std::size_t>(ids.data()[i]));
+             })
+        .def("wake_all", [](WorldObject& object) { Use(object)->wake_all(); })
+        .def("set_material", &set_material)
+        .def("set_filter", [](WorldObject& object, std::size_t body,
+                              const std::string& filter) { Use(object)->set_filter(body, value_of<Filter>(filter, "filter")); })
+        .def("set_motion", [](WorldObject& object, std::size_t body,
+                              const std::string& motion) { Use(object)->set_motion(body, motion_named(motion)); })
+        .def("set_exclusion",
+             [](WorldObject& object, std::size_t a, std::size_t b, bool excluded) { Use(object)->set_exclusion(a, b, excluded); })
+        .def("tune", &tune)
+        .def_property(
+            "gravity",
+            [](WorldObject& object) {
+                const vec3 g = Use(object)->scene().gravity;
+                return py::make_tuple(g.x, g.y, g.z);
+            },
+            [](WorldObject& object, const Floats& gravity) { Use(object)->set_gravity(vec3_of(gravity, "gravity")); });
+}
+
+void bind_joints(WorldClass& of_world) {
+    of_world.def("add_joint", &add_joint)
+        .def("remove_joint", [](WorldObject& object, std::size_t joint) { Use(object)->remove_joint(joint); })
+        .def("set_motor",
+             [](WorldObject& object, std::size_t joint, const std::string& axis, float speed, float max_force) {
+                 Use(object)->set_motor(joint, axis_named(axis), {speed, max_force});
+             })
+        .def("set_spring",
+             [](WorldObject& object, std::size_t joint, const std::string& axis, const std::string& spring) {
+                 Use(object)->set_spring(joint, axis_named(axis), value_of<Spring>(spring, "spring"));
+             })
+        .def("drive",
+             [](WorldObject& object, std::size_t vehicle, float throttle, float brake, float steer, float hand_brake) {
+                 Use(object)->drive(vehicle, {throttle, brake, steer, hand_brake});
+             })
+        .def("drive_by_route", [](WorldObject& object, std::size_t vehicle) { Use(object)->drive_by_route(vehicle); })
+        .def("reset_upright", [](WorldObject& object, std::size_t vehicle) { Use(object)->reset_upright(vehicle); });
+}
+
+}  // namespace
+
+void bind_changes(WorldClass& of_world) {
+    bind_bodies(of_world);
+    bind_joints(of_world);
+    of_world
+        .def("grip",
+             [](WorldObject& object, std::size_t body, const Floats& anchor, const Floats& target, float hertz,
+                float damping_ratio, float max_acceleration, float spin_damping) {
+                 return Use(object)->grip(body, vec3_of(anchor, "anchor"), vec3_of(target, "target"),
+                                          {hertz, damping_ratio, max_acceleration, spin_damping});
+             })
+        .def("move_grip", [](WorldObject& object, std::size_t grip,
+                             const Floats& target) { Use(object)->move_grip(grip, vec3_of(target, "target")); })
+        .def("release", [](WorldObject& object, std::size_t grip) { Use(object)->release(grip); })
+        .def("explode", [](WorldObject& object, const Floats& centre, float radius, float speed) {
+            Use(object)->explode(vec3_of(centre, "centre"), radius, speed);
+        });
+}
+
+}  // namespace scree::python

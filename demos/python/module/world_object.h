@@ -1,0 +1,70 @@
+// A world as the Python module holds it.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compute/scene_file/events.h"
+#include "compute/world.h"
+#include "demos/film/drawing.h"
+#include "demos/film/glb_export.h"
+#include "demos/program/backend.h"
+#include "demos/program/loaded_scene.h"
+#include "demos/python/module/bindings.h"
+
+namespace scree::python {
+
+// A canvas and what it was made for.
+struct Easel {
+    host::CanvasOptions options;
+    std::string canvas;  // auto, vulkan or gl
+    std::unique_ptr<demos::Drawing> drawing;
+};
+
+struct WorldObject : std::enable_shared_from_this<WorldObject> {
+    WorldObject(const SceneDocument& document, const Settings& settings, const demos::Backend& backend);
+    ~WorldObject();  // writes the animations that are still recorded
+
+    demos::Backend machine;
+    SceneDocument shown;  // how it is run and shown; without the scene, which the world has
+    World world;
+    std::optional<demos::LoadedScene> subject;  // for colour ranges; made for the first picture
+    std::vector<Easel> easels;
+    std::vector<std::shared_ptr<demos::GlbExport>> exports;  // being recorded
+    int views = 0;                                           // arrays that look into its tables
+    bool busy = false;                                       // a thread is in it, without Python's lock
+
+    const demos::LoadedScene& as_subject();
+    void close_exports();
+    // Throws BufferError while arrays look into the tables, naming what is to be done.
+    void require_no_views(const char* what) const;
+};
+
+// The world in use by this call: throws RuntimeError if another thread steps or draws it.
+class Use {
+public:
+    explicit Use(WorldObject& object) : object_(object) {
+        if (object.busy) throw std::runtime_error("the world is in use by another thread");
+        object.busy = true;
+    }
+    ~Use() { object_.busy = false; }
+    Use(const Use&) = delete;
+    Use& operator=(const Use&) = delete;
+    World& operator*() const { return object_.world; }
+    World* operator->() const { return &object_.world; }
+
+private:
+    WorldObject& object_;
+};
+
+using WorldClass = py::class_<WorldObject, std::shared_ptr<WorldObject>>;
+void bind_state(WorldClass& of_world);
+void bind_changes(WorldClass& of_world);
+void bind_records(py::module_& module, WorldClass& of_world);
+void bind_queries(py::module_& module, WorldClass& of_world);
+void bind_pictures(py::module_& module, WorldClass& of_world);
+void bind_tables(WorldClass& of_world);
+
+}  // namespace scree::python

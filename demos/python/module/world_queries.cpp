@@ -1,0 +1,154 @@
+// Worlds: rays, casts and overlaps as arrays.
+#include <pybind11/stl.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "compute/scene_file/shapes_json.h"
+#include "demos/python/module/world_object.h"
+
+namespace scree::python {
+
+namespace {
+
+struct HitRecord {
+    std::int64_t body;
+    std::int32_t part;
+    float distance, point[3], normal[3];
+};
+struct PartRecord {
+    std::int64_t body;
+    std::int32_t part;
+};
+
+HitRecord record_of(const QueryHit& hit) {
+    return {static_cast<std::int64_t>(hit.body),
+            static_cast<std::int32_t>(hit.part),
+            hit.distance,
+            {hit.point.x, hit.point.y, hit.point.z},
+            {hit.normal.x, hit.normal.y, hit.normal.z}};
+}
+HitRecord record_of(const std::optional<QueryHit>& hit) {
+    if (hit) return record_of(*hit);
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    return {-1, -1, std::numeric_limits<float>::infinity(), {nan, nan, nan}, {0, 0, 0}};
+}
+PartRecord record_of(const QueryPart& part) {
+    return {static_cast<std::int64_t>(part.body), static_cast<std::int32_t>(part.part)};
+}
+
+template <class Item>
+py::array records_of(const std::vector<Item>& items) {
+    using Record = decltype(record_of(items.front()));
+    py::array_t<Record> made(static_cast<py::ssize_t>(items.size()));
+    std::transform(items.begin(), items.end(), made.mutable_data(), [](const Item& item) { return record_of(item); });
+    return made;
+}
+
+template <class Item>
+py::tuple lists_of(const QueryLists<Item>& lists) {
+    Indices starts(static_cast<py::ssize_t>(lists.starts.size()));
+    std::copy(lists.starts.begin(), lists.starts.end(), starts.mutable_data());
+    return py::make_tuple(starts, records_of(lists.items));
+}
+
+std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid) {
+    const py::ssize_t n = from.ndim() > 0 ? from.shape(0) : 0;
+    require_shape(from, n, 3, "origins");
+    require_shape(along, n, 3, "directions");
+    require_shape(reach, n, 0, "reach");
+    std::vector<RayQuery> rays(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        rays[i].from = vec3_at(from.data(), i);
+        rays[i].along = vec3_at(along.data(), i);
+        rays[i].reach = std::isinf(reach.data()[i]) && reach.data()[i] > 0 ? unlimited : reach.data()[i];
+        rays[i].mask = mask;
+        rays[i].solid = solid;
+    }
+    return rays;
+}
+
+SimpleShape shape_of(const std::string& text) {
+    const json_reading::Place root{nullptr, nullptr, 0}, place = root / "shape";
+    Shape shape;
+    json_reading::read(json_of(text), place, shape);
+    const std::optional<SimpleShape> simple = simple_shape(shape);
+    if (!simple) json_reading::refuse(place, "must be a sphere, capsule, box, cylinder, cone or ellipsoid");
+    return *simple;
+}
+
+// Reads a world without Python's lock.
+template <class Query>
+auto asked(WorldObject& object, const Query& query) {
+    Use world(object);
+    const py::gil_scoped_release unlocked;
+    return query(*world);
+}
+
+py::array cast_shapes(WorldObject& object, const std::string& shape, const Floats& from, const Floats& along,
+                      const Floats& orientation, const Floats& reach, std::uint32_t mask) {
+    const py::ssize_t n = from.ndim() > 0 ? from.shape(0) : 0;
+    require_shape(from, n, 3, "origins");
+    require_shape(along, n, 3, "directions");
+    require_shape(orientation, n, 4, "orientation");
+    require_shape(reach, n, 0, "reach");
+    std::vector<ShapeCast> casts(static_cast<std::size_t>(n), ShapeCast{.shape = shape_of(shape)});
+    for (std::size_t i = 0; i < casts.size(); ++i) {
+        casts[i].from = vec3_at(from.data(), i);
+        casts[i].along = vec3_at(along.data(), i);
+        casts[i].orientation = vec4_at(orientation.data(), i);
+        casts[i].reach = reach.data()[i];
+        casts[i].mask = mask;
+    }
+    return records_of(asked(object, [&](const World& world) { return world.cast_shapes(casts); }));
+}
+
+py::tuple overlaps(WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
+                   std::uint32_t mask) {
+    const py::ssize_t n = position.ndim() > 0 ? position.shape(0) : 0;
+    require_shape(position, n, 3, "positions");
+    require_shape(orientation, n, 4, "orientation");
+    std::vector<ShapeOverlap> shapes(static_cast<std::size_t>(n), ShapeOverlap{.shape = shape_of(shape)});
+    for (std::size_t i = 0; i < shapes.size(); ++i) {
+        shapes[i].position = vec3_at(position.data(), i);
+        shapes[i].orientation = vec4_at(orientation.data(), i);
+        shapes[i].mask = mask;
+    }
+    return lists_of(asked(object, [&](const World& world) { return world.overlaps(shapes); }));
+}
+
+}  // namespace
+
+void bind_queries(py::module_& module, WorldClass& of_world) {
+    PYBIND11_NUMPY_DTYPE(HitRecord, body, part, distance, point, normal);
+    PYBIND11_NUMPY_DTYPE(PartRecord, body, part);
+    module.attr("hit_dtype") = py::dtype::of<HitRecord>();
+    module.attr("part_dtype") = py::dtype::of<PartRecord>();
+    of_world
+        .def("cast_rays",
+             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask,
+                bool solid) {
+                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid);
+                 return records_of(asked(object, [&](const World& world) { return world.cast_rays(rays); }));
+             })
+        .def("rays_hit",
+             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask,
+                bool solid) {
+                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid);
+                 const auto hits = asked(object, [&](const World& world) { return world.rays_hit(rays); });
+                 py::array_t<bool> made(static_cast<py::ssize_t>(hits.size()));
+                 std::transform(hits.begin(), hits.end(), made.mutable_data(), [](std::uint8_t hit) { return hit != 0; });
+                 return made;
+             })
+        .def("cast_rays_through",
+             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask,
+                bool solid) {
+                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid);
+                 return lists_of(asked(object, [&](const World& world) { return world.cast_rays_through(rays); }));
+             })
+        .def("cast_shapes", &cast_shapes)
+        .def("overlaps", &overlaps);
+}
+
+}  // namespace scree::python

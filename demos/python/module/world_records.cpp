@@ -1,0 +1,136 @@
+// Worlds: contacts, events, joints and vehicles as structured arrays.
+#include <algorithm>
+#include <string>
+
+#include "demos/python/module/world_object.h"
+
+namespace scree::python {
+
+namespace {
+
+struct ContactRecord {
+    std::int64_t a, b;
+    std::int32_t part_a, part_b;
+    float normal[3], friction[3];
+    std::int32_t count;
+    float position[4][3], separation[4], force[4];
+};
+struct EventRecord {
+    std::int64_t step;
+    std::uint8_t kind;
+    std::int64_t a, a_generation, b, b_generation;
+    std::int32_t part_a, part_b, joint;
+    float speed, impulse, point[3], normal[3];
+};
+struct JointRecord {
+    float force[3], torque[3], max_force, max_torque;
+    bool broken;
+    float gap, coordinates[6];
+};
+struct VehicleRecord {
+    float throttle, brake, steer, hand_brake, speed, curvature;
+    bool by_route;
+    std::int32_t passed, next;
+    bool arrived;
+};
+
+void put(float (&to)[3], vec3 v) {
+    for (glm::length_t k = 0; k < 3; ++k) to[k] = v[k];
+}
+
+ContactRecord record_of(const ContactState& c) {
+    ContactRecord r{};
+    r.a = static_cast<std::int64_t>(c.a);
+    r.b = static_cast<std::int64_t>(c.b);
+    r.part_a = static_cast<std::int32_t>(c.part_a);
+    r.part_b = static_cast<std::int32_t>(c.part_b);
+    put(r.normal, c.normal);
+    put(r.friction, c.friction);
+    r.count = static_cast<std::int32_t>(c.count);
+    for (std::size_t k = 0; k < c.count; ++k) {
+        put(r.position[k], c.points[k].position);
+        r.separation[k] = c.points[k].separation;
+        r.force[k] = c.points[k].force;
+    }
+    return r;
+}
+
+// Of the world in place of a body -1.
+std::int64_t index_or_world(std::uint32_t body) {
+    return body == 0xFFFFFFFF ? -1 : static_cast<std::int64_t>(body);
+}
+
+EventRecord record_of(const Event& e) {
+    EventRecord r{};
+    r.step = static_cast<std::int64_t>(e.step);
+    r.kind = static_cast<std::uint8_t>(e.kind);
+    r.a = index_or_world(e.a);
+    r.a_generation = e.a_generation;
+    r.b = index_or_world(e.b);
+    r.b_generation = e.b_generation;
+    r.part_a = static_cast<std::int32_t>(e.part_a);
+    r.part_b = static_cast<std::int32_t>(e.part_b);
+    r.joint = static_cast<std::int32_t>(e.joint);
+    r.speed = e.speed;
+    r.impulse = e.impulse;
+    put(r.point, e.point);
+    put(r.normal, e.normal);
+    return r;
+}
+
+JointRecord record_of(const JointState& j) {
+    JointRecord r{};
+    put(r.force, j.force);
+    put(r.torque, j.torque);
+    r.max_force = j.max_force;
+    r.max_torque = j.max_torque;
+    r.broken = j.broken;
+    r.gap = j.gap;
+    std::copy(j.coordinates.begin(), j.coordinates.end(), r.coordinates);
+    return r;
+}
+
+VehicleRecord record_of(const VehicleState& v) {
+    return {v.controls.throttle,
+            v.controls.brake,
+            v.controls.steer,
+            v.controls.hand_brake,
+            v.speed,
+            v.curvature,
+            v.by_route,
+            static_cast<std::int32_t>(v.passed),
+            static_cast<std::int32_t>(v.next),
+            v.arrived};
+}
+
+template <class State>
+py::array records_of(const std::vector<State>& states) {
+    using Record = decltype(record_of(states.front()));
+    py::array_t<Record> made(static_cast<py::ssize_t>(states.size()));
+    std::transform(states.begin(), states.end(), made.mutable_data(), [](const State& state) { return record_of(state); });
+    return made;
+}
+
+}  // namespace
+
+void bind_records(py::module_& module, WorldClass& of_world) {
+    PYBIND11_NUMPY_DTYPE(ContactRecord, a, b, part_a, part_b, normal, friction, count, position, separation, force);
+    PYBIND11_NUMPY_DTYPE(EventRecord, step, kind, a, a_generation, b, b_generation, part_a, part_b, joint, speed, impulse, point,
+                         normal);
+    PYBIND11_NUMPY_DTYPE(JointRecord, force, torque, max_force, max_torque, broken, gap, coordinates);
+    PYBIND11_NUMPY_DTYPE(VehicleRecord, throttle, brake, steer, hand_brake, speed, curvature, by_route, passed, next, arrived);
+    module.attr("contact_dtype") = py::dtype::of<ContactRecord>();
+    module.attr("event_dtype") = py::dtype::of<EventRecord>();
+    module.attr("joint_dtype") = py::dtype::of<JointRecord>();
+    module.attr("vehicle_dtype") = py::dtype::of<VehicleRecord>();
+    of_world.def("contacts", [](WorldObject& object) { return records_of(Use(object)->contacts()); })
+        .def("joints", [](WorldObject& object) { return records_of(Use(object)->joints()); })
+        .def("vehicles", [](WorldObject& object) { return records_of(Use(object)->vehicles()); })
+        .def("take_events", [](WorldObject& object) { return records_of(Use(object)->take_events()); })
+        .def("records_events", [](WorldObject& object) { return Use(object)->event_settings().any(); })
+        .def("set_events", [](WorldObject& object, bool contacts, float hit_speed, bool breaks, bool sleep) {
+            Use(object)->set_events({contacts, hit_speed, breaks, sleep});
+        });
+}
+
+}  // namespace scree::python

@@ -1,0 +1,26 @@
+# The Python package scree.
+"""scree: a rigid body simulator with the same bits on every GPU and on the CPU.
+
+    scene = scree.Scene()
+    scene.add(scree.Plane())
+    boxes = scene.add(scree.Box(), position=[[0, 0.5 + 1.01 * i, 0] for i in range(10)])
+    world = scree.World(scene)
+    world.step(120)
+    print(world.position[boxes[-1]], world.state_hash())
+
+Lengths in m, times in s, masses in kg, angles in rad; y is up. Arrays are in the order of ids.
+"""
+from scree import _native
+from scree._errors import CheckpointError, DeviceError, SceneError
+from scree._native import version as __version__
+from scree.camera import Camera, Picture, write_png
+from scree.joints import Axis, Ball, ConeTwist, Distance, Fixed, Hinge, JointKind, Limits, Motor, SixDof, Slider, Spring
+from scree.scene import Scene, demo, demos, from_json, load, schema
+from scree.shapes import (Box, Capsule, Compound, Cone, Cylinder, Ellipsoid, Filter, Fracture, HeightField, Hull, Mesh, Part, Plane,
+                          Shape, Sphere, Tyre)
+from scree.world import EventKind, Export, Tables, World
+
+__all__ = ["Axis", "Ball", "Box", "Camera", "Capsule", "CheckpointError", "Compound", "Cone", "ConeTwist", "Cylinder", "DeviceError",
+           "Distance", "Ellipsoid", "EventKind", "Export", "Filter", "Fixed", "Fracture", "HeightField", "Hinge", "Hull", "JointKind", "Limits",
+           "Mesh", "Motor", "Part", "Picture", "Plane", "Scene", "SceneError", "Shape", "SixDof", "Slider", "Sphere", "Spring", "Tables",
+           "Tyre", "World", "__version__", "demo", "demos", "from_json", "load", "schema", "write_png"]

@@ -1,0 +1,282 @@
+# Scenes: what is to be simulated.
+"""Scenes: bodies, joints and vehicles as plain data in SI units, y up."""
+from __future__ import annotations
+
+import difflib
+import json
+import os
+import typing
+from typing import Any, Dict, List, Optional, Tuple, Union
+
+import numpy as np
+
+from scree import _native
+from scree._arrays import Ids, json_text, triple, vectors
+from scree.camera import Camera
+from scree.joints import JointKind
+from scree.shapes import HeightField, Mesh, Plane, Shape, Vector
+
+_VECTORS = {"position": 3, "orientation": 4, "velocity": 3, "angular_velocity": 3}
+_NUMBERS = frozenset({"density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale"})
+
+
+def require_keys(given: typing.Iterable[str], known: typing.Iterable[str], what: str) -> None:
+    """Refuses unknown keyword arguments as Python does, with the nearest known one."""
+    names = list(known)
+    for key in given:
+        if key not in names:
+            near = difflib.get_close_matches(key, names, 1)
+            hint = f'; nearest: "{near[0]}"' if near else f"; known: {', '.join(names)}"
+            raise TypeError(f'{what} has no "{key}"{hint}')
+
+
+def _count_of(columns: typing.Mapping[str, Any]) -> Optional[int]:
+    """How many bodies the arrays describe; None if each is of one body."""
+    counts = {}
+    for key, value in columns.items():
+        dimensions = 2 if key in _VECTORS else 1
+        if np.ndim(value) == dimensions:
+            counts[key] = int(np.shape(value)[0])
+    if len(set(counts.values())) > 1:
+        raise ValueError("arrays of different lengths: " + ", ".join(f"{key} {count}" for key, count in counts.items()))
+    return next(iter(counts.values()), None)
+
+
+class Scene:
+    """Bodies, joints and vehicles to simulate, in SI units, y up.
+
+    gravity: (3,), m/s^2. `notes` tells what was changed or left out in reading a file.
+    """
+
+    def __init__(self, gravity: Vector = (0.0, -9.81, 0.0)) -> None:
+        self._native = _native.Description()
+        self._notes: List[str] = []
+        self.gravity = gravity  # type: ignore[assignment]
+
+    @classmethod
+    def _of(cls, native: "_native.Description") -> "Scene":
+        made = cls.__new__(cls)
+        made._native = native
+        made._notes = []
+        return made
+
+    # ---- bodies
+    def add(self, shape: Shape, position: Optional[Any] = None, *, motion: Optional[str] = None, **fields: Any) -> Any:
+        """Adds a body, or many that are alike, in one call.
+
+        position: (3,) or (n, 3), of the centre of mass, m; of hulls, compounds and meshes of the origin of their points.
+        orientation: (4,) or (n, 4), x, y, z, w. velocity, angular_velocity: (3,) or (n, 3), m/s, rad/s.
+        motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, meshes and height fields, dynamic for others.
+        density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping, angular_damping (1/s),
+        gravity_scale: numbers or (n,). name, filter, tyre, fracture and every other key of a body in a scene file: of all.
+
+        Returns the id of the body; of many their ids, (n,) int64. Ids count bodies from 0 and do not change.
+        Raises SceneError, whose `pointer` names the value, here or when a World is made; TypeError for an unknown key.
+        """
+        require_keys(fields, _native.keys("body"), "a body")
+        columns: Dict[str, Any] = {key: fields.pop(key) for key in list(fields) if key in _VECTORS and fields[key] is not None}
+        if position is not None:
+            columns["position"] = position
+        for key in list(fields):
+            if key in _NUMBERS and np.ndim(fields[key]) > 0:
+                columns[key] = fields.pop(key)
+        count = _count_of(columns)
+        bodies = count if count is not None else 1
+        arrays = {key: vectors(value, bodies, _VECTORS.get(key, 0), key) for key, value in columns.items()}
+        if motion is None:
+            motion = "fixed" if isinstance(shape, (Plane, Mesh, HeightField)) else "dynamic"
+        body = {"shape": shape, "motion": motion, **{key: value for key, value in fields.items() if value is not None}}
+        first = self._native.add_bodies(json_text(body, f"/bodies/{len(self)}"), bodies, arrays)
+        return first if count is None else np.arange(first, first + bodies, dtype=np.int64)
+
+    def __len__(self) -> int:
+        """The number of bodies."""
+        return self._native.count("bodies")
+
+    def __getitem__(self, name: str) -> int:
+        """The id of the first body of that name; raises KeyError."""
+        return self._named("bodies", name)
+
+    def _named(self, things: str, name: Any) -> int:
+        if not isinstance(name, str):
+            return int(name)
+        found = self._native.index_of(things, name)
+        if found is None:
+            raise KeyError(name)
+        return found
+
+    # ---- joints
+    def add_joint(self, kind: JointKind, a: Union[int, str, None] = None, b: Union[int, str, None] = None, *,
+                  anchor: Optional[Vector] = None, axis: Optional[Vector] = None, anchor_a: Optional[Vector] = None,
+                  anchor_b: Optional[Vector] = None, **fields: Any) -> int:
+        """Joins bodies a and b (ids or names; None: the world) and returns the joint's index.
+
+        anchor, axis: (3,), in the world at the start, m; the axis is that of a hinge or slider, or the middle of a cone.
+        Or anchor_a, anchor_b: (3,), in the bodies' frames from their centres of mass, m, as for a Distance.
+        name, collide, break_force (N), break_torque (N m) and every other key of a joint in a scene file.
+        """
+        require_keys(fields, _native.keys("joint"), "a joint")
+        joint: Dict[str, Any] = {"kind": kind, **fields}
+        for key, body in (("a", a), ("b", b)):
+            if body is not None:
+                joint[key] = self._named("bodies", body)
+        for key, value in (("anchor", anchor), ("axis", axis), ("anchor_a", anchor_a), ("anchor_b", anchor_b)):
+            if value is not None:
+                joint[key] = triple(value, key)
+        return self._native.add_joint(json_text(joint, f"/joints/{self._native.count('joints')}"))
+
+    def exclude(self, a: Union[int, str], b: Union[int, str]) -> None:
+        """Bodies a and b never collide with each other."""
+        self._native.add_exclusion(self._named("bodies", a), self._named("bodies", b))
+
+    # ---- vehicles
+    def add_car(self, position: Vector = (0.0, 0.0, 0.0), heading: float = 0.0, **fields: Any) -> int:
+        """Adds a car of about 1,250 kg and returns the vehicle's index (World.drive).
+
+        position: (3,), on the ground between its wheels, m; heading: rad, about y, 0 along z.
+        name, speed (m/s), size, density, friction, brake, hertz, damping_ratio: see Car in compute/vehicle_presets.h.
+        """
+        return self._native.add_car({"position": triple(position, "position"), "heading": heading, **fields})
+
+    def add_cart(self, position: Vector = (0.0, 0.0, 0.0), heading: float = 0.0, **fields: Any) -> int:
+        """Adds a cart that steers like a tank, and returns the vehicle's index. As add_car; name, friction, brake."""
+        return self._native.add_cart({"position": triple(position, "position"), "heading": heading, **fields})
+
+    def add_vehicle(self, **fields: Any) -> int:
+        """Makes a vehicle of bodies and joints: chassis, wheels, engine, steering, route, loops, as in a scene file."""
+        require_keys(fields, _native.keys("vehicle"), "a vehicle")
+        return self._native.add_vehicle(json_text(fields, "/vehicles"))
+
+    def vehicle_bodies(self, vehicle: Union[int, str]) -> Ids:
+        """The ids of a vehicle's chassis and of its wheels."""
+        return np.asarray(self._native.vehicle_bodies(self._named("vehicles", vehicle)), dtype=np.int64)
+
+    # ---- how it is run and shown
+    def at(self, time: float, **action: typing.Mapping[str, Any]) -> None:
+        """What happens at a time of a run, s: one of impulse, velocity, glide, explosion, release, motor, gravity.
+
+        scene.at(3, impulse={"body": "ball", "impulse": [900, 1500, 0]}), with the keys of scene files.
+        """
+        if len(action) != 1:
+            raise TypeError("at: takes one action, such as impulse={...}")
+        self._native.add_event(json_text({"time": time, "action": dict(action)}, "/events"))
+
+    @property
+    def gravity(self) -> Tuple[float, float, float]:
+        """(3,), m/s^2."""
+        x, y, z = self._native.gravity
+        return (x, y, z)
+
+    @gravity.setter
+    def gravity(self, value: Vector) -> None:
+        self._native.gravity = triple(value, "gravity")
+
+    @property
+    def settings(self) -> Dict[str, Any]:
+        """The settings of a step (rate, substeps, sleeping and so on), as a copy; set it to a dict of those to change."""
+        return self._native.settings()
+
+    @settings.setter
+    def settings(self, changes: typing.Mapping[str, Any]) -> None:
+        require_keys(changes, _native.keys("settings"), "settings")
+        self._native.set_part("settings", json_text(dict(changes), "/settings"))
+
+    @property
+    def camera(self) -> Optional[Camera]:
+        """The camera suggested by the scene, if any."""
+        given = json.loads(self._native.camera()).get("camera")
+        if given is None:
+            return None
+        if given.get("path"):
+            given = given["path"][0]
+        return Camera(tuple(given["eye"]), tuple(given["target"]), given.get("vertical_fov", 45.0), given.get("orthographic", False))
+
+    @camera.setter
+    def camera(self, value: Union[Camera, typing.Mapping[str, Any], None]) -> None:
+        self._native.set_part("camera", "null" if value is None else json_text(value, "/camera"))
+
+    def set_picture(self, **style: Any) -> None:
+        """How pictures show the scene: color, color_map, color_scale, color_range, show, as in a scene file."""
+        require_keys(style, _native.keys("picture"), "a picture")
+        self._native.set_part("picture", json_text(style, "/picture"))
+
+    @property
+    def duration(self) -> float:
+        """How long a run is by default, s; 0: 10 s."""
+        return self._native.duration
+
+    @duration.setter
+    def duration(self, seconds: float) -> None:
+        self._native.duration = seconds
+
+    # ---- files
+    @property
+    def notes(self) -> List[str]:
+        """What was changed or left out in reading the scene; may be empty."""
+        return [*self._native.notes, *self._notes]
+
+    def check(self) -> List[str]:
+        """Checks the scene as World does, and returns remarks on hulls and meshes. Raises SceneError."""
+        return self._native.check()
+
+    def to_json(self) -> str:
+        """The scene as a scene file's text; floats read back to the same bits."""
+        return self._native.to_json()
+
+    def save(self, path: Union[str, "os.PathLike[str]"]) -> None:
+        """Writes a scene file, for scree run; atomically. Raises OSError."""
+        self._native.save(os.fspath(path))
+
+    def copy(self) -> "Scene":
+        """A scene of its own."""
+        made = Scene._of(_native.Description(self._native))
+        made._notes = list(self._notes)
+        return made
+
+    @property
+    def hash(self) -> str:
+        """16 hexadecimal digits that name the scene, as "scene_hash" in reports."""
+        return self._native.scene_hash()
+
+    def __repr__(self) -> str:
+        joints = self._native.count("joints")
+        return f"<scree.Scene of {len(self)} bodies, {joints} joints>"
+
+
+def load(path: Union[str, "os.PathLike[str]"]) -> Scene:
+    """Reads a scene file and the meshes that it names. Raises OSError, and SceneError with the file and the JSON pointer."""
+    name = os.fspath(path)
+    try:
+        return Scene._of(_native.load(name))
+    except _native_error() as error:
+        raise type(error)(f"{name}: {error}", error.pointer) from None
+
+
+def from_json(text: str) -> Scene:
+    """Reads the text of a scene file. Raises SceneError."""
+    return Scene._of(_native.from_json(text))
+
+
+def demo(name: str, bodies: int = 0, seed: int = 1) -> Scene:
+    """A demo's scene, as `scree export` writes it; bodies: how many, of demos that take any; 0: the demo's own number.
+
+    Raises KeyError for an unknown name; `demos()` has them all. Scripted actions are left out, which `notes` tells.
+    """
+    return Scene._of(_native.demo(name, bodies, seed))
+
+
+def demos() -> Dict[str, str]:
+    """The names of the demos, with a line about each."""
+    return dict(_native.demo_names())
+
+
+def schema() -> Dict[str, Any]:
+    """The JSON Schema of scene files, which says range, unit and meaning of every key."""
+    made: Dict[str, Any] = json.loads(_native.schema())
+    return made
+
+
+def _native_error() -> Any:
+    from scree._errors import SceneError
+
+    return SceneError

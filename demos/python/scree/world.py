@@ -1,0 +1,569 @@
+# Worlds: simulations of scenes.
+"""Worlds: simulations of scenes, on the CPU or on a Vulkan device, with the same bits."""
+from __future__ import annotations
+
+import atexit
+import os
+import typing
+import weakref
+from enum import IntEnum
+from typing import Any, Dict, Optional, Tuple, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from scree import _native, _progress
+from scree._arrays import Floats, Ids, ids_of, json_text, maybe_vectors, triple, unit, vectors
+from scree.camera import Camera, Picture, Size
+from scree.joints import JointKind, Spring
+from scree.scene import Scene, load, require_keys
+from scree.shapes import Filter, Shape, Vector
+
+Array = npt.NDArray[Any]
+ALL_CATEGORIES = 0xFFFFFFFF
+CHANNELS = ("color", "depth", "body", "part", "normal", "flow")
+_LOOK = ("color_map", "color_scale", "color_range", "show", "caption", "canvas", "legend", "shadows", "samples")
+
+
+class EventKind(IntEnum):
+    """What an event tells of."""
+
+    begin = 0  # two parts press on each other, as they did not before
+    end = 1  # they are apart, or one of them is gone
+    hit = 2  # they pressed on each other faster than hit_speed
+    body_broke = 3
+    joint_broke = 4
+    fell_asleep = 5
+    woke = 6
+
+
+class Tables:
+    """Read-only views into the simulator's own tables, without a copy; of worlds on the CPU.
+
+    Row order: bodies may be moved in memory between steps, and `ids` tells which is in which row (rows behind the bodies are
+    parts). Steps change what a view shows. While a view lives, bodies cannot be added or removed nor a state be restored:
+    BufferError. Copies, and gathers such as poses["position"][rows], are free of that.
+    """
+
+    def __init__(self, native: "_native.World") -> None:
+        self._native = native
+
+    @property
+    def poses(self) -> Array:
+        """(rows,): position (3,), m, and orientation (4,), x, y, z, w."""
+        return self._native.table("poses")
+
+    @property
+    def velocities(self) -> Array:
+        """(rows,): linear (3,), m/s, and angular (3,), rad/s."""
+        return self._native.table("velocities")
+
+    @property
+    def ids(self) -> npt.NDArray[np.uint32]:
+        """(rows,): the id of the body in each row."""
+        return self._native.table("ids")
+
+
+class Export:
+    """An animation that is being recorded; see World.export."""
+
+    def __init__(self, native: Optional["_native.Export"]) -> None:
+        self._native = native
+
+    def close(self) -> None:
+        """Writes the file with all that was recorded; later steps are not."""
+        if self._native is not None:
+            self._native.close()
+        self._native = None
+
+    def __enter__(self) -> "Export":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+
+_worlds: "weakref.WeakSet[World]" = weakref.WeakSet()
+
+
+def _finish() -> None:
+    """Before Python ends: animations are written, and devices closed while their drivers are still there."""
+    for world in list(_worlds):
+        world._native.close_exports()
+    _native.close_backends()
+
+
+atexit.register(_finish)
+
+
+class World:
+    """A simulation of a scene.
+
+    scene: a Scene, or the path of a scene file. backend: "auto" (a GPU, else what is faster here), "cpu" or "vulkan"; device:
+    which, by index or part of its name. threads: of the CPU, 0: one per core. No result depends on any of them.
+    rate: steps per second; substeps: of each step; these and every further setting (sleeping, sleep_speed, friction_factor,
+    least_restitution, ...) override those of the scene. events: True, or a dict of set_events().
+
+    Bodies are named by their ids, which Scene.add and World.add return; arrays are in the order of ids.
+    Raises SceneError (a ValueError with a `pointer`), and DeviceError where the backend is not to be had.
+    """
+
+    def __init__(self, scene: Union[Scene, str, "os.PathLike[str]"], backend: str = "auto", rate: Optional[float] = None,
+                 substeps: Optional[int] = None, *, device: str = "", threads: int = 0, validate: bool = False,
+                 events: Union[bool, typing.Mapping[str, Any]] = False, **settings: Any) -> None:
+        require_keys(settings, _native.keys("settings"), "World")
+        if backend not in ("auto", "cpu", "vulkan"):
+            raise ValueError(f'backend: unknown "{backend}"; known: auto, cpu, vulkan')
+        if rate is not None:
+            settings["rate"] = rate
+        if substeps is not None:
+            settings["substeps"] = substeps
+        described = scene if isinstance(scene, Scene) else load(scene)
+        self._native = _native.World(described._native, json_text(settings, "/settings"), backend, str(device), threads, validate)
+        self._told_of_events = False
+        _worlds.add(self)
+        if events:
+            self.set_events(**(events if isinstance(events, typing.Mapping) else {}))
+
+    # ---- running
+    def step(self, count: int = 1, progress: Optional[bool] = None) -> None:
+        """Advances by `count` steps of 1/rate seconds, without holding Python's lock; Ctrl-C ends it between steps.
+
+        The scene's timed events happen on the way. progress: shows a bar; by default on a terminal and in a notebook, if it
+        takes more than half a second. Raises MemoryError when memory ends.
+        """
+        if count == 1 or not _progress.is_wanted(progress):
+            self._native.step(count, None)
+            return
+        bar = _progress.Bar()
+        try:
+            self._native.step(count, bar)
+        finally:
+            bar.close()
+
+    def run(self, seconds: float, progress: Optional[bool] = None) -> None:
+        """Advances to the step nearest to that many seconds from now."""
+        self.step(round(seconds * self.settings["rate"]), progress)
+
+    @property
+    def steps(self) -> int:
+        """Steps done."""
+        return self._native.steps
+
+    @property
+    def time(self) -> float:
+        """Simulated time, s."""
+        return self._native.time
+
+    @property
+    def backend(self) -> str:
+        """"cpu" or "vulkan"."""
+        return self._native.backend
+
+    @property
+    def device(self) -> str:
+        """The device or the threads that simulate, for messages."""
+        return self._native.device
+
+    @property
+    def remark(self) -> str:
+        """Why backend="auto" chose what it chose, where that may surprise; else empty."""
+        return self._native.remark
+
+    @property
+    def settings(self) -> Dict[str, Any]:
+        """The present settings, as a copy."""
+        return self._native.settings()
+
+    @property
+    def statistics(self) -> Dict[str, Any]:
+        """Sums and extremes over the world, as in reports: kinetic_energy (J), momentum (3,), penetration_max (m), asleep..."""
+        return self._native.statistics()
+
+    def state_hash(self) -> str:
+        """16 hexadecimal digits that name the state, equal on every backend, and equal to "state_hash" in reports."""
+        return self._native.state_hash()
+
+    # ---- bodies, in the order of ids
+    def __len__(self) -> int:
+        """The number of ids: bodies, and fragments whether they exist yet or not."""
+        return self._native.count()
+
+    def _column(self, name: str) -> Array:
+        return self._native.columns([name])[name]
+
+    @property
+    def position(self) -> Floats:
+        """(n, 3), m, of the centres of mass: a copy, as all below."""
+        return self._column("position")
+
+    @property
+    def orientation(self) -> Floats:
+        """(n, 4), unit quaternions x, y, z, w."""
+        return self._column("orientation")
+
+    @property
+    def velocity(self) -> Floats:
+        """(n, 3), m/s."""
+        return self._column("velocity")
+
+    @property
+    def angular_velocity(self) -> Floats:
+        """(n, 3), rad/s, world axes."""
+        return self._column("angular_velocity")
+
+    @property
+    def asleep(self) -> npt.NDArray[np.bool_]:
+        """(n,)."""
+        return self._column("asleep")
+
+    @property
+    def exists(self) -> npt.NDArray[np.bool_]:
+        """(n,): False for what has broken or was removed, and for fragments of what is still whole."""
+        return self._column("exists")
+
+    def read(self, *names: str) -> Dict[str, Array]:
+        """Several of the above by name, in one transfer from a device; without names all."""
+        return self._native.columns(list(names or ("position", "orientation", "velocity", "angular_velocity", "asleep", "exists")))
+
+    @property
+    def tables(self) -> Tables:
+        """Views without a copy; see Tables."""
+        return Tables(self._native)
+
+    def set(self, ids: Any, *, position: Optional[Any] = None, orientation: Optional[Any] = None, velocity: Optional[Any] = None,
+            angular_velocity: Optional[Any] = None) -> None:
+        """Sets poses and velocities of many bodies in one transfer: (n, 3) and (n, 4), or one row for all.
+
+        ids: (n,), one id, or a mask of all bodies. Bodies wake. Raises IndexError for an id, ValueError for a body that is
+        not there and for values out of range, and then changes nothing.
+        """
+        named = ids_of(ids)
+        n = len(named)
+        self._native.set(named, maybe_vectors(position, n, 3, "position"), maybe_vectors(orientation, n, 4, "orientation"),
+                         maybe_vectors(velocity, n, 3, "velocity"),
+                         maybe_vectors(angular_velocity, n, 3, "angular_velocity"))
+
+    def apply(self, ids: Any, *, force: Optional[Any] = None, torque: Optional[Any] = None, impulse: Optional[Any] = None,
+              angular_impulse: Optional[Any] = None, offset: Optional[Any] = None) -> None:
+        """Forces (N), torques (N m), impulses (N s) and angular impulses (N m s) on dynamic bodies, in the next step.
+
+        Each is (n, 3), or one row for all; offset, m, from the centre of mass, is where forces and impulses act. Calls add up.
+        """
+        named = ids_of(ids)
+        n = len(named)
+        self._native.apply(named, maybe_vectors(force, n, 3, "force"), maybe_vectors(torque, n, 3, "torque"),
+                           maybe_vectors(impulse, n, 3, "impulse"), maybe_vectors(angular_impulse, n, 3, "angular_impulse"),
+                           maybe_vectors(offset, n, 3, "offset"))
+
+    def add(self, shape: Shape, position: Optional[Any] = None, **fields: Any) -> Any:
+        """Adds bodies while the world runs, described as in Scene.add; returns the id, or the ids of many.
+
+        Fragments of breakable bodies follow each; an id that was removed is given again. handles() name bodies for good.
+        """
+        described = Scene()
+        made = described.add(shape, position, **fields)
+        handles = self._native.add(described._native)
+        return int(handles[0, 0]) if np.ndim(made) == 0 else handles[:, 0].copy()
+
+    def remove(self, bodies: Any) -> None:
+        """Removes bodies by ids, or by handles, (n, 2). With them go their joints. Raises IndexError for what is gone."""
+        handles = np.asarray(bodies)
+        if handles.ndim != 2:
+            handles = self.handles(bodies)
+        self._native.remove(np.ascontiguousarray(handles, dtype=np.int64))
+
+    def handles(self, ids: Any) -> Ids:
+        """(n, 2): id and generation, which name a body for its whole life, while its id may be given to another one."""
+        return self._native.handles(ids_of(ids))
+
+    def are_valid(self, handles: Any) -> npt.NDArray[np.bool_]:
+        """(n,): whether the bodies of (n, 2) handles have not been removed."""
+        return self._native.are_valid(np.ascontiguousarray(handles, dtype=np.int64))
+
+    def wake(self, ids: Optional[Any] = None) -> None:
+        """Wakes bodies, or all, in the next step."""
+        if ids is None:
+            self._native.wake_all()
+        else:
+            self._native.wake(ids_of(ids))
+
+    def set_material(self, ids: Any, *, friction: Optional[float] = None, restitution: Optional[float] = None,
+                     rolling_resistance: Optional[float] = None) -> None:
+        """Changes materials from the next step on; what is not given stays."""
+        for body in ids_of(ids):
+            self._native.set_material(int(body), friction, restitution, rolling_resistance)
+
+    def set_filter(self, ids: Any, filter: Filter) -> None:
+        """Changes which bodies collide, from the next step on; wakes all."""
+        for body in ids_of(ids):
+            self._native.set_filter(int(body), json_text(filter, "/filter"))
+
+    def set_motion(self, ids: Any, motion: str) -> None:
+        """Makes bodies "dynamic", "fixed" or "kinematic" from the next step on."""
+        for body in ids_of(ids):
+            self._native.set_motion(int(body), motion)
+
+    def exclude(self, a: int, b: int, excluded: bool = True) -> None:
+        """Whether two bodies never collide with each other."""
+        self._native.set_exclusion(a, b, excluded)
+
+    # ---- settings that may change
+    @property
+    def gravity(self) -> Tuple[float, float, float]:
+        """(3,), m/s^2; settable, from the next step on."""
+        x, y, z = self._native.gravity
+        return (x, y, z)
+
+    @gravity.setter
+    def gravity(self, value: Vector) -> None:
+        self._native.gravity = triple(value, "gravity")
+
+    def tune(self, *, substeps: Optional[int] = None, friction_factor: Optional[float] = None,
+             least_restitution: Optional[float] = None, sleeping: Optional[bool] = None) -> None:
+        """Changes settings from the next step on."""
+        for name, value in (("substeps", substeps), ("friction_factor", friction_factor),
+                            ("least_restitution", least_restitution), ("sleeping", sleeping)):
+            if value is not None:
+                self._native.tune(name, float(value))
+
+    # ---- contacts and events
+    def contacts(self) -> "np.recarray[Any, Any]":
+        """All contacts of the last step, touching or speculative, ordered by bodies and parts.
+
+        Fields, also attributes: a, b (ids), part_a, part_b, normal (3,) from a to b, friction (3,) on b, N, count (points), and
+        of each of 4 points position (3,), m, separation, m, below 0: they overlap, and force, N, along the normal.
+        """
+        return self._native.contacts().view(np.recarray)
+
+    def touch_force(self, ids: Any) -> Floats:
+        """(n, 3), N: sums of the contact forces on bodies in the last substep; 0 without contacts."""
+        return self._native.touch_forces(ids_of(ids))
+
+    def set_events(self, *, contacts: bool = True, hit_speed: Optional[float] = None, breaks: bool = True, sleep: bool = False) -> None:
+        """Which events are recorded from the next step on. hit_speed: m/s, least approach speed of a hit; None: no hits."""
+        self._told_of_events = True
+        self._native.set_events(contacts, 1e30 if hit_speed is None else hit_speed, breaks, sleep)
+
+    def events(self) -> "np.recarray[Any, Any]":
+        """What happened since the last call, ordered by step, kind, bodies and parts; none is lost, every begin has one end.
+
+        Fields, also attributes: step, kind (EventKind), a, b (ids; -1: the world), a_generation, b_generation, part_a, part_b,
+        joint, speed (m/s, of a hit), impulse (N s), point (3,), m, and normal (3,) from a to b, of a begin or hit.
+        Nothing is recorded before World(events=...), set_events() or the first call, which warns.
+        """
+        if not self._told_of_events and not self._native.records_events():
+            import warnings
+
+            self.set_events()
+            warnings.warn("events are recorded from now on; say World(scene, events=True) to have them from the start",
+                          RuntimeWarning, stacklevel=2)
+        return self._native.take_events().view(np.recarray)
+
+    # ---- queries
+    def cast_rays(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True) -> "np.recarray[Any, Any]":
+        """The nearest hit of each ray. origins, directions: (n, 3) or one row for all; reach: m, one or (n,).
+
+        Fields, also attributes: body (-1: nothing), part, distance (m, infinite where there is nothing), point (3,), normal (3,).
+        mask: of the categories seen; solid: a ray that begins in a body hits it at 0, else it leaves it unseen.
+        (height, width, 3) give (height, width) hits.
+        """
+        rays, shape = self._rays(origins, directions, reach)
+        return self._native.cast_rays(*rays, mask, solid).reshape(shape).view(np.recarray)
+
+    def rays_hit(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True) -> npt.NDArray[np.bool_]:
+        """(n,): whether each ray hits anything; otherwise as cast_rays, and faster."""
+        rays, shape = self._rays(origins, directions, reach)
+        return self._native.rays_hit(*rays, mask, solid).reshape(shape)
+
+    def cast_rays_through(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES,
+                          solid: bool = True) -> Tuple[Ids, "np.recarray[Any, Any]"]:
+        """The first hit of each body and part, near ones first: (starts, hits), of ray i hits[starts[i]:starts[i + 1]]."""
+        rays, _ = self._rays(origins, directions, reach)
+        starts, hits = self._native.cast_rays_through(*rays, mask, solid)
+        return starts, hits.view(np.recarray)
+
+    @staticmethod
+    def _rays(origins: Any, directions: Any, reach: Any) -> Tuple[Tuple[Floats, Floats, Floats], Tuple[int, ...]]:
+        start, along = np.asarray(origins, dtype=np.float32), np.asarray(directions, dtype=np.float32)
+        for name, array in (("origins", start), ("directions", along)):
+            if array.ndim == 0 or array.shape[-1] != 3:
+                raise ValueError(f"{name}: have the shape {array.shape}, should have (n, 3)")
+        try:
+            shape = np.broadcast_shapes(start.shape, along.shape)[:-1] or (1,)
+        except ValueError:
+            raise ValueError(f"origins and directions: have the shapes {start.shape} and {along.shape}") from None
+        n = int(np.prod(shape))
+        flat = [np.ascontiguousarray(np.broadcast_to(one, (*shape, 3))).reshape(n, 3) for one in (start, along)]
+        far = np.broadcast_to(np.asarray(reach, dtype=np.float32), shape).reshape(n)
+        return (flat[0], unit(flat[1], "directions"), np.ascontiguousarray(far)), shape
+
+    def cast_shapes(self, shape: Shape, origins: Any, directions: Any, reach: Any = 1.0, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
+                    mask: int = ALL_CATEGORIES) -> "np.recarray[Any, Any]":
+        """The first body that a convex shape meets as it moves along each line; fields as of cast_rays, point: its centre then.
+
+        shape: no plane and no hull. reach: m, up to 1e6, one or (n,); orientation: (4,) or (n, 4).
+        """
+        (start, along, far), _ = self._rays(origins, directions, reach)
+        turns = vectors(orientation, len(start), 4, "orientation")
+        return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, mask).view(np.recarray)
+
+    def overlaps(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
+                 mask: int = ALL_CATEGORIES) -> Tuple[Ids, "np.recarray[Any, Any]"]:
+        """All bodies and parts that a convex shape overlaps at each position: (starts, parts), as of cast_rays_through."""
+        place = np.atleast_2d(np.asarray(positions, dtype=np.float32))
+        place = vectors(place, len(place), 3, "positions")
+        turns = vectors(orientation, len(place), 4, "orientation")
+        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, mask)
+        return starts, parts.view(np.recarray)
+
+    # ---- files
+    def export(self, path: Union[str, "os.PathLike[str]"], every: int = 1) -> "Export":
+        """Writes an animation, .glb (glTF 2.0), for Blender and web viewers: the bodies as they are, and how they move from now on.
+
+        The file is there at once; steps to come are recorded, one in `every`, and written by close() of what is returned, at the
+        end of a with statement, or with the world's end. Bodies are those of now, coloured by their greatest momentum; fragments
+        appear as bodies break. Or .json: the scene as it is now. Raises OSError, and ValueError for more than 10,000 moving bodies.
+        """
+        name = os.fspath(path)
+        if name.endswith(".json"):
+            self.snapshot().save(name)
+            return Export(None)
+        if not name.endswith(".glb"):
+            raise ValueError(f"export: {name}: is neither a .glb nor a .json")
+        return Export(self._native.export_to(name, every))
+
+    # ---- saving
+    def save(self) -> bytes:
+        """The whole state: contacts with their impulses, sleep, joints, breaks, edits, settings."""
+        return self._native.save()
+
+    def restore(self, mark: bytes) -> None:
+        """Returns to a saved state of a world of the same scene, on any backend: later steps give the same bits.
+
+        Raises CheckpointError, changing nothing, and BufferError while views (World.tables) live.
+        """
+        self._native.restore(mark)
+
+    def write_checkpoint(self, path: Union[str, "os.PathLike[str]"], note: str = "") -> None:
+        """Writes save() and a note to a file, atomically; scree run --resume reads it. Raises OSError."""
+        self._native.write_checkpoint(os.fspath(path), note)
+
+    def read_checkpoint(self, path: Union[str, "os.PathLike[str]"]) -> str:
+        """Restores what write_checkpoint or scree run --checkpoint wrote, and returns the note. Raises as restore, and OSError."""
+        return self._native.read_checkpoint(os.fspath(path))
+
+    def snapshot(self) -> Scene:
+        """The present scene: existing bodies with their poses and velocities; contacts begin anew in a world made of it."""
+        return Scene._of(self._native.snapshot())
+
+    # ---- joints and vehicles
+    def joints(self) -> "np.recarray[Any, Any]":
+        """All joints: force (3,), N, and torque (3,), N m, on b, max_force, max_torque, broken, gap (m), coordinates (6,)."""
+        return self._native.joints().view(np.recarray)
+
+    def add_joint(self, kind: JointKind, a: Optional[int] = None, b: Optional[int] = None, *, anchor: Optional[Vector] = None,
+                  axis: Vector = (1.0, 0.0, 0.0), **fields: Any) -> int:
+        """Joins two bodies (None: the world) where they are now, and returns the joint's index. As Scene.add_joint."""
+        require_keys(fields, _native.keys("joint"), "a joint")
+        joint: Dict[str, Any] = {"kind": kind, **fields}
+        joint.update({key: int(body) for key, body in (("a", a), ("b", b)) if body is not None})
+        return self._native.add_joint(json_text(joint, "/joint"), None if anchor is None else triple(anchor, "anchor"), triple(axis, "axis"))
+
+    def remove_joint(self, joint: int) -> None:
+        """Removes a joint; higher indices decrease by one."""
+        self._native.remove_joint(joint)
+
+    def set_motor(self, joint: int, speed: float, max_force: float, axis: str = "twist") -> None:
+        """Drives an axis of a joint: m/s and N along x, y, z, rad/s and N m about twist, swing_y, swing_z. A hinge's is twist."""
+        self._native.set_motor(joint, axis, speed, max_force)
+
+    def set_spring(self, joint: int, spring: Spring, axis: str = "twist") -> None:
+        """Puts a spring on an axis of a joint."""
+        self._native.set_spring(joint, axis, json_text(spring, "/spring"))
+
+    def vehicles(self) -> "np.recarray[Any, Any]":
+        """All vehicles: throttle, brake, steer, hand_brake, speed (m/s), curvature (1/m), by_route, passed, next, arrived."""
+        return self._native.vehicles().view(np.recarray)
+
+    def drive(self, vehicle: int, throttle: float = 0.0, brake: float = 0.0, steer: float = 0.0, hand_brake: float = 0.0) -> None:
+        """Sets a vehicle's controls until the next call: throttle and steer -1 to 1 (1: left), brakes 0 to 1."""
+        self._native.drive(vehicle, throttle, brake, steer, hand_brake)
+
+    def drive_by_route(self, vehicle: int) -> None:
+        """The vehicle follows its route again."""
+        self._native.drive_by_route(vehicle)
+
+    def reset_upright(self, vehicle: int) -> None:
+        """Puts a vehicle upright, at rest, half a metre above where it is."""
+        self._native.reset_upright(vehicle)
+
+    # ---- hands
+    def grip(self, body: int, anchor: Vector, target: Vector, *, hertz: float = 5.0, damping_ratio: float = 1.0,
+             max_acceleration: float = 300.0, spin_damping: float = 5.0) -> int:
+        """Pulls a point of a body (anchor, (3,), in its frame, m) to a target, (3,), m, by a damped spring; returns the grip."""
+        return self._native.grip(body, triple(anchor, "anchor"), triple(target, "target"), hertz, damping_ratio, max_acceleration, spin_damping)
+
+    def move_grip(self, grip: int, target: Vector) -> None:
+        """Moves a grip's target."""
+        self._native.move_grip(grip, triple(target, "target"))
+
+    def release(self, grip: int) -> None:
+        """Lets go."""
+        self._native.release(grip)
+
+    def explode(self, centre: Vector, radius: float, speed: float) -> None:
+        """Adds a velocity away from centre, (3,), m: `speed`, m/s, there, falling to 0 at `radius`, m."""
+        self._native.explode(triple(centre, "centre"), radius, speed)
+
+    # ---- pictures
+    @property
+    def camera(self) -> Camera:
+        """The scene's camera, or one that sees its bodies at the start."""
+        eye, target, fov, orthographic = self._native.suggested_camera()
+        return Camera(eye, target, fov, orthographic)
+
+    def render(self, camera: Optional[Camera] = None, size: Size = (640, 480), channels: Union[str, typing.Sequence[str]] = ("color",), *,
+               color: Optional[str] = None, camera_before: Optional[Camera] = None, seconds_before: Optional[float] = None,
+               **look: Any) -> Picture:
+        """A picture, with its channels as arrays.
+
+        size: (width, height), pixels. channels of color, depth, body, part, normal, flow: see Picture. All but color are cast
+        as rays at the pixels' centres: exact, and the same bits on every backend. color is drawn by a Vulkan device or with
+        OpenGL ES, with smooth edges; DeviceError names what is missing.
+        color: the quantity shown: momentum, speed, spin, kinetic-energy, height, body, plain, angular-momentum,
+        contact-impulse, contacts, sleep, material; default: the scene's, mostly momentum. Also color_map, color_scale,
+        color_range (low, high), show (contacts, velocities, joints, boxes, cells, sleep), caption, legend, shadows,
+        samples (1, 4, 9 or 16), canvas (auto, vulkan, gl).
+        flow: motion of what is seen since `seconds_before` (default: a step ago), when the camera was camera_before.
+        """
+        require_keys(look, _LOOK, "render")
+        wanted = [channels] if isinstance(channels, str) else list(channels)
+        for name in wanted:
+            if name not in CHANNELS:
+                raise ValueError(f'channels: unknown "{name}"; known: {", ".join(CHANNELS)}')
+        if color is not None:
+            look["color"] = color
+        width, height = (int(side) for side in size)
+        seen = self.camera if camera is None else camera
+        seconds = 1 / self.settings["rate"] if seconds_before is None else seconds_before
+        arrays = self._native.render(seen._text(), width, height, wanted, json_text(look, "/picture"),
+                                     "" if camera_before is None else camera_before._text(), seconds)
+        return Picture({name: arrays[name] for name in wanted})
+
+    # ---- costs
+    def stage_times(self) -> Dict[str, float]:
+        """Milliseconds per step of each stage: means over the timed steps. On a device after set_profiling(True)."""
+        return self._native.stage_times()
+
+    def set_profiling(self, on: bool) -> None:
+        """Whether later steps are timed stage by stage."""
+        self._native.set_profiling(on)
+
+    @property
+    def buffer_bytes(self) -> int:
+        """Bytes of all tables of a step."""
+        return self._native.buffer_bytes
+
+    def __repr__(self) -> str:
+        return f"<scree.World of {len(self)} bodies after {self.steps} steps, on {self.device}>"

@@ -1,0 +1,153 @@
+// Files that are written bit by bit.
+#include "host/files/growing_file.h"
+
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "host/files/file.h"
+#include "host/files/partial_file.h"
+#include "host/files/pipe.h"
+
+namespace scree::host {
+namespace {
+
+constexpr std::size_t block_bytes = 1u << 20;
+
+[[noreturn]] void refuse_path(const char* what, const std::filesystem::path& path, int error) {
+    throw FileError(std::string("cannot ") + what + " " + path.string() + ": " + std::strerror(error));
+}
+
+// A descriptor with a buffer before it.
+class Buffered {
+public:
+    Buffered(std::filesystem::path path, int number) : path_(std::move(path)), number_(number) {
+        if (number_ < 0) refuse_path("write", path_, errno);
+        buffer_.reserve(block_bytes);
+    }
+    ~Buffered() {
+        if (number_ >= 0) ::close(number_);
+    }
+    Buffered(const Buffered&) = delete;
+    Buffered& operator=(const Buffered&) = delete;
+
+    void append(std::string_view bytes) {
+        size += bytes.size();
+        if (buffer_.size() + bytes.size() > block_bytes) flush();
+        if (bytes.size() > block_bytes)
+            write(bytes);
+        else
+            buffer_.append(bytes);
+    }
+    void flush() {
+        write(buffer_);
+        buffer_.clear();
+    }
+    void close() {
+        flush();
+        const int number = std::exchange(number_, -1);
+        if (::close(number) != 0) refuse_path("write", path_, errno);
+    }
+    int number() const { return number_; }
+
+    std::uint64_t size = 0;
+
+private:
+    void write(std::string_view bytes) const {
+        if (const int error = write_all(number_, bytes.data(), bytes.size())) refuse_path("write", path_, error);
+    }
+    std::filesystem::path path_;
+    int number_;
+    std::string buffer_;
+};
+
+}  // namespace
+
+struct GrowingFile::Impl {
+    std::filesystem::path target, part;
+    std::optional<Unfinished> unfinished;
+    std::optional<Buffered> file;
+};
+
+GrowingFile::GrowingFile(const std::filesystem::path& path) : interior_(std::make_unique<Impl>()) {
+    std::error_code ignored;
+    if (std::filesystem::is_directory(path, ignored)) refuse_path("write", path, EISDIR);
+    interior_->target = std::filesystem::exists(path, ignored) ? std::filesystem::canonical(path, ignored) : path;
+    if (interior_->target.empty()) interior_->target = path;
+    const bool in_place = std::filesystem::is_other(path, ignored);  // a device or a pipe
+    if (!in_place) {
+        static std::atomic<unsigned> serial{0};
+        interior_->part = interior_->target;
+        interior_->part += ".part-" + std::to_string(::getpid()) + "-growing-" + std::to_string(serial++);
+        interior_->unfinished.emplace(interior_->part);
+    }
+    const int flags = O_WRONLY | O_CLOEXEC | (in_place ? 0 : O_CREAT | O_EXCL);
+    interior_->file.emplace(path, ::open(in_place ? path.c_str() : interior_->part.c_str(), flags, 0666));
+}
+
+GrowingFile::~GrowingFile() {
+    if (interior_->file && !interior_->part.empty()) ::unlink(interior_->part.c_str());
+}
+
+void GrowingFile::append(std::string_view bytes) {
+    interior_->file->append(bytes);
+}
+
+std::uint64_t GrowingFile::size() const {
+    return interior_->file->size;
+}
+
+void GrowingFile::commit() {
+    interior_->file->close();
+    if (!interior_->part.empty() && ::rename(interior_->part.c_str(), interior_->target.c_str()) != 0)
+        refuse_path("write", interior_->target, errno);
+    interior_->file.reset();
+}
+
+struct ScratchFile::Impl {
+    std::filesystem::path beside;
+    std::optional<Buffered> file;
+    std::string block;
+};
+
+ScratchFile::ScratchFile(const std::filesystem::path& beside) : interior_(std::make_unique<Impl>()) {
+    const std::filesystem::path folder = beside.has_parent_path() ? beside.parent_path() : ".";
+    std::string name = (folder / ".scree-XXXXXX").string();
+    interior_->beside = beside;
+    interior_->file.emplace(beside, ::mkstemp(name.data()));
+    ::unlink(name.c_str());
+}
+
+ScratchFile::~ScratchFile() = default;
+
+void ScratchFile::append(std::span<const std::byte> bytes) {
+    interior_->file->append(std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+}
+
+std::uint64_t ScratchFile::size() const {
+    return interior_->file->size;
+}
+
+void ScratchFile::rewind() {
+    interior_->file->flush();
+    interior_->block.resize(block_bytes);
+    if (::lseek(interior_->file->number(), 0, SEEK_SET) != 0)
+        refuse_path("read back what was written for", interior_->beside, errno);
+}
+
+std::string_view ScratchFile::next() {
+    for (;;) {
+        const ssize_t count = ::read(interior_->file->number(), interior_->block.data(), interior_->block.size());
+        if (count >= 0) return {interior_->block.data(), static_cast<std::size_t>(count)};
+        if (errno != EINTR) refuse_path("read back what was written for", interior_->beside, errno);
+    }
+}
+
+}  // namespace scree::host

@@ -1,0 +1,133 @@
+# Scenes from Python: bulk building, files, and errors that name the place.
+import json
+import os
+import tempfile
+import unittest
+
+import numpy as np
+
+import scree
+
+
+class Building(unittest.TestCase):
+    def test_many_bodies_in_one_call(self):
+        scene = scree.Scene(gravity=(0, -9.81, 0))
+        positions = np.random.default_rng(1).uniform(-5, 5, (100, 3))
+        turns = np.tile([0, 0, 0, 1], (100, 1))
+        ground = scene.add(scree.Plane())
+        ids = scene.add(scree.Box((.5, .5, .5)), position=positions, orientation=turns, friction=.6)
+        self.assertEqual(ground, 0)
+        self.assertEqual(ids.dtype, np.int64)
+        np.testing.assert_array_equal(ids, np.arange(1, 101))
+        self.assertEqual(len(scene), 101)
+        world = scree.World(scene, backend="cpu")
+        np.testing.assert_array_equal(world.position[ids], positions.astype(np.float32))
+        self.assertEqual(world.position.shape, (101, 3))
+        self.assertEqual(world.orientation.dtype, np.float32)
+
+    def test_numbers_of_each_body(self):
+        scene = scree.Scene()
+        friction = np.array([.1, .2, .3], dtype=np.float32)
+        scene.add(scree.Sphere(), position=np.zeros((3, 3)), friction=friction, velocity=(1, 2, 3))
+        bodies = json.loads(scene.to_json())["bodies"]
+        np.testing.assert_allclose([body["friction"] for body in bodies], friction, rtol=1e-6)
+        self.assertEqual(bodies[2]["velocity"], [1, 2, 3])
+
+    def test_every_shape_is_simulated(self):
+        scene = scree.Scene()
+        tetrahedron = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+        shapes = [scree.Sphere(.4), scree.Capsule(.2, .3), scree.Box((.3, .2, .1)), scree.Cylinder(.3, .2), scree.Cone(.3, .5),
+                  scree.Ellipsoid((.3, .2, .4)), scree.Hull(tetrahedron),
+                  scree.Compound([scree.Part(scree.Box((.5, .1, .1))), scree.Part(scree.Sphere(.2), (.5, 0, 0), density=100)])]
+        for i, shape in enumerate(shapes):
+            scene.add(shape, position=(2 * i, 3, 0))
+        scene.add(scree.HeightField(np.zeros((4, 30)), 1.0), position=(8, 0, 0))
+        floor = scene.add(scree.Mesh([(-50, -1, -50), (50, -1, -50), (50, -1, 50), (-50, -1, 50)], [(0, 2, 1), (0, 3, 2)]))
+        world = scree.World(scene, backend="cpu")
+        world.step(240)
+        self.assertTrue(np.isfinite(world.position).all())
+        self.assertTrue((world.position[:len(shapes), 1] > -.1).all())
+        self.assertEqual(floor, len(shapes) + 1)
+
+    def test_descriptions_have_the_keys_of_scene_files(self):
+        from dataclasses import fields
+        for kind, name in ((scree.Filter, "filter"), (scree.Tyre, "tyre"), (scree.Fracture, "fracture")):
+            self.assertLessEqual({one.name for one in fields(kind)}, set(scree._native.keys(name)))
+
+    def test_joints_vehicles_and_what_happens(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        door = scene.add(scree.Box((.5, 1, .05)), position=(.5, 1.2, 0), name="door")
+        hinge = scene.add_joint(scree.Hinge(limits=(-.1, 1.5), friction=.1), None, "door", anchor=(0, 1.2, 0), axis=(0, 1, 0))
+        car = scene.add_car((5, 0, 0))
+        scene.at(.5, impulse={"body": door, "impulse": [0, 0, -200], "offset": [.4, 0, 0]})
+        self.assertEqual((hinge, car), (0, 0))
+        world = scree.World(scene, backend="cpu")
+        world.drive(car, throttle=1)
+        world.step(120)
+        self.assertGreater(world.vehicles().speed[car], 3)
+        self.assertGreater(abs(world.joints().coordinates[hinge, 3]), .3)
+        self.assertEqual(len(scene.vehicle_bodies(car)), 5)
+
+    def test_a_file_reads_back_to_the_same_bits(self):
+        scene = scree.demo("wall")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "wall.json")
+            scene.save(path)
+            again = scree.load(path)
+        self.assertEqual(scene.hash, again.hash)
+        self.assertEqual(scree.from_json(scene.to_json()).hash, scene.hash)
+        self.assertEqual(scene.copy().hash, scene.hash)
+
+
+class Errors(unittest.TestCase):
+    def test_a_scene_that_cannot_be_names_the_place(self):
+        scene = scree.Scene()
+        scene.add(scree.Sphere(), position=np.zeros((3, 3)))
+        scene.add(scree.Sphere(radius=-1))
+        with self.assertRaises(ValueError) as caught:
+            scree.World(scene, backend="cpu")
+        self.assertIsInstance(caught.exception, scree.SceneError)
+        self.assertEqual(caught.exception.pointer, "/bodies/3/shape/sphere/radius")
+        self.assertIn("/bodies/3/shape/sphere/radius", str(caught.exception))
+
+    def test_errors_are_of_pythons_kinds(self):
+        scene = scree.Scene()
+        with self.assertRaises(TypeError) as caught:
+            scene.add(scree.Sphere(), fricton=1)
+        self.assertIn('"friction"', str(caught.exception))
+        with self.assertRaises(ValueError):
+            scene.add(scree.Sphere(), position=[(0, 0)])
+        with self.assertRaises(ValueError):
+            scene.add(scree.Sphere(), position=np.zeros((3, 3)), friction=[.1, .2])
+        with self.assertRaises(scree.SceneError):
+            scene.add(scree.Sphere(radius=float("nan")))
+        with self.assertRaises(KeyError):
+            scene["nobody"]
+        with self.assertRaises(KeyError):
+            scree.demo("nothing")
+        with self.assertRaises(OSError):
+            scree.load("/nowhere/at/all.json")
+        with self.assertRaises(TypeError):
+            scree.World(scene, substep=3)
+        with self.assertRaises(ValueError):
+            scree.World(scene, backend="abacus")
+        with self.assertRaises(scree.SceneError) as settings:
+            scree.World(scene, backend="cpu", rate=-1)
+        self.assertEqual(settings.exception.pointer, "/settings/rate")
+        with self.assertRaises(scree.SceneError) as joint:
+            scene.add_joint(scree.Hinge(limits=("low", 1)), 0)
+        self.assertTrue(joint.exception.pointer.startswith("/joints/0/"))
+
+    def test_a_broken_file_names_file_and_place(self):
+        with tempfile.NamedTemporaryFile("w", suffix=".json") as file:
+            file.write('{"bodies": [{"shape": {"cube": {}}}]}')
+            file.flush()
+            with self.assertRaises(scree.SceneError) as caught:
+                scree.load(file.name)
+        self.assertEqual(caught.exception.pointer, "/bodies/0/shape")
+        self.assertIn(file.name, str(caught.exception))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,349 @@
+# Worlds from Python: the program's bits, arrays in the order of ids, exact states, views, threads and interruption.
+import json
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import scree
+
+PROGRAM = os.environ.get("SCREE_PROGRAM_PATH", "")
+
+
+def pile(count=64, **fields):
+    scene = scree.Scene()
+    scene.add(scree.Plane())
+    grid = np.arange(count)
+    place = np.stack([grid % 4 * 1.1, .6 + grid // 16 * 1.05, grid // 4 % 4 * 1.1], 1)
+    ids = scene.add(scree.Box(), position=place, **fields)
+    return scene, ids
+
+
+def backends():
+    return ["cpu"] + (["vulkan"] if scree._native.has_vulkan else [])
+
+
+class SameBits(unittest.TestCase):
+    @unittest.skipUnless(PROGRAM, "SCREE_PROGRAM_PATH is not set")
+    def test_hashes_are_the_programs(self):
+        for demo, bodies, steps in (("mix", 100, 90), ("wrecking", 0, 60)):
+            scene = scree.demo(demo, bodies)
+            with tempfile.TemporaryDirectory() as folder:
+                path = os.path.join(folder, "scene.json")
+                scene.save(path)
+                for backend in backends():
+                    made = subprocess.run([PROGRAM, "run", path, "--steps", str(steps), "--backend", backend, "--report", "-", "--quiet"],
+                                          stdout=subprocess.PIPE, check=False)
+                    report = json.loads(made.stdout)
+                    world = scree.World(scree.load(path), backend=backend)
+                    world.step(steps)
+                    self.assertEqual(world.state_hash(), report["state_hash"], (demo, backend))
+
+    @unittest.skipUnless(PROGRAM, "SCREE_PROGRAM_PATH is not set")
+    def test_timed_events_happen_as_in_the_program(self):
+        scene, ids = pile(16)
+        scene.at(.2, explosion={"centre": [1.5, 0, 1.5], "radius": 6, "speed": 8})
+        scene.at(.5, gravity={"gravity": [3, -9.81, 0]})
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "scene.json")
+            scene.save(path)
+            made = subprocess.run([PROGRAM, "run", path, "--steps", "80", "--backend", "cpu", "--report", "-", "--quiet"],
+                                  stdout=subprocess.PIPE, check=False)
+        world = scree.World(scene, backend="cpu")
+        world.step(50)
+        world.step(30)
+        self.assertEqual(world.state_hash(), json.loads(made.stdout)["state_hash"])
+
+    def test_threads_and_batches_change_no_bit(self):
+        scene, _ = pile()
+        worlds = [scree.World(scene, backend="cpu", threads=threads) for threads in (1, 2)]
+        worlds[0].step(100)
+        for _ in range(100):
+            worlds[1].step()
+        self.assertEqual(worlds[0].state_hash(), worlds[1].state_hash())
+        self.assertEqual(worlds[0].steps, 100)
+
+    def test_a_restored_world_goes_on_with_the_same_bits(self):
+        scene, ids = pile()
+        world = scree.World(scene, backend="cpu")
+        world.step(30)
+        mark = world.save()
+        self.assertIsInstance(mark, bytes)
+        world.step(60)
+        end = world.state_hash()
+        world.apply(ids, impulse=(5, 0, 0))
+        world.step(20)
+        world.restore(mark)
+        world.step(60)
+        self.assertEqual(world.state_hash(), end)
+        other = scree.World(scene, backend="cpu", threads=1)
+        other.restore(mark)
+        other.step(60)
+        self.assertEqual(other.state_hash(), end)
+        with self.assertRaises(scree.CheckpointError):
+            world.restore(mark[:-1])
+        with self.assertRaises(ValueError):
+            world.restore(b"")
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "a.checkpoint")
+            world.write_checkpoint(path, "noted")
+            self.assertEqual(other.read_checkpoint(path), "noted")
+        self.assertEqual(other.state_hash(), end)
+
+
+class Bulk(unittest.TestCase):
+    def test_set_and_read_in_the_order_of_ids(self):
+        for backend in backends():
+            scene, ids = pile(5000 if backend == "cpu" else 64)  # with thousands, rows differ from ids
+            world = scree.World(scene, backend=backend)
+            world.step(2)
+            rng = np.random.default_rng(3)
+            position = rng.uniform(-100, 100, (len(ids), 3)).astype(np.float32)
+            velocity = rng.uniform(-1, 1, (len(ids), 3)).astype(np.float32)
+            world.set(ids, position=position, velocity=velocity)
+            np.testing.assert_array_equal(world.position[ids], position)
+            np.testing.assert_array_equal(world.velocity[ids], velocity)
+            world.set(ids, velocity=world.velocity[ids] * .5)
+            np.testing.assert_array_equal(world.velocity[ids], velocity * np.float32(.5))
+            world.set(ids[:3], orientation=(0, 0, 0, 2))
+            np.testing.assert_array_equal(world.orientation[ids[:3]], [[0, 0, 0, 1]] * 3)
+
+    def test_forces_move_bodies(self):
+        scene = scree.Scene(gravity=(0, 0, 0))
+        ids = scene.add(scree.Sphere(.5), position=[(0, 0, 0), (5, 0, 0), (10, 0, 0)], density=1000)
+        world = scree.World(scene, backend="cpu")
+        mass = 1000 * 4 / 3 * np.pi * .125
+        world.apply(ids[:2], impulse=[(mass, 0, 0), (0, 2 * mass, 0)])
+        world.apply(ids[2], force=(0, 0, 60 * mass))
+        world.step()
+        np.testing.assert_allclose(world.velocity, [(1, 0, 0), (0, 2, 0), (0, 0, 1)], atol=1e-4)
+
+    def test_wrong_ids_and_values_change_nothing(self):
+        scene, ids = pile(8)
+        world = scree.World(scene, backend="cpu")
+        before = world.state_hash()
+        with self.assertRaises(IndexError):
+            world.set([1, 99], velocity=(0, 0, 0))
+        with self.assertRaises(IndexError):
+            world.set(-1, velocity=(0, 0, 0))
+        with self.assertRaises(ValueError):
+            world.set(ids, velocity=np.full((8, 3), np.nan))
+        with self.assertRaises(ValueError):
+            world.set(ids, velocity=np.zeros((7, 3)))
+        with self.assertRaises(TypeError):
+            world.set(ids * 1.0, velocity=(0, 0, 0))
+        with self.assertRaises(ValueError):
+            world.apply([1, 0], force=(0, 1, 0))  # the ground is fixed
+        with self.assertRaises(ValueError):
+            world.step(-1)
+        self.assertEqual(world.state_hash(), before)
+
+    def test_bodies_come_and_go(self):
+        scene, ids = pile(8)
+        world = scree.World(scene, backend="cpu")
+        world.step(5)
+        born = world.add(scree.Sphere(.2), position=[(0, 9, 0), (2, 9, 0)], velocity=(0, -1, 0))
+        np.testing.assert_array_equal(born, [9, 10])
+        handles = world.handles(born)
+        world.step(10)
+        world.remove(handles[:1])
+        np.testing.assert_array_equal(world.are_valid(handles), [False, True])
+        self.assertFalse(world.exists[9])
+        with self.assertRaises(IndexError):
+            world.remove(handles[:1])
+        world.step(2)
+        self.assertEqual(world.add(scree.Box((.1, .1, .1)), (0, 9, 0)), 9)
+        self.assertFalse(world.are_valid(handles)[0])
+
+
+class Contacts(unittest.TestCase):
+    def test_a_box_at_rest_bears_its_weight(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        box = scene.add(scree.Box((.5, .5, .5)), position=(0, .5, 0), density=1000)
+        world = scree.World(scene, backend="cpu", sleeping=False)
+        world.step(120)
+        contacts = world.contacts()
+        self.assertEqual(len(contacts), 1)
+        self.assertEqual((contacts.a[0], contacts.b[0], contacts["count"][0]), (0, 1, 4))
+        self.assertAlmostEqual(float(contacts.force.sum()) / 9810, 1, places=2)
+        np.testing.assert_allclose(world.touch_force(box)[0], (0, 9810, 0), atol=100)
+        self.assertEqual(contacts.position.shape, (1, 4, 3))
+
+    def test_events_begin_hit_and_end(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        ball = scene.add(scree.Sphere(.5), position=(0, 2, 0), restitution=.8)
+        world = scree.World(scene, backend="cpu", events={"hit_speed": 1})
+        world.step(120)
+        events = world.events()
+        kinds = [scree.EventKind(e.kind) for e in events]
+        self.assertEqual(kinds[:1], [scree.EventKind.begin])
+        self.assertIn(scree.EventKind.hit, kinds)
+        hit = events[events.kind == scree.EventKind.hit][0]
+        self.assertEqual((hit.a, hit.b), (0, ball))
+        self.assertGreater(hit.speed, 4)
+        self.assertEqual(len(world.events()), 0)
+
+    def test_events_that_nobody_asked_for_warn(self):
+        scene, _ = pile(4)
+        world = scree.World(scene, backend="cpu")
+        with self.assertWarns(RuntimeWarning):
+            self.assertEqual(len(world.events()), 0)
+        world.step(60)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertGreater(len(world.events()), 0)
+
+    def test_a_body_breaks(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        brick = scene.add(scree.Box((.4, .2, .2)), position=(0, 6, 0), fracture=scree.Fracture(impulse=100, pieces=5))
+        world = scree.World(scene, backend="cpu", events=True)
+        self.assertEqual(world.exists.sum(), 2)
+        world.step(120)
+        self.assertFalse(world.exists[brick])
+        self.assertEqual(world.exists.sum(), 6)
+        self.assertIn(scree.EventKind.body_broke, world.events().kind)
+
+
+class Queries(unittest.TestCase):
+    def test_rays_as_arrays(self):
+        scene, ids = pile(16)
+        world = scree.World(scene, backend="cpu")
+        origins = np.array([(0, 10, 0), (0, 10, 50), (50, 1, 50)])
+        hits = world.cast_rays(origins, [(0, -2, 0), (0, -1, 0), (0, 1, 0)])
+        self.assertEqual(hits.body.tolist(), [ids[0], 0, -1])
+        np.testing.assert_allclose(hits.distance[:2], (10 - 1.1, 10), atol=1e-5)
+        self.assertEqual(hits.distance[2], np.inf)
+        np.testing.assert_allclose(hits.normal[0], (0, 1, 0))
+        self.assertEqual(world.rays_hit(origins, (0, -1, 0)).tolist(), [True, True, True])
+        self.assertEqual(world.rays_hit(origins, (0, -1, 0), 2).tolist(), [False, False, True])
+        starts, through = world.cast_rays_through(origins, (0, -1, 0))
+        self.assertEqual(through[starts[0]:starts[1]].body.tolist(), [ids[0], 0])
+        grid = world.cast_rays(np.zeros((3, 4, 3)) + (0, 5, 0), (0, -1, 0))
+        self.assertEqual(grid.shape, (3, 4))
+        with self.assertRaises(ValueError):
+            world.cast_rays((0, 0, 0), (0, 0, 0))
+        with self.assertRaises(ValueError):
+            world.cast_rays((0, 0), (0, 0, 1))
+
+    def test_casts_and_overlaps(self):
+        scene, ids = pile(16)
+        world = scree.World(scene, backend="cpu")
+        stop = world.cast_shapes(scree.Sphere(.5), (0, 10, 0), (0, -1, 0), 20)
+        self.assertEqual(stop.body[0], ids[0])
+        self.assertAlmostEqual(float(stop.point[0, 1]), 1.6, places=3)
+        starts, parts = world.overlaps(scree.Box((.2, .2, .2)), [(0, .6, 0), (0, 30, 0)])
+        self.assertEqual(parts[starts[0]:starts[1]].body.tolist(), [ids[0]])
+        self.assertEqual(starts.tolist(), [0, 1, 1])
+
+
+class Views(unittest.TestCase):
+    def test_views_show_the_tables_and_hold_them(self):
+        scene, ids = pile(5000)
+        world = scree.World(scene, backend="cpu")
+        world.step()
+        poses = world.tables.poses
+        rows = world.tables.ids
+        self.assertFalse(poses.flags.writeable)
+        by_id = np.empty((len(world), 3), np.float32)
+        by_id[rows] = poses["position"]
+        np.testing.assert_array_equal(by_id, world.position)
+        before = poses["position"].copy()
+        world.step(3)
+        self.assertTrue((poses["position"] != before).any())
+        mark = world.save()
+        for change in (lambda: world.add(scree.Sphere(), (0, 50, 0)), lambda: world.remove(1), lambda: world.restore(mark)):
+            with self.assertRaises(BufferError):
+                change()
+        with self.assertRaises(ValueError):
+            poses["position"][0] = 0
+        inner = poses["position"]
+        del poses, rows
+        with self.assertRaises(BufferError):
+            world.restore(mark)
+        del inner
+        world.restore(mark)
+
+    def test_a_view_keeps_its_world(self):
+        scene, _ = pile(8)
+        poses = scree.World(scene, backend="cpu").tables.poses
+        self.assertTrue(np.isfinite(poses["position"]).all())
+
+    @unittest.skipUnless(scree._native.has_vulkan, "built without Vulkan")
+    def test_a_device_has_no_views(self):
+        scene, _ = pile(8)
+        world = scree.World(scene, backend="vulkan")
+        with self.assertRaises(BufferError):
+            world.tables.poses
+
+
+class Threads(unittest.TestCase):
+    def test_other_threads_run_while_a_world_steps(self):
+        scene, _ = pile(512)
+        world = scree.World(scene, backend="cpu", threads=1, sleeping=False)
+        counted = 0
+        ready = threading.Event()
+
+        def work():
+            ready.set()
+            world.step(200)
+
+        thread = threading.Thread(target=work)
+        thread.start()
+        ready.wait()
+        while thread.is_alive():
+            counted += 1
+            time.sleep(1e-4)
+        thread.join()
+        self.assertGreater(counted, 20)
+
+    def test_a_world_is_stepped_by_one_thread_at_a_time(self):
+        scene, _ = pile(512)
+        world = scree.World(scene, backend="cpu", threads=1, sleeping=False)
+        thread = threading.Thread(target=lambda: world.step(300))
+        thread.start()
+        refused = 0
+        while thread.is_alive():
+            try:
+                world.position
+            except RuntimeError:
+                refused += 1
+        thread.join()
+        self.assertGreater(refused, 0)
+        self.assertEqual(world.steps, 300)
+
+    def test_an_interrupt_ends_the_run_between_steps(self):
+        code = ("import scree, sys\n"
+                "s = scree.Scene(); s.add(scree.Plane()); s.add(scree.Sphere(), position=(0, 5, 0))\n"
+                "w = scree.World(s, backend='cpu', sleeping=False)\n"
+                "print('on', flush=True)\n"
+                "try: w.step(2000000000)\n"
+                "except KeyboardInterrupt: print('off', w.steps > 0, w.step() is None)\n")
+        with subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True) as run:
+            self.assertEqual(run.stdout.readline(), "on\n")
+            time.sleep(.3)
+            run.send_signal(signal.SIGINT)
+            self.assertEqual(run.communicate(timeout=20)[0], "off True True\n")
+
+    def test_a_bar_shows_progress(self):
+        code = ("import scree\n"
+                "from scree import _progress\n"
+                "_progress.Bar.PATIENCE = 0\n"
+                "w = scree.World(scree.demo('pile', 1000), backend='cpu')\n"
+                "w.step(60, progress=True)\n")
+        run = subprocess.run([sys.executable, "-c", code], stderr=subprocess.PIPE, check=True)
+        self.assertIn(b"/60 steps", run.stderr)
+        self.assertTrue(run.stderr.endswith(b"\r"))
+
+
+if __name__ == "__main__":
+    unittest.main()
