@@ -1,5 +1,6 @@
 // Explicit mass properties of bodies: moves a body's frame to its centre of mass and principal axes.
 #include "compute/scene/inertial.h"
+#include "compute/scene/double_quaternion.h"
 
 #include <algorithm>
 #include <optional>
@@ -13,20 +14,13 @@ namespace {
 using glm::dquat;
 using glm::dvec3;
 
-dquat of(vec4 q) {
-    return glm::normalize(dquat{q.w, q.x, q.y, q.z});
-}
-vec4 of(dquat q) {
-    return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
-}
-
 // The shape, or the parts of a compound, in the new frame.
 void move_shape(Shape& shape, dvec3 centre, dquat axes) {
     if (const std::optional<SimpleShape> simple = simple_shape(shape)) shape = Compound{{Part{.shape = *simple}}};
     const dquat back = glm::conjugate(axes);
     for (Part& part : std::get<Compound>(shape).parts) {
         part.position = vec3(back * (dvec3(part.position) - centre));
-        part.orientation = of(glm::normalize(back * of(part.orientation)));
+        part.orientation = single_quaternion(glm::normalize(back * glm::normalize(double_quaternion(part.orientation))));
     }
 }
 
@@ -50,7 +44,7 @@ Shift bring_to_inertial(const Examination& body, Body& b, const Shift& shape) {
     require_sense(body / "inertial", b);
     Inertial& inertial = *b.inertial;
     dvec3 centre(inertial.centre);
-    dquat axes = of(inertial.frame);
+    dquat axes = glm::normalize(double_quaternion(inertial.frame));
     if (shape) {
         const dquat back = glm::conjugate(shape->axes);
         centre = back * (centre - shape->centre);
@@ -58,11 +52,12 @@ Shift bring_to_inertial(const Examination& body, Body& b, const Shift& shape) {
     }
     inertial.centre = vec3(0);
     inertial.frame = vec4(0, 0, 0, 1);
-    if (centre == dvec3(0) && (of(axes) == vec4(0, 0, 0, 1) || of(axes) == vec4(0, 0, 0, -1))) return shape;
+    if (centre == dvec3(0) && (single_quaternion(axes) == vec4(0, 0, 0, 1) || single_quaternion(axes) == vec4(0, 0, 0, -1)))
+        return shape;
     move_shape(b.shape, centre, axes);
-    const dquat turn = of(b.orientation);
+    const dquat turn = glm::normalize(double_quaternion(b.orientation));
     b.position = vec3(dvec3(b.position) + turn * centre);
-    b.orientation = of(glm::normalize(turn * axes));
+    b.orientation = single_quaternion(glm::normalize(turn * axes));
     if (!shape) return Recentred{centre, axes};
     return Recentred{shape->centre + shape->axes * centre, glm::normalize(shape->axes * axes)};
 }
