@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <glm/glm.hpp>
@@ -18,13 +19,15 @@
 namespace scree {
 
 enum class EventKind : std::uint8_t {
-    begin,        // of two parts: the first step in which they pressed on each other
-    end,          // they are apart; or one of them is gone
-    hit,          // they pressed on each other, as they did not in the step before, faster than EventSettings::hit_speed
-    body_broke,   // a: the body; its fragments are there from now on
-    joint_broke,  // joint: its index; a and b: its bodies
-    fell_asleep,  // a
-    woke,         // a
+    begin,         // of two parts: the first step in which they pressed on each other
+    end,           // they are apart; or one of them is gone
+    hit,           // they pressed on each other, as they did not in the step before, faster than EventSettings::hit_speed
+    body_broke,    // a: the body; its fragments are there from now on
+    joint_broke,   // joint: its index; a and b: its bodies
+    fell_asleep,   // a
+    woke,          // a
+    sensor_begin,  // a: a sensor, part_a: its part; b, part_b: what began to overlap it in the step
+    sensor_end,    // they overlap no more; or one of them is gone
 };
 
 struct EventSettings {
@@ -32,17 +35,27 @@ struct EventSettings {
     float hit_speed = 1e30f;  // m/s, least approach speed of a hit, >= 0; needs contacts
     bool breaks = false;      // body_broke and joint_broke
     bool sleep = false;       // fell_asleep and woke
-    bool any() const { return contacts || breaks || sleep; }
+    bool sensors = false;     // sensor_begin and sensor_end
+    bool any() const { return contacts || breaks || sleep || sensors; }
     bool operator==(const EventSettings& o) const {
-        return contacts == o.contacts && hit_speed == o.hit_speed && breaks == o.breaks && sleep == o.sleep;
+        return contacts == o.contacts && hit_speed == o.hit_speed && breaks == o.breaks && sleep == o.sleep &&
+               sensors == o.sensors;
     }
+};
+
+// A sensor (Role::sensor) and a solid part that overlaps it, awake or asleep, of any motion; of a fixed sensor only what is
+// not fixed, and what its filter admits.
+struct SensorOverlap {
+    std::uint32_t sensor = 0, sensor_part = 0;  // body; part of a compound, else 0
+    std::uint32_t body = 0, part = 0;           // likewise; the triangles of a mesh count as one part
+    auto operator<=>(const SensorOverlap&) const = default;
 };
 
 struct Event {
     std::uint64_t step = 0;  // the number of steps done after the one in which it happened
     EventKind kind = EventKind::begin;
-    // Bodies by index and generation (BodyHandle): of pairs a is the lower index. Of the world in place of a body the index
-    // is all ones.
+    // Bodies by index and generation (BodyHandle): of pairs that touch a is the lower index. Of the world in place of a body the
+    // index is all ones.
     std::uint32_t a = 0, a_generation = 0, b = 0, b_generation = 0;
     std::uint32_t part_a = 0, part_b = 0;  // of compounds; else 0. The triangles of a mesh count as one part
     std::uint32_t joint = 0;

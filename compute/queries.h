@@ -43,11 +43,19 @@ struct ShapeOverlap {
     std::uint32_t mask = 0xFFFFFFFF;
 };
 
+// The point of any body that is nearest to a point.
+struct ClosestQuery {
+    vec3 point{0};                    // m
+    float reach = 1;                  // m, > 0 and at most 1e6: what is further away is not found
+    std::uint32_t mask = 0xFFFFFFFF;  // as of a ray
+};
+
 struct QueryHit {
     std::size_t body = 0;
     std::uint32_t part = 0;  // of a compound the part, of a mesh or height field the triangle
     float distance = 0;      // along the ray or cast, m; 0 if it begins in the body
-    vec3 point{0};           // on the surface, m; of a cast the centre of the shape as it touches
+    vec3 point{0};           // on the surface, m; of a cast the centre of the shape as it touches; of a
+                             // point in the body that itself
     vec3 normal{0};          // of the surface, unit, outward; where it begins in the body against its direction
 };
 

@@ -52,23 +52,41 @@ struct Fracture {
     std::size_t first_piece = no_body;  // index of its first fragment; all are contiguous
 };
 
+// Mass properties of a body in place of those of its shape at its density. When the scene is checked, the body's frame is
+// moved to the centre and the principal axes: `centre` becomes 0, `frame` no turn, and a shape that is then elsewhere a
+// compound.
+struct Inertial {
+    float mass = 1;          // kg, 1e-9 to 1e15
+    vec3 centre{0};          // centre of mass, in the frame of the shape, m
+    vec3 inertia{1};         // principal moments of inertia, kg m^2, 1e-20 to 1e25; none above the sum of the others
+    vec4 frame{0, 0, 0, 1};  // principal axes to the frame of the shape, quaternion
+};
+
 struct Body {
     std::string name;  // for messages; may be empty
     Motion motion = Motion::dynamic;
     Shape shape = Box{};
+    Role role = Role::solid;  // of the shape, and of all its parts if not solid; no mesh or height field
     // Position of the centre of mass, m. For a hull or compound, until the scene is checked, the origin of its points
     // or parts; for a mesh or height field always.
     vec3 position{0};
-    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w; normalised when the scene is checked
-    vec3 velocity{0};              // m/s, at most Settings::max_speed
-    vec3 angular_velocity{0};      // rad/s, world axes
-    float density = 1000;          // kg/m^3
-    float friction = 0.6f;         // Coulomb coefficient, >= 0; a pair takes sqrt(a b)
-    float restitution = 0;         // 0 to 1; a pair takes the larger
+    vec4 orientation{0, 0, 0, 1};        // quaternion x, y, z, w; normalised when the scene is checked
+    vec3 velocity{0};                    // m/s, at most Settings::max_speed
+    vec3 angular_velocity{0};            // rad/s, world axes
+    float density = 1000;                // kg/m^3
+    std::optional<Inertial> inertial{};  // none: from shape and density. Required of a dynamic body without solid parts
+    // Its material (Material), but for parts that have their own.
+    float friction = 0.6f;         // Coulomb coefficient, >= 0; a pair takes sqrt(a b), unless friction_rule says otherwise
+    float restitution = 0;         // 0 to 1; a pair takes the larger, unless restitution_rule says otherwise
     float rolling_resistance = 0;  // m, lever arm of the normal force that resists rolling, >= 0; a pair takes the larger
-    float linear_damping = 0;      // 1/s, >= 0
-    float angular_damping = 0;     // 1/s, >= 0
+    float static_friction = unset, spinning_resistance = unset, restitution_threshold = unset;
+    vec3 surface_velocity{0};  // m/s, in the body's frame
+    CombineRule friction_rule = CombineRule::usual, restitution_rule = CombineRule::usual;
+    float linear_damping = 0;   // 1/s, >= 0
+    float angular_damping = 0;  // 1/s, >= 0
     float gravity_scale = 1;
+    float drag = 1;                      // drag coefficient, >= 0, in Fields::wind and Fields::water
+    std::uint64_t user_data = 0;         // the user's own; no result depends on it
     std::optional<Filter> filter{};      // which bodies it collides with; none: all
     std::optional<Tyre> tyre{};          // of spheres, capsules, cylinders, also as parts; none: Coulomb friction
     std::optional<Fracture> fracture{};  // none: unbreakable
@@ -208,12 +226,39 @@ struct Exclusion {
     bool operator==(const Exclusion& o) const { return a == o.a && b == o.b; }
 };
 
+// ---- fields, which act on all dynamic bodies that are awake
+struct Wind {
+    vec3 velocity{0};      // m/s
+    float density = 1.2f;  // of the air, kg/m^3; 0.5 density drag area speed^2 is the force on a body
+};
+// A plane of water: buoyancy by the submerged volume, drag, damping.
+struct Water {
+    vec3 normal{0, 1, 0};  // up; normalised when the scene is checked
+    float offset = 0;      // m, of the surface along the normal from the origin
+    float density = 1000;  // kg/m^3
+    vec3 velocity{0};      // m/s
+    float damping = 0.5f;  // 1/s, of velocity and spin of what is submerged
+};
+struct Attractor {  // pulls with strength / distance^2
+    vec3 position{0};
+    float strength = 0;  // m^3/s^2; < 0: pushes away
+};
+constexpr std::size_t most_attractors = 4;
+struct Fields {
+    std::optional<Wind> wind{};
+    std::optional<Water> water{};
+    std::vector<Attractor> attractors{};  // at most most_attractors
+    float attractor_radius = 0.5f;        // m, within which their pull no longer grows
+    bool any() const { return wind || water || !attractors.empty(); }
+};
+
 struct Scene {
     vec3 gravity{0, -9.81f, 0};  // m/s^2
     std::vector<Body> bodies;
     std::vector<Joint> joints;
     std::vector<Vehicle> vehicles{};
     std::vector<Exclusion> exclusions{};
+    Fields fields{};
 };
 
 // A joint of two bodies of the scene (or the world) at their present poses, from anchor and x axis in world
@@ -243,5 +288,12 @@ struct MassProperties {
     vec3 inertia{0};
 };
 MassProperties mass_properties(const Shape& shape, float density);
+MassProperties mass_properties(const Body& body);  // of a checked body
+
+// Refuses fields out of range with SceneError, and makes the water's normal a unit vector; checked() calls it.
+void check_world_fields(Fields& fields);
+
+Material material_of(const Body& body);
+void set_material(Body& body, const Material& material);  // parts keep those of their own
 
 }  // namespace scree

@@ -64,15 +64,53 @@ struct Filter {
     bool operator==(const Filter& o) const { return category == o.category && mask == o.mask && group == o.group; }
 };
 
-struct Part {  // of a compound
+// What a body's shape, or a part of a compound, is for.
+enum class Role {
+    solid,   // it collides
+    sensor,  // it finds what overlaps it (World::sensed, EventSettings::sensors) and collides with nothing
+    drawn,   // it is only drawn
+};
+
+// How a value of two surfaces in contact follows from those of either; of two rules the later one in this list counts.
+enum class CombineRule {
+    usual,      // of friction the geometric mean, of restitution the maximum
+    geometric,  // sqrt(a b)
+    average,    // (a + b) / 2
+    minimum,
+    multiply,  // a b
+    maximum,
+};
+constexpr float unset = -1;
+
+// The surface of a body, whose members have these names, or of a part.
+struct Material {
+    float friction = 0.6f;         // Coulomb coefficient of what slides, 0 to 100
+    float restitution = 0;         // 0 to 1
+    float rolling_resistance = 0;  // m, lever arm of the normal force that resists rolling, 0 to 1e5; a pair takes the larger
+    // Coulomb coefficient of what sticks, 0 to 100; unset, or below `friction`: that.
+    float static_friction = unset;
+    // m, lever arm of the normal force that resists spinning about the normal, 0 to 1e5; a pair takes the larger. Of a pair
+    // with it rolling resistance resists rolling alone; unset: spinning, too.
+    float spinning_resistance = unset;
+    // m/s, speed of impacts below which they have no restitution; a pair takes the larger. Unset: as Settings say.
+    float restitution_threshold = unset;
+    // m/s, in the body's frame: velocity of the surface over the body, which does not move (a conveyor belt). What touches it
+    // stays awake.
+    vec3 surface_velocity{0};
+    CombineRule friction_rule = CombineRule::usual, restitution_rule = CombineRule::usual;
+};
+
+struct Part {  // of a compound. Only solid parts have mass
     SimpleShape shape = Box{};
     vec3 position{0};  // of the shape's centre of mass in the body frame, m; of a hull its points' origin until checked
-    vec4 orientation{0, 0, 0, 1};    // quaternion x, y, z, w; normalised when the scene is checked
-    float density = 0;               // kg/m^3; 0: the body's own
-    std::optional<Filter> filter{};  // none: the body's own
+    vec4 orientation{0, 0, 0, 1};        // quaternion x, y, z, w; normalised when the scene is checked
+    float density = 0;                   // kg/m^3; 0: the body's own
+    std::optional<Filter> filter{};      // none: the body's own
+    Role role = Role::solid;             // of a body that is not solid itself: the body's
+    std::optional<Material> material{};  // none: the body's own
 };
 struct Compound {             // several convex shapes on one rigid body
-    std::vector<Part> parts;  // at least one; no planes. The masses of overlapping parts add up
+    std::vector<Part> parts;  // no planes; none: a body without a shape. The masses of overlapping parts add up
 };
 struct MeshForm;  // compute/scene/mesh.h
 // A triangle mesh, one-sided: solid behind its faces; for fixed and kinematic bodies. Bodies from behind pass through.

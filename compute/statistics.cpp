@@ -36,7 +36,7 @@ dvec3 angular_momentum(const MassProperties& mass, vec4 q, dvec3 angular) {
 }
 
 void add_motion(const Scene& scene, const State& state, std::size_t i, Statistics& s, dvec3& momentum, dvec3& spin) {
-    const MassProperties mass = mass_properties(scene.bodies[i].shape, scene.bodies[i].density);
+    const MassProperties mass = mass_properties(scene.bodies[i]);
     const std::uint32_t row = state.row_of(i);
     const dvec3 x(state.poses[row].position), v(state.velocities[row].linear), w(state.velocities[row].angular);
     const dvec3 own_spin = angular_momentum(mass, state.poses[row].orientation, w);
@@ -88,7 +88,7 @@ Statistics statistics_of(const Scene& scene, const State& state) {
     dvec3 momentum(0), spin(0);
     std::vector<const Plane*> planes;
     for (const Body& body : scene.bodies)
-        if (const auto* plane = std::get_if<Plane>(&body.shape)) planes.push_back(plane);
+        if (const auto* plane = std::get_if<Plane>(&body.shape); plane && body.role == Role::solid) planes.push_back(plane);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         const std::uint32_t row = state.row_of(i);
         s.broken += state.properties[row].motion == physics::MOTION_BROKEN;

@@ -83,7 +83,7 @@ std::size_t add_car(Scene& scene, const Car& car) {
     chassis.orientation = stand.turn;
     chassis.velocity = stand.along(vec3(0, 0, car.speed));
     chassis.friction = 0.3f;
-    const float mass = mass_properties(chassis.shape, chassis.density).mass;
+    const float mass = mass_properties(chassis).mass;
     scene.bodies.push_back(std::move(chassis));
 
     const float pull = glm::length(scene.gravity);

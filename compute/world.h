@@ -49,10 +49,19 @@ struct BodyChange {
     std::optional<vec3> angular_velocity{};  // rad/s, world axes, likewise
 };
 
-struct Material {                  // see Body
-    float friction = 0.6f;         // 0 to 100
-    float restitution = 0;         // 0 to 1
-    float rolling_resistance = 0;  // m, 0 to 1e5
+// Names one joint for its whole life, whatever happens to the indices of joints.
+struct JointHandle {
+    std::uint32_t index = 0;  // when the handle was given
+    std::uint32_t birth = 0;  // number of the joint, of all that the world has ever had
+    bool operator==(const JointHandle& o) const { return index == o.index && birth == o.birth; }
+};
+
+// For move_bodies: where a kinematic body is to be.
+struct BodyTarget {
+    std::size_t body = 0;
+    vec3 position{0};              // within 1e6 m of 0
+    vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w of any length but 0; it turns there the shorter way
+    int steps = 1;                 // on the way, 1 to 1e6
 };
 
 // A contact of a body after the last step. Two bodies have several contacts if one is a compound, mesh or height field.
@@ -191,6 +200,7 @@ public:
     // From the next step on; these wake all bodies. They throw like the validation of a scene or of Settings.
     void set_gravity(vec3 gravity);          // m/s^2
     void set_friction_factor(float factor);  // scales the friction of every pair, 0 to 10
+    void set_fields(const Fields& fields);   // wind, water, attractors; throws SceneError
     // Lower bound of every pair's restitution, 0 to 1.
     void set_least_restitution(float restitution);
     // From the next step on. Reads contacts and joints back and uploads them again once.
@@ -221,6 +231,14 @@ public:
     // wake; a pose set of a body that is not dynamic wakes all. Throws std::out_of_range for an index, std::invalid_argument
     // for a body that is not there and for values out of range, naming the body; then changes nothing.
     void set_bodies(std::span<const BodyChange> changes);
+    // Moves kinematic bodies to poses, each in a number of steps with constant velocities, which push what they meet; then
+    // they stand still. A new target, velocity, pose or motion of a body replaces this. Reads their poses. Throws
+    // std::out_of_range for an index, std::invalid_argument for a body that is not kinematic, values out of range, and a
+    // speed above Settings::max_speed or rotation above Settings::max_turn; then changes nothing.
+    void move_bodies(std::span<const BodyTarget> targets);
+    // The user's own number of a body, Body::user_data at first. Throw std::out_of_range for the index.
+    void set_user_data(std::size_t body, std::uint64_t data);
+    std::uint64_t user_data(std::size_t body) const;
     // From the next step on. They throw std::out_of_range for the index and SceneError for values or a motion that the
     // body cannot have. Fragments of an unbroken body keep what they have.
     void set_material(std::size_t body, const Material& material);  // wakes it; all, if it is not dynamic
@@ -235,6 +253,16 @@ public:
     // Removes a joint, at the same cost; higher indices decrease by one. Its bodies wake. Throws std::out_of_range, and
     // std::invalid_argument for the joint of a vehicle's wheel.
     void remove_joint(std::size_t joint);
+    // Adds many, with the indices of removed ones first, at the cost of one. Throws SceneError, its pointer by the index in
+    // `joints`, and then adds none.
+    std::vector<JointHandle> add_joints(std::span<const Joint> joints);
+    // Removes joints in one transfer; indices of others stay. Their bodies wake. Throws std::out_of_range for a joint that was
+    // removed before, std::invalid_argument for one that is named twice or is of a vehicle's wheel; then removes none.
+    void remove_joints(std::span<const JointHandle> joints);
+    // Throws std::out_of_range for an index that no joint has, or none any more.
+    JointHandle joint_handle_of(std::size_t joint) const;
+    bool is_valid(JointHandle joint) const;         // whether it has not been removed
+    std::size_t index_of(JointHandle joint) const;  // at present; throws std::out_of_range for one that was removed
     // A joint for add_joint between two bodies (or the_world) at their present poses, made like scree::joint_at. Throws
     // std::out_of_range for the bodies, SceneError for an axis of length 0.
     Joint joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis = vec3(1, 0, 0)) const;
@@ -259,6 +287,8 @@ public:
     // Throws std::invalid_argument for a speed below 0.
     void set_events(const EventSettings& settings);
     const EventSettings& event_settings() const;
+    // What overlaps sensors at present, in order. Reads all bodies.
+    std::vector<SensorOverlap> sensed() const;
     std::vector<Event> take_events();  // since the last call, in order
     // The first surface that a ray meets from outside, m. Shapes in which it begins, and back faces of planes and
     // surfaces, are ignored. Throws std::invalid_argument for a ray that is not
@@ -272,8 +302,10 @@ public:
     QueryLists<QueryHit> cast_rays_through(
         std::span<const RayQuery> rays) const;  // the first of each body and part, near ones first
     std::vector<std::optional<QueryHit>> cast_shapes(std::span<const ShapeCast> casts) const;  // the nearest of each
-    QueryLists<QueryPart> overlaps(std::span<const ShapeOverlap> shapes) const;                // all, by body and part
-    JointState joint(std::size_t index) const;  // throws std::out_of_range; reads all joints
+    // The nearest point of each; `distance` is that from the query's point, 0 in a body.
+    std::vector<std::optional<QueryHit>> closest_points(std::span<const ClosestQuery> points) const;
+    QueryLists<QueryPart> overlaps(std::span<const ShapeOverlap> shapes) const;  // all, by body and part
+    JointState joint(std::size_t index) const;                                   // throws std::out_of_range; reads all joints
     std::vector<JointState> joints() const;
     VehicleState vehicle(std::size_t index) const;  // throws std::out_of_range; reads all vehicles
     std::vector<VehicleState> vehicles() const;

@@ -136,18 +136,21 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
         const physics::Velocity velocity = state.velocities[i];
         const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
         const float bend = physics::is_part(properties) ? physics::bend_of_way(state.part_in(i), velocity, state.fixed()) : 0;
-        physics::Bounds bounds = physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
+        physics::Bounds bounds = physics::is_apart(properties)
+                                     ? physics::no_bounds(pose)
+                                     : physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
         if (physics::will_sweep(properties, velocity, state.fixed())) note(counts.fast, 1u);
         state.masses[i] =
             owner == i ? physics::mass_in_world(properties, pose.orientation, state.masses[i].split) : physics::Mass{};
-        std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
+        if (bounds.bucket != physics::NONE)
+            std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs =
             physics::stirs(physics::motion_of(properties), state.velocities[owner], state.sleep_states[owner], sleep_steps);
         const bool large = physics::is_large(properties);
         const bool listed = !large && bounds.level != physics::NOT_IN_GRID;
         if (listed) note(counts.levels, 1u << bounds.level);
         if (listed && stirs) note(counts.levels_stirring, 1u << bounds.level);
-        if (large && stirs) note(counts.large_stirring, 1u);
+        if (!listed && stirs) note(counts.large_stirring, large ? 1u : 2u);
         if (physics::has_slept(state.sleep_states[i], sleep_steps)) note(counts.sleepers, 1u);
         if (!stirs) bounds.level |= physics::INACTIVE;
         state.bounds[i] = bounds;

@@ -30,6 +30,11 @@ physics::vec4 impact_state(const State& state, const physics::Constraint& c) {
     return c.restitution > 0 ? physics::impact_state(state.forces[c.a], state.forces[c.b]) : physics::vec4(0);
 }
 
+physics::Surface surface_on(const State& state, const physics::BodyProperties& row) {
+    const physics::uint surface = physics::surface_of(row);
+    return surface == 0 ? physics::plain_surface(row) : state.surfaces[surface - 1];
+}
+
 // `payload`: normal impulse, or quiet steps, for A and B (VelocityDelta).
 void hand_out(State& state, const physics::Constraint& c, const physics::VelocityPair& share, float carrying,
               std::array<float, 2> payload = {0, 0}) {
@@ -146,6 +151,9 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
             return;
         }
         c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, p);
+        if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
+            c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
+                                       state.poses[b].orientation, p);
         const bool tyre_is_a = physics::tyre_of(ta) != 0;
         if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
             c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, velocities_of(state, c));
@@ -215,7 +223,9 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
         const float carrying = physics::is_active(c, impulse, after.pair_velocity, state.fixed());
         if (last) {
-            hand_out(state, c, share, carrying, {quiet_steps(c.a), quiet_steps(c.b)});
+            std::array<float, 2> shown{quiet_steps(c.a), quiet_steps(c.b)};
+            if (physics::is_driven(c)) shown.fill(physics::BESIDE_MOVING);
+            hand_out(state, c, share, carrying, shown);
         } else {
             hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying,
                      {impulse.normal_sum, impulse.normal_sum});

@@ -60,6 +60,9 @@ SCREE_STAGE(prepare_joints);
 SCREE_STAGE(solve_joints);
 SCREE_STAGE(relax_joints);  // pass: 1 in the last substep
 
+// fields.cpp
+SCREE_STAGE(apply_fields);
+
 // vehicles.cpp
 SCREE_STAGE(drive_vehicles);
 

@@ -64,6 +64,8 @@ std::size_t room_behind(const State& state, BufferLength length) {
         case BufferLength::fractures:
         case BufferLength::pieces:
         case BufferLength::tyres:
+        case BufferLength::surfaces:
+        case BufferLength::immersions:
         case BufferLength::filters:
         case BufferLength::exclusions:
         case BufferLength::joints:

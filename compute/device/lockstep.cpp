@@ -2,49 +2,13 @@
 #include "compute/device/lockstep.h"
 
 #include <algorithm>
-#include <cstring>
-#include <iomanip>
-#include <sstream>
+#include <vector>
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/device/device_runner.h"
 #include "compute/statistics.h"
 
 namespace scree {
-
-namespace {
-
-std::string words_of(const std::byte* cpu, const std::byte* device, std::size_t offset) {
-    std::uint32_t a = 0, b = 0;
-    float fa = 0, fb = 0;
-    std::memcpy(&a, cpu, 4);
-    std::memcpy(&b, device, 4);
-    std::memcpy(&fa, cpu, 4);
-    std::memcpy(&fb, device, 4);
-    std::ostringstream text;
-    text << "byte " << offset << ": cpu 0x" << std::hex << a << " (" << std::dec << std::setprecision(9) << fa << "), device 0x"
-         << std::hex << b << " (" << std::dec << fb << ")";
-    return text.str();
-}
-
-// Compares a table; writes the first difference to the result.
-bool table_equal(const State& state, const DeviceRunner& device, const Compared& compared, LockstepResult& result) {
-    const TableInfo& info = table_infos()[static_cast<std::size_t>(compared.table)];
-    const auto expected = state.raw(compared.table).first(state.live(compared.length) * info.record_bytes);
-    if (expected.empty()) return true;
-    std::vector<std::byte> found(expected.size());
-    device.read(compared.table, found);
-    const auto [cpu, gpu] = std::mismatch(expected.begin(), expected.end(), found.begin());
-    if (cpu == expected.end()) return true;
-    const std::size_t word = static_cast<std::size_t>(cpu - expected.begin()) / 4 * 4;
-    result.equal = false;
-    result.buffer = info.name;
-    result.element = word / info.record_bytes;
-    result.detail = words_of(&expected[word], &found[word], word % info.record_bytes);
-    return false;
-}
-
-}  // namespace
 
 struct Lockstep::Impl {
     DeviceRunner there;
@@ -70,8 +34,10 @@ struct Lockstep::Impl {
         result.stage = stage.name;
         // After an overflow only counts are written.
         return std::all_of(stage.compared.begin(), stage.compared.end(), [&](const Compared& compared) {
-            return (state.counted().overflow != 0 && compared.table != Table::counts) ||
-                   table_equal(state, there, compared, result);
+            if (state.counted().overflow != 0 && compared.table != Table::counts) return true;
+            std::vector<std::byte> found(live_bytes(state, compared).size());
+            if (!found.empty()) there.read(compared.table, found);
+            return table_equal(state, found, compared, "cpu", "device", result);
         });
     }
 

@@ -8,6 +8,7 @@
 
 #include "compute/scene.h"
 #include "compute/settings.h"
+#include "compute/step/lockstep_result.h"
 #include "compute/step/state_editor.h"
 
 namespace scree {
@@ -16,16 +17,6 @@ namespace host {
 class Device;
 }
 class DeviceRunner;  // compute/device/device_runner.h
-
-struct LockstepResult {
-    bool equal = true;
-    int step = 0;             // number of equal steps
-    std::string stage;        // the first stage that differs
-    std::string buffer;       // the table that differs
-    std::size_t element = 0;  // the first record that differs
-    std::string detail;       // byte of the record and both values
-    std::uint64_t hash = 0;   // of the common state at the end
-};
 
 // Stepping both, for tests that edit between steps.
 class Lockstep {

@@ -30,6 +30,10 @@ WholeMass mass_of(const Compound& compound, float density) {
     WholeMass whole;
     std::vector<MassProperties> parts;
     for (const Part& part : compound.parts) {
+        if (part.role != Role::solid) {
+            parts.emplace_back();
+            continue;
+        }
         parts.push_back(mass_properties(whole_shape(part.shape), part.density > 0 ? part.density : density));
         whole.mass += parts.back().mass;
         whole.centre += dvec3(part.position) * static_cast<double>(parts.back().mass);

@@ -367,6 +367,7 @@ void add_pieces(Scene& scene) {
             piece.position = whole.position + physics::rotate(whole.orientation, part.position);
             piece.orientation = physics::unit_quaternion(physics::compose(whole.orientation, part.orientation));
             piece.fracture = part.fracture;
+            piece.surface_velocity = physics::rotate_back(part.orientation, whole.surface_velocity);
             piece.piece_of = i;
             scene.bodies.push_back(std::move(piece));
         }

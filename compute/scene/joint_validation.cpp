@@ -8,6 +8,7 @@
 
 #include "compute/fields/check.h"
 #include "compute/fields/joint.h"
+#include "compute/scene/double_quaternion.h"
 #include "compute/scene/validator.h"
 
 namespace scree {
@@ -61,20 +62,13 @@ void examine(const Examination& joint, Joint& j, const Scene& scene) {
     fields::check_fields(joint, j, Rules());
 }
 
-dquat of(vec4 q) {
-    return {q.w, q.x, q.y, q.z};
-}
-vec4 of(dquat q) {
-    return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
-}
-
 struct Frame {
     dvec3 position{0};
     dquat turn{1, 0, 0, 0};
 };
 Frame frame_of(const Scene& scene, std::size_t body) {
     if (body == the_world || body >= scene.bodies.size()) return {};
-    return {dvec3(scene.bodies[body].position), glm::normalize(of(scene.bodies[body].orientation))};
+    return {dvec3(scene.bodies[body].position), glm::normalize(double_quaternion(scene.bodies[body].orientation))};
 }
 
 }  // namespace
@@ -91,7 +85,7 @@ void shift_joints(Scene& scene, std::size_t body, const glm::dvec3& centre, cons
     for (Joint& joint : scene.joints) {
         const auto shift = [&](vec3& anchor, vec4& frame) {
             anchor = vec3(back * (dvec3(anchor) - centre));
-            frame = of(glm::normalize(back * of(frame)));
+            frame = single_quaternion(glm::normalize(back * double_quaternion(frame)));
         };
         if (joint.a == body) shift(joint.anchor_a, joint.frame_a);
         if (joint.b == body) shift(joint.anchor_b, joint.frame_b);
@@ -111,8 +105,8 @@ Joint joint_at(const Scene& scene, JointKind kind, std::size_t a, std::size_t b,
     const Frame in_a = frame_of(scene, a), in_b = frame_of(scene, b);
     joint.anchor_a = vec3(glm::conjugate(in_a.turn) * (dvec3(anchor) - in_a.position));
     joint.anchor_b = vec3(glm::conjugate(in_b.turn) * (dvec3(anchor) - in_b.position));
-    joint.frame_a = of(glm::normalize(glm::conjugate(in_a.turn) * turn));
-    joint.frame_b = of(glm::normalize(glm::conjugate(in_b.turn) * turn));
+    joint.frame_a = single_quaternion(glm::normalize(glm::conjugate(in_a.turn) * turn));
+    joint.frame_b = single_quaternion(glm::normalize(glm::conjugate(in_b.turn) * turn));
     return joint;
 }
 

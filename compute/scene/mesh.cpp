@@ -23,23 +23,21 @@ constexpr double least_height = 1e-5;
 // Sine of half a degree: smaller bends count as flat.
 constexpr double flat_bend = 0.0087;
 
-double size_of(std::span<const vec3> vertices) {
+// For each vertex the first one at the same position, by a spatial hash; neighbouring cells are searched too. Cells count
+// from the lower corner of the mesh: a number of cells from the origin could exceed what a double counts exactly.
+std::vector<std::uint32_t> welded(std::span<const vec3> vertices) {
     dvec3 lower(1e300), upper(-1e300);
     for (const vec3& v : vertices) {
         lower = glm::min(lower, dvec3(v));
         upper = glm::max(upper, dvec3(v));
     }
-    return vertices.empty() ? 0 : glm::length(upper - lower);
-}
-
-// For each vertex the first one at the same position, by a spatial hash; neighbouring cells are searched too.
-std::vector<std::uint32_t> welded(std::span<const vec3> vertices, double tolerance) {
+    const double tolerance = vertices.empty() ? 0 : same_place * glm::length(upper - lower);
     using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
     std::map<Cell, std::vector<std::uint32_t>> cells;
     std::vector<std::uint32_t> first(vertices.size());
     const double inverse = tolerance > 0 ? 0.5 / tolerance : 1e9;
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
-        const dvec3 v(vertices[i]);
+        const dvec3 v = dvec3(vertices[i]) - lower;
         const auto low = glm::floor((v - tolerance) * inverse), high = glm::floor((v + tolerance) * inverse);
         first[i] = i;
         for (double x = low.x; x <= high.x && first[i] == i; ++x)
@@ -49,7 +47,8 @@ std::vector<std::uint32_t> welded(std::span<const vec3> vertices, double toleran
                         cells.find({static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), static_cast<std::int64_t>(z)});
                     if (at == cells.end()) continue;
                     for (const std::uint32_t other : at->second)
-                        if (glm::length(dvec3(vertices[other]) - v) <= tolerance) first[i] = std::min(first[i], other);
+                        if (glm::length(dvec3(vertices[other]) - dvec3(vertices[i])) <= tolerance)
+                            first[i] = std::min(first[i], other);
                 }
         if (first[i] != i) continue;
         const dvec3 own = glm::floor(v * inverse);
@@ -116,7 +115,7 @@ MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given)
             if (given[i][k] >= vertices.size())
                 throw MeshError("/triangles/" + std::to_string(i), "vertex " + std::to_string(given[i][k]) + " of " +
                                                                        std::to_string(vertices.size()) + " (they count from 0)");
-    const std::vector<std::uint32_t> first = welded(vertices, same_place * size_of(vertices));
+    const std::vector<std::uint32_t> first = welded(vertices);
     MeshForm form;
     std::vector<uvec3> triangles;
     std::map<std::array<std::uint32_t, 3>, bool> seen;

@@ -280,6 +280,11 @@ MassProperties mass_properties(const Shape& shape, float density) {
         shape);
 }
 
+MassProperties mass_properties(const Body& body) {
+    if (body.inertial) return {body.inertial->mass, body.inertial->inertia};
+    return mass_properties(body.shape, body.density);
+}
+
 std::vector<dvec4> planes_of(const Shape& shape, bool fine) {
     TouchingPlanes planes(shape);
     std::visit(

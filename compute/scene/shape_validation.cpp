@@ -82,7 +82,8 @@ Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hul
 
 Shift check_compound(const Examination& body, Body& b, Compound& compound, CheckedHulls& hulls, std::vector<std::string>* notes) {
     constexpr std::size_t most_parts = 10000;
-    if (compound.parts.empty()) body.refuse("/shape/compound/parts", "a compound needs at least one part");
+    if (compound.parts.empty() && b.motion == Motion::dynamic && !b.inertial)
+        body.refuse("/shape/compound/parts", "a compound needs at least one part, or the body \"inertial\"");
     if (compound.parts.size() > most_parts)
         body.refuse("/shape/compound/parts",
                     "at most " + std::to_string(most_parts) + " parts, are " + std::to_string(compound.parts.size()));
@@ -96,8 +97,10 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
         part.make_unit("/orientation", p.orientation, "a quaternion x, y, z, w; no turn is [0, 0, 0, 1]");
         if (p.density != 0) part.between("/density", p.density, smallest_density, largest_density, " kg/m^3");
         if (p.filter) fields::check_fields(part / "filter", *p.filter);
+        if (p.material) fields::check_fields(part / "material", *p.material);
         if (auto* hull = std::get_if<Hull>(&p.shape)) check_hull(part, p.position, p.orientation, *hull, hulls, notes);
     }
+    if (compound.parts.empty() || b.inertial) return {};
     const Recentred before = bring_to_centre(compound, b.density);
     if (before.centre == dvec3(0) && before.axes == glm::dquat(1, 0, 0, 0)) return {};
     move_frame(b.position, b.orientation, before.centre, before.axes);

@@ -7,6 +7,7 @@
 #include "compute/fields/check.h"
 #include "compute/fields/document.h"
 #include "compute/scene/fracture.h"
+#include "compute/scene/inertial.h"
 #include "compute/scene/joint_validation.h"
 #include "compute/scene/shape_validation.h"
 #include "compute/scene/vehicle_validation.h"
@@ -15,20 +16,43 @@ namespace scree {
 
 namespace {
 
+// Into the body's new frame.
+void turn_surfaces(Body& b, glm::dquat back) {
+    const auto turn = [&](vec3& velocity) {
+        if (velocity != vec3(0)) velocity = vec3(back * glm::dvec3(velocity));
+    };
+    turn(b.surface_velocity);
+    if (auto* compound = std::get_if<Compound>(&b.shape))
+        for (Part& part : compound->parts)
+            if (part.material) turn(part.material->surface_velocity);
+}
+
+void check_role(const Examination& body, const Body& b) {
+    if (b.role == Role::solid) return;
+    if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape))
+        body.refuse("/role", "a mesh or height field is solid; a sensor is of convex shapes");
+    if (b.fracture) body.refuse("/role", "a body that can break is solid");
+}
+
 Shift examine(const Examination& body, Body& b, CheckedHulls& hulls, std::vector<std::string>* notes) {
     check_shape(body, b.shape, b.motion);
     fields::check_fields(body, b);
-    const Shift shift = bring_to_centre(body, b, hulls, notes);
+    const Shift shift = bring_to_inertial(body, b, bring_to_centre(body, b, hulls, notes));
+    if (shift) turn_surfaces(b, glm::conjugate(shift->axes));
+    check_role(body, b);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
         body.refuse("/velocity", "a fixed body has no velocity; use \"kinematic\" for a body that moves regardless of contacts");
     }
-    const MassProperties properties = mass_properties(b.shape, b.density);
+    const MassProperties properties = mass_properties(b);
     const bool representable = std::isnormal(properties.mass) && std::isnormal(properties.inertia.x) &&
                                std::isnormal(properties.inertia.y) && std::isnormal(properties.inertia.z) &&
                                std::isnormal(1 / properties.mass) && std::isnormal(1 / properties.inertia.x) &&
                                std::isnormal(1 / properties.inertia.y) && std::isnormal(1 / properties.inertia.z);
     if (b.motion == Motion::dynamic && !representable) {
-        body.refuse("/density", "size and density give a mass or inertia out of the range of a float");
+        if (properties.mass == 0) body.refuse("/inertial", "a dynamic body none of whose parts is solid needs one");
+        body.refuse(b.inertial ? "/inertial" : "/density",
+                    b.inertial ? "mass or inertia is out of the range of a float"
+                               : "size and density give a mass or inertia out of the range of a float");
     }
     return shift;
 }
@@ -51,9 +75,19 @@ void check_exclusions(const Scene& scene) {
 SceneError::SceneError(std::string place, const std::string& reason)
     : std::runtime_error(place.empty() ? reason : place + ": " + reason), pointer(std::move(place)) {}
 
+void check_world_fields(Fields& of_world) {
+    const Examination at = Examination() / "fields";
+    if (of_world.water) at.make_unit("/water/normal", of_world.water->normal, "it says which way the water faces");
+    if (of_world.attractors.size() > most_attractors)
+        at.refuse("/attractors", "at most " + std::to_string(most_attractors) + " attractors, are " +
+                                     std::to_string(of_world.attractors.size()));
+    fields::check_fields(at, of_world);
+}
+
 Scene checked(Scene scene, std::vector<std::string>* notes) {
     CheckedHulls hulls;
     fields::check_field(Examination(), scene, fields::field_of(&Scene::gravity));
+    check_world_fields(scene.fields);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].piece_of != no_body) continue;  // fragments of a scene checked before
         const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], hulls, notes);

@@ -153,6 +153,7 @@ SceneDocument scene_from_json(std::string_view text, std::size_t most_bodies) {
     named.joints = numbers_of(scene.joints);
     read_field(rest, root, fields::field_of(&Scene::vehicles), scene, named);
     read_field(rest, root, fields::field_of(&Scene::exclusions), scene, named);
+    read_field(rest, root, fields::field_of(&Scene::fields), scene, {});
     if (rest.contains("camera")) document.viewpoint = viewpoint_of(rest["camera"], root / "camera", named, scene);
     read_run(rest, root, named, document);
     return document;

@@ -68,6 +68,7 @@ std::string to_json(const Scene& scene, const std::optional<Viewpoint>& viewpoin
         write_value(text, value);
         text << ",\n";
     };
+    write_one("fields", scene.fields, Fields{});
     write_one("settings", shown.settings, std::optional<Settings>());
     write_one("duration", shown.duration, 0.0f);
     if (viewpoint) write_camera(text, *viewpoint);
@@ -93,6 +94,7 @@ std::uint64_t hash_of(const Scene& scene) {
         if (body.piece_of == no_body) add(text_of_fields(body));
     for (const Joint& joint : scene.joints) add(text_of_fields(joint));
     for (const Vehicle& vehicle : scene.vehicles) add(text_of_fields(vehicle));
+    if (!is_default(scene.fields, Fields{})) add(text_of_fields(scene.fields));
     return XXH64_digest(hash.get());
 }
 

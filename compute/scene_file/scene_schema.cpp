@@ -229,6 +229,7 @@ std::string scene_schema() {
     schema.define("vector", array_of(reference("number"), 3));
     schema.define("size", {{"type", "number"}, {"minimum", 0.001}, {"maximum", 100000}, {"description", "m"}});
     schema.define("shape", shape_schema());
+    schema.define("material", schema.object<Material>(table<Material>.about));
     const auto& document = table<SceneDocument>;
     ordered_json whole = {{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "scree scene"}};
     whole.update(schema.object<SceneDocument>(document.about));

@@ -40,7 +40,7 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
     if (!value.is_array()) refuse(place, "must be an array of parts, is " + kind(value));
     for (std::size_t i = 0; i < value.size(); ++i) {
         const Place here = place / i;
-        only(value[i], here, {"shape", "position", "orientation", "density", "filter"});
+        only(value[i], here, {"shape", "position", "orientation", "density", "filter", "role", "material"});
         Part& part = parts.emplace_back();
         // Rejected before its parts are read: nested compounds could overflow the stack.
         if (const auto nested = value[i].find("shape"); nested != value[i].end() && nested->contains("compound"))
@@ -55,6 +55,9 @@ static void read(const json& value, const Place& place, std::vector<Part>& parts
         optional(value[i], here, "density", part.density);
         if (const auto filter = value[i].find("filter"); filter != value[i].end())
             read_value(*filter, here / "filter", part.filter.emplace(), "", {});
+        if (const auto role = value[i].find("role"); role != value[i].end()) read_value(*role, here / "role", part.role, "", {});
+        if (const auto material = value[i].find("material"); material != value[i].end())
+            read_value(*material, here / "material", part.material.emplace(), "", {});
     }
 }
 
@@ -138,6 +141,8 @@ void write_shape_value(Text& text, const std::vector<Part>& parts) {
         unless_default("orientation", part.orientation, by_default.orientation);
         unless_default("density", part.density, by_default.density);
         if (part.filter) write_value(text << ", \"filter\": ", *part.filter);
+        if (part.material) write_value(text << ", \"material\": ", *part.material);
+        if (part.role != Role::solid) write_value(text << ", \"role\": ", part.role);
         between = "}, {\"shape\": ";
     }
     text << (parts.empty() ? "[]" : "}]");

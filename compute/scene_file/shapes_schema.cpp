@@ -88,7 +88,7 @@ ordered_json schemas_with_lists() {
         {
             "required": ["compound"],
             "additionalProperties": false,
-            "description": "several convex shapes on one body; the body's position is the origin of the parts. Masses of overlapping parts add up",
+            "description": "several convex shapes on one body, or none; the body's position is the origin of the parts. Masses of overlapping parts add up",
             "properties": {
                 "compound": {
                     "type": "object",
@@ -97,7 +97,6 @@ ordered_json schemas_with_lists() {
                     "properties": {
                         "parts": {
                             "type": "array",
-                            "minItems": 1,
                             "maxItems": 10000,
                             "items": {
                                 "type": "object",
@@ -128,7 +127,13 @@ ordered_json schemas_with_lists() {
                                         "default": 0,
                                         "description": "kg/m^3; 0: the body's own"
                                     },
-                                    "filter": {"$ref": "#/$defs/filter", "description": "left out: the body's own"}
+                                    "filter": {"$ref": "#/$defs/filter", "description": "left out: the body's own"},
+                                    "role": {
+                                        "enum": ["solid", "sensor", "drawn"],
+                                        "default": "solid",
+                                        "description": "solid, a sensor, or only drawn; only solid parts have mass. All are as the body if that is not solid"
+                                    },
+                                    "material": {"$ref": "#/$defs/material", "description": "left out: the body's own"}
                                 }
                             }
                         }

@@ -15,7 +15,7 @@ std::uint32_t feature_bits(const SceneFeatures& features) {
            (features.round ? physics::FEATURE_ROUND : 0) | (features.tyres ? physics::FEATURE_TYRES : 0) |
            (features.moving_parts ? physics::FEATURE_PARTS : 0) | (features.reordered ? physics::FEATURE_REORDERED : 0) |
            (features.joints ? physics::FEATURE_JOINTS : 0) | (features.sums ? physics::FEATURE_SUMS : 0) |
-           (features.filters ? physics::FEATURE_FILTERS : 0);
+           (features.surfaces ? physics::FEATURE_SURFACES : 0) | (features.filters ? physics::FEATURE_FILTERS : 0);
 }
 
 struct Order {
@@ -81,6 +81,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     // forces and actions, world bounds
     s.add("begin_step");
     s.add("apply_actions");
+    if (features.fields) s.add("apply_fields");  // after impulses: a repeated step sees the same velocities
     if (features.vehicles) s.add("drive_vehicles");
     if (features.moving_parts) s.add("pose_parts");
     s.add("compute_bounds");

@@ -32,7 +32,7 @@ float cell_width(const std::vector<physics::BodyProperties>& properties, const p
     for (const physics::BodyProperties& body : properties)
         if (!physics::is_large(body) &&
             (body.motion == physics::MOTION_PENDING || physics::motion_of(body) == physics::MOTION_DYNAMIC) &&
-            body.shape != physics::SHAPE_NONE)
+            body.shape != physics::SHAPE_NONE && !physics::is_apart(body))
             widths.push_back(width_of(body) + physics::speculative_of(body, p));
     if (widths.empty()) return 1;
     const auto tenth = widths.begin() + static_cast<std::ptrdiff_t>(widths.size() / 10);
@@ -45,7 +45,7 @@ void mark_large(std::vector<physics::BodyProperties>& properties, float cell) {
     std::array<std::size_t, physics::LEVELS> population{};
     const auto level = [&](const physics::BodyProperties& body) { return physics::level_of(width_of(body), 1 / cell); };
     const auto listed = [](const physics::BodyProperties& body) {
-        return !physics::is_large(body) && body.shape != physics::SHAPE_NONE;
+        return !physics::is_large(body) && body.shape != physics::SHAPE_NONE && !physics::is_apart(body);
     };
     for (const physics::BodyProperties& body : properties)
         if (listed(body)) ++population[level(body)];
@@ -54,7 +54,7 @@ void mark_large(std::vector<physics::BodyProperties>& properties, float cell) {
         if (population[l] == 0 || population[l] > few_bodies || population[l] > room) continue;
         room -= population[l];
         for (physics::BodyProperties& body : properties)
-            if (listed(body) && level(body) == l) body.large = 1;
+            if (listed(body) && level(body) == l) body.flags |= physics::ROW_LARGE;
     }
 }
 
@@ -120,6 +120,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
     filter(scene);
+    set_fields(scene);
     state_.allocate();
     for (std::uint32_t i = 0; i < n; ++i) {
         state_.poses[i] = start_of(scene.bodies[i]);

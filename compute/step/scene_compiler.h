@@ -31,10 +31,16 @@ public:
     static physics::Pose start_of(const Body& body);
     static physics::Velocity start_velocity_of(const Body& body);
     static float start_strain_of(const Body& body, const physics::BodyProperties& properties);
-    void append_parts(const Body& body, std::uint32_t owner);                         // appends properties and poses of its parts
-    void place(std::uint32_t part);                                                   // sets a part's pose from its body's
-    static void set_material(physics::BodyProperties& properties, const Body& body);  // and damping
-    static void set_mass(physics::BodyProperties& properties, const Body& body);      // and motion
+    void append_parts(const Body& body, std::uint32_t owner);                  // appends properties and poses of its parts
+    void place(std::uint32_t part);                                            // sets a part's pose from its body's
+    void set_material(physics::BodyProperties& properties, const Body& body);  // and damping
+    void set_surface(physics::BodyProperties& row, const Material& material);  // in place of the row's own
+    void release_surface(physics::BodyProperties& row);
+    static void set_mass(physics::BodyProperties& properties, const Body& body);  // and motion
+
+    // field_records.cpp: parameters of fields, and how bodies meet air and water (none in a scene without both).
+    void set_fields(const Scene& scene);
+    static physics::Immersion immersion_of(const Body& body);
 
     // filter_records.cpp: the tables of filters and exclusions, empty if the scene has none.
     void filter(const Scene& scene);
@@ -45,6 +51,7 @@ private:
     physics::uint place_of(const Hull& hull);
     physics::uint place_of(const Fracture& fracture);
     physics::uint place_of(const std::optional<Tyre>& tyre);
+    physics::uint place_of(const Material& material);
 
     State& state_;
 };

@@ -15,6 +15,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/collide/triangle.h"
 #include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/material.h"
 
 namespace scree {
 
@@ -70,15 +71,21 @@ std::vector<physics::uvec4> hull_records(const Hull& hull) {
     return records;
 }
 
+physics::uint flags_of(Role role) {
+    if (role == Role::solid) return 0;
+    return role == Role::sensor ? physics::ROW_APART | physics::ROW_SENSOR : physics::ROW_APART;
+}
+
 // Size of a body of which only parts collide, as for SHAPE_NONE.
 vec3 size_of_whole(const Shape& shape) {
     if (const MeshForm* form = mesh_form_of(shape)) return {1e30f, form->reach, 0};
     vec3 size(1e30f, 0, 0);
     for (const Part& part : std::get<Compound>(shape).parts) {
         const physics::BodyProperties form = simple_form(part.shape);
-        size.x = std::min(size.x, physics::min_half_width(form));
+        if (part.role == Role::solid) size.x = std::min(size.x, physics::min_half_width(form));
         size.y = std::max(size.y, glm::length(part.position) + physics::bounding_radius(form));
     }
+    if (size.x == 1e30f) size.x = 1;  // nothing that collides
     return size;
 }
 
@@ -178,8 +185,9 @@ physics::BodyProperties SceneCompiler::properties_of(const Body& body, std::uint
     made.joints = physics::NONE;
     set_mass(made, body);
     if (body.piece_of != no_body) made.motion = physics::MOTION_PENDING;
+    made.flags |= flags_of(body.role);
     set_material(made, body);
-    if (made.shape == physics::SHAPE_PLANE) made.large = 1;
+    if (made.shape == physics::SHAPE_PLANE && body.role == Role::solid) made.flags |= physics::ROW_LARGE;
     return made;
 }
 
@@ -188,34 +196,77 @@ void SceneCompiler::set_mass(physics::BodyProperties& properties, const Body& bo
     properties.inverse_mass = 0;
     properties.inverse_inertia = vec3(0);
     if (body.motion != Motion::dynamic) return;
-    const MassProperties mass = mass_properties(body.shape, body.density);
+    const MassProperties mass = mass_properties(body);
     properties.inverse_mass = 1 / mass.mass;
     properties.inverse_inertia = vec3(1 / mass.inertia.x, 1 / mass.inertia.y, 1 / mass.inertia.z);
 }
 
 void SceneCompiler::set_material(physics::BodyProperties& properties, const Body& body) {
-    properties.friction = body.friction;
-    properties.restitution = body.restitution;
-    properties.rolling_resistance = body.rolling_resistance;
+    set_surface(properties, material_of(body));
     properties.gravity_scale = body.gravity_scale;
     properties.linear_damping = body.linear_damping;
     properties.angular_damping = body.angular_damping;
 }
 
+// Index plus 1; 0: the material says no more than the properties.
+physics::uint SceneCompiler::place_of(const Material& material) {
+    if (material.static_friction <= material.friction && material.spinning_resistance < 0 && material.restitution_threshold < 0 &&
+        material.surface_velocity == vec3(0) && material.friction_rule == CombineRule::usual &&
+        material.restitution_rule == CombineRule::usual)
+        return 0;
+    const physics::Surface made{material.surface_velocity,
+                                material.static_friction,
+                                material.spinning_resistance,
+                                material.restitution_threshold,
+                                static_cast<physics::uint>(material.friction_rule),
+                                static_cast<physics::uint>(material.restitution_rule)};
+    const auto [known, fresh] = state_.shape_places.surfaces.try_emplace(std::bit_cast<std::array<physics::uint, 8>>(made));
+    if (fresh && !state_.spare_surfaces.empty()) {
+        known->second = state_.spare_surfaces.back();
+        state_.spare_surfaces.pop_back();
+        state_.surfaces[known->second] = made;
+    } else if (fresh) {
+        known->second = static_cast<physics::uint>(state_.surfaces.size());
+        state_.surfaces.push_back(made);
+        state_.surface_users.push_back(0);
+    }
+    ++state_.surface_users[known->second];
+    return known->second + 1;
+}
+
+void SceneCompiler::release_surface(physics::BodyProperties& row) {
+    const physics::uint surface = physics::surface_of(row);
+    row.flags &= (1u << physics::ROW_SURFACE_SHIFT) - 1u;
+    if (surface == 0 || --state_.surface_users[surface - 1] > 0) return;
+    state_.shape_places.surfaces.erase(std::bit_cast<std::array<physics::uint, 8>>(state_.surfaces[surface - 1]));
+    state_.spare_surfaces.push_back(surface - 1);
+}
+
+void SceneCompiler::set_surface(physics::BodyProperties& row, const Material& material) {
+    release_surface(row);
+    row.friction = material.friction;
+    row.restitution = material.restitution;
+    row.rolling_resistance = material.rolling_resistance;
+    row.flags |= place_of(material) << physics::ROW_SURFACE_SHIFT;
+}
+
 void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
     const physics::BodyProperties whole = state_.properties[owner];
-    const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn) {
+    const Material own = material_of(body);
+    const auto append = [&](physics::BodyProperties part, vec3 place, vec4 turn, const Material& material) {
         part.motion = whole.motion | physics::MOTION_OF_PART;
         part.owner = owner;
         part.fracture = part.joints = physics::NONE;
-        part.friction = whole.friction;
-        part.restitution = whole.restitution;
-        part.rolling_resistance = whole.rolling_resistance;
+        set_surface(part, material);
         state_.properties.push_back(part);
         state_.parts.push_back({place, 0, turn});
     };
     if (const auto* compound = std::get_if<Compound>(&body.shape))
-        for (const Part& part : compound->parts) append(form_of(part.shape, body.tyre), part.position, part.orientation);
+        for (const Part& part : compound->parts) {
+            physics::BodyProperties form = form_of(part.shape, body.tyre);
+            form.flags |= flags_of(body.role != Role::solid ? body.role : part.role);
+            append(form, part.position, part.orientation, part.material.value_or(own));
+        }
     if (const MeshForm* form = mesh_form_of(body.shape)) {
         state_.hulls.reserve(state_.hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
         for (const MeshForm::Triangle& triangle : form->triangles) {
@@ -225,7 +276,7 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
             part.size = triangle.half_extents;
             const std::vector<physics::uvec4> records = triangle_records(triangle);
             state_.hulls.insert(state_.hulls.end(), records.begin(), records.end());
-            append(part, triangle.middle, vec4(0, 0, 0, 1));
+            append(part, triangle.middle, vec4(0, 0, 0, 1), own);
         }
     }
 }

@@ -165,14 +165,15 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints}},
         {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {joints}}, physics::FEATURE_REORDERED});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
-        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres},
+        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}},
-        {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}});
+        {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
 void declare_solver(std::vector<StageDeclaration>& all) {
-    constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES;
+    constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
+                                       physics::FEATURE_SURFACES;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
@@ -208,6 +209,9 @@ std::vector<StageDeclaration> declare() {
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
         {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {forces, A::actions}},
         {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
+    all.push_back({"apply_fields", DispatchDomain::bodies, apply_fields,
+        {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}},
+        {some_only({forces, A::movers})}, physics::FEATURE_REORDERED});
     all.push_back({"drive_vehicles", DispatchDomain::vehicles, drive_vehicles,
         {{counts}, {vehicles, A::vehicles}, {properties}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {way_points}},
         {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({sleep_states, A::joints})}});

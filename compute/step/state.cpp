@@ -12,6 +12,7 @@
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/material.h"
 
 namespace scree {
 
@@ -76,6 +77,10 @@ std::size_t State::allocated(BufferLength length) const {
             return pieces.size();
         case BufferLength::tyres:
             return tyres.size();
+        case BufferLength::surfaces:
+            return surfaces.size();
+        case BufferLength::immersions:
+            return immersions.size();
         case BufferLength::way_points:
             return way_points.size();
         case BufferLength::filters:
@@ -118,6 +123,8 @@ SceneFeatures State::features() const {
     found.joints = has_joints();
     found.vehicles = fixed().vehicles != 0;
     found.reordered = reordered();
+    found.fields = fixed().air_density > 0 || fixed().water_density > 0 || fixed().attractors > 0;
+    found.surfaces = !surfaces.empty();
     found.filters = !filters.empty();
     found.sums = found.breaking || sums_impulses;
     found.bounces |= fixed().least_restitution > 0;
@@ -137,6 +144,19 @@ void State::note_content(std::uint32_t first_row, std::uint32_t count) {
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
     }
+}
+
+void State::index_surfaces() {
+    shape_places.surfaces.clear();
+    spare_surfaces.clear();
+    surface_users.assign(surfaces.size(), 0);
+    for (const physics::BodyProperties& row : properties)
+        if (const physics::uint surface = physics::surface_of(row)) ++surface_users[surface - 1];
+    for (physics::uint i = 0; i < surfaces.size(); ++i)
+        if (surface_users[i] == 0)
+            spare_surfaces.push_back(i);
+        else
+            shape_places.surfaces[std::bit_cast<std::array<physics::uint, 8>>(surfaces[i])] = i;
 }
 
 void State::make(Table table) {

@@ -39,6 +39,8 @@ enum class BufferLength {
     fractures,
     pieces,
     tyres,
+    surfaces,
+    immersions,
     way_points,
     filters,
     exclusions,
@@ -85,6 +87,8 @@ struct SceneFeatures {
     bool round = false;      // there are spheres or capsules
     bool tyres = false;      // some body has a tyre
     bool reordered = false;  // rows differ from ids
+    bool fields = false;     // there is wind, water or an attractor
+    bool surfaces = false;   // some material has more than friction, restitution and rolling resistance
     bool filters = false;    // some body has a collision filter or an excluded partner
     bool sums = false;       // contacts sum their impulses over the step
     static SceneFeatures everything() {
@@ -100,12 +104,14 @@ struct SceneFeatures {
                 .round = true,
                 .tyres = true,
                 .reordered = true,
+                .fields = true,
+                .surfaces = true,
                 .filters = true,
                 .sums = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 14 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 16 * sizeof(bool));  // everything() names all
 
 inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 
@@ -113,7 +119,8 @@ inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // f
 struct ShapePlaces {
     std::map<std::shared_ptr<const HullForm>, physics::uint> hulls;
     std::map<std::pair<float, float>, physics::uint> tyres;
-    std::map<std::shared_ptr<const Cut>, physics::uint> cuts;  // in the table of pieces
+    std::map<std::array<physics::uint, 8>, physics::uint> surfaces;  // by their words
+    std::map<std::shared_ptr<const Cut>, physics::uint> cuts;        // in the table of pieces
 };
 
 struct State {
@@ -214,6 +221,9 @@ struct State {
     // Records of removed bodies, for new ones: runs of part rows (offset behind first_part, count), fractures.
     std::map<std::uint32_t, std::uint32_t> spare_parts;
     std::vector<physics::uint> spare_fractures;
+    std::vector<std::uint32_t> surface_users;  // rows with each surface
+    std::vector<physics::uint> spare_surfaces;
+    void index_surfaces();                                            // notes these and their places anew, from the tables
     void spare_part_rows(std::uint32_t offset, std::uint32_t count);  // adds a run
     // Takes a run of that length out of them; none if there is none.
     std::optional<std::uint32_t> take_part_rows(std::uint32_t count);

@@ -8,6 +8,7 @@
 #include "compute/step/joint_blocks.h"
 #include "compute/step/scene_compiler.h"
 #include "shaders/physics/collide/compound.h"
+#include "shaders/physics/solve/material.h"
 
 namespace scree {
 
@@ -42,7 +43,7 @@ TableRanges differing(Table table, const std::vector<Record>& before, const std:
 }
 
 // Tables with shape data of bodies.
-constexpr std::array shape_tables{Table::hulls, Table::parts, Table::fractures, Table::pieces, Table::tyres};
+constexpr std::array shape_tables{Table::hulls, Table::parts, Table::fractures, Table::pieces, Table::tyres, Table::surfaces};
 using ShapeLengths = std::array<std::size_t, shape_tables.size()>;  // records
 
 ShapeLengths shape_lengths(const State& state) {
@@ -210,6 +211,13 @@ TableRanges StateEditor::put(const Body& body, std::uint32_t id) {
     if (spare) rewrite(first_part, parts);
     if (state_.properties[row].fracture != physics::NONE)
         changed.push_back({Table::fractures, state_.properties[row].fracture, 1});
+    append(changed, surface_ranges(row, 1));
+    append(changed, surface_ranges(first_part, parts));
+    if (!state_.immersions.empty()) {
+        state_.immersions.resize(state_.body_count);
+        state_.immersions[id] = SceneCompiler::immersion_of(body);
+        changed.push_back({Table::immersions, id, 1});
+    }
     append(changed, rows_added(rows_before, p.bodies - rows_before));
     append(changed, shapes_added(state_, before));
     return changed;
@@ -228,6 +236,18 @@ std::pair<std::uint32_t, std::uint32_t> StateEditor::parts_of(std::uint32_t row)
     return {first, count};
 }
 
+// The surfaces of rows: a new one may be in the place of one that no row has any more.
+TableRanges StateEditor::surface_ranges(std::uint32_t first, std::uint32_t count) const {
+    TableRanges ranges;
+    physics::uint last = 0;
+    for (std::uint32_t row = first; row < first + count; ++row) {
+        const physics::uint surface = physics::surface_of(state_.properties[row]);
+        if (surface != 0 && surface != last) ranges.push_back({Table::surfaces, surface - 1, 1});
+        last = surface;
+    }
+    return ranges;
+}
+
 TableRanges StateEditor::remove(std::span<const std::uint32_t> ids) {
     std::vector<std::uint32_t> rows;
     for (const std::uint32_t id : ids) {
@@ -240,7 +260,9 @@ TableRanges StateEditor::remove(std::span<const std::uint32_t> ids) {
     }
     std::sort(rows.begin(), rows.end());
     TableRanges runs;
+    SceneCompiler compiler(state_);
     for (const std::uint32_t row : rows) {
+        compiler.release_surface(state_.properties[row]);
         state_.properties[row] = spare_row(row < state_.fixed().first_part ? row : 0);
         state_.poses[row] = {vec3(0), 0, vec4(0, 0, 0, 1)};
         state_.velocities[row] = {};
@@ -261,19 +283,25 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     const std::uint32_t row = state_.row_of(id);
     const auto [first, count] = parts_of(row);
     physics::BodyProperties& whole = state_.properties[row];
+    SceneCompiler compiler(state_);
+    const ShapeLengths before = shape_lengths(state_);
     SceneCompiler::set_mass(whole, body);
-    SceneCompiler::set_material(whole, body);
+    compiler.set_material(whole, body);
+    const auto* compound = std::get_if<Compound>(&body.shape);
+    const Material own = material_of(body);
+    TableRanges changed{{Table::properties, row, 1}};
     for (std::uint32_t part = first; part < first + count; ++part) {
         physics::BodyProperties& one = state_.properties[part];
         one.motion = whole.motion | physics::MOTION_OF_PART;
-        one.friction = whole.friction;
-        one.restitution = whole.restitution;
-        one.rolling_resistance = whole.rolling_resistance;
+        compiler.set_surface(one, compound ? compound->parts[part - first].material.value_or(own) : own);
     }
     state_.note_content(row, 1);
     state_.note_content(first, count);
-    TableRanges changed{{Table::properties, row, 1}};
     if (count > 0) changed.push_back({Table::properties, first, count});
+    append(changed, surface_ranges(row, 1));
+    append(changed, surface_ranges(first, count));
+    append(changed, shapes_added(state_, before));
+    state_.allocate();
     return changed;
 }
 
@@ -283,6 +311,13 @@ TableRanges StateEditor::place_parts(std::uint32_t id) {
     SceneCompiler compiler(state_);
     for (std::uint32_t part = first; part < first + count; ++part) compiler.place(part);
     return {{Table::poses, first, count}, {Table::velocities, first, count}, {Table::sleep_states, first, count}};
+}
+
+TableRanges StateEditor::set_fields(const Scene& scene) {
+    const std::vector<physics::Immersion> before = state_.immersions;
+    SceneCompiler(state_).set_fields(scene);
+    state_.allocate();
+    return differing(Table::immersions, before, state_.immersions);
 }
 
 TableRanges StateEditor::filter(const Scene& scene) {
@@ -300,7 +335,7 @@ TableRanges StateEditor::needed_to_rejoin() const {
     return needed;
 }
 
-TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without) {
+TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without, std::span<const std::size_t> fresh) {
     const std::vector<physics::Joint> joints_before = state_.joints;
     const std::vector<physics::Vehicle> vehicles_before = state_.vehicles;
     TableRanges changed;
@@ -326,6 +361,7 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
     state_.joint_records = std::move(made.record_of);
     state_.fixed().joint_blocks = made.blocks;
     for (std::size_t j = 0; j < std::min(before.size(), state_.joint_records.size()); ++j) {
+        if (std::find(fresh.begin(), fresh.end(), j) != fresh.end()) continue;
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         const physics::Joint& was = before[j];
         std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with their warm start

@@ -37,15 +37,18 @@ public:
     // Material, mass and motion of a body and its parts. Needs their properties.
     TableRanges change(const Body& body, std::uint32_t id);
     TableRanges place_parts(std::uint32_t id);  // of a body that does not move by itself
+    TableRanges set_fields(const Scene& scene);
     // The filters of all rows, and the excluded pairs.
     TableRanges filter(const Scene& scene);
-    // Replaces the joints by the scene's: the present ones without `without`, then new ones.
+    // Replaces the joints by the scene's: the present ones without `without`, but for `fresh` ones, which are new.
     TableRanges needed_to_rejoin() const;
-    TableRanges rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt);
+    TableRanges rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt,
+                       std::span<const std::size_t> fresh = {});
 
 private:
     bool has_room_for(std::uint32_t bodies, bool with_parts) const;
     std::pair<std::uint32_t, std::uint32_t> parts_of(std::uint32_t row) const;  // first row, count
+    TableRanges surface_ranges(std::uint32_t first, std::uint32_t count) const;
     TableRanges rows_added(std::uint32_t first, std::uint32_t count);
 
     State& state_;

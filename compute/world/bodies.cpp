@@ -201,15 +201,17 @@ void World::Impl::require_removable(const std::vector<std::size_t>& bodies) cons
 
 TableRanges World::Impl::break_joints_of(const std::vector<std::size_t>& bodies) {
     TableRanges records;
+    std::vector<std::size_t> ended;
+    count_joints();
     const auto goes = [&](std::size_t body) { return std::binary_search(bodies.begin(), bodies.end(), body); };
     for (std::size_t j = 0; j < scene.joints.size(); ++j) {
-        if (!goes(scene.joints[j].a) && !goes(scene.joints[j].b)) continue;
-        scene.joints[j].broken = true;
+        if (is_joint_gone(j) || (!goes(scene.joints[j].a) && !goes(scene.joints[j].b))) continue;
+        ended.push_back(j);
         records.push_back({Table::joints, state.joint_records[j], 1});
         wake(scene.joints[j]);
     }
     runner->download(records);
-    for (const TableRange& record : records) state.joints[record.first].broken = 1;
+    for (const std::size_t joint : ended) take_away_joint(joint);
     return records;
 }
 
@@ -246,6 +248,7 @@ void World::Impl::remove(std::vector<std::size_t> bodies) {
         rows.push_back(static_cast<std::uint32_t>(body));
         for (const std::size_t fragment : fragments_of(scene, body)) rows.push_back(static_cast<std::uint32_t>(fragment));
         actions.erase(body);
+        arrivals.erase(body);
         for (std::optional<Held>& grip : grips)
             if (grip && grip->body == body) grip.reset();
     }

@@ -90,6 +90,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         if (change.velocity) velocity.linear = *change.velocity;
         if (change.angular_velocity) velocity.angular = *change.angular_velocity;
         state.sleep_states[row] = 0;
+        arrivals.erase(change.body);
         const Body& body = scene.bodies[change.body];
         if (body.motion == Motion::dynamic || !(change.position || change.orientation)) continue;
         state.fixed().wake_all = 1;
@@ -134,13 +135,7 @@ void World::Impl::change(std::size_t index, const std::function<void(Body&)>& ed
 
 void World::set_material(std::size_t body, const Material& material) {
     interior_->change(
-        body,
-        [&](Body& b) {
-            b.friction = material.friction;
-            b.restitution = material.restitution;
-            b.rolling_resistance = material.rolling_resistance;
-        },
-        false);
+        body, [&](Body& b) { scree::set_material(b, material); }, false);
 }
 
 void World::Impl::refilter() {
@@ -182,7 +177,7 @@ void World::set_motion(std::size_t body, Motion motion) {
     const bool surface = std::holds_alternative<Mesh>(now.shape) || std::holds_alternative<HeightField>(now.shape);
     if (motion == Motion::dynamic && surface) refuse("a mesh or height field is a surface, has no mass and cannot be dynamic");
     if (motion == Motion::dynamic) {
-        const MassProperties mass = mass_properties(now.shape, now.density);
+        const MassProperties mass = mass_properties(now);
         for (const float value : {mass.mass, mass.inertia.x, mass.inertia.y, mass.inertia.z})
             if (!std::isnormal(value) || !std::isnormal(1 / value))
                 refuse("size and density give a mass or inertia out of the range of a float");
@@ -205,6 +200,7 @@ void World::set_motion(std::size_t body, Motion motion) {
     }
     in.change(
         body, [&](Body& b) { b.motion = motion; }, true);
+    in.arrivals.erase(body);
     if (motion == Motion::fixed) {
         const std::uint32_t row = in.state.row_of(body);
         const TableRanges still{{Table::velocities, row, 1}};

@@ -23,7 +23,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t format = 1;
+constexpr std::uint32_t format = 2;
 
 struct Head {
     char magic[8];
@@ -80,6 +80,7 @@ struct World::Impl::Own {
     bool reorder_now = false;
     std::map<std::size_t, physics::Action> actions;
     std::array<std::optional<Held>, most_grips> grips;
+    std::map<std::size_t, std::uint64_t> arrivals;
     Events events;
 };
 
@@ -93,8 +94,12 @@ struct World::Impl::Edits {
     std::vector<std::pair<std::size_t, Body>> changed;
     std::vector<std::pair<std::size_t, std::vector<Body>>> added;  // at an index, with the fragments behind it
     std::vector<Joint> joints;
+    std::vector<std::uint32_t> joint_births;
+    std::vector<std::uint8_t> joints_gone;
+    std::uint32_t births = 0;
     std::vector<Vehicle> vehicles;
     std::vector<Exclusion> exclusions;
+    Fields fields;
 };
 
 const std::vector<std::byte>& World::Impl::edits_now() const {
@@ -120,8 +125,12 @@ const std::vector<std::byte>& World::Impl::edits_now() const {
     out.put_list(std::span<const std::uint64_t>(added));
     for (const std::uint64_t i : added) put_value(out, scene.bodies[i]);
     put_value(out, scene.joints);
+    out.put_list(std::span(joint_births));
+    out.put_list(std::span(joints_gone));
+    out.put(births);
     put_value(out, scene.vehicles);
     put_value(out, scene.exclusions);
+    put_value(out, scene.fields);
     edits = std::move(out.bytes());
     return edits;
 }
@@ -157,8 +166,14 @@ World::Impl::Edits World::Impl::read_edits(std::span<const std::byte> bytes) con
         made.added.emplace_back(index, std::move(one.bodies));
     }
     take_value(in, made.joints);
+    made.joint_births = in.take_list<std::uint32_t>();
+    made.joints_gone = in.take_list<std::uint8_t>();
+    made.births = in.take<std::uint32_t>();
+    if (made.joint_births.size() != made.joints_gone.size() || made.joint_births.size() > made.joints.size())
+        refuse("the checkpoint is damaged: its joints do not fit together");
     take_value(in, made.vehicles);
     take_value(in, made.exclusions);
+    take_value(in, made.fields);
     if (made.bodies < bodies_at_start) refuse("the checkpoint is damaged: it lacks bodies of the scene");
     return made;
 }
@@ -200,8 +215,12 @@ void World::Impl::take_edits(Edits&& made, std::span<const std::byte> bytes) {
     release_indices();
     freed = std::move(later);
     scene.joints = std::move(made.joints);
+    joint_births = std::move(made.joint_births);
+    joints_gone = std::move(made.joints_gone);
+    births = made.births;
     scene.vehicles = std::move(made.vehicles);
     scene.exclusions = std::move(made.exclusions);
+    scene.fields = std::move(made.fields);
     edits.assign(bytes.begin(), bytes.end());
 }
 
@@ -240,6 +259,8 @@ void World::Impl::put_world(ByteWriter& out) const {
         out.put(grip->target);
         out.put(grip->spring);
     }
+    out.put(std::uint64_t{arrivals.size()});
+    for (const auto& [body, step] : arrivals) out.put(std::uint64_t{body}), out.put(step);
     events.put(out);
 }
 
@@ -260,6 +281,10 @@ World::Impl::Own World::Impl::take_world(ByteReader& in) {
         grip->anchor = in.take<vec3>();
         grip->target = in.take<vec3>();
         grip->spring = in.take<GripSpring>();
+    }
+    for (auto left = in.take<std::uint64_t>(); left > 0; --left) {
+        const auto body = in.take<std::uint64_t>();
+        own.arrivals[body] = in.take<std::uint64_t>();
     }
     own.events.restore(in);
     return own;
@@ -313,6 +338,7 @@ void World::restore(std::span<const std::byte> saved) {
     in.reorder_now = own.reorder_now;
     in.actions = std::move(own.actions);
     in.grips = own.grips;
+    in.arrivals = std::move(own.arrivals);
     in.events = std::move(own.events);
     in.state.sums_impulses = in.events.settings().contacts;
     const TableRanges changed = tables.restore(in.state);

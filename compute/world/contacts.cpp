@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compute/step/memory_order.h"
+#include "compute/world/sensors.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/collide/shapes.h"
@@ -93,6 +94,13 @@ void World::set_events(const EventSettings& settings) {
     in.events.set(settings, in.scene, in.state);
     in.state.sums_impulses = settings.contacts;
     in.runner->adapt();
+}
+
+std::vector<SensorOverlap> World::sensed() const {
+    const Impl& in = *interior_;
+    if (!has_sensors(in.state)) return {};
+    in.bring(body_ranges);
+    return overlaps_of_sensors(in.state, in.runner->threads());
 }
 
 const EventSettings& World::event_settings() const {

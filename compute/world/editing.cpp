@@ -101,7 +101,7 @@ void World::explode(vec3 centre, float radius, float speed) {
         const float distance = glm::length(apart);
         if (!(distance < radius)) continue;
         const vec3 direction = distance > 1e-6f * radius ? apart / distance : vec3(0, 1, 0);
-        const float mass = mass_properties(body.shape, body.density).mass;
+        const float mass = mass_properties(body).mass;
         apply_impulse(i, direction * (mass * speed * (1 - distance / radius)));
     }
 }
@@ -115,6 +115,17 @@ void World::Impl::retune(const Settings& changed) {
     const TableRanges ranges = editor.tune(scene.gravity, settings);
     if (other_substeps || state.features() != features) runner->adapt();
     runner->upload(ranges);
+}
+
+void World::set_fields(const Fields& fields) {
+    Impl& in = *interior_;
+    Fields changed = fields;
+    check_world_fields(changed);
+    in.scene.fields = std::move(changed);
+    const TableLengths before = TableLengths::of(in.state);
+    in.send(StateEditor(in.state).set_fields(in.scene), before);
+    in.edits.clear();
+    wake_all();
 }
 
 void World::set_gravity(vec3 gravity) {

@@ -2,9 +2,11 @@
 #include "compute/world/events.h"
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 #include <utility>
 
+#include "compute/world/sensors.h"
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/extra/sleep.h"
@@ -52,6 +54,7 @@ void Events::set(const EventSettings& settings, const Scene& scene, const State&
     pairs_.clear();
     bodies_.clear();
     joints_.clear();
+    sensed_.clear();
     if (settings_.breaks) note_joints(scene, state);
     if (!settings_.any()) return;
     const std::vector<std::uint32_t> none;
@@ -72,7 +75,7 @@ TableRanges Events::needed(const Scene& scene, const State& state) const {
 }
 
 void Events::after_step(const Scene& scene, const State& state, const std::vector<std::uint32_t>& generations,
-                        std::uint64_t arrangement, std::uint64_t step) {
+                        std::uint64_t arrangement, std::uint64_t step, const Threads& threads) {
     const Seen seen{scene, state, generations, step};
     const std::size_t first = events_.size();
     if (settings_.contacts) {
@@ -84,6 +87,7 @@ void Events::after_step(const Scene& scene, const State& state, const std::vecto
     }
     compare_bodies(seen);
     if (settings_.breaks) compare_joints(seen);
+    if (settings_.sensors) compare_sensors(seen, threads);
     std::sort(events_.begin() + static_cast<std::ptrdiff_t>(first), events_.end(), happens_before);
 }
 
@@ -256,6 +260,12 @@ void Events::end_contacts_of(const std::vector<std::size_t>& gone, const State& 
         entry.touches = entry.pressed = 0;
         drop(pair, generations, step);
     }
+    std::erase_if(sensed_, [&](const SensorOverlap& one) {
+        const bool ends = std::binary_search(gone.begin(), gone.end(), std::size_t{one.sensor}) ||
+                          std::binary_search(gone.begin(), gone.end(), std::size_t{one.body});
+        if (ends) tell_sensor(EventKind::sensor_end, one, generations, step);
+        return ends;
+    });
     for (const std::size_t body : gone)
         if (body < bodies_.size()) bodies_[body] = 0;
     std::sort(events_.begin() + static_cast<std::ptrdiff_t>(first), events_.end(), happens_before);
@@ -287,6 +297,10 @@ void Events::note_joints(const Scene& scene, const State& state) {
     for (std::size_t j = 0; j < joints_.size(); ++j) joints_[j] = state.joints[state.joint_records[j]].broken != 0;
 }
 
+void Events::forget_joint(std::size_t joint) {
+    if (joint < joints_.size()) joints_[joint] = 1;
+}
+
 void Events::compare_joints(const Seen& seen) {
     if (joints_.size() != seen.scene.joints.size()) return note_joints(seen.scene, seen.state);
     for (std::size_t j = 0; j < joints_.size(); ++j) {
@@ -302,6 +316,22 @@ void Events::compare_joints(const Seen& seen) {
     }
 }
 
+// ---- sensors
+void Events::tell_sensor(EventKind kind, const SensorOverlap& one, const std::vector<std::uint32_t>& generations,
+                         std::uint64_t step) {
+    events_.push_back(event_of(kind, {one.sensor, one.body, one.sensor_part, one.part}, generations, step));
+}
+
+void Events::compare_sensors(const Seen& seen, const Threads& threads) {
+    if (!has_sensors(seen.state) && sensed_.empty()) return;
+    std::vector<SensorOverlap> now = overlaps_of_sensors(seen.state, threads), begun, ended;
+    std::set_difference(now.begin(), now.end(), sensed_.begin(), sensed_.end(), std::back_inserter(begun));
+    std::set_difference(sensed_.begin(), sensed_.end(), now.begin(), now.end(), std::back_inserter(ended));
+    for (const SensorOverlap& one : begun) tell_sensor(EventKind::sensor_begin, one, seen.generations, seen.step);
+    for (const SensorOverlap& one : ended) tell_sensor(EventKind::sensor_end, one, seen.generations, seen.step);
+    sensed_ = std::move(now);
+}
+
 std::vector<Event> Events::take() {
     return std::exchange(events_, {});
 }
@@ -309,6 +339,8 @@ std::vector<Event> Events::take() {
 // ---- checkpoints
 void Events::put(ByteWriter& out) const {
     out.put(settings_.contacts), out.put(settings_.hit_speed), out.put(settings_.breaks), out.put(settings_.sleep);
+    out.put(settings_.sensors);
+    out.put_list(std::span(sensed_));
     out.put(std::uint64_t{events_.size()});
     for (const Event& event : events_) for_each_value(event, [&](const auto& value) { out.put(value); });
     out.put_list(std::span(before_));
@@ -324,6 +356,8 @@ void Events::restore(ByteReader& in) {
     settings_.hit_speed = in.take<float>();
     settings_.breaks = in.take<bool>();
     settings_.sleep = in.take<bool>();
+    settings_.sensors = in.take<bool>();
+    sensed_ = in.take_list<SensorOverlap>();
     events_.clear();
     for (auto left = in.take<std::uint64_t>(); left > 0; --left)
         for_each_value(events_.emplace_back(), [&](auto& value) { value = in.take<std::remove_reference_t<decltype(value)>>(); });

@@ -10,6 +10,7 @@
 #include "compute/scene.h"
 #include "compute/step/state.h"
 #include "compute/step/table_ranges.h"
+#include "compute/step/threads.h"
 #include "compute/world/byte_stream.h"
 
 namespace scree {
@@ -23,11 +24,12 @@ public:
     void before_step(const State& state) { velocities_ = state.velocities; }
     // `arrangement`: a number that changes with the rows of bodies.
     void after_step(const Scene& scene, const State& state, const std::vector<std::uint32_t>& generations,
-                    std::uint64_t arrangement, std::uint64_t step);
+                    std::uint64_t arrangement, std::uint64_t step, const Threads& threads);
     // Before bodies are removed: ends their contacts. `gone`: ascending.
     void end_contacts_of(const std::vector<std::size_t>& gone, const State& state, const std::vector<std::uint32_t>& generations,
                          std::uint64_t step);
     void note_joints(const Scene& scene, const State& state);  // their indices have changed
+    void forget_joint(std::size_t joint);                      // it is removed
     std::vector<Event> take();
 
     void put(ByteWriter& out) const;
@@ -55,6 +57,8 @@ private:
     void match(const Seen& seen);
     void compare_bodies(const Seen& seen);
     void compare_joints(const Seen& seen);
+    void compare_sensors(const Seen& seen, const Threads& threads);
+    void tell_sensor(EventKind kind, const SensorOverlap& one, const std::vector<std::uint32_t>& generations, std::uint64_t step);
     Pair pair_of(const Entry& entry, const State& state) const;
     void add(const Pair& pair, const Entry& entry, const Seen& seen);
     void drop(const Pair& pair, const std::vector<std::uint32_t>& generations, std::uint64_t step);
@@ -70,7 +74,8 @@ private:
     std::vector<physics::Velocity> velocities_;  // before the step
     std::vector<std::uint8_t> bodies_;           // by id
     std::vector<std::uint8_t> joints_;           // by joint of the scene: broken
-    std::vector<std::uint32_t> part_numbers_;    // by part row behind the first
+    std::vector<SensorOverlap> sensed_;
+    std::vector<std::uint32_t> part_numbers_;  // by part row behind the first
     std::uint32_t first_part_ = 0;
     std::uint64_t arrangement_ = 0;
 };

@@ -1,4 +1,5 @@
 // World: joints, their state and motors.
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
@@ -30,9 +31,14 @@ std::string name_of(const Joint& joint, std::size_t index) {
 
 }  // namespace
 
-void World::Impl::require_joint(std::size_t joint) const {
+void World::Impl::require_joint_index(std::size_t joint) const {
     if (joint < scene.joints.size()) return;
     throw std::out_of_range("joint " + std::to_string(joint) + " of " + std::to_string(scene.joints.size()));
+}
+
+void World::Impl::require_joint(std::size_t joint) const {
+    require_joint_index(joint);
+    if (is_joint_gone(joint)) throw std::out_of_range(name_of(scene.joints[joint], joint) + " has been removed");
 }
 
 JointState World::Impl::joint_state(std::size_t i) const {
@@ -86,7 +92,7 @@ void World::Impl::wake(const Joint& joint) {
 }
 
 JointState World::joint(std::size_t index) const {
-    interior_->require_joint(index);
+    interior_->require_joint_index(index);
     interior_->bring(body_ranges);
     interior_->bring(joint_ranges);
     return interior_->joint_state(index);
@@ -116,45 +122,157 @@ void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) 
     });
 }
 
-void World::Impl::rejoin(std::optional<std::size_t> without) {
+void World::Impl::rejoin(std::optional<std::size_t> without, std::span<const std::size_t> fresh) {
     edits.clear();
     StateEditor editor(state);
     runner->download(editor.needed_to_rejoin());
-    const TableRanges changed = editor.rejoin(scene, without);
+    const TableRanges changed = editor.rejoin(scene, without, fresh);
     runner->adapt();
     runner->upload(changed);
     if (events.settings().breaks) events.note_joints(scene, state);
 }
 
+void World::Impl::count_joints() {
+    joints_gone.resize(scene.joints.size());
+    while (joint_births.size() < scene.joints.size()) joint_births.push_back(births++);
+}
+
+// Messages name them by their place among these.
+void World::Impl::check_new_joints(std::span<const std::size_t> joints) {
+    if (state.has_fractures()) bring(body_ranges);
+    for (std::size_t i = 0; i < joints.size(); ++i) {
+        Joint& joint = scene.joints[joints[i]];
+        check_joint(scene, joint, i);
+        for (const auto& [key, body] : {std::pair{"/a", joint.a}, std::pair{"/b", joint.b}})
+            if (body != the_world && (is_gone(body) || physics::is_absent(state.properties[state.row_of(body)].motion)))
+                throw SceneError("/joints/" + std::to_string(i) + key,
+                                 "body " + std::to_string(body) +
+                                     (is_gone(body) ? " has been removed"
+                                                    : " is not there: it has broken, or is a piece of one that has not"));
+    }
+}
+
 std::size_t World::add_joint(const Joint& joint) {
     Impl& in = *interior_;
+    in.count_joints();
     const std::size_t index = in.scene.joints.size();
     in.scene.joints.push_back(joint);
     try {
-        check_joint(in.scene, in.scene.joints[index], index);
-        for (const auto& [key, body] : {std::pair{"/a", joint.a}, std::pair{"/b", joint.b}})
-            if (body != the_world && !this->body(body).exists)
-                throw SceneError(
-                    "/joints/" + std::to_string(index) + key,
-                    "body " + std::to_string(body) + " is not there: it has broken, or is a piece of one that has not");
-    } catch (const SceneError&) {
+        in.check_new_joints({&index, 1});
+    } catch (const SceneError& error) {
         in.scene.joints.pop_back();
-        throw;
+        const std::string first = "/joints/0";
+        throw SceneError("/joints/" + std::to_string(index) + error.pointer.substr(first.size()),
+                         std::string(error.what()).substr(error.pointer.size() + 2));
     }
+    in.count_joints();
     in.rejoin();
     in.wake(joint);
     return index;
+}
+
+std::vector<JointHandle> World::add_joints(std::span<const Joint> joints) {
+    if (joints.empty()) return {};
+    Impl& in = *interior_;
+    in.count_joints();
+    const std::size_t before = in.scene.joints.size();
+    std::vector<std::size_t> indices;
+    for (std::size_t i = 0; i < before && indices.size() < joints.size(); ++i)
+        if (in.is_joint_gone(i)) indices.push_back(i);
+    while (indices.size() < joints.size()) {
+        indices.push_back(in.scene.joints.size());
+        in.scene.joints.emplace_back();
+    }
+    std::vector<Joint> replaced;
+    for (std::size_t i = 0; i < joints.size(); ++i) replaced.push_back(std::exchange(in.scene.joints[indices[i]], joints[i]));
+    try {
+        in.check_new_joints(indices);
+    } catch (const SceneError&) {
+        for (std::size_t i = 0; i < joints.size(); ++i) in.scene.joints[indices[i]] = std::move(replaced[i]);
+        in.scene.joints.resize(before);
+        throw;
+    }
+    in.count_joints();
+    std::vector<JointHandle> handles;
+    for (const std::size_t index : indices) {
+        if (in.joints_gone[index]) in.joint_births[index] = in.births++;
+        in.joints_gone[index] = 0;
+        handles.push_back({static_cast<std::uint32_t>(index), in.joint_births[index]});
+    }
+    in.rejoin(std::nullopt, indices);
+    for (const Joint& joint : joints) in.wake(joint);
+    return handles;
 }
 
 void World::remove_joint(std::size_t index) {
     Impl& in = *interior_;
     in.require_joint(index);
     in.require_no_wheel(index);
+    in.count_joints();
     in.wake(in.scene.joints[index]);
     for (Vehicle& vehicle : in.scene.vehicles)
         for (Wheel& wheel : vehicle.wheels) wheel.joint -= wheel.joint > index;
-    in.scene.joints.erase(in.scene.joints.begin() + static_cast<std::ptrdiff_t>(index));
+    const auto place = static_cast<std::ptrdiff_t>(index);
+    in.scene.joints.erase(in.scene.joints.begin() + place);
+    in.joint_births.erase(in.joint_births.begin() + place);
+    in.joints_gone.erase(in.joints_gone.begin() + place);
     in.rejoin(index);
+}
+
+void World::remove_joints(std::span<const JointHandle> joints) {
+    Impl& in = *interior_;
+    std::vector<std::size_t> indices;
+    for (const JointHandle& joint : joints) {
+        indices.push_back(index_of(joint));
+        in.require_no_wheel(indices.back());
+    }
+    std::sort(indices.begin(), indices.end());
+    if (const auto twice = std::adjacent_find(indices.begin(), indices.end()); twice != indices.end())
+        throw std::invalid_argument(name_of(in.scene.joints[*twice], *twice) + " is named twice");
+    in.count_joints();
+    TableRanges records;
+    for (const std::size_t index : indices) records.push_back({Table::joints, in.state.joint_records[index], 1});
+    in.runner->download(records);
+    for (const std::size_t index : indices) {
+        in.wake(in.scene.joints[index]);
+        in.take_away_joint(index);
+    }
+    in.runner->upload(records);
+    in.edits.clear();
+}
+
+// Its record must be here.
+void World::Impl::take_away_joint(std::size_t joint) {
+    scene.joints[joint].broken = true;
+    state.joints[state.joint_records[joint]].broken = 1;
+    joints_gone[joint] = 1;
+    events.forget_joint(joint);
+}
+
+JointHandle World::joint_handle_of(std::size_t joint) const {
+    interior_->require_joint(joint);
+    interior_->count_joints();
+    return {static_cast<std::uint32_t>(joint), interior_->joint_births[joint]};
+}
+
+bool World::is_valid(JointHandle joint) const {
+    return interior_->place_of_joint(joint).has_value();
+}
+
+std::size_t World::index_of(JointHandle joint) const {
+    if (const auto index = interior_->place_of_joint(joint)) return *index;
+    throw std::out_of_range("joint " + std::to_string(joint.index) + " of birth " + std::to_string(joint.birth) +
+                            (joint.birth < interior_->births ? " has been removed" : " has never been"));
+}
+
+// remove_joint moves higher ones down.
+std::optional<std::size_t> World::Impl::place_of_joint(const JointHandle& joint) {
+    count_joints();
+    std::size_t index = joint.index;
+    if (index >= joint_births.size() || joint_births[index] != joint.birth)
+        index = static_cast<std::size_t>(std::find(joint_births.begin(), joint_births.end(), joint.birth) - joint_births.begin());
+    if (index >= joint_births.size() || joints_gone[index]) return std::nullopt;
+    return index;
 }
 
 Joint World::joint_at(const JointKind& kind, std::size_t a, std::size_t b, vec3 anchor, vec3 axis) const {

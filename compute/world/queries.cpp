@@ -17,6 +17,7 @@
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/distance.h"
+#include "shaders/physics/collide/grid.h"
 
 namespace scree {
 
@@ -75,6 +76,7 @@ QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), 
     const auto add = [&](std::uint32_t row, std::uint32_t body, std::uint32_t part) {
         const physics::BodyProperties& properties = state.properties[row];
         const vec3 centre = state.poses[row].position, half = physics::half_extents_of(properties, state.poses[row].orientation);
+        if (physics::is_apart(properties)) return;
         if (properties.shape == physics::SHAPE_PLANE) {
             planes_.push_back({row, body, part});
         } else if (is_finite(centre)) {
@@ -198,6 +200,31 @@ std::vector<QueryPart> QueryScene::overlapping(const ShapeOverlap& query, vec4 o
     return found;
 }
 
+// A point is a ball without a radius, whose distances are exact. The box that is looked through shrinks to the nearest so far,
+// so first to a tenth of the reach.
+std::optional<QueryHit> QueryScene::closest(const ClosestQuery& query) const {
+    physics::BodyProperties probe{};
+    probe.shape = physics::SHAPE_SPHERE;
+    const physics::Pose pose{query.point, 0, vec4(0, 0, 0, 1)};
+    std::optional<QueryHit> best;
+    const auto offer = [&](const Leaf& leaf) {
+        if (!sees(leaf, query.mask)) return;
+        vec3 normal(0);
+        const float distance = std::max(0.0f, gap(leaf, probe, pose, &normal));
+        if (!(distance <= query.reach)) return;
+        const QueryHit found{leaf.body, leaf.part, distance, query.point - normal * distance, normal};
+        if (!best || nearer(found, *best)) best = found;
+    };
+    for (const Leaf& plane : planes_) offer(plane);
+    for (const float share : {0.01f, 0.1f, 1.0f}) {
+        const float reach = best ? std::min(best->distance, query.reach) : share * query.reach;
+        tree_.for_each_overlap({query.point - vec3(reach), query.point + vec3(reach)},
+                               [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+        if (best && best->distance <= reach) break;
+    }
+    return best;
+}
+
 // Conservative advancement (Mirtich 1996) along a line: the separation along a fixed axis never exceeds the distance.
 std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& cast, const physics::BodyProperties& probe,
                                             vec4 orientation, float reach) const {
@@ -306,6 +333,18 @@ std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCas
     std::vector<std::optional<QueryHit>> hits(casts.size());
     interior_->runner->threads().for_each(casts.size(), [&](std::size_t i) { hits[i] = bodies.nearest(casts[i], turns[i]); });
     return hits;
+}
+
+std::vector<std::optional<QueryHit>> World::closest_points(std::span<const ClosestQuery> points) const {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (!is_finite(points[i].point)) refuse_query("point", i, "it must be finite");
+        if (!(points[i].reach > 0 && points[i].reach <= 1e6f))
+            refuse_query("point", i, "its reach must be above 0 and at most 1000000 m");
+    }
+    const QueryScene& bodies = interior_->query_scene();
+    std::vector<std::optional<QueryHit>> found(points.size());
+    interior_->runner->threads().for_each(points.size(), [&](std::size_t i) { found[i] = bodies.closest(points[i]); });
+    return found;
 }
 
 QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> queries) const {

@@ -21,6 +21,7 @@ public:
     void complete(QueryHit& hit, const RayQuery& ray) const;
     std::vector<QueryHit> all(const RayQuery& ray) const;
     std::optional<QueryHit> nearest(const ShapeCast& cast, vec4 orientation) const;
+    std::optional<QueryHit> closest(const ClosestQuery& query) const;
     std::vector<QueryPart> overlapping(const ShapeOverlap& query, vec4 orientation) const;
 
 private:

@@ -35,6 +35,7 @@ void for_each_member(Struct& one, const Visit& visit) {
         if constexpr (std::is_same_v<Kind, Mesh>) visit(one.file), visit(one.scale);
     } else if constexpr (std::is_same_v<Kind, Part>) {
         visit(one.shape), visit(one.position), visit(one.orientation), visit(one.density), visit(one.filter);
+        visit(one.role), visit(one.material);
     } else {
         fields::for_each_field<Kind>([&](const auto& field) { visit(one.*field.member); });
     }

@@ -70,11 +70,11 @@ StartLengths StartLengths::of(const State& s) {
 
 std::uint64_t fingerprint_of(const State& state) {
     std::vector<physics::BodyProperties> properties = state.properties;
-    for (physics::BodyProperties& row : properties) row.large = 0;  // depends on the settings
+    for (physics::BodyProperties& row : properties) row.flags &= ~physics::ROW_LARGE;  // depends on the settings
     std::uint64_t hash = hash_of(properties, 0);
     const auto add = [&](const auto&... tables) { ((hash = hash_of(tables, hash)), ...); };
     add(state.poses, state.velocities, state.hulls, state.parts, state.fractures, state.pieces, state.tyres, state.way_points,
-        state.filters, state.exclusions);
+        state.surfaces, state.filters, state.exclusions);
     if (state.has_joints()) add(state.joints);
     if (state.fixed().vehicles) add(state.vehicles);
     return hash;
@@ -116,6 +116,8 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put_list(behind(state.tyres, at_start.tyres));
     out.put_list(std::span(state.filters));
     out.put_list(std::span(state.exclusions));
+    out.put_list(std::span(state.surfaces));
+    out.put_list(std::span(state.immersions));
 }
 
 StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
@@ -137,7 +139,7 @@ StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
     vehicles_ = in.take_records(sizeof(physics::Vehicle));
     constexpr std::array sizes{sizeof(physics::uvec4),      sizeof(physics::PoseInBody), sizeof(physics::Fracturing),
                                sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::uvec4),
-                               sizeof(physics::uvec4)};
+                               sizeof(physics::uvec4),      sizeof(physics::Surface),    sizeof(physics::Immersion)};
     for (std::size_t i = 0; i < sizes.size(); ++i) shapes_[i] = in.take_records(sizes[i]);
     const std::size_t parts = shapes_[1].size() / sizeof(physics::PoseInBody);
     const auto in_range = [](const auto& list, std::size_t end) {
@@ -173,11 +175,14 @@ TableRanges StateBytes::restore(State& state) const {
     assign(state.tyres, shapes_[4], at_start_.tyres);
     assign(state.filters, shapes_[5]);
     assign(state.exclusions, shapes_[6]);
+    assign(state.surfaces, shapes_[7]);
+    assign(state.immersions, shapes_[8]);
     for (const auto& [table, bytes] : tables_) state.make(table);
     state.allocate();
     for (const auto& [table, bytes] : tables_)
         if (!bytes.empty()) std::memcpy(state.raw(table).data(), bytes.data(), bytes.size());
     state.take_rows(rows_);
+    state.index_surfaces();
     TableRanges changed = ranges_to_save(state);
     changed.push_back({Table::counts, 0, 1});
     changed.push_back({Table::ids, 0, p.bodies});
@@ -191,6 +196,8 @@ TableRanges StateBytes::restore(State& state) const {
     add(Table::tyres, at_start_.tyres, state.tyres.size());
     add(Table::filters, 0, state.filters.size());
     add(Table::exclusions, 0, state.exclusions.size());
+    add(Table::surfaces, 0, state.surfaces.size());
+    add(Table::immersions, 0, state.immersions.size());
     return changed;
 }
 

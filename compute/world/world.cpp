@@ -46,6 +46,7 @@ World::Impl::Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r)
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
       fingerprint(fingerprint_of(state)) {
+    count_joints();
     begin_in_order();
     runner->attach(state);
 }
@@ -84,6 +85,7 @@ void World::Impl::step() {
     broken = true;
     keep_order();
     take_up_grips();
+    stop_arrived();
     if (actions.size() > state.action_room) make_room_for_actions();
     physics::Parameters& parameters = state.fixed();
     parameters.actions = 0;
@@ -102,7 +104,7 @@ void World::Impl::step() {
     ++steps;
     if (watched) {
         runner->download(events.needed(scene, state));
-        events.after_step(scene, state, generations, arrangements, steps);
+        events.after_step(scene, state, generations, arrangements, steps, runner->threads());
     }
     broken = false;
 }
@@ -136,7 +138,9 @@ void World::step(int count) {
     while (count > 0) {
         interior_->step();
         --count;
-        if (count > 0 && !interior_->events.settings().any()) count -= interior_->steps_alone(std::min(count, most_alone));
+        if (count > 0 && !interior_->events.settings().any())
+            if (const int alone = std::min({count, most_alone, interior_->steps_until_arrival()}); alone > 0)
+                count -= interior_->steps_alone(alone);
     }
 }
 
@@ -184,6 +188,7 @@ void World::set_velocity(std::size_t body, vec3 velocity, vec3 angular_velocity)
     action.flags |= physics::ACTION_SETS_VELOCITY;
     action.velocity = velocity;
     action.angular_velocity = angular_velocity;
+    interior_->arrivals.erase(body);
 }
 
 void World::wake(std::size_t body) {
@@ -230,6 +235,10 @@ Scene World::snapshot() const {
     std::vector<Joint> joints;
     std::vector<std::size_t> joint_there(scene.joints.size(), no_body);
     for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        if (interior_->is_joint_gone(i)) {
+            joint_there[i] = no_body;
+            continue;
+        }
         joint_there[i] = joints.size();
         Joint& joint = joints.emplace_back(scene.joints[i]);
         joint.broken = interior_->joint_state(i).broken;
@@ -277,7 +286,12 @@ Statistics World::statistics() const {
     interior_->bring(body_ranges);
     interior_->bring(contact_ranges);
     interior_->bring(joint_ranges);
-    return statistics_of(interior_->scene, interior_->state);
+    Statistics found = statistics_of(interior_->scene, interior_->state);
+    const std::vector<std::uint8_t>& gone = interior_->joints_gone;
+    const auto removed = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
+    found.joints -= removed;
+    found.joints_broken -= removed;
+    return found;
 }
 
 const State& World::state() const {

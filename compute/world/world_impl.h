@@ -55,6 +55,12 @@ struct World::Impl {
     // The bodies of the start that were changed (without their shapes) or replaced.
     std::map<std::size_t, Body> originals;
     std::uint64_t arrangements = 0;
+    // Joints that came and went. By index: the number of its birth, and whether it is gone.
+    std::vector<std::uint32_t> joint_births;
+    std::vector<std::uint8_t> joints_gone;
+    std::uint32_t births = 0;
+    // Kinematic bodies on the way to a target, and the step after which they stand still.
+    std::map<std::size_t, std::uint64_t> arrivals;
     Events events;
     // The bodies as queries see them, made when they are needed; `changes` counts edits of poses, bodies and filters.
     std::uint64_t changes = 0;
@@ -83,10 +89,17 @@ struct World::Impl {
     void bring(TableRanges (*ranges)(const State&)) const { runner->download(ranges(state)); }
 
     // joints.cpp
-    void require_joint(std::size_t joint) const;  // throws std::out_of_range
+    void require_joint_index(std::size_t joint) const;  // throws std::out_of_range
+    void require_joint(std::size_t joint) const;        // likewise for one that was removed
     JointState joint_state(std::size_t i) const;
-    void rejoin(std::optional<std::size_t> without = std::nullopt);  // rebuilds the joint records from the scene
-    void wake(const Joint& joint);                                   // wakes its bodies in the next step
+    // Rebuilds the joint records from the scene; those of `fresh` joints are new, not those of joints that had their indices.
+    void rejoin(std::optional<std::size_t> without = std::nullopt, std::span<const std::size_t> fresh = {});
+    void check_new_joints(std::span<const std::size_t> joints);
+    void take_away_joint(std::size_t joint);
+    std::optional<std::size_t> place_of_joint(const JointHandle& joint);
+    void count_joints();  // lengthens the lists by index
+    bool is_joint_gone(std::size_t joint) const { return joint < joints_gone.size() && joints_gone[joint]; }
+    void wake(const Joint& joint);  // wakes its bodies in the next step
     void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
 
     // vehicles.cpp
@@ -129,6 +142,9 @@ struct World::Impl {
     void set(std::span<const BodyChange> bodies);
     void change(std::size_t body, const std::function<void(Body&)>& edit, bool wakes_all);
     void refilter();
+    int steps_until_arrival() const;
+    void stop_arrived();  // before a step: the bodies that have reached their targets
+    void require_reachable(const BodyTarget& target) const;
 
     // checkpoint.cpp
     struct Edits;

@@ -28,7 +28,7 @@ struct Inertia {
     double gyration = 0;  // m, least radius of gyration
     double reach = 0;     // m
     explicit Inertia(const Body& body) : reach(bounding_radius(body.shape)) {
-        const MassProperties properties = mass_properties(body.shape, body.density);
+        const MassProperties properties = mass_properties(body);
         mass = properties.mass;
         const vec3 i = properties.inertia;
         gyration = mass > 0 ? std::sqrt(static_cast<double>(std::min({i.x, i.y, i.z})) / mass) : 0;

@@ -69,11 +69,15 @@ host::ShapeInstances instances_of(const World& world) {
     const std::vector<std::size_t> first_parts = world.first_part_rows();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Shape& shape = scene.bodies[i].shape;
+        if (scene.bodies[i].role == Role::sensor) continue;
         auto part = static_cast<std::uint32_t>(first_parts[i]);
         if (const std::optional<SimpleShape> simple = simple_shape(shape))
             instances.add(static_cast<std::uint32_t>(world.row_of(i)), *simple);
         if (const auto* compound = std::get_if<Compound>(&shape))
-            for (const Part& one : compound->parts) instances.add(part++, one.shape);
+            for (const Part& one : compound->parts) {
+                if (one.role != Role::sensor) instances.add(part, one.shape);
+                ++part;
+            }
         if (const MeshForm* form = mesh_form_of(shape)) instances.add(part, *form);
     }
     return std::move(instances.made);

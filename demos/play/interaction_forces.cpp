@@ -70,7 +70,7 @@ std::optional<Pull> Interaction::pull() {
     const float acceleration = std::min(omega * omega * glm::length(pull.to - pull.from), spring.max_acceleration);
     const Body& held = session_.world().scene().bodies[hold_->body];
     pull.strength = acceleration / spring.max_acceleration;
-    pull.force = acceleration * mass_properties(held.shape, held.density).mass;
+    pull.force = acceleration * mass_properties(held).mass;
     return pull;
 }
 
@@ -126,7 +126,7 @@ void Interaction::push_selected() {
     }
     if (push == vec3(0)) return;
     const Body& body = session_.world().scene().bodies[*selected_];
-    perform(Push{*selected_, push * (push_acceleration * mass_properties(body.shape, body.density).mass)});
+    perform(Push{*selected_, push * (push_acceleration * mass_properties(body).mass)});
 }
 
 }  // namespace scree::demos

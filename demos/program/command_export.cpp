@@ -13,13 +13,13 @@ namespace scree::demos {
 
 namespace {
 
-struct ExportOptions {
+struct SceneExportOptions {
     SceneOptions scene;
     std::string output;
     bool schema = false;
 };
 
-void write_out(const ExportOptions& options) {
+void write_out(const SceneExportOptions& options) {
     if (options.scene.name.empty() && !options.schema)
         throw UsageError("export: name a demo (scree list), or ask for the --schema");
     std::string text;
@@ -40,7 +40,7 @@ void write_out(const ExportOptions& options) {
 
 void add_export(CLI::App& program, int&) {
     CLI::App* command = program.add_subcommand("export", "Write a demo's scene as a JSON file");
-    auto options = std::make_shared<ExportOptions>();
+    auto options = std::make_shared<SceneExportOptions>();
     command->add_option("scene", options->scene.name, "Demo (see scree list), or a scene file to rewrite.");
     command->add_option("-o,--output", options->output, "Output file. Default: the standard output.");
     command->add_option_function<std::string>(

@@ -22,7 +22,7 @@ struct Motions {
 };
 
 void add(Motions& sum, const Body& body, const BodyState& state) {
-    const MassProperties mass = mass_properties(body.shape, body.density);
+    const MassProperties mass = mass_properties(body);
     const vec4 q = state.orientation;
     const glm::dquat turn(q.w, q.x, q.y, q.z);
     const dvec3 momentum = static_cast<double>(mass.mass) * dvec3(state.velocity);

@@ -68,7 +68,7 @@ double energy_of(const Scene& scene, std::size_t body, const BodyState& now, dou
     const glm::dvec3 v(now.velocity), w(now.angular_velocity);
     const glm::dquat turn(now.orientation.w, now.orientation.x, now.orientation.y, now.orientation.z);
     const glm::dvec3 own = glm::conjugate(turn) * w;
-    const glm::dvec3 inertia(mass_properties(scene.bodies[body].shape, scene.bodies[body].density).inertia);
+    const glm::dvec3 inertia(mass_properties(scene.bodies[body]).inertia);
     return 0.5 * mass * glm::dot(v, v) + 0.5 * glm::dot(inertia, own * own) -
            mass * glm::dot(glm::dvec3(scene.gravity), glm::dvec3(now.position));
 }

@@ -2,6 +2,7 @@
 #include "host/files/file.h"
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -37,6 +38,18 @@ private:
     int number_;
 };
 
+std::string read_all(const Descriptor& file, const std::filesystem::path& path) {
+    std::string text;
+    char block[65536];
+    for (;;) {
+        const ssize_t count = ::read(file.number(), block, sizeof block);
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) fail("read", path, errno);
+        if (count == 0) return text;
+        text.append(block, static_cast<std::size_t>(count));
+    }
+}
+
 void write_in_place(const std::filesystem::path& path, std::string_view bytes) {
     Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
     if (file.number() < 0) fail("write", path, errno);
@@ -55,15 +68,20 @@ std::filesystem::path cache_folder() {
 std::string read_text(const std::filesystem::path& path) {
     Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
     if (file.number() < 0) fail("read", path, errno);
-    std::string text;
-    char block[65536];
-    for (;;) {
-        const ssize_t count = ::read(file.number(), block, sizeof block);
-        if (count < 0 && errno == EINTR) continue;
-        if (count < 0) fail("read", path, errno);
-        if (count == 0) return text;
-        text.append(block, static_cast<std::size_t>(count));
-    }
+    return read_all(file, path);
+}
+
+std::string read_regular(const std::filesystem::path& path, std::uintmax_t most) {
+    Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+    if (file.number() < 0) fail("read", path, errno);
+    struct stat status {};
+    if (::fstat(file.number(), &status) != 0) fail("read", path, errno);
+    if (S_ISDIR(status.st_mode)) fail("read", path, EISDIR);
+    if (!S_ISREG(status.st_mode)) throw FileError("cannot read " + path.string() + ": it is no regular file");
+    if (static_cast<std::uintmax_t>(status.st_size) > most)
+        throw FileError("cannot read " + path.string() + ": it has " + std::to_string(status.st_size) + " bytes, at most " +
+                        std::to_string(most) + " are read");
+    return read_all(file, path);
 }
 
 void write_atomically(const std::filesystem::path& path, std::string_view bytes) {

@@ -1,6 +1,8 @@
 // File input and atomic file output.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <stdexcept>
@@ -16,6 +18,9 @@ struct FileError : std::runtime_error {
 
 // Reads all bytes of a file. Throws FileError.
 std::string read_text(const std::filesystem::path& path);
+// As read_text, of a regular file of at most `most` bytes: neither a device, which may never end, nor a pipe, which may
+// never begin.
+std::string read_regular(const std::filesystem::path& path, std::uintmax_t most);
 
 // Atomic write: to a temporary file in the same folder, then rename, so that the file has either its old or its new
 // content. Paths that are no regular files (/dev/stdout, a pipe) are written in place. Throws FileError and removes

@@ -261,14 +261,21 @@ MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, co
     return Gltf(model, source).triangles();
 }
 
+std::string ending_of(const std::string& name) {
+    std::string ending = std::filesystem::path(name).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (ending != ".obj" && ending != ".gltf" && ending != ".glb")
+        Source{name}.refuse("meshes are read from .obj, .gltf and .glb files");
+    return ending;
+}
+
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+
 }  // namespace
 
 MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::filesystem::path& folder) {
     const Source source{name};
-    std::string ending = std::filesystem::path(name).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (ending != ".obj" && ending != ".gltf" && ending != ".glb")
-        source.refuse("meshes are read from .obj, .gltf and .glb files");
+    const std::string ending = ending_of(name);
     MeshFile mesh = ending == ".obj" ? from_obj(bytes, source) : from_gltf(bytes, ending == ".glb", source, folder);
     if (mesh.triangles.empty()) source.refuse("has no triangles");
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
@@ -278,7 +285,8 @@ MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::fil
 }
 
 MeshFile read_mesh(const std::filesystem::path& path) {
-    return mesh_of(read_text(path), path.string(), path.parent_path());
+    ending_of(path.string());  // refused before the file is read
+    return mesh_of(read_regular(path, most_bytes), path.string(), path.parent_path());
 }
 
 }  // namespace scree::host

@@ -105,7 +105,8 @@ Words command_of(const std::string& program, const VideoShape& shape, const std:
                 "pipe:0"};
     const Words output = output_of(shape);
     words.insert(words.end(), output.begin(), output.end());
-    words.push_back(file);
+    // A name alone could be an option or an address ("-x.mp4", "tcp://...").
+    words.push_back("file:" + std::filesystem::absolute(file).string());
     return words;
 }
 

@@ -24,20 +24,21 @@ void main() {
     }
     uint owner = body_of(i);
     float bend = is_part(body) ? bend_of_way(part_in(i), READ(velocities, i), PARAMETERS) : 0.0f;
-    Bounds around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
+    Bounds around = no_bounds(pose);
+    if (!is_apart(body)) around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
     if (will_sweep(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
         masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
     } else {
         masses.at[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }
-    atomicAdd(WORD(cell_counts, around.bucket), 1u);
+    if (around.bucket != NONE) atomicAdd(WORD(cell_counts, around.bucket), 1u);
     bool listed = !is_large(body) && (around.level & NOT_IN_GRID) == 0u;
     if (listed) note(COUNTS.levels, 1u << around.level);
     if (has_slept(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
     if (stirs(motion_of(body), READ(velocities, owner), READ_WORD(sleep_states, owner), PARAMETERS.sleep_steps)) {
         if (listed) note(COUNTS.levels_stirring, 1u << around.level);
-        if (is_large(body)) note(COUNTS.large_stirring, 1u);
+        if (!listed) note(COUNTS.large_stirring, is_large(body) ? 1u : 2u);
     } else {
         around.level |= INACTIVE;
     }

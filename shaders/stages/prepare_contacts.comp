@@ -3,11 +3,17 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/stages/lib/features.glsl"
 #include "shaders/stages/lib/stage.glsl"
 
 Constraint on_tyre_of(BodyProperties ta, BodyProperties tb, Constraint constraint, vec3 d, VelocityPair now) {
     bool is_a = tyre_of(ta) != 0u;
     return on_tyre(constraint, is_a, READ_QUADS(tyres, tyre_of(is_a ? ta : tb) - 1u), d, now);
+}
+
+Surface surface_on(BodyProperties row) {
+    if (surface_of(row) == 0u) return plain_surface(row);
+    return READ_QUADS(surfaces, surface_of(row) - 1u);
 }
 
 void main() {
@@ -46,6 +52,9 @@ void main() {
         return;
     }
     Constraint constraint = constraint_between(prepared.contact, pair_index, ta, of_a, slot_a, tb, of_b, slot_b, PARAMETERS);
+    if (SURFACES && (surface_of(ta) | surface_of(tb)) != 0u)
+        constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
+                                   READ(poses, of_b).orientation, PARAMETERS);
     VelocityPair now;
     now.a = READ(velocities, of_a);
     now.b = READ(velocities, of_b);

@@ -53,6 +53,18 @@ TEST_CASE("a device file is written in place") {
     REQUIRE(std::filesystem::is_character_file("/dev/null"));
 }
 
+TEST_CASE("of a regular file at most as many bytes as asked for are read; what is none is refused at once") {
+    const TemporaryFolder folder;
+    write_atomically(folder.path() / "file", "four");
+    REQUIRE(read_regular(folder.path() / "file", 4) == "four");
+    REQUIRE_THROWS_WITH(read_regular(folder.path() / "file", 3), Catch::Contains("it has 4 bytes, at most 3 are read"));
+    REQUIRE_THROWS_WITH(read_regular("/dev/zero", 1000), Catch::Contains("/dev/zero: it is no regular file"));
+    REQUIRE_THROWS_AS(read_regular(folder.path(), 1000), FileError);
+    const std::filesystem::path pipe = folder.path() / "pipe";
+    REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+    REQUIRE_THROWS_WITH(read_regular(pipe, 1000), Catch::Contains("no regular file"));
+}
+
 TEST_CASE("folders are made with those above them, and again without complaint") {
     const TemporaryFolder folder;
     make_folder(folder.path() / "a" / "b");

@@ -91,7 +91,7 @@ TEST_CASE("program: a second Ctrl-C leaves nothing half written", "[program]") {
     const Place place;
     const std::string at = place.path().string();
     std::filesystem::permissions(
-        place.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\necho part >\"$last\"\nexec cat >/dev/null\n"),
+        place.write("ffmpeg", "#!/bin/sh\nfor last; do :; done\necho part >\"${last#file:}\"\nexec cat >/dev/null\n"),
         std::filesystem::perms::owner_all);
     std::thread interrupter([&] {
         const auto parts = [&] {

@@ -172,7 +172,7 @@ TEST_CASE("program: a video that would replace what is no file is refused before
 
 TEST_CASE("program: through a link, the video that it leads to is written", "[program]") {
     const Place place;
-    write_encoder(place, "for last; do :; done; cat >/dev/null; echo video >\"$last\"");
+    write_encoder(place, "for last; do :; done; cat >/dev/null; echo video >\"${last#file:}\"");
     place.write("old.mp4", "old");
     std::filesystem::create_symlink("old.mp4", place / "link.mp4");
     std::filesystem::create_symlink("new.mp4", place / "early.mp4");
@@ -237,6 +237,17 @@ TEST_CASE("program: without a Vulkan driver a run goes on with the processor and
     require_refused(run_scree("run rest --steps 2 --backend vulkan", none), {"mesa-vulkan-drivers"});
     require_refused(run_scree("run rest --steps 2 --frames frames-nowhere --canvas vulkan", none), {"mesa-vulkan-drivers"});
     require_refused(run_scree("devices", none), {"mesa-vulkan-drivers"});
+}
+
+TEST_CASE("program: a video's name is a file's name, whatever the encoder would take it for", "[program]") {
+    const Place place;
+    for (const std::string name : {"10:30.mp4", "-x.mp4", "tcp:.mp4"}) {
+        const Outcome run = run_scree("run rest --backend cpu --steps 2 --size 64x64 --video='" + name + "'",
+                                      "cd '" + place.path().string() + "';");
+        INFO(name << ": " << run.errors);
+        REQUIRE(run.status == 0);
+        REQUIRE(std::filesystem::file_size(place / name) > 0);
+    }
 }
 
 TEST_CASE("program: an encoder that fails is a failure of the work, and leaves no video behind", "[program]") {

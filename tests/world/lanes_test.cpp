@@ -6,6 +6,7 @@
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/cpu/simd/simd_stages.h"
+#include "tests/world/belts.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -73,6 +74,7 @@ TEST_CASE("several contacts at once leave the bits that each of them alone leave
         CAPTURE(lanes);
         REQUIRE(compare(tests::heap(60), 1, lanes, 150) > 60);
         compare(tests::swarm(40, 0.8f), 1, lanes, 90);
+        REQUIRE(compare(tests::belts(60), 1, lanes, 90) > 30);
         REQUIRE(compare(tests::heap(150), 2, lanes, 40) > 60);
     }
 }

@@ -233,6 +233,14 @@ TEST_CASE("a mesh is cleaned, and each triangle knows how its neighbours go on")
     REQUIRE(says(oddities(mesh_form(crossed, with_fin)), "2 triangles that cut through another"));
 }
 
+TEST_CASE("a mesh far smaller than its coordinates is welded in as many cells as another") {
+    const std::vector<vec3> vertices{{1, 0, 0}, {1, 1e-10f, 0}, {1, 0, 1e-10f}, {1, 0, 0}, {1, 1e-10f, 1e-10f}};
+    const std::vector<glm::uvec3> triangles{{0, 1, 2}, {1, 4, 2}, {3, 1, 2}};
+    const MeshForm form = mesh_form(vertices, triangles);
+    REQUIRE(form.triangles.size() == 2);
+    REQUIRE(form.dropped == 1);
+}
+
 TEST_CASE("compounds, meshes and height fields that cannot be simulated are refused by place and reason") {
     REQUIRE(refusal(Compound{}) == "/bodies/0/shape/compound/parts: a compound needs at least one part (body \"thing\")");
     Compound bad = two_pieces();

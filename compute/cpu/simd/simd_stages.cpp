@@ -141,6 +141,9 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         } else {
             payload_a = gather_quiet_steps(tables.quiet_steps, group.a);
             payload_b = gather_quiet_steps(tables.quiet_steps, group.b);
+            const Bool driven = is_driven(group.c);
+            payload_a = choose(driven, Float(BESIDE_MOVING), payload_a);
+            payload_b = choose(driven, Float(BESIDE_MOVING), payload_b);
         }
         group.hand_out(tables, impulse, share, carrying, payload_a, payload_b);
     }

@@ -170,7 +170,7 @@ void Panel::show_selected(Session& session, Interaction& interaction) {
     const Scene& scene = world.scene();
     const BodyState state = world.body(*selected);
     const Body& body = scene.bodies[*selected];
-    const float mass = mass_properties(body.shape, body.density).mass;
+    const float mass = mass_properties(body).mass;
     look_at(world, *selected);
     double force = 0;
     std::vector<std::size_t> others;

@@ -89,7 +89,7 @@ void Panel::show_outline(const World& world, const Interaction& interaction, std
 void Panel::show_forces(const World& world, const Interaction& interaction) const {
     if (points_.empty() || !interaction.selected()) return;
     const Body& body = world.scene().bodies[*interaction.selected()];
-    const float mass = mass_properties(body.shape, body.density).mass;
+    const float mass = mass_properties(body).mass;
     const float weight = mass * std::max(1.0f, glm::length(world.scene().gravity));
     const float reach = bounding_radius(body.shape);
     std::vector<ContactPoint> sorted = points_;

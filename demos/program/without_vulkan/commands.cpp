@@ -2,14 +2,17 @@
 #include <CLI/CLI.hpp>
 
 #include "demos/program/commands.h"
+#include "demos/program/compare_device.h"
 #include "demos/program/exit_status.h"
 
 namespace scree::demos {
 
 namespace {
 
+constexpr const char* lacking = "this scree was built without Vulkan; configure it with -DSCREE_VULKAN=ON";
+
 void refuse() {
-    throw UsageError("this scree was built without Vulkan; configure it with -DSCREE_VULKAN=ON");
+    throw UsageError(lacking);
 }
 
 }  // namespace
@@ -18,10 +21,8 @@ void add_devices(CLI::App& program, int&) {
     program.add_subcommand("devices", "Vulkan devices (not in this build)")->callback(refuse);
 }
 
-void add_compare(CLI::App& program, int&) {
-    CLI::App* command = program.add_subcommand("compare", "Processor and GPU in lockstep (not in this build)");
-    command->allow_extras();
-    command->callback(refuse);
+DeviceComparison compare_with_device(const Scene&, const Settings&, const MachineOptions&, int, const std::function<bool(int)>&) {
+    throw UsageError(std::string(lacking) + "; without a device: --flush-denormals");
 }
 
 }  // namespace scree::demos

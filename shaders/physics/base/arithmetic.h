@@ -116,9 +116,26 @@ LAW vec4 compose(vec4 q, vec4 p) {
     return vec4(q.w * p.x + q.x * p.w + q.y * p.z - q.z * p.y, q.w * p.y - q.x * p.z + q.y * p.w + q.z * p.x,
                 q.w * p.z + q.x * p.y - q.y * p.x + q.z * p.w, q.w * p.w - q.x * p.x - q.y * p.y - q.z * p.z);
 }
+// Flushes what is below 1e-18 to zero: denormals cost a hundredfold on some processors and vanish on others
+// (shaderDenormPreserveFloat32). A value that lasts beyond a pass, or whose square decides something, is flushed: then
+// squares are zero or normal, and a denormal intermediate is lost in rounding before it is stored.
+LAW float flush_tiny(float x) {
+    return choose(abs(x) < 1.0e-18f, 0.0f, x);
+}
+LAW vec3 flush_tiny(vec3 v) {
+    return vec3(flush_tiny(v.x), flush_tiny(v.y), flush_tiny(v.z));
+}
+LAW vec4 flush_tiny(vec4 v) {
+    return vec4(flush_tiny(v.x), flush_tiny(v.y), flush_tiny(v.z), flush_tiny(v.w));
+}
+// For inverse masses and inertias, which are small for bodies of a kilometre.
+LAW float flush_least(float x) {
+    return choose(abs(x) < 1.0e-30f, 0.0f, x);
+}
+
 LAW vec4 unit_quaternion(vec4 q) {
     float squared = (q.x * q.x + q.y * q.y) + (q.z * q.z + q.w * q.w);
-    return q * inverse_square_root(squared);
+    return flush_tiny(q * inverse_square_root(squared));
 }
 
 // The columns of the rotation matrix of q: the body's axes in world axes.
@@ -142,12 +159,6 @@ LAW Axes axes_of(vec4 q) {
     axes.pad_y = 0.0f;
     axes.pad_z = 0.0f;
     return axes;
-}
-
-// Flushes components below 1e-18 to zero: denormals cost a hundredfold on some processors and vanish on others.
-LAW vec3 flush_tiny(vec3 v) {
-    return vec3(choose(abs(v.x) < 1.0e-18f, 0.0f, v.x), choose(abs(v.y) < 1.0e-18f, 0.0f, v.y),
-                choose(abs(v.z) < 1.0e-18f, 0.0f, v.z));
 }
 
 LAWS_END

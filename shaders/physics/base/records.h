@@ -16,6 +16,12 @@ CONSTANT uint MOTION_BROKEN = 4u;   // replaced by its fragments
 // Flag, combined with the motion of the owner: the row is a part, which the solver never moves (compound.h).
 CONSTANT uint MOTION_OF_PART = 8u;
 
+// BodyProperties.flags.
+CONSTANT uint ROW_LARGE = 1u;          // not in the grid but in the list of large bodies
+CONSTANT uint ROW_APART = 2u;          // collides with nothing: only drawn, or a sensor
+CONSTANT uint ROW_SENSOR = 4u;         // one of the latter that is a sensor
+CONSTANT uint ROW_SURFACE_SHIFT = 8u;  // above: index into the table of surfaces plus 1; 0: none
+
 CONSTANT uint NONE = 0xFFFFFFFFu;
 
 // ---- bodies: constant, but for the motion of a body that breaks and of its fragments
@@ -31,7 +37,7 @@ struct BodyProperties {
     float linear_damping;   // 1/s
     float angular_damping;  // 1/s
     uint motion;
-    uint large;       // 1: not in the grid but in the list of large bodies
+    uint flags;       // ROW_*
     uint owner;       // row of the body that this part belongs to; itself for a body
     uint fracture;    // index into the table of fractures; NONE: unbreakable
     uint joints;      // head of its list of joints; NONE: no joints
@@ -52,6 +58,32 @@ struct Fracturing {
     uint first_pose;   // of its fragments, in the table of pieces; shared by equal bodies
     uint pad0, pad1, pad2;
 };
+// What a material says beyond friction, restitution and rolling resistance (material.h).
+struct Surface {
+    vec3 velocity;                // over its body, body axes, m/s
+    float static_friction;        // Coulomb coefficient of what sticks
+    float spinning_resistance;    // m; < 0: as rolling
+    float restitution_threshold;  // m/s; < 0: Parameters.restitution_threshold
+    uint friction_rule;           // COMBINE_*
+    uint restitution_rule;
+};
+// How a value of two surfaces follows; of two rules the greater counts.
+CONSTANT uint COMBINE_USUAL = 0u;
+CONSTANT uint COMBINE_GEOMETRIC = 1u;
+CONSTANT uint COMBINE_AVERAGE = 2u;
+CONSTANT uint COMBINE_MINIMUM = 3u;
+CONSTANT uint COMBINE_MULTIPLY = 4u;
+CONSTANT uint COMBINE_MAXIMUM = 5u;
+// How a body meets air and water (fields.h).
+struct Immersion {
+    vec3 half_extents;  // of a box, or of an ellipsoid, of the body's volume, body axes, m
+    float volume;       // m^3
+    vec3 centre;        // of the volume, from the centre of mass, body axes, m
+    float drag;         // coefficient
+    uint is_round;      // 1: an ellipsoid
+    uint pad0, pad1, pad2;
+};
+CONSTANT uint MOST_ATTRACTORS = 4u;
 // Tyre friction (tyre.h).
 struct Tyre {
     float best_slip;  // slip of greatest friction
@@ -205,14 +237,17 @@ CONSTANT uint ANCHOR_B = 1u;
 CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the single point of two round bodies follows both
 
 struct Constraint {
-    uint a, b;                 // rows of bodies, never of parts
-    uint slot_a, slot_b;       // slots of their VelocityDelta; NONE for a body that contacts do not move
-    vec3 normal;               // unit, world, from A to B
-    float friction;            // Coulomb coefficient of the pair
-    vec4 arms[4];              // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature)
+    uint a, b;            // rows of bodies, never of parts
+    uint slot_a, slot_b;  // slots of their VelocityDelta; NONE for a body that contacts do not move
+    vec3 normal;          // unit, world, from A to B
+    float friction;       // Coulomb coefficient of the pair
+    // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature). w, of materials (material.h): of
+    // the first two the slip of B's surface over A's while the bodies stand still, along both tangents of the normal, m/s; of
+    // the third the coefficient of static friction, or 0; of the last the speed of the slowest impacts, m/s, or 0.
+    vec4 arms[4];
     vec3 centre;               // of the friction patch, m (ANCHOR_ROUND: from B's centre to its centre of curvature)
     float twist_arm;           // of torsional friction, m: mean distance of the patch from its centre
-    float rolling_resistance;  // of the pair, m
+    float rolling_resistance;  // of the pair, m; < 0: resists rolling alone, not spinning
     float restitution;         // of the pair
     uint count;                // points
     uint anchor;               // ANCHOR_*
@@ -421,9 +456,22 @@ struct Parameters {  // uniform over a step
     uint way_points_offset;
     uint filters_offset;
     uint exclusions_offset;
+    uint surfaces_offset;
+    uint immersions_offset;
     uint removed;  // 1: bodies were removed since the last step; sleepers that touched them wake
-    uint pad0, pad1;
-    Grip grips[4];  // MOST_GRIPS
+    // Fields (fields.h).
+    vec3 wind;               // m/s
+    float air_density;       // kg/m^3; 0: no air
+    vec3 water_normal;       // unit, up
+    float water_offset;      // of its surface along the normal, m
+    vec3 water_velocity;     // m/s
+    float water_density;     // kg/m^3; 0: no water
+    float water_damping;     // 1/s
+    float attractor_radius;  // m
+    uint attractors;         // number of them
+    uint pad0;
+    vec4 attractor[4];  // MOST_ATTRACTORS. xyz: position, m; w: strength, m^3/s^2
+    Grip grips[4];      // MOST_GRIPS
 };
 
 // Features of a scene; shaders are specialised to leave out the others.
@@ -434,8 +482,9 @@ CONSTANT uint FEATURE_TYRES = 8u;
 CONSTANT uint FEATURE_PARTS = 16u;      // moving compounds
 CONSTANT uint FEATURE_REORDERED = 32u;  // rows in an order other than that of ids
 CONSTANT uint FEATURE_JOINTS = 64u;
-CONSTANT uint FEATURE_SUMS = 128u;     // contact impulses are summed over the step: breakable bodies, events
-CONSTANT uint FEATURE_FILTERS = 256u;  // collision filters, excluded pairs
+CONSTANT uint FEATURE_SUMS = 128u;      // contact impulses are summed over the step: breakable bodies, events
+CONSTANT uint FEATURE_FILTERS = 256u;   // collision filters, excluded pairs
+CONSTANT uint FEATURE_SURFACES = 512u;  // materials with more than friction, restitution and rolling resistance
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type
@@ -465,7 +514,7 @@ struct Counts {  // counted on the device in a step
     uint steps;                // completed steps
     uint pairs_coarse;         // pairs / 256, rounded up per body: detects overflow of the 32-bit count
     uint levels_stirring;      // bit l: some active body is on level l
-    uint large_stirring;       // 1: some large body is active
+    uint large_stirring;       // bit 0: some large body is active; bit 1: some body that is in no grid is
     uint sleepers;             // 1: some body is asleep as the step begins
     uint solver_contacts;      // contacts that the solver processes, with at least one movable body
     uint pair_type_first[20];  // pairs of type k are [pair_type_first[k], pair_type_first[k + 1]) of pairs_by_type

@@ -68,7 +68,11 @@ LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
 }
 
 LAW bool is_large(BodyProperties properties) {
-    return properties.large != 0u;
+    return (properties.flags & ROW_LARGE) != 0u;
+}
+// Rows that collide with nothing are in no bucket.
+LAW bool is_apart(BodyProperties properties) {
+    return (properties.flags & ROW_APART) != 0u;
 }
 
 // Level of rows that are not in the grid: bodies whose parts alone collide, and absent bodies.

@@ -15,6 +15,7 @@
 
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/mass_splitting.h"
+#include "shaders/physics/solve/surface.h"
 
 LAWS_BEGIN
 
@@ -86,9 +87,9 @@ LAW float pace_of(BodyProperties properties, Velocity velocity, Parameters param
     float limit = smaller(parameters.sleep_speed, STRETCH_SPEED * min_half_width(properties));
     return (length3(velocity.linear) + length3(velocity.angular) * bounding_radius(properties)) * reciprocal(limit);
 }
-// Quiet steps as seen by neighbours: < 0 for a moving kinematic body.
+// Quiet steps as seen by neighbours: BESIDE_MOVING of a moving kinematic body, or a running surface: none falls asleep.
 LAW float quiet_steps_shown(uint motion, Velocity velocity, uint sleep_state) {
-    if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? -1.0f : FOREVER;
+    if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? BESIDE_MOVING : FOREVER;
     return (sleep_state & WOKEN) != 0u ? 0.0f : float(quiet_steps(sleep_state));
 }
 // The sleep state for the next step. `carrying`: number of active contacts; `neighbours_quiet`: least quiet steps of their other

@@ -14,6 +14,7 @@
 
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/physics/solve/jacobian.h"
+#include "shaders/physics/solve/surface.h"
 
 LAWS_BEGIN
 
@@ -26,10 +27,11 @@ LAW vec3 along_surface(vec3 normal, vec3 v) {
 LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, VelocityPair v) {
     if (c.anchor == ANCHOR_ROUND) return c;
     LeverArms r = lever_arms(c, c.centre, d);
-    vec3 slip = along_surface(c.normal, velocity_at(r, v));
+    vec3 drive = is_driven(c) ? drive_of(c) : vec3(0.0f);  // of the ground
+    vec3 slip = along_surface(c.normal, velocity_at(r, v)) + drive;
     // Travel of the tyre over the ground, as part of the slip of B over A.
     vec3 way = is_a ? (v.b.linear + cross3(v.b.angular, r.b)) - v.a.linear : v.b.linear - (v.a.linear + cross3(v.a.angular, r.a));
-    way = along_surface(c.normal, way);
+    way = along_surface(c.normal, way) + drive;
     float pace = larger(length3(way), length3(slip - way));
     float slipping = length3(slip) * reciprocal(larger(pace, 1.0e-6f));
     float beyond = clamped((slipping - tyre.best_slip) * reciprocal(1.0f - tyre.best_slip), 0.0f, 1.0f);

@@ -59,7 +59,7 @@ LAW Impulse with_momentum(Impulse impulse, uint count, vec4 momentum) {
         float now = impulse.normal[k], before = impulse.solved_normal[k];
         bool lasts = there && impulse.impact_velocity[k] == 0.0f && now > 0.0f && before > 0.0f;
         impulse.solved_normal[k] = choose(there, now, before);
-        impulse.normal[k] = choose(lasts, positive(now + momentum[k] * (now - before)), now);
+        impulse.normal[k] = choose(lasts, positive(flush_tiny(now + momentum[k] * (now - before))), now);
     }
     return impulse;
 }

@@ -6,6 +6,7 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/tyre.h"
 #include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/material.h"
 #include "shaders/physics/solve/persistence.h"
 
 LAWS_BEGIN

@@ -49,9 +49,13 @@ LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
     bool follows = c.anchor == ANCHOR_ROUND;
     if (none(follows)) return c;
     vec3 core = xyz(c.arms[0]);
+    bool driven = follows && is_driven(c);
+    vec3 drive = vec3(0.0f);
+    if (!none(driven)) drive = drive_of(c);
     c.normal = choose(follows, unit3((d + c.centre) - core, c.normal), c.normal);
     vec3 arm = core + c.normal * (c.radius_a + 0.5f * round_gap(c, d));
-    c.arms[0] = choose(follows, vec4(arm, 0.0f), c.arms[0]);
+    c.arms[0] = choose(follows, vec4(arm, c.arms[0].w), c.arms[0]);
+    if (!none(driven)) c = choose_drive(driven, with_drive(c, drive), c);
     c.centre = choose(follows, arm, c.centre);
     c.anchor = choose(follows, ANCHOR_A, c.anchor);
     c.radius_a = choose(follows, 0.0f, c.radius_a);
@@ -95,7 +99,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             float change = -mass_along(row, a, b) * excess;
             float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, c.count, a, b, parameters));
             change = choose(separation <= 0.0f, change - leak * before, change);
-            float after = choose(gone, 0.0f, positive(before + change));
+            float after = choose(gone, 0.0f, positive(flush_tiny(before + change)));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
@@ -131,7 +135,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     c = refresh_round_contact(c, impulse.center_offset);
     vec4 rebound = vec4(0.0f);
     if (!none(struck)) rebound = rebound_velocities(met, met_offset, c, impulse, v, a, b, state, parameters);
-    float slowest = slowest_impact(c.normal, state, parameters);
+    float slowest = slowest_impact(c, state, parameters);
     float normal = 0.0f;
     vec4 momentum = vec4(0.0f);
     uint sweeps = sweeps_of(c, impulse);
@@ -154,7 +158,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             float mass = mass_along(row, a, b);
             momentum[k] = choose(acts, contact_momentum(row, c.count, a, b, parameters), momentum[k]);
             acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
-            float after = choose(gone, 0.0f, positive(before - mass * (speed + target)));
+            float after = choose(gone, 0.0f, positive(flush_tiny(before - mass * (speed + target))));
             impulse.normal[k] = choose(acts, after, before);
             normal = choose(acts, normal + after, normal);
             v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);

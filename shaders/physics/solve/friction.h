@@ -26,6 +26,7 @@
 #define SCREE_PHYSICS_FRICTION_H
 
 #include "shaders/physics/solve/jacobian.h"
+#include "shaders/physics/solve/surface.h"
 
 LAWS_BEGIN
 
@@ -51,15 +52,21 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
     float determinant = reciprocal(dot3(x, yz));
     vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
     vec3 stopping = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
-    vec3 before = s.impulse.rolling;
-    float most = c.rolling_resistance * normal;
-    vec3 after = before - stopping;
+    bool spins = c.rolling_resistance < 0.0f;  // freely, but for the friction of the patch
+    if (!none(spins)) {
+        spin = choose(spins, spin - c.normal * dot3(c.normal, spin), spin);
+        stopping = choose(spins, stopping - c.normal * dot3(c.normal, stopping), stopping);
+    }
+    vec3 before = s.impulse.rolling, from = before;
+    if (!none(spins)) from = choose(spins, before - c.normal * dot3(c.normal, before), before);
+    float most = abs(c.rolling_resistance) * normal;
+    vec3 after = flush_tiny(from - stopping);
     bool rolls = dot3(after, after) > most * most;
     if (!none(rolls)) {
         // The greatest row sum is not below the greatest eigenvalue, and equal to it for a ball.
         vec3 sums = (absolute3(x) + absolute3(y)) + absolute3(z);
         float greatest = larger(sums.x, larger(sums.y, sums.z));
-        after = choose(rolls, shortened(before - spin * reciprocal(greatest), most), after);
+        after = choose(rolls, flush_tiny(shortened(flush_tiny(from - spin * reciprocal(greatest)), most)), after);
     }
     s.impulse.rolling = after;
     s.pair_velocity = twisted(s.pair_velocity, after - before, a, a.split, b, b.split);
@@ -68,7 +75,7 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
 
 // Bounds that keep quotients by the friction limit, and a tyre's compliance, within the range of a float while its
 // normal impulse is near 0.
-CONSTANT float LEAST_HOLD = 1.0e-20f;    // N s
+CONSTANT float LEAST_HOLD = 1.0e-16f;    // N s; friction at its limit is then not flushed
 CONSTANT float MAX_COMPLIANCE = 1.0e6f;  // times the inverse effective mass of the bodies
 
 CONSTANT float LIMIT_COUPLING = 0.6f;  // c above
@@ -106,6 +113,8 @@ LAW Anchor anchor_of_pass(Constraint c, bool biased, Parameters parameters) {
 LAW Impulse stretched(Constraint c, Impulse impulse, VelocityPair v, Parameters parameters) {
     LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
     vec3 slip = velocity_at(r, v);
+    bool driven = is_driven(c);
+    if (!none(driven)) slip = choose(driven, slip + drive_of(c), slip);
     vec3 wa = v.a.angular, wb = v.b.angular;
     bool turns = dot3(wa, wa) + dot3(wb, wb) > TURNING_SQUARED;
     if (!none(turns)) {
@@ -119,10 +128,10 @@ LAW Impulse stretched(Constraint c, Impulse impulse, VelocityPair v, Parameters 
     stretch = (stretch + cross3(c.normal, stretch) * angle) + slip * parameters.h;
     float turn = impulse.turn + parameters.h * dot3(c.normal, wb - wa);
     bool loaded = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) > 0.0f;
-    impulse.stretch = choose(loaded, stretch, vec3(0.0f));
-    impulse.turn = choose(loaded, turn, 0.0f);
+    impulse.stretch = choose(loaded, flush_tiny(stretch), vec3(0.0f));
+    impulse.turn = choose(loaded, flush_tiny(turn), 0.0f);
     vec3 friction = impulse.friction;
-    impulse.friction = friction + cross3(c.normal, friction) * angle - friction * (0.5f * angle * angle);
+    impulse.friction = flush_tiny(friction + cross3(c.normal, friction) * angle - friction * (0.5f * angle * angle));
     return impulse;
 }
 
@@ -186,14 +195,14 @@ LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float sp
     float greatest = larger(k.k11, k.k22) + abs(k.k12);
     float step = reciprocal(larger(greatest * q, spin_mass * p));
     PatchImpulse after;
-    after.friction = before.friction - (k.row1.direction * k.slip1 + k.row2.direction * k.slip2) * (q * step);
-    after.twist = before.twist - spin * (p * step);
+    after.friction = flush_tiny(before.friction - (k.row1.direction * k.slip1 + k.row2.direction * k.slip2) * (q * step));
+    after.twist = flush_tiny(before.twist - spin * (p * step));
     // Bounded, for a contact that has all but let go: the square of its quotient leaves the range of a float.
     float squared = (p * dot3(after.friction, after.friction) + q * after.twist * after.twist) * hold * hold;
     squared = smaller(squared, 1.0e30f);
     float scale = choose(squared > bound, bound * inverse_square_root(squared * bound), 1.0f);
-    after.friction = after.friction * scale;
-    after.twist = after.twist * scale;
+    after.friction = flush_tiny(after.friction * scale);
+    after.twist = flush_tiny(after.twist * scale);
     return after;
 }
 
@@ -217,11 +226,17 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
         stopping = (spin + anchor.rate * s.impulse.turn) * reciprocal(spin_mass);
         stopping = choose(holds, -stopping - anchor.leak * before.twist, -before.twist);
         spin_mass = choose(twists, spin_mass, 0.0f);
-        after.twist = before.twist + stopping;
+        after.twist = flush_tiny(before.twist + stopping);
         v.a.angular = v.a.angular - response_a * stopping;
         v.b.angular = v.b.angular + response_b * stopping;
     }
     FrictionBlock k = friction_block(lever_arms(c, c.centre, s.impulse.center_offset), c.normal, v, a, b, parameters);
+    // The block's tangents are those of the drive.
+    bool driven = is_driven(c);
+    if (!none(driven)) {
+        k.slip1 = choose(driven, k.slip1 + c.arms[0].w * k.unit, k.slip1);
+        k.slip2 = choose(driven, k.slip2 + c.arms[1].w * k.unit, k.slip2);
+    }
     if (!none(slips)) {
         float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * k.unit, MAX_COMPLIANCE);
         k = with_compliance(k, slips, compliance, before.friction);
@@ -232,11 +247,15 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     float slip2 = k.slip2 + bias * dot3(k.row2.direction, s.impulse.stretch);
     vec3 stop = k.row1.direction * ((k.k22 * slip1 - k.k12 * slip2) * inverse) +
                 k.row2.direction * ((k.k11 * slip2 - k.k12 * slip1) * inverse);
-    after.friction = before.friction - choose(holds, stop + before.friction * anchor.leak, before.friction);
+    after.friction = flush_tiny(before.friction - choose(holds, stop + before.friction * anchor.leak, before.friction));
     // Beyond the limit surface?
     float arm = choose(twists, c.twist_arm, 1.0f);
     float hold = reciprocal(larger(most, LEAST_HOLD));
-    float x = dot3(after.friction, after.friction) * hold * hold, y = after.twist * hold;
+    // What sticks holds up to the static friction; what does not slides by the dynamic one.
+    float hold_sticking = hold;
+    bool clings = c.arms[2].w > 0.0f;
+    if (!none(clings)) hold_sticking = choose(clings, reciprocal(larger(c.arms[2].w * normal, LEAST_HOLD)), hold);
+    float x = dot3(after.friction, after.friction) * hold_sticking * hold_sticking, y = after.twist * hold_sticking;
     y = smaller(y * y, 4.0f * arm * arm);
     bool slides = holds && x * (arm * arm + LIMIT_COUPLING * y) + y > arm * arm;
     if (!none(slides)) {
@@ -260,8 +279,8 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
         s.impulse.turn = choose(slides, -anchor.give * spin_mass * after.twist, s.impulse.turn);
     }
     bool anchored = holds && anchor.give > 0.0f;
-    s.impulse.stretch = choose(anchored, s.impulse.stretch, vec3(0.0f));
-    s.impulse.turn = choose(anchored, s.impulse.turn, 0.0f);
+    s.impulse.stretch = choose(anchored, flush_tiny(s.impulse.stretch), vec3(0.0f));
+    s.impulse.turn = choose(anchored, flush_tiny(s.impulse.turn), 0.0f);
     s.impulse.friction = after.friction;
     s.impulse.twist = after.twist;
     vec3 change = after.friction - before.friction;
@@ -291,7 +310,7 @@ LAW SolveResult solve_patch_friction(Constraint c, SolveResult s, float normal, 
                                      Parameters parameters) {
     bool acts = normal != 0.0f || has_friction(s.impulse);
     if (none(acts)) return s;
-    bool resists = acts && c.rolling_resistance > 0.0f;
+    bool resists = acts && c.rolling_resistance != 0.0f;
     SolveResult after = s;
     if (!none(resists)) after = choose(resists, solve_rolling(c, s, normal, a, b), s);
     return choose(acts, solve_friction(c, after, normal, a, b, biased, parameters), s);

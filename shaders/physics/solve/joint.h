@@ -133,7 +133,9 @@ LAW JointRow linear_row(JointRow row, JointConfiguration at, uint axis, uint fla
         vec3 rate = cross3(v.a.angular, u);
         row.drift = drift_part(v, h) * ((dot3(u, turning) + 2.0f * dot3(rate, speed)) + dot3(cross3(v.a.angular, rate), at.gap));
     }
-    row.angular_b = cross3(at.angular_b, row.direction);
+    row.direction = flush_tiny(row.direction);
+    row.angular_a = flush_tiny(row.angular_a);
+    row.angular_b = flush_tiny(cross3(at.angular_b, row.direction));
     return row;
 }
 // The row of an angular axis: 0 is the twist, 1 and 2 the swing.
@@ -142,6 +144,7 @@ LAW JointRow angular_row(JointRow row, JointConfiguration at, uint axis, uint fl
     vec3 u = axis == 0u ? at.twist_axis : (axis == 1u ? (cone ? at.swing_axis : at.y) : at.z);
     // Removes the twist from a swing axis: B may spin about its own x axis without swinging (a steered wheel).
     if (axis != 0u && (flags & JOINT_SPINS) != 0u) u = u - at.twist_axis * dot3(u, at.x_b);
+    u = flush_tiny(u);
     row.direction = u;
     row.coordinate = axis == 0u ? at.twist : (axis == 1u ? (cone ? at.swing : at.swing_y) : at.swing_z);
     row.angular_a = u;
@@ -160,8 +163,8 @@ LAW float row_speed(JointRow row, bool linear, VelocityPair v) {
 }
 // The velocity after an impulse along (linear) or about the row.
 LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
-    if (linear) v.linear = v.linear + direction * (impulse * mass.inverse_mass * mass.split);
-    v.angular = v.angular + turned_by(mass, arm) * (impulse * mass.split);
+    if (linear) v.linear = flush_tiny(v.linear + direction * (impulse * mass.inverse_mass * mass.split));
+    v.angular = flush_tiny(v.angular + turned_by(mass, arm) * (impulse * mass.split));
     return v;
 }
 

@@ -150,11 +150,11 @@ LAW uint with_active_set(uint active_set, uint axis, uint active_flags) {
 LAW JointRow row_after(JointRow row, JointAxis axis, uint active_flags, bool solved, float solution, Parameters parameters) {
     bool stopped = (active_flags & (LIMIT_LOWER | LIMIT_UPPER)) != 0u;
     if (solved && stopped) {
-        float after = row.limit_impulse + solution;
+        float after = flush_tiny(row.limit_impulse + solution);
         after = (active_flags & LIMIT_LOWER) != 0u ? positive(after) : -positive(-after);
         row.limit_change = after - row.limit_impulse;
     } else if (solved) {
-        float after = row.motor_impulse + solution;
+        float after = flush_tiny(row.motor_impulse + solution);
         if ((axis.mode & AXIS_LOCKED) == 0u)
             after = clamped(after, -most_impulse(axis, parameters), most_impulse(axis, parameters));
         row.motor_change = after - row.motor_impulse;
@@ -178,7 +178,8 @@ LAW JointRow row_given(JointAxis axis, JointRow row, uint active_flags, float sp
     row.limit_change = is_stopped(active_flags) ? 0.0f : -row.limit_impulse;
     row.motor_change = 0.0f;
     if (!motor_is_solved(axis, row, active_flags, biased, parameters))
-        row.motor_change = saturated_motor_impulse(axis, row, active_flags, speed, biased, parameters) - row.motor_impulse;
+        row.motor_change =
+            flush_tiny(saturated_motor_impulse(axis, row, active_flags, speed, biased, parameters)) - row.motor_impulse;
     return row;
 }
 LAW RowTarget row_demand(JointAxis axis, JointRow row, uint index, uint active_flags, bool biased, Parameters parameters) {

@@ -105,7 +105,7 @@ LAW float row_entry(vec3 direction, vec3 angular_a, vec3 angular_b, uint axis, R
         float entry = entry_through(direction, angular_b, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
         sum = ends != ENDS_B_B ? sum + entry : entry;
     }
-    return sum;
+    return flush_least(sum);
 }
 
 // The row at the present poses with its inverse effective mass (`a`, `b`: split bodies; `ends`: ENDS_A_A and ENDS_B_B
@@ -116,6 +116,8 @@ LAW JointRow placed_row(JointRow row, JointConfiguration at, uint axis, uint fla
         row = linear_row(row, at, axis, flags, v, h);
     else
         row = angular_row(row, at, axis - 3u, flags, v, h);
+    row.coordinate = flush_tiny(row.coordinate);
+    row.drift = flush_tiny(row.drift);
     row.inverse_effective_mass =
         row_entry(row.direction, row.angular_a, row.angular_b, axis, row_response(row, axis, a, b), ends);
     row.motor_change = 0.0f;
@@ -125,7 +127,7 @@ LAW JointRow placed_row(JointRow row, JointConfiguration at, uint axis, uint fla
 
 // ---- elimination and substitution
 LAW float right_hand_side(float speed, RowTarget demand) {
-    return -(speed + demand.bias);
+    return -flush_tiny(speed + demand.bias);
 }
 LAW float softened(float entry, RowTarget demand) {
     return entry + demand.compliance;
@@ -136,10 +138,10 @@ LAW float multiplier_of(float entry, float inverse_pivot) {
 }
 // The update of an entry or right-hand side in elimination (Schur complement), or of a sum in back substitution.
 LAW float less_multiple(float entry, float multiplier, float other) {
-    return entry - multiplier * other;
+    return flush_least(entry - multiplier * other);
 }
 LAW float substituted(float sum, float inverse_pivot) {
-    return sum * inverse_pivot;
+    return flush_tiny(sum * inverse_pivot);
 }
 
 // ---- after a solution

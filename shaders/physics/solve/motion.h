@@ -45,9 +45,9 @@ LAW Mass mass_in_world(BodyProperties properties, vec4 orientation, float split)
         mass.xx = choose(evenly, mass.xx, tensor.xx);
         mass.yy = choose(evenly, mass.yy, tensor.yy);
         mass.zz = choose(evenly, mass.zz, tensor.zz);
-        mass.xy = choose(evenly, mass.xy, tensor.xy);
-        mass.xz = choose(evenly, mass.xz, tensor.xz);
-        mass.yz = choose(evenly, mass.yz, tensor.yz);
+        mass.xy = choose(evenly, mass.xy, flush_least(tensor.xy));
+        mass.xz = choose(evenly, mass.xz, flush_least(tensor.xz));
+        mass.yz = choose(evenly, mass.yz, flush_least(tensor.yz));
     }
     mass.inverse_mass = properties.inverse_mass;
     mass.split = split;
@@ -154,7 +154,7 @@ LAW RigidState integrate(Pose pose, Velocity velocity, BodyProperties properties
     vec3 halfway = velocity.angular + (angular_velocity_of(middle, momentum, i) - at_first);
     after.pose.orientation = turned(pose.orientation, choose(tumbles, halfway, velocity.angular), h);
     vec3 at_last = velocity.angular + (angular_velocity_of(after.pose.orientation, momentum, i) - at_first);
-    after.velocity.angular = choose(tumbles, at_last, velocity.angular);
+    after.velocity.angular = choose(tumbles, flush_tiny(at_last), velocity.angular);
     return after;
 }
 

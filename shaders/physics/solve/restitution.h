@@ -42,9 +42,10 @@ LAW vec4 impact_state(BodyForces a, BodyForces b) {
 // Slower approaches have no restitution, m/s: what rests on a surface approaches at up to the speed of a fall in two
 // steps, and bodies beside each other do not. (With a lower threshold for the bodies that an impact has just pushed, a
 // heap of 200 boxes gained 2e-4 of its energy in a step.)
-LAW float slowest_impact(vec3 normal, vec4 state, Parameters parameters) {
-    float pull = larger(abs(dot3(normal, parameters.gravity)), abs(dot3(normal, xyz(state))));
-    return larger(parameters.restitution_threshold, 2.0f * parameters.dt * pull);
+LAW float slowest_impact(Constraint c, vec4 state, Parameters parameters) {
+    float pull = larger(abs(dot3(c.normal, parameters.gravity)), abs(dot3(c.normal, xyz(state))));
+    float threshold = choose(c.arms[3].w > 0.0f, c.arms[3].w, parameters.restitution_threshold);
+    return larger(threshold, 2.0f * parameters.dt * pull);
 }
 
 // An impact on a body of a block of joints reaches only part of the rebound, because the block passes on the rest of the
@@ -93,7 +94,7 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
 LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
     vec4 found = impulse.impact_velocity;
     float gain = parameters.h * dot3(c.normal, xyz(state));
-    float slowest = slowest_impact(c.normal, state, parameters);
+    float slowest = slowest_impact(c, state, parameters);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < c.count && found[k] == 0.0f;
         if (none(there)) continue;

@@ -13,6 +13,7 @@ const bool ROLLS = (FEATURES & FEATURE_ROLLS) != 0u;
 const bool REORDERED = (FEATURES & FEATURE_REORDERED) != 0u;
 const bool JOINTS = (FEATURES & FEATURE_JOINTS) != 0u;
 const bool SUMS = (FEATURES & FEATURE_SUMS) != 0u;
+const bool SURFACES = (FEATURES & FEATURE_SURFACES) != 0u;
 const bool FILTERS = (FEATURES & FEATURE_FILTERS) != 0u;
 
 // The variant of a shared module: the lines `variants` of its file.
@@ -25,6 +26,8 @@ Constraint narrowed(Constraint c) {
     if (!ROLLS) c.rolling_resistance = 0.0f;
     if ((FEATURES & FEATURE_ROUND) == 0u) c.anchor = c.anchor == ANCHOR_B ? ANCHOR_B : ANCHOR_A;
     if ((FEATURES & (FEATURE_ROUND | FEATURE_TYRES)) == 0u) c.radius_a = 0.0f;
+    if (!SURFACES)
+        for (int k = 0; k < 4; ++k) c.arms[k].w = 0.0f;
     return c;
 }
 Impulse narrowed(Impulse impulse) {

@@ -102,7 +102,7 @@ void look_around(uint body) {
     bool still = (around.level & INACTIVE) != 0u;
     if (still) carry_over(body);
     uint levels = levels_to_search(around.level, COUNTED);
-    if (still && levels == 0u && COUNTED.large_stirring == 0u) return;
+    if (still && levels == 0u && (COUNTED.large_stirring & 1u) == 0u) return;
     BodyProperties own = READ(properties, body);
     look_through_large(body, own, around);
     if (is_large(own)) return;

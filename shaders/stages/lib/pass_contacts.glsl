@@ -81,6 +81,7 @@ void relax_contact(uint place, uint pass) {
     } else {
         payload_a = quiet_steps_shown(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
         payload_b = quiet_steps_shown(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
+        if (is_driven(c)) payload_a = payload_b = BESIDE_MOVING;
     }
     float carrying = is_active(c, impulse, after.pair_velocity, PARAMETERS);
     if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, carrying, payload_b);

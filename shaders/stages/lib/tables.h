@@ -58,9 +58,11 @@
     X(22, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
     X(22, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
     X(22, tyres, QuadsTable, Tyre, tyres)                                                                     \
-    X(22, way_points, QuadsTable, WayPoint, way_points) /* of the vehicles' routes */                         \
-    X(22, filters, QuadsTable, uvec4, filters)          /* of all rows, if any body has one: filter.h */      \
-    X(22, exclusions, QuadsTable, uvec4, exclusions)    /* pairs of bodies that never collide: filter.h */
+    X(22, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: fields.h */      \
+    X(22, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
+    X(22, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
+    X(22, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
+    X(22, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \

@@ -1,0 +1,23 @@
+// Lockstep of the CPU and a Vulkan device, for scree compare.
+#pragma once
+
+#include <functional>
+#include <string>
+
+#include "compute/scene.h"
+#include "compute/settings.h"
+#include "compute/step/lockstep_result.h"
+#include "demos/program/options.h"
+
+namespace scree::demos {
+
+struct DeviceComparison {
+    LockstepResult result;
+    std::string device;  // name
+};
+
+// Until a difference, or until `progress` (argument: steps done) returns false. Throws UsageError without Vulkan.
+DeviceComparison compare_with_device(const Scene& scene, const Settings& settings, const MachineOptions& machine, int steps,
+                                     const std::function<bool(int)>& progress);
+
+}  // namespace scree::demos
