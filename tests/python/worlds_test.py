@@ -214,6 +214,61 @@ class Contacts(unittest.TestCase):
         self.assertIn(scree.EventKind.body_broke, world.events().kind)
 
 
+class Model(unittest.TestCase):
+    def test_sensors_tell_what_overlaps_them(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane())
+        gate = scene.add(scree.Box((1, .2, 1)), position=(0, 2, 0), motion="fixed", role="sensor")
+        ball = scene.add(scree.Sphere(.3), position=(0, 4, 0))
+        world = scree.World(scene, backend="cpu", events={"contacts": False})
+        world.step(36)
+        self.assertEqual(world.sensed().body.tolist(), [ball])
+        self.assertEqual(world.sensed().sensor.tolist(), [gate])
+        world.step(60)
+        kinds = world.events().kind.tolist()
+        self.assertEqual(kinds, [scree.EventKind.sensor_begin, scree.EventKind.sensor_end])
+        self.assertEqual(len(world.sensed()), 0)
+
+    def test_kinematic_bodies_arrive(self):
+        scene = scree.Scene()
+        lift = scene.add(scree.Box(), position=(0, 0, 0), motion="kinematic")
+        world = scree.World(scene, backend="cpu")
+        world.move(lift, (0, 1, 0), steps=30)
+        world.step(15)
+        self.assertAlmostEqual(float(world.position[lift, 1]), .5, places=3)
+        world.step(30)
+        np.testing.assert_allclose(world.position[lift], (0, 1, 0), atol=1e-5)
+
+    def test_materials_and_fields_change(self):
+        scene = scree.Scene()
+        scene.add(scree.Plane(), friction=1.0)
+        box = scene.add(scree.Box((.5, .25, .5)), position=(0, .25, 0), velocity=(3, 0, 0), friction=.5)
+        slid = []
+        for friction in (None, 0.0):
+            world = scree.World(scene, backend="cpu")
+            if friction is not None:
+                world.set_material(box, friction=friction)
+            world.step(60)
+            slid.append(float(world.position[box, 0]))
+        self.assertLess(slid[0], 1.5)
+        self.assertAlmostEqual(slid[1], 3, delta=.1)
+        scene = scree.Scene()
+        scene.add(scree.Sphere(.5), position=(0, -.5, 0), density=500)
+        scene.set_fields(water={"offset": 0})
+        world = scree.World(scene, backend="cpu")
+        world.step(600)
+        self.assertLess(abs(float(world.position[0, 1])), .4)
+        with self.assertRaises(TypeError):
+            world.set_fields(tide=1)
+
+    def test_the_nearest_points(self):
+        scene, ids = pile(4)
+        world = scree.World(scene, backend="cpu")
+        near = world.closest_points([(0, 1.4, 0), (0, 50, 0)], 5)
+        self.assertEqual(near.body.tolist(), [ids[0], -1])
+        self.assertAlmostEqual(float(near.distance[0]), .3, places=4)
+
+
 class Queries(unittest.TestCase):
     def test_rays_as_arrays(self):
         scene, ids = pile(16)

@@ -149,6 +149,13 @@ void set_part(Description& scene, const std::string& key, const std::string& tex
     SceneDocument& document = scene.document;
     if (key == "settings") return set_optional(scene, document.settings, "settings", text);
     if (key == "picture") return set_optional(scene, document.picture, "picture", text);
+    if (key == "fields") {
+        Fields fields_read = document.scene.fields;
+        read_value(json_of(text), root / "fields", fields_read, "", {});
+        check_world_fields(fields_read);
+        document.scene.fields = std::move(fields_read);
+        return;
+    }
     if (key == "camera") return set_optional(scene, document.viewpoint, "camera", text);
     throw py::key_error(key);
 }
@@ -205,6 +212,8 @@ std::vector<std::string> keys_named(const std::string& name) {
     if (name == "settings") return keys_of<Settings>();
     if (name == "vehicle") return keys_of<Vehicle>();
     if (name == "filter") return keys_of<Filter>();
+    if (name == "material") return keys_of<Material>();
+    if (name == "fields") return keys_of<Fields>();
     if (name == "fracture") return keys_of<Fracture>();
     if (name == "tyre") return keys_of<Tyre>();
     if (name == "controls") return keys_of<Controls>();

@@ -113,13 +113,30 @@ Motion motion_named(const std::string& name) {
     return static_cast<Motion>(found - words.begin());
 }
 
-void set_material(WorldObject& object, std::size_t body, std::optional<float> friction, std::optional<float> restitution,
-                  std::optional<float> rolling_resistance) {
+// Of each the material that it has but for the given fields.
+void set_material(WorldObject& object, const Indices& ids, const std::string& text) {
     Use world(object);
-    world->handle_of(body);
-    const Body& now = world->scene().bodies[body];
-    world->set_material(body, {friction.value_or(now.friction), restitution.value_or(now.restitution),
-                               rolling_resistance.value_or(now.rolling_resistance)});
+    const json given = json_of(text);
+    const Place place = root / "material";
+    for (py::ssize_t i = 0; i < ids.size(); ++i) {
+        const auto body = static_cast<std::size_t>(ids.data()[i]);
+        world->handle_of(body);
+        Material material = material_of(world->scene().bodies[body]);
+        only(given, place, keys_of<Material>());
+        read_fields(given, place, material);
+        world->set_material(body, material);
+    }
+}
+
+void move_bodies(WorldObject& object, const Indices& ids, const Floats& position, const Floats& orientation, int steps) {
+    Use world(object);
+    require_shape(position, ids.size(), 3, "position");
+    require_shape(orientation, ids.size(), 4, "orientation");
+    std::vector<BodyTarget> targets(static_cast<std::size_t>(ids.size()));
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        targets[i] = {static_cast<std::size_t>(ids.data()[i]), vec3_at(position.data(), i), vec4_at(orientation.data(), i),
+                      steps};
+    world->move_bodies(targets);
 }
 
 void tune(WorldObject& object, const std::string& what, double value) {
@@ -143,6 +160,9 @@ void bind_bodies(WorldClass& of_world) {
              })
         .def("wake_all", [](WorldObject& object) { Use(object)->wake_all(); })
         .def("set_material", &set_material)
+        .def("move", &move_bodies)
+        .def("set_fields",
+             [](WorldObject& object, const std::string& text) { Use(object)->set_fields(value_of<Fields>(text, "fields")); })
         .def("set_filter", [](WorldObject& object, std::size_t body,
                               const std::string& filter) { Use(object)->set_filter(body, value_of<Filter>(filter, "filter")); })
         .def("set_motion", [](WorldObject& object, std::size_t body,

@@ -104,6 +104,15 @@ py::array cast_shapes(WorldObject& object, const std::string& shape, const Float
     return records_of(asked(object, [&](const World& world) { return world.cast_shapes(casts); }));
 }
 
+py::array closest_points(WorldObject& object, const Floats& points, const Floats& reach, std::uint32_t mask) {
+    const py::ssize_t n = points.ndim() > 0 ? points.shape(0) : 0;
+    require_shape(points, n, 3, "points");
+    require_shape(reach, n, 0, "reach");
+    std::vector<ClosestQuery> queries(static_cast<std::size_t>(n));
+    for (std::size_t i = 0; i < queries.size(); ++i) queries[i] = {vec3_at(points.data(), i), reach.data()[i], mask};
+    return records_of(asked(object, [&](const World& world) { return world.closest_points(queries); }));
+}
+
 py::tuple overlaps(WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
                    std::uint32_t mask) {
     const py::ssize_t n = position.ndim() > 0 ? position.shape(0) : 0;
@@ -148,6 +157,7 @@ void bind_queries(py::module_& module, WorldClass& of_world) {
                  return lists_of(asked(object, [&](const World& world) { return world.cast_rays_through(rays); }));
              })
         .def("cast_shapes", &cast_shapes)
+        .def("closest_points", &closest_points)
         .def("overlaps", &overlaps);
 }
 

@@ -22,6 +22,10 @@ struct EventRecord {
     std::int32_t part_a, part_b, joint;
     float speed, impulse, point[3], normal[3];
 };
+struct SensedRecord {
+    std::int64_t sensor, body;
+    std::int32_t sensor_part, part;
+};
 struct JointRecord {
     float force[3], torque[3], max_force, max_torque;
     bool broken;
@@ -78,6 +82,10 @@ EventRecord record_of(const Event& e) {
     return r;
 }
 
+SensedRecord record_of(const SensorOverlap& o) {
+    return {o.sensor, o.body, static_cast<std::int32_t>(o.sensor_part), static_cast<std::int32_t>(o.part)};
+}
+
 JointRecord record_of(const JointState& j) {
     JointRecord r{};
     put(r.force, j.force);
@@ -117,6 +125,7 @@ void bind_records(py::module_& module, WorldClass& of_world) {
     PYBIND11_NUMPY_DTYPE(ContactRecord, a, b, part_a, part_b, normal, friction, count, position, separation, force);
     PYBIND11_NUMPY_DTYPE(EventRecord, step, kind, a, a_generation, b, b_generation, part_a, part_b, joint, speed, impulse, point,
                          normal);
+    PYBIND11_NUMPY_DTYPE(SensedRecord, sensor, body, sensor_part, part);
     PYBIND11_NUMPY_DTYPE(JointRecord, force, torque, max_force, max_torque, broken, gap, coordinates);
     PYBIND11_NUMPY_DTYPE(VehicleRecord, throttle, brake, steer, hand_brake, speed, curvature, by_route, passed, next, arrived);
     module.attr("contact_dtype") = py::dtype::of<ContactRecord>();
@@ -128,9 +137,11 @@ void bind_records(py::module_& module, WorldClass& of_world) {
         .def("vehicles", [](WorldObject& object) { return records_of(Use(object)->vehicles()); })
         .def("take_events", [](WorldObject& object) { return records_of(Use(object)->take_events()); })
         .def("records_events", [](WorldObject& object) { return Use(object)->event_settings().any(); })
-        .def("set_events", [](WorldObject& object, bool contacts, float hit_speed, bool breaks, bool sleep) {
-            Use(object)->set_events({contacts, hit_speed, breaks, sleep});
-        });
+        .def("set_events",
+             [](WorldObject& object, bool contacts, float hit_speed, bool breaks, bool sleep, bool sensors) {
+                 Use(object)->set_events({contacts, hit_speed, breaks, sleep, sensors});
+             })
+        .def("sensed", [](WorldObject& object) { return records_of(Use(object)->sensed()); });
 }
 
 }  // namespace scree::python

@@ -16,8 +16,9 @@ from scree.camera import Camera
 from scree.joints import JointKind
 from scree.shapes import HeightField, Mesh, Plane, Shape, Vector
 
-_VECTORS = {"position": 3, "orientation": 4, "velocity": 3, "angular_velocity": 3}
-_NUMBERS = frozenset({"density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale"})
+_VECTORS = {"position": 3, "orientation": 4, "velocity": 3, "angular_velocity": 3, "surface_velocity": 3}
+_NUMBERS = frozenset({"density", "friction", "restitution", "rolling_resistance", "linear_damping", "angular_damping", "gravity_scale",
+                      "static_friction", "spinning_resistance", "restitution_threshold", "drag"})
 
 
 def require_keys(given: typing.Iterable[str], known: typing.Iterable[str], what: str) -> None:
@@ -68,7 +69,7 @@ class Scene:
         orientation: (4,) or (n, 4), x, y, z, w. velocity, angular_velocity: (3,) or (n, 3), m/s, rad/s.
         motion: "dynamic", "fixed" or "kinematic"; by default fixed for planes, meshes and height fields, dynamic for others.
         density (kg/m^3), friction, restitution, rolling_resistance (m), linear_damping, angular_damping (1/s),
-        gravity_scale: numbers or (n,). name, filter, tyre, fracture and every other key of a body in a scene file: of all.
+        gravity_scale: numbers or (n,). name, filter, tyre, fracture, inertial, role ("sensor", "drawn") and every other key of a body in a scene file: of all.
 
         Returns the id of the body; of many their ids, (n,) int64. Ids count bodies from 0 and do not change.
         Raises SceneError, whose `pointer` names the value, here or when a World is made; TypeError for an unknown key.
@@ -150,6 +151,11 @@ class Scene:
     def vehicle_bodies(self, vehicle: Union[int, str]) -> Ids:
         """The ids of a vehicle's chassis and of its wheels."""
         return np.asarray(self._native.vehicle_bodies(self._named("vehicles", vehicle)), dtype=np.int64)
+
+    def set_fields(self, **fields: Any) -> None:
+        """What acts on all dynamic bodies: wind={"velocity": (3,), m/s}, water={"offset": m}, attractors=[...], as in a scene file."""
+        require_keys(fields, _native.keys("fields"), "fields")
+        self._native.set_part("fields", json_text(fields, "/fields"))
 
     # ---- how it is run and shown
     def at(self, time: float, **action: typing.Mapping[str, Any]) -> None:

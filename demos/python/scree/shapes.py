@@ -194,6 +194,8 @@ class Part(_Described):
     orientation: Optional[Vector] = None
     density: Optional[float] = None
     filter: Optional[Filter] = None
+    role: Optional[str] = None
+    material: Optional[Dict[str, Any]] = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -35,6 +35,8 @@ class EventKind(IntEnum):
     joint_broke = 4
     fell_asleep = 5
     woke = 6
+    sensor_begin = 7  # b began to overlap the sensor a
+    sensor_end = 8
 
 
 class Tables:
@@ -288,11 +290,21 @@ class World:
         else:
             self._native.wake(ids_of(ids))
 
-    def set_material(self, ids: Any, *, friction: Optional[float] = None, restitution: Optional[float] = None,
-                     rolling_resistance: Optional[float] = None) -> None:
-        """Changes materials from the next step on; what is not given stays."""
-        for body in ids_of(ids):
-            self._native.set_material(int(body), friction, restitution, rolling_resistance)
+    def set_material(self, ids: Any, **fields: Any) -> None:
+        """Changes friction, restitution, rolling_resistance and the like from the next step on; what is not given stays."""
+        require_keys(fields, _native.keys("material"), "a material")
+        self._native.set_material(ids_of(ids), json_text(fields, "/material"))
+
+    def move(self, ids: Any, position: Any, orientation: Optional[Any] = None, steps: int = 1) -> None:
+        """Moves kinematic bodies to poses, (n, 3) and (n, 4), within that many steps, pushing what they meet; then they stand."""
+        named = ids_of(ids)
+        turn = self.orientation[named] if orientation is None else vectors(orientation, len(named), 4, "orientation")
+        self._native.move(named, vectors(position, len(named), 3, "position"), np.ascontiguousarray(turn), steps)
+
+    def set_fields(self, **fields: Any) -> None:
+        """Wind, water and attractors from the next step on, in place of those before; see Scene.set_fields."""
+        require_keys(fields, _native.keys("fields"), "fields")
+        self._native.set_fields(json_text(fields, "/fields"))
 
     def set_filter(self, ids: Any, filter: Filter) -> None:
         """Changes which bodies collide, from the next step on; wakes all."""
@@ -340,10 +352,11 @@ class World:
         """(n, 3), N: sums of the contact forces on bodies in the last substep; 0 without contacts."""
         return self._native.touch_forces(ids_of(ids))
 
-    def set_events(self, *, contacts: bool = True, hit_speed: Optional[float] = None, breaks: bool = True, sleep: bool = False) -> None:
+    def set_events(self, *, contacts: bool = True, hit_speed: Optional[float] = None, breaks: bool = True, sleep: bool = False,
+                   sensors: bool = True) -> None:
         """Which events are recorded from the next step on. hit_speed: m/s, least approach speed of a hit; None: no hits."""
         self._told_of_events = True
-        self._native.set_events(contacts, 1e30 if hit_speed is None else hit_speed, breaks, sleep)
+        self._native.set_events(contacts, 1e30 if hit_speed is None else hit_speed, breaks, sleep, sensors)
 
     def events(self) -> "np.recarray[Any, Any]":
         """What happened since the last call, ordered by step, kind, bodies and parts; none is lost, every begin has one end.
@@ -359,6 +372,10 @@ class World:
             warnings.warn("events are recorded from now on; say World(scene, events=True) to have them from the start",
                           RuntimeWarning, stacklevel=2)
         return self._native.take_events().view(np.recarray)
+
+    def sensed(self) -> "np.recarray[Any, Any]":
+        """What overlaps sensors (bodies with role="sensor") now: sensor, sensor_part, body, part, in order."""
+        return self._native.sensed().view(np.recarray)
 
     # ---- queries
     def cast_rays(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True) -> "np.recarray[Any, Any]":
@@ -407,6 +424,12 @@ class World:
         (start, along, far), _ = self._rays(origins, directions, reach)
         turns = vectors(orientation, len(start), 4, "orientation")
         return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, mask).view(np.recarray)
+
+    def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES) -> "np.recarray[Any, Any]":
+        """The nearest point of any body within reach (m) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
+        place = np.atleast_2d(np.asarray(points, dtype=np.float32))
+        place = vectors(place, len(place), 3, "points")
+        return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), mask).view(np.recarray)
 
     def overlaps(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
                  mask: int = ALL_CATEGORIES) -> Tuple[Ids, "np.recarray[Any, Any]"]:
