@@ -114,6 +114,7 @@ struct Statistics {
     std::size_t points = 0;                  // contact points
     double penetration_mean = 0;             // over penetrating points, m; 0 without any
     double penetration_max = 0;              // m
+    double penetration_resting = 0;          // greatest between bodies slower than 0.1 m/s, m
     double max_speed = 0;                    // of dynamic bodies, m/s
     double kinetic_energy = 0;               // J
     double potential_energy = 0;             // J, -m g.x
