@@ -13,10 +13,10 @@ namespace {
 using glm::dquat;
 using glm::dvec3;
 
-dquat of(vec4 q) {
+dquat quaternion_of(vec4 q) {
     return glm::normalize(dquat{q.w, q.x, q.y, q.z});
 }
-vec4 of(dquat q) {
+vec4 components_of(dquat q) {
     return {static_cast<float>(q.x), static_cast<float>(q.y), static_cast<float>(q.z), static_cast<float>(q.w)};
 }
 
@@ -26,11 +26,11 @@ void move_shape(Shape& shape, dvec3 centre, dquat axes) {
     const dquat back = glm::conjugate(axes);
     for (Part& part : std::get<Compound>(shape).parts) {
         part.position = vec3(back * (dvec3(part.position) - centre));
-        part.orientation = of(glm::normalize(back * of(part.orientation)));
+        part.orientation = components_of(glm::normalize(back * quaternion_of(part.orientation)));
     }
 }
 
-void require_sense(const Examination& at, const Body& b) {
+void require_possible(const Examination& at, const Body& b) {
     if (std::holds_alternative<Plane>(b.shape) || std::holds_alternative<Mesh>(b.shape) ||
         std::holds_alternative<HeightField>(b.shape))
         at.refuse("", "a plane, mesh or height field has no mass; leave it out");
@@ -47,10 +47,10 @@ void require_sense(const Examination& at, const Body& b) {
 
 Shift bring_to_inertial(const Examination& body, Body& b, const Shift& shape) {
     if (!b.inertial) return shape;
-    require_sense(body / "inertial", b);
+    require_possible(body / "inertial", b);
     Inertial& inertial = *b.inertial;
     dvec3 centre(inertial.centre);
-    dquat axes = of(inertial.frame);
+    dquat axes = quaternion_of(inertial.frame);
     if (shape) {
         const dquat back = glm::conjugate(shape->axes);
         centre = back * (centre - shape->centre);
@@ -58,11 +58,11 @@ Shift bring_to_inertial(const Examination& body, Body& b, const Shift& shape) {
     }
     inertial.centre = vec3(0);
     inertial.frame = vec4(0, 0, 0, 1);
-    if (centre == dvec3(0) && (of(axes) == vec4(0, 0, 0, 1) || of(axes) == vec4(0, 0, 0, -1))) return shape;
+    if (centre == dvec3(0) && vec3(components_of(axes)) == vec3(0)) return shape;
     move_shape(b.shape, centre, axes);
-    const dquat turn = of(b.orientation);
+    const dquat turn = quaternion_of(b.orientation);
     b.position = vec3(dvec3(b.position) + turn * centre);
-    b.orientation = of(glm::normalize(turn * axes));
+    b.orientation = components_of(glm::normalize(turn * axes));
     if (!shape) return Recentred{centre, axes};
     return Recentred{shape->centre + shape->axes * centre, glm::normalize(shape->axes * axes)};
 }
