@@ -1,6 +1,8 @@
 // Comparison of two runners.
 #include "demos/program/backend_timing.h"
 
+#include <dlfcn.h>
+
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -41,16 +43,26 @@ double step_ms(World& world) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
+// The file that this code is in: a program, or a module of Python.
+std::filesystem::path own_file() {
+    Dl_info found{};
+    std::error_code none;
+    const bool known = dladdr(reinterpret_cast<const void*>(&own_file), &found) != 0 && found.dli_fname != nullptr;
+    const std::filesystem::path file = known ? found.dli_fname : "";
+    return file.extension() == ".so" && std::filesystem::exists(file, none) ? file : "/proc/self/exe";
+}
+
 // Identifies the build of this program.
 std::string this_program() {
     std::error_code none;
-    const auto time = std::filesystem::last_write_time("/proc/self/exe", none);
+    const auto time = std::filesystem::last_write_time(own_file(), none);
     return none ? "" : std::to_string(time.time_since_epoch().count());
 }
 
 std::filesystem::path file_of_paces() {
     const std::filesystem::path folder = host::cache_folder();
-    return folder.empty() ? folder : folder / "paces.json";
+    if (folder.empty()) return folder;
+    return folder / (own_file().extension() == ".so" ? "paces-python.json" : "paces.json");
 }
 
 nlohmann::json known_paces() {
