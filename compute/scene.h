@@ -114,7 +114,8 @@ struct Motor {            // drives B relative to A
     float speed = 0;      // m/s or rad/s
     float max_force = 0;  // N or N m
 };
-// Behaviour along or about one axis. At most one of spring, motor and friction.
+// Behaviour along or about one axis: limits, a spring with damping, and a motor or dry friction. A spring with a motor or
+// friction has no max_force. A position motor is a spring whose `rest` World::set_spring moves.
 struct Axis {
     bool locked = false;  // no motion
     std::optional<Limits> limits;

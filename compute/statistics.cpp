@@ -50,7 +50,10 @@ void add_motion(const Scene& scene, const State& state, std::size_t i, Statistic
     s.drift_max = std::max(s.drift_max, glm::length(x - dvec3(scene.bodies[i].position)));
 }
 
+constexpr float resting_speed = 0.1f;  // m/s
+
 void add_contacts(const State& state, Statistics& s) {
+    const auto rests = [&](std::uint32_t row) { return glm::length(state.velocities[row].linear) < resting_speed; };
     std::size_t inside = 0;
     double depth = 0;
     s.manifolds = state.counted().contacts;
@@ -60,12 +63,14 @@ void add_contacts(const State& state, Statistics& s) {
         if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;
         const physics::uint count = state.contacts[i].count;
         s.points += count;
+        const bool at_rest = rests(state.constraints[i].a) && rests(state.constraints[i].b);
         for (physics::uint k = 0; k < count; ++k) {
             const double separation = state.impulses[i].separation[static_cast<int>(k)];
             if (separation >= 0) continue;
             ++inside;
             depth -= separation;
             s.penetration_max = std::max(s.penetration_max, -separation);
+            if (at_rest) s.penetration_resting = std::max(s.penetration_resting, -separation);
         }
     }
     if (inside) s.penetration_mean = depth / static_cast<double>(inside);

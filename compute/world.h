@@ -85,6 +85,13 @@ struct JointState {
     std::array<float, 6> coordinates{};
 };
 
+// For apply_joint_forces.
+struct JointForce {
+    std::size_t joint = 0;
+    JointAxis axis = JointAxis::twist;  // of a Distance joint x: along the line from A's anchor to B's
+    float force = 0;                    // N or N m
+};
+
 // A vehicle after the last step.
 struct VehicleState {
     Controls controls{};     // set by the user, or by route following
@@ -114,6 +121,7 @@ struct Statistics {
     std::size_t points = 0;                  // contact points
     double penetration_mean = 0;             // over penetrating points, m; 0 without any
     double penetration_max = 0;              // m
+    double penetration_resting = 0;          // greatest between bodies slower than 0.1 m/s, m
     double max_speed = 0;                    // of dynamic bodies, m/s
     double kinetic_energy = 0;               // J
     double potential_energy = 0;             // J, -m g.x
@@ -171,11 +179,16 @@ public:
     void wake_all();                  // in the next step
     void set_sleeping(bool allowed);  // from the next step on
 
-    // Replaces the spring, motor or friction of a joint's axis from the next step on (a hinge's axis is twist, a
+    // Replaces the spring, motor and friction of a joint's axis from the next step on (a hinge's axis is twist, a
     // slider's x), and wakes its bodies. Throws std::out_of_range for the index, std::invalid_argument for an axis that
     // cannot move, SceneError for the values.
     void set_motor(std::size_t joint, JointAxis axis, const Motor& motor);
     void set_spring(std::size_t joint, JointAxis axis, const Spring& spring);
+
+    // Forces (N) or torques (N m) along or about joint axes on B, and the opposite on A, in the next step; they add up. Axes as
+    // they are when the step begins; reads the poses of their bodies. Throws std::out_of_range for the index,
+    // std::invalid_argument for values that are not finite.
+    void apply_joint_forces(std::span<const JointForce> forces);
 
     // Sets a vehicle's controls from the next step on, ends route following, and wakes the vehicle. Throws
     // std::out_of_range for the index, std::invalid_argument for values out of range.

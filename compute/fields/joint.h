@@ -31,13 +31,14 @@ inline constexpr auto table<Motor> =
              field("max_force", &Motor::max_force, any_force, "N or N m", "Greatest force").required());
 
 template <>
-inline constexpr auto table<Axis> =
-    table_of("axis", "Behaviour along or about one axis of a joint; at most one of spring, motor and friction",
-             field("locked", &Axis::locked, "No motion at all; without limits, spring, motor and friction"),
-             field("limits", &Axis::limits, "Limits of the motion; left out: it is free"),
-             field("spring", &Axis::spring, "A spring along or about the axis"),
-             field("motor", &Axis::motor, "A motor along or about the axis"),
-             field("friction", &Axis::friction, any_force, "N or N m", "Dry friction"));
+inline constexpr auto table<Axis> = table_of("axis",
+                                             "Behaviour along or about one axis of a joint; at most one of motor and friction",
+                                             field("locked", &Axis::locked,
+                                                   "No motion at all; without limits, spring, motor and friction"),
+                                             field("limits", &Axis::limits, "Limits of the motion; left out: it is free"),
+                                             field("spring", &Axis::spring, "A spring along or about the axis"),
+                                             field("motor", &Axis::motor, "A motor along or about the axis"),
+                                             field("friction", &Axis::friction, any_force, "N or N m", "Dry friction"));
 
 template <>
 inline constexpr auto table<Ball> = table_of("ball_joint", "Anchors coincide; rotation is free",

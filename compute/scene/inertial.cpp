@@ -24,7 +24,7 @@ void move_shape(Shape& shape, dvec3 centre, dquat axes) {
     }
 }
 
-void require_sense(const Examination& at, const Body& b) {
+void require_possible(const Examination& at, const Body& b) {
     if (std::holds_alternative<Plane>(b.shape) || std::holds_alternative<Mesh>(b.shape) ||
         std::holds_alternative<HeightField>(b.shape))
         at.refuse("", "a plane, mesh or height field has no mass; leave it out");
@@ -41,7 +41,7 @@ void require_sense(const Examination& at, const Body& b) {
 
 Shift bring_to_inertial(const Examination& body, Body& b, const Shift& shape) {
     if (!b.inertial) return shape;
-    require_sense(body / "inertial", b);
+    require_possible(body / "inertial", b);
     Inertial& inertial = *b.inertial;
     dvec3 centre(inertial.centre);
     dquat axes = glm::normalize(double_quaternion(inertial.frame));

@@ -38,8 +38,10 @@ struct Rules {
     void operator()(const Examination& at, const Axis& axis, Direction) const {
         if (axis.locked && (axis.limits || axis.spring || axis.motor || axis.friction != 0))
             refuse(at, "a locked axis has no limits, spring, motor or friction; leave them out, or \"locked\"");
-        if ((axis.spring ? 1 : 0) + (axis.motor ? 1 : 0) + (axis.friction != 0 ? 1 : 0) > 1)
-            refuse(at, "an axis has at most one of spring, motor and friction; a spring's damping resists motion too");
+        if (axis.motor && axis.friction != 0)
+            refuse(at, "an axis has at most one of motor and friction; lower the motor's max_force by the friction");
+        if (axis.spring && axis.spring->max_force < unlimited && (axis.motor || axis.friction != 0))
+            refuse(at / "spring" / "max_force", "beside a motor or friction a spring's force has no limit; leave it out");
     }
 
 private:

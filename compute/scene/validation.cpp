@@ -76,7 +76,7 @@ SceneError::SceneError(std::string place, const std::string& reason)
     : std::runtime_error(place.empty() ? reason : place + ": " + reason), pointer(std::move(place)) {}
 
 void check_world_fields(Fields& of_world) {
-    const Examination at = Examination() / "fields";
+    const Examination scene, at = scene / "fields";
     if (of_world.water) at.make_unit("/water/normal", of_world.water->normal, "it says which way the water faces");
     if (of_world.attractors.size() > most_attractors)
         at.refuse("/attractors", "at most " + std::to_string(most_attractors) + " attractors, are " +

@@ -220,7 +220,8 @@ physics::JointAxis axis_record(const Axis& axis) {
         record.damping = axis.spring->damping;
         record.rest = axis.spring->rest;
         record.most = axis.spring->max_force;
-    } else if (axis.motor) {
+    }
+    if (axis.motor) {
         record.mode |= physics::AXIS_MOTOR;
         record.speed = axis.motor->speed;
         record.most = axis.motor->max_force;

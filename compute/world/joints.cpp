@@ -122,6 +122,46 @@ void World::set_spring(std::size_t joint, JointAxis axis, const Spring& spring) 
     });
 }
 
+void World::apply_joint_forces(std::span<const JointForce> forces) {
+    Impl& in = *interior_;
+    TableRanges poses;
+    for (const JointForce& one : forces) {
+        in.require_joint(one.joint);
+        const Joint& joint = in.scene.joints[one.joint];
+        if (!std::isfinite(one.force)) throw std::invalid_argument(name_of(joint, one.joint) + ": the force is not finite");
+        for (const std::size_t body : {joint.a, joint.b})
+            if (body != the_world) poses.push_back({Table::poses, in.state.row_of(body), 1});
+    }
+    in.runner->download(poses);
+    for (const JointForce& one : forces) in.apply_joint_force(one);
+}
+
+void World::Impl::apply_joint_force(const JointForce& one) {
+    const physics::Joint& record = state.joints[state.joint_records[one.joint]];
+    const auto pose = [&](physics::uint body) {
+        return body == physics::NONE ? physics::Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body];
+    };
+    const physics::Pose a = pose(record.a), b = pose(record.b);
+    const physics::JointConfiguration at =
+        physics::joint_configuration(record.anchor_a, record.frame_a, a, record.anchor_b, record.frame_b, b);
+    const auto k = static_cast<std::size_t>(one.axis);
+    vec3 axis = k % 3 == 0 ? at.x : (k % 3 == 1 ? at.y : at.z);
+    const bool radial = (record.flags & physics::JOINT_RADIAL) != 0u && k == 0;
+    if (radial && glm::length(at.gap) > 1e-6f) axis = glm::normalize(at.gap);
+    const vec3 push = axis * one.force;
+    // Both act where B's anchor is, so no angular momentum comes from nothing.
+    const vec3 point = b.position + physics::rotate(b.orientation, record.anchor_b);
+    const Joint& joint = scene.joints[one.joint];
+    const auto act = [&](std::size_t body, vec3 centre, float sign) {
+        if (body == the_world || scene.bodies[body].motion != Motion::dynamic) return;
+        physics::Action& action = action_on(body, push, point);
+        if (k < 3) action.force += sign * push;
+        action.torque += k < 3 ? glm::cross(point - centre, sign * push) : sign * push;
+    };
+    act(joint.a, a.position, -1);
+    act(joint.b, b.position, 1);
+}
+
 void World::Impl::rejoin(std::optional<std::size_t> without, std::span<const std::size_t> fresh) {
     edits.clear();
     StateEditor editor(state);

@@ -65,13 +65,13 @@ bool may_be_found(const State& state, const Collider& sensor, const Collider& so
     return true;
 }
 
-bool overlap(const State& state, const Collider& sensor, const Collider& solid) {
+bool overlap_exactly(const State& state, const Collider& sensor, const Collider& solid) {
     return physics::distance_between_shapes(state.properties[solid.row], state.poses[solid.row], state.properties[sensor.row],
                                             state.poses[sensor.row], 1e30f, state.hull_table())
                .distance <= 0;
 }
 
-BoundingBox box_of(const State& state, std::uint32_t row) {
+BoundingBox box_around(const State& state, std::uint32_t row) {
     const physics::BodyProperties& properties = state.properties[row];
     const vec3 centre = state.poses[row].position;
     vec3 half(1e30f);
@@ -83,7 +83,7 @@ BoundingBox box_of(const State& state, std::uint32_t row) {
 // Few sensors go through all rows by bounding spheres, many through a tree.
 constexpr std::size_t few_sensors = 8;
 
-bool near_by(const State& state, const BoundingBox& around, const Collider& solid) {
+bool may_reach(const State& state, const BoundingBox& around, const Collider& solid) {
     const physics::BodyProperties& properties = state.properties[solid.row];
     if (properties.shape == physics::SHAPE_PLANE) return true;
     const vec3 centre = state.poses[solid.row].position;
@@ -103,21 +103,21 @@ std::vector<SensorOverlap> overlaps_of_sensors(const State& state, const Threads
     std::vector<std::vector<SensorOverlap>> lists(found.sensors.size());
     const auto offer = [&](std::size_t i, const Collider& solid) {
         const Collider& sensor = found.sensors[i];
-        if (may_be_found(state, sensor, solid) && overlap(state, sensor, solid))
+        if (may_be_found(state, sensor, solid) && overlap_exactly(state, sensor, solid))
             lists[i].push_back({sensor.body, sensor.part, solid.body, solid.part});
     };
     if (found.sensors.size() <= few_sensors) {
         for (std::size_t i = 0; i < lists.size(); ++i) {
-            const BoundingBox around = box_of(state, found.sensors[i].row);
+            const BoundingBox around = box_around(state, found.sensors[i].row);
             for (const Collider& solid : found.solids)
-                if (near_by(state, around, solid)) offer(i, solid);
+                if (may_reach(state, around, solid)) offer(i, solid);
         }
     } else {
         std::vector<BoundingBox> boxes;
-        for (const Collider& solid : found.solids) boxes.push_back(box_of(state, solid.row));
+        for (const Collider& solid : found.solids) boxes.push_back(box_around(state, solid.row));
         const BoundsTree tree(boxes);
         threads.for_each(lists.size(), [&](std::size_t i) {
-            tree.for_each_overlap(box_of(state, found.sensors[i].row), [&](std::uint32_t k) { offer(i, found.solids[k]); });
+            tree.for_each_overlap(box_around(state, found.sensors[i].row), [&](std::uint32_t k) { offer(i, found.solids[k]); });
         });
     }
     std::vector<SensorOverlap> all;

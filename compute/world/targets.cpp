@@ -11,13 +11,13 @@ namespace scree {
 
 namespace {
 
-glm::dquat of(vec4 q) {
+glm::dquat unit_quaternion_of(vec4 q) {
     return glm::normalize(glm::dquat{q.w, q.x, q.y, q.z});
 }
 
 // Rotation vector of the shorter way from one orientation to another, rad.
 glm::dvec3 turn_between(vec4 from, vec4 to) {
-    glm::dquat turn = of(to) * glm::conjugate(of(from));
+    glm::dquat turn = unit_quaternion_of(to) * glm::conjugate(unit_quaternion_of(from));
     if (turn.w < 0) turn = -turn;
     const glm::dvec3 axis(turn.x, turn.y, turn.z);
     const double sine = glm::length(axis);

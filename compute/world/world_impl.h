@@ -99,6 +99,7 @@ struct World::Impl {
     std::optional<std::size_t> place_of_joint(const JointHandle& joint);
     void count_joints();  // lengthens the lists by index
     bool is_joint_gone(std::size_t joint) const { return joint < joints_gone.size() && joints_gone[joint]; }
+    void apply_joint_force(const JointForce& one);
     void wake(const Joint& joint);  // wakes its bodies in the next step
     void set_axis(std::size_t index, JointAxis axis, const std::function<void(Axis&)>& change);
 

@@ -13,7 +13,7 @@ namespace scree::demos {
 
 namespace {
 
-// Bodies that press into each other for two seconds by this part of a typical half width: contacts are too soft for the
+// Bodies at rest that press into each other for two seconds by this part of a typical half width: contacts are too soft for the
 // load. Stacks that stand measure less than half of it; tall masonry buckles soon above it.
 constexpr double deep = 0.06;
 constexpr double restless_speed = 0.3;  // m/s, of a scene at rest but for jitter
@@ -47,7 +47,7 @@ Adviser::Adviser(const World& world)
       steps_between_(static_cast<std::uint64_t>(std::max(1L, std::lround(world.settings().rate)))) {}
 
 Adviser::Sample Adviser::sample_of(const World& world, const Statistics& statistics) const {
-    return {world.time(), statistics.penetration_max, statistics.max_speed, statistics.asleep};
+    return {world.time(), statistics.penetration_resting, statistics.max_speed, statistics.asleep};
 }
 
 void Adviser::after_step(const World& world) {
@@ -63,7 +63,7 @@ std::vector<Advice> Adviser::advice(const World& world, const Statistics& last) 
     const Settings& settings = world.settings();
     std::vector<Sample> samples = samples_;
     if (samples.empty() || samples.back().time < world.time()) samples.push_back(sample_of(world, last));
-    // Lasting penetration; a single sample may be an impact.
+    // Lasting penetration of what rests: what falls or rolls passes through moments of more.
     const Sample* worst = nullptr;
     double lasting = 0;
     for (std::size_t i = 1; i < samples.size(); ++i) {

@@ -26,7 +26,7 @@ public:
 private:
     struct Sample {
         double time = 0;         // s
-        double penetration = 0;  // m, greatest
+        double penetration = 0;  // m, greatest between bodies at rest
         double speed = 0;        // m/s, greatest
         std::size_t asleep = 0;
     };

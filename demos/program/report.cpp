@@ -102,7 +102,7 @@ std::string json_of(const RunReport& r) {
         {"stages", stages},
         {"manifolds", s.manifolds},
         {"points", s.points},
-        {"penetration", {{"mean", s.penetration_mean}, {"max", s.penetration_max}}},
+        {"penetration", {{"mean", s.penetration_mean}, {"max", s.penetration_max}, {"resting", s.penetration_resting}}},
         {"max_speed", s.max_speed},
         {"max_spin", s.max_spin},
         {"spin_limited", s.spin_limited},

@@ -1,7 +1,6 @@
 // Ten boxes fall onto one another; prints where the top one comes to lie.
 #include <scree/compute/world.h>
 #include <cstdio>
-
 int main() {
     scree::Scene scene;
     scene.bodies.push_back({.name = "ground", .motion = scree::Motion::fixed, .shape = scree::Plane{}});
@@ -10,10 +9,9 @@ int main() {
         box.position = {0.1f * float(i % 2), 0.5f + 1.01f * float(i), 0};
         scene.bodies.push_back(box);
     }
-
     scree::World world(scene);  // on the CPU, with all cores; a Vulkan device would give the same bits
     world.step(120);            // two seconds
-    scree::BodyState top = world.bodies().back();
+    const scree::BodyState top = world.bodies().back();
     std::printf("after %.1f s the top box lies at %.3f %.3f %.3f; state %016llx\n", world.time(), top.position.x, top.position.y,
                 top.position.z, static_cast<unsigned long long>(world.state_hash()));
 }

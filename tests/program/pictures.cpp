@@ -259,6 +259,10 @@ TEST_CASE("program: a run that needs more substeps is told so", "[program]") {
     const json enough = json::parse(run_scree("run '" + file + "' --backend cpu --seconds 3 --substeps 16 --report -").output);
     INFO(enough["advice"].dump(1));
     REQUIRE(enough["advice"].empty());
+    // What falls in heaps passes through deep contacts; none of them rests.
+    const json fall = json::parse(run_scree("run avalanche --bodies 800 --backend cpu --seconds 5 --report -").output);
+    INFO(fall["advice"].dump(1));
+    for (const json& advice : fall["advice"]) REQUIRE_FALSE(says(advice["finding"].get<std::string>(), "penetration"));
 }
 
 TEST_CASE("program: the cameras of pictures are told so that a point is found at its pixel", "[program]") {

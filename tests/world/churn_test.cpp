@@ -100,7 +100,13 @@ TEST_CASE("begins minus ends are the pairs that touch, over 10,000 steps of chan
             std::vector<BodyHandle> dead;
             for (int k = 0; k < 3; ++k) {
                 const std::size_t place = any(alive.size());
-                if (world.body(alive[place].index).exists) dead.push_back(alive[place]);
+                const std::size_t body = alive[place].index;
+                if (world.body(body).exists)
+                    dead.push_back(alive[place]);
+                else  // it broke: its pieces go
+                    for (std::size_t piece = 0; piece < world.scene().bodies.size(); ++piece)
+                        if (world.scene().bodies[piece].piece_of == body && world.body(piece).exists)
+                            dead.push_back(world.handle_of(piece));
                 alive.erase(alive.begin() + static_cast<std::ptrdiff_t>(place));
             }
             world.remove_bodies(dead);

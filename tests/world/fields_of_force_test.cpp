@@ -17,7 +17,7 @@ constexpr float g = 9.81f;
 Scene in_water(Body body, float density = 1000) {
     Scene scene;
     scene.bodies.push_back(std::move(body));
-    scene.fields.water = Water{.density = density};
+    scene.fields.water = Water{.density = density, .damping = 3};
     return scene;
 }
 Body box(vec3 half, float density, vec3 position) {

@@ -124,6 +124,7 @@ py::dict statistics_of(const Statistics& s) {
     made["points"] = s.points;
     made["penetration_mean"] = s.penetration_mean;
     made["penetration_max"] = s.penetration_max;
+    made["penetration_resting"] = s.penetration_resting;
     made["max_speed"] = s.max_speed;
     made["max_spin"] = s.max_spin;
     made["spin_limited"] = s.spin_limited;

@@ -5,6 +5,7 @@
 
 #include "shaders/physics/base/inertia.h"
 #include "shaders/physics/base/records.h"
+#include "shaders/physics/solve/motion.h"
 
 LAWS_BEGIN
 
@@ -35,7 +36,7 @@ LAW Submerged submerged_box(vec3 size, vec3 up, float depth) {
     vec3 along = vec3(up.x * up.x, up.y * up.y, up.z * up.z);
     vec3 point = vec3(size.x * (0.57735027f - 0.07735027f * along.x), size.y * (0.57735027f - 0.07735027f * along.y),
                       size.z * (0.57735027f - 0.07735027f * along.z));
-    float reach = 0.5f * (size.x * abs(up.x) + size.y * abs(up.y) + size.z * abs(up.z));
+    float reach = 0.5f * (size.x * along.x + size.y * along.y + size.z * along.z);
     float ramp = 0.5f * reciprocal(larger(reach, 1.0e-12f));
     Submerged found;
     found.part = 0.0f;
@@ -87,8 +88,13 @@ LAW Immersion no_immersion() {
 // Accelerations by fields, added to those of the step. Drag is quadratic and semi-implicit, a = k |u| u / (1 + k |u| dt), so
 // it never turns a velocity round; so is the damping in water. A body that is pushed through water moves half its volume of
 // water along (added mass of a ball): light bodies would leap otherwise.
+//
+// Forces are those half a step ahead. At the start of the step they would feed every oscillation, a floating body's by a
+// quarter of w^2 dt each second; there the map from step to step keeps its area, and orbits and oscillations their size.
 LAW BodyForces with_fields(BodyForces load, BodyProperties properties, Immersion body, Pose pose, Velocity velocity, Mass mass,
                            Parameters parameters) {
+    pose.position = pose.position + velocity.linear * (0.5f * parameters.dt);
+    pose.orientation = turned(pose.orientation, velocity.angular, 0.5f * parameters.dt);
     vec3 added = vec3(0.0f);
     for (uint k = 0u; k < MOST_ATTRACTORS; ++k) {
         if (k >= parameters.attractors) break;
@@ -118,7 +124,9 @@ LAW BodyForces with_fields(BodyForces load, BodyProperties properties, Immersion
         float displaced = parameters.water_density * body.volume * wet;  // kg
         vec3 lift = parameters.gravity * -displaced;
         float heavier = reciprocal(1.0f + 0.5f * displaced * properties.inverse_mass);
-        float damping = parameters.water_damping * wet * reciprocal(1.0f + parameters.water_damping * wet * parameters.dt);
+        // In proportion to the displaced mass: bodies that float are damped alike, light or heavy.
+        float rate = parameters.water_damping * displaced * properties.inverse_mass;
+        float damping = rate * reciprocal(1.0f + rate * parameters.dt);
         added = added + (parameters.water_velocity - velocity.linear) * damping;
         load.acceleration = (load.acceleration + added + lift * properties.inverse_mass) * heavier;
         load.angular_acceleration =

@@ -47,11 +47,38 @@ LAW float spring_impulse(JointAxis axis, float coordinate, float speed, Paramete
     return clamped(force * parameters.h, -most_impulse(axis, parameters), most_impulse(axis, parameters));
 }
 
+// A spring beside a motor, or beside dry friction, a motor of speed 0: the motor's bounds are about the impulse of the spring,
+// so what sticks bears both, and what slides the spring and the whole friction. Springs that are too stiff to act
+// explicitly are taken implicitly, as if the row were alone.
+LAW bool has_spring_and_motor(JointAxis axis) {
+    return (axis.mode & AXIS_SPRING) != 0u && (axis.mode & AXIS_MOTOR) != 0u;
+}
+LAW float share_of_spring(JointAxis axis, JointRow row, float speed, Parameters parameters) {
+    if (!has_spring_and_motor(axis)) return 0.0f;
+    float h = parameters.h;
+    if (is_gentle(axis, row.inverse_effective_mass, parameters))
+        return (axis.stiffness * (axis.rest - row.coordinate) - axis.damping * speed) * h;
+    float resisting = axis.damping + h * axis.stiffness;
+    return (axis.stiffness * (axis.rest - row.coordinate) - resisting * speed) *
+           (h * reciprocal(1.0f + h * resisting * row.inverse_effective_mass));
+}
+
+// Bounds of the impulse of a motor or spring that moves as it should.
+LAW float least_of_motor(JointAxis axis, JointRow row, Parameters parameters) {
+    float most = most_impulse(axis, parameters);
+    return has_spring_and_motor(axis) ? share_of_spring(axis, row, axis.speed, parameters) - most : -most;
+}
+LAW float most_of_motor(JointAxis axis, JointRow row, Parameters parameters) {
+    float most = most_impulse(axis, parameters);
+    return has_spring_and_motor(axis) ? share_of_spring(axis, row, axis.speed, parameters) + most : most;
+}
+
 // Whether the motor impulse is an unknown of the block's equations; if not, saturated_motor_impulse() gives it.
 LAW bool motor_is_solved(JointAxis axis, JointRow row, uint active_flags, bool biased, Parameters parameters) {
     if ((active_flags & (LIMIT_LOWER | LIMIT_UPPER)) != 0u) return false;
     if ((axis.mode & AXIS_LOCKED) != 0u) return true;
     if ((active_flags & (MOTOR_AT_MIN | MOTOR_AT_MAX)) != 0u) return false;
+    if (has_spring_and_motor(axis)) return true;
     if ((axis.mode & AXIS_SPRING) != 0u) return biased && !is_gentle(axis, row.inverse_effective_mass, parameters);
     return (axis.mode & AXIS_MOTOR) != 0u;
 }
@@ -60,6 +87,13 @@ LAW float saturated_motor_impulse(JointAxis axis, JointRow row, uint active_flag
                                   Parameters parameters) {
     float most = most_impulse(axis, parameters);
     bool stopped = (active_flags & (LIMIT_LOWER | LIMIT_UPPER)) != 0u;
+    if (has_spring_and_motor(axis)) {
+        if (!biased) return row.motor_impulse;
+        float share = share_of_spring(axis, row, stopped ? 0.0f : speed, parameters);
+        if (stopped && axis.speed == 0.0f) return clamped(row.motor_impulse, share - most, share + most);
+        bool pushes_back = stopped ? axis.speed < 0.0f : (active_flags & MOTOR_AT_MIN) != 0u;
+        return pushes_back ? share - most : share + most;
+    }
     if ((axis.mode & AXIS_SPRING) != 0u) {
         if (!biased) return row.motor_impulse;
         if (stopped || is_gentle(axis, row.inverse_effective_mass, parameters))
@@ -80,7 +114,7 @@ LAW RowTarget motor_target(JointAxis axis, JointRow row, uint index, bool biased
         if (biased)
             demand.bias =
                 (joint_push(row.coordinate - axis.rest, index, parameters) + row.drift) + demand.compliance * row.motor_impulse;
-    } else if ((axis.mode & AXIS_SPRING) != 0u) {
+    } else if ((axis.mode & AXIS_SPRING) != 0u && (axis.mode & AXIS_MOTOR) == 0u) {
         float resisting = axis.damping + parameters.h * axis.stiffness;
         float yielding = reciprocal(resisting);
         demand.compliance = yielding * parameters.inverse_h;
@@ -125,10 +159,9 @@ LAW uint active_set_after(JointAxis axis, JointRow row, uint index, uint active_
         if (speed + high.bias > 0.0f) return LIMIT_UPPER;
     }
     if ((axis.mode & AXIS_LOCKED) != 0u || (axis.mode & (AXIS_MOTOR | AXIS_SPRING)) == 0u) return active_flags;
-    float most = most_impulse(axis, parameters);
     if (solved) {
-        if (row.motor_impulse + solution < -most) return MOTOR_AT_MIN;
-        if (row.motor_impulse + solution > most) return MOTOR_AT_MAX;
+        if (row.motor_impulse + solution < least_of_motor(axis, row, parameters)) return MOTOR_AT_MIN;
+        if (row.motor_impulse + solution > most_of_motor(axis, row, parameters)) return MOTOR_AT_MAX;
         return 0u;
     }
     if (active_flags != 0u && !settling) {
@@ -156,7 +189,7 @@ LAW JointRow row_after(JointRow row, JointAxis axis, uint active_flags, bool sol
     } else if (solved) {
         float after = flush_tiny(row.motor_impulse + solution);
         if ((axis.mode & AXIS_LOCKED) == 0u)
-            after = clamped(after, -most_impulse(axis, parameters), most_impulse(axis, parameters));
+            after = clamped(after, least_of_motor(axis, row, parameters), most_of_motor(axis, row, parameters));
         row.motor_change = after - row.motor_impulse;
     }
     return row;
