@@ -22,7 +22,7 @@ namespace scree::demos {
 namespace {
 
 // A body at a moment.
-struct Sample {
+struct TrajectorySample {
     std::size_t body = 0;
     BodyState state;
     double kinetic_energy = 0, potential_energy = 0;  // J, as of Statistics
@@ -33,7 +33,7 @@ struct Sample {
 class Writer {
 public:
     virtual ~Writer() = default;
-    virtual void add(double seconds, const std::vector<Sample>& samples) = 0;
+    virtual void add(double seconds, const std::vector<TrajectorySample>& samples) = 0;
     virtual void finish() = 0;
 };
 
@@ -53,22 +53,23 @@ public:
           momentum_(file_.add_array("momentum", "f8", {bodies.size(), 3})) {
         file_.append(ids_, std::vector<std::int64_t>(bodies.begin(), bodies.end()));
     }
-    void add(double seconds, const std::vector<Sample>& samples) override {
+    void add(double seconds, const std::vector<TrajectorySample>& samples) override {
         file_.append(time_, std::vector<double>{seconds});
-        column<std::uint8_t>(exists_, samples, [](const Sample& s) { return static_cast<std::uint8_t>(s.state.exists); });
-        column<vec3>(position_, samples, [](const Sample& s) { return s.state.position; });
-        column<vec4>(orientation_, samples, [](const Sample& s) { return s.state.orientation; });
-        column<vec3>(velocity_, samples, [](const Sample& s) { return s.state.velocity; });
-        column<vec3>(angular_velocity_, samples, [](const Sample& s) { return s.state.angular_velocity; });
-        column<double>(kinetic_, samples, [](const Sample& s) { return s.kinetic_energy; });
-        column<double>(potential_, samples, [](const Sample& s) { return s.potential_energy; });
-        column<glm::dvec3>(momentum_, samples, [](const Sample& s) { return s.momentum; });
+        column<std::uint8_t>(exists_, samples,
+                             [](const TrajectorySample& s) { return static_cast<std::uint8_t>(s.state.exists); });
+        column<vec3>(position_, samples, [](const TrajectorySample& s) { return s.state.position; });
+        column<vec4>(orientation_, samples, [](const TrajectorySample& s) { return s.state.orientation; });
+        column<vec3>(velocity_, samples, [](const TrajectorySample& s) { return s.state.velocity; });
+        column<vec3>(angular_velocity_, samples, [](const TrajectorySample& s) { return s.state.angular_velocity; });
+        column<double>(kinetic_, samples, [](const TrajectorySample& s) { return s.kinetic_energy; });
+        column<double>(potential_, samples, [](const TrajectorySample& s) { return s.potential_energy; });
+        column<glm::dvec3>(momentum_, samples, [](const TrajectorySample& s) { return s.momentum; });
     }
     void finish() override { file_.finish(); }
 
 private:
     template <class Value, class Take>
-    void column(std::size_t array, const std::vector<Sample>& samples, const Take& take) {
+    void column(std::size_t array, const std::vector<TrajectorySample>& samples, const Take& take) {
         std::vector<Value> values(samples.size());
         std::transform(samples.begin(), samples.end(), values.begin(), take);
         file_.append(array, values);
@@ -92,9 +93,9 @@ public:
         file_.append(std::string_view(
             "time,body,name,exists,x,y,z,qx,qy,qz,qw,vx,vy,vz,wx,wy,wz,kinetic_energy,potential_energy,px,py,pz\n"));
     }
-    void add(double seconds, const std::vector<Sample>& samples) override {
+    void add(double seconds, const std::vector<TrajectorySample>& samples) override {
         fmt::memory_buffer lines;
-        for (const Sample& s : samples) {
+        for (const TrajectorySample& s : samples) {
             const BodyState& b = s.state;
             fmt::format_to(std::back_inserter(lines),
                            "{:.9g},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{:.12g},{:.12g},{:.12g},{:.12g},{:.12g}\n",
@@ -166,8 +167,8 @@ struct Trajectory::Impl {
                          {inverse(body.inverse_inertia.x), inverse(body.inverse_inertia.y), inverse(body.inverse_inertia.z)}};
         }
     }
-    Sample sample_of(std::size_t i, const BodyState& state, vec3 gravity) const {
-        Sample sample{bodies[i], state};
+    TrajectorySample sample_of(std::size_t i, const BodyState& state, vec3 gravity) const {
+        TrajectorySample sample{bodies[i], state};
         if (!state.exists) return sample;
         const Mass& mass = masses[i];
         const glm::dvec3 v(state.velocity);
@@ -198,7 +199,7 @@ void Trajectory::after_step(const World& world) {
     if (world.steps() % in.every != 0) return;
     in.note_masses(world);
     const std::vector<BodyState> states = world.bodies();
-    std::vector<Sample> samples;
+    std::vector<TrajectorySample> samples;
     samples.reserve(in.bodies.size());
     for (std::size_t i = 0; i < in.bodies.size(); ++i)
         samples.push_back(in.sample_of(i, states[in.bodies[i]], world.scene().gravity));
