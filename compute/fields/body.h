@@ -50,7 +50,7 @@ inline constexpr auto material_fields = std::tuple{
     field("spinning_resistance", &Owner::spinning_resistance, between(0, 1e5), "m",
           "Lever arm of the normal force that resists spinning about the normal; a pair takes the larger; left out of both: "
           "rolling_resistance resists spinning, too"),
-    field("restitution_threshold", &Owner::restitution_threshold, at_least(0), "m/s",
+    field("restitution_threshold", &Owner::restitution_threshold, between(0, 1e4), "m/s",
           "Speed of impacts below which they have no restitution; a pair takes the larger; left out of both: the settings' own"),
     field("surface_velocity", &Owner::surface_velocity, within(1e3), "m/s",
           "Velocity of the surface over the body, in the body's frame: a conveyor belt that does not move"),
