@@ -225,6 +225,9 @@ TableRanges World::Impl::free_families_of(const std::vector<std::size_t>& bodies
         std::vector<std::size_t> family = fragments_of(scene, root);
         family.push_back(root);
         if (!std::all_of(family.begin(), family.end(), absent)) continue;
+        // A body that broke in the last step has its ends before its index has another generation.
+        std::sort(family.begin(), family.end());
+        events.end_contacts_of(family, state, generations, steps);
         for (const std::size_t member : family) {
             rows.push_back(static_cast<std::uint32_t>(member));
             free_index(member);
