@@ -61,7 +61,7 @@ void mark_large(std::vector<physics::BodyProperties>& properties, float cell) {
 }  // namespace
 
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings) {
-    p.gravity = gravity;
+    p.gravity = physics::flush_tiny(gravity);
     p.dt = 1 / settings.rate;
     p.h = p.dt / static_cast<float>(settings.substeps);
     p.inverse_h = 1 / p.h;

@@ -93,11 +93,13 @@ vec3 size_of_whole(const Shape& shape) {
 
 physics::Pose SceneCompiler::start_of(const Body& body) {
     const auto* plane = std::get_if<Plane>(&body.shape);
-    return {plane ? plane->normal * plane->offset : body.position, 0, plane ? vec4(0, 0, 0, 1) : body.orientation};
+    return {physics::flush_tiny(plane ? plane->normal * plane->offset : body.position), 0,
+            plane ? vec4(0, 0, 0, 1) : physics::flush_tiny(body.orientation)};
 }
 physics::Velocity SceneCompiler::start_velocity_of(const Body& body) {
     const bool moves = body.motion != Motion::fixed && body.piece_of == no_body;
-    return {moves ? body.velocity : vec3(0), 0, moves ? body.angular_velocity : vec3(0), 0};
+    return {moves ? physics::flush_tiny(body.velocity) : vec3(0), 0, moves ? physics::flush_tiny(body.angular_velocity) : vec3(0),
+            0};
 }
 // Initial strain: the momentum of a body that breaks by momentum.
 float SceneCompiler::start_strain_of(const Body& body, const physics::BodyProperties& properties) {

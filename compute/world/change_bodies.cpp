@@ -83,12 +83,12 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         physics::Pose& pose = state.poses[row];
         physics::Velocity& velocity = state.velocities[row];
         if (change.position) {
-            pose.position = *change.position;
+            pose.position = physics::flush_tiny(*change.position);
             pose.low_x = velocity.low_y = velocity.low_z = 0;
         }
-        if (change.orientation) pose.orientation = unit(*change.orientation);
-        if (change.velocity) velocity.linear = *change.velocity;
-        if (change.angular_velocity) velocity.angular = *change.angular_velocity;
+        if (change.orientation) pose.orientation = physics::flush_tiny(unit(*change.orientation));
+        if (change.velocity) velocity.linear = physics::flush_tiny(*change.velocity);
+        if (change.angular_velocity) velocity.angular = physics::flush_tiny(*change.angular_velocity);
         state.sleep_states[row] = 0;
         arrivals.erase(change.body);
         const Body& body = scene.bodies[change.body];
