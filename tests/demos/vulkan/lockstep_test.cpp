@@ -22,7 +22,9 @@ void check_lockstep(bool trial, bool takes_bodies) {
     const auto device = host::Device::open(options);
     for (const demos::Demo& demo : demos::all_demos()) {
         if (demo.trial != trial || demo.takes_bodies != takes_bodies) continue;
-        if (demo.name == std::string("rollmesh")) continue;                   // its triangles are covered by other demos
+        if (demo.name == std::string("rollmesh")) continue;  // its triangles are covered by other demos
+        // Its joints are those of `chain`; lavapipe compiles its shaders for a minute.
+        if (demo.name == std::string("capstan")) continue;
         if (demo.trial && !demo.takes_bodies && demo.bodies > 100) continue;  // large, and covered by other demos
         const LockstepResult result = compare_in_lockstep(small(demo).scene, {}, device, 1, 40);
         INFO(demo.name << ": step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element
