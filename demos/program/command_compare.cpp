@@ -37,7 +37,7 @@ int compare(const CompareOptions& options) {
     };
     DeviceComparison found;
     if (options.flush_denormals) {
-        found.device = "itself with denormals flushed";
+        found.device = "the same processor with denormals flushed";
         found.result = at_work([&] { return compare_flushing(subject.scene, settings, steps, step_done); });
     } else {
         found = compare_with_device(subject.scene, settings, options.machine, steps, step_done);

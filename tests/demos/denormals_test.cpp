@@ -35,7 +35,7 @@ TEST_CASE("every trial gives the same bits with denormals kept and flushed") {
     if (can_flush_denormals()) check_demos(true);
 }
 
-// Numbers near the least that a float can hold, on Earth and on the Moon.
+// Denormal positions and velocities of grains of 1 mm, under the gravity of the Earth and of the Moon.
 TEST_CASE("grains at tiny coordinates give the same bits with denormals kept and flushed") {
     if (!can_flush_denormals()) return;
     Scene scene;

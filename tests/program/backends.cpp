@@ -57,3 +57,13 @@ TEST_CASE("program: auto takes what measures faster, says so, and remembers it",
         REQUIRE(nlohmann::json::parse(place.read(paces))[key].size() == 2);
     }
 }
+
+TEST_CASE("program: compare --flush-denormals needs no device, and tells both modes' common hash", "[program]") {
+    const Outcome both = run_scree("compare cars --bodies 30 --steps 5 --flush-denormals --quiet");
+    INFO(both.errors);
+    REQUIRE(both.status == 0);
+    REQUIRE(says(both.output, "the same processor with denormals flushed agree in every bit"));
+    const Outcome refused = run_scree("compare rest --flush-denormals --device 0");
+    REQUIRE(refused.status == 2);
+    REQUIRE(says(refused.errors, "--flush-denormals"));
+}

@@ -79,31 +79,27 @@ class Ball(JointKind):
 
 
 @dataclass(frozen=True)
-class Hinge(JointKind):
+class _OneAxis(JointKind):
+    limits: AnyLimits = None
+    spring: Optional[Spring] = None
+    motor: Optional[Motor] = None
+    friction: Optional[float] = None
+
+    def to_dict(self) -> Dict[str, Any]:
+        """As in a scene file: {"hinge": {"limits": {...}}}."""
+        return {self._key: Axis(None, self.limits, self.spring, self.motor, self.friction).to_dict()}
+
+
+class Hinge(_OneAxis):
     """b turns about the joint's axis. limits: (lower, upper), rad."""
 
     _key = "hinge"
-    limits: AnyLimits = None
-    spring: Optional[Spring] = None
-    motor: Optional[Motor] = None
-    friction: Optional[float] = None
-
-    def to_dict(self) -> Dict[str, Any]:
-        return {self._key: Axis(None, self.limits, self.spring, self.motor, self.friction).to_dict()}
 
 
-@dataclass(frozen=True)
-class Slider(JointKind):
+class Slider(_OneAxis):
     """b slides along the joint's axis. limits: (lower, upper), m."""
 
     _key = "slider"
-    limits: AnyLimits = None
-    spring: Optional[Spring] = None
-    motor: Optional[Motor] = None
-    friction: Optional[float] = None
-
-    def to_dict(self) -> Dict[str, Any]:
-        return {self._key: Axis(None, self.limits, self.spring, self.motor, self.friction).to_dict()}
 
 
 class Fixed(JointKind):
