@@ -1,6 +1,7 @@
 // Loading a scene file with its meshes.
 #include "compute/scene_file/load_scene.h"
 
+#include "compute/scene_file/import/import_scene.h"
 #include "host/files/mesh_file.h"
 
 namespace scree {
@@ -24,9 +25,26 @@ void read_meshes(Scene& scene, const std::filesystem::path& folder) {
 
 }  // namespace
 
+bool is_scene_import(const std::filesystem::path& path) {
+    return is_imported(path);
+}
+
 SceneDocument load_scene(const std::filesystem::path& path, std::size_t most_bodies) {
-    SceneDocument document = scene_from_json(host::read_text(path), most_bodies);
-    read_meshes(document.scene, path.parent_path());
+    return load_scene(path, {}, nullptr, most_bodies);
+}
+
+SceneDocument load_scene(const std::filesystem::path& path, const ImportOptions& options, std::vector<std::string>* notes,
+                         std::size_t most_bodies) {
+    if (is_imported(path)) {
+        std::vector<std::string> ignored;
+        return import_scene(path, options, notes ? *notes : ignored, most_bodies);
+    }
+    return scene_from_text(host::read_text(path), path.parent_path(), most_bodies);
+}
+
+SceneDocument scene_from_text(std::string_view text, const std::filesystem::path& folder, std::size_t most_bodies) {
+    SceneDocument document = scene_from_json(text, most_bodies);
+    read_meshes(document.scene, folder);
     return document;
 }
 

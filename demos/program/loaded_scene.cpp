@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <fstream>
 #include <limits>
+#include <set>
 
 #include "compute/fields/settings.h"
 #include "compute/scene/shape_geometry.h"
@@ -15,8 +16,10 @@
 #include "demos/program/console.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/option_parsing.h"
+#include "demos/program/scene_edits.h"
 #include "demos/scenes/demos.h"
 #include "demos/scenes/scene_builder.h"
+#include "host/files/file.h"
 
 namespace scree::demos {
 
@@ -53,7 +56,7 @@ std::size_t most_bodies() {
 }
 
 bool is_file_name(const std::string& name) {
-    return name.find('/') != name.npos || name.ends_with(".json");
+    return name.find('/') != name.npos || name.ends_with(".json") || is_scene_import(name);
 }
 
 // Sets the bounding box of the initial bodies: of moving ones if there are any, else of all but planes.
@@ -102,14 +105,40 @@ void require_memory_for_pieces(const Scene& scene, const std::string& what) {
                     what, scene.bodies.size(), pieces, rows * bytes_per_body / 1e9, free_memory()));
 }
 
-LoadedScene from_file(const std::string& path) {
+void require_import(const SceneOptions& options) {
+    if (is_scene_import(options.name)) return;
+    ImportOptions plain = options.imported;
+    plain.strict = false;
+    if (!(plain == ImportOptions{}))
+        throw UsageError("--axes, --base, --ground, --keyframe, --package: are for files of other programs; leave them out");
+}
+
+// With the user's changes; an import is changed as the scene that it has become.
+SceneDocument document_of_file(const SceneOptions& options, std::vector<std::string>& notes) {
+    const std::filesystem::path path = options.name;
+    if (options.edits.empty()) return load_scene(path, options.imported, &notes, most_bodies());
+    if (is_scene_import(path)) {
+        const SceneDocument imported = load_scene(path, options.imported, &notes, most_bodies());
+        return scene_from_json(edited(scene_to_json(imported), options.edits), most_bodies());
+    }
+    return scene_from_text(edited(host::read_text(path), options.edits), path.parent_path(), most_bodies());
+}
+
+LoadedScene from_file(const SceneOptions& options) {
+    const std::string& path = options.name;
     LoadedScene subject;
     try {
-        SceneDocument document = load_scene(path, most_bodies());
+        std::vector<std::string> notes, of_scene;
+        const bool translated = is_scene_import(path);
+        SceneDocument document = document_of_file(options, notes);
         require_memory_for_pieces(document.scene, path);
-        std::vector<std::string> notes;
-        subject = subject_of(std::move(document), path, &notes);
-        for (const std::string& note : notes) say("scree: note: {}: {}\n", path, note);
+        subject = subject_of(std::move(document), path, &of_scene);
+        static std::set<std::string> told;  // a window loads its scene again
+        for (const std::string& note : notes)
+            if (told.insert(note).second) say("scree: note: {}\n", printable(note));
+        if (translated) return subject;  // its notes tell of the shapes, too
+        for (const std::string& note : of_scene) say("scree: note: {}: {}\n", path, note);
+        if (options.imported.strict && !of_scene.empty()) throw UsageError(path + ": " + of_scene.front() + " (--strict)");
     } catch (const SceneError& error) {
         throw UsageError(path + ": " + error.what());
     }
@@ -122,6 +151,18 @@ LoadedScene from_file(const std::string& path) {
         }
     };
     return subject;
+}
+
+// A demo keeps its script and its promise.
+void edit(LoadedScene& subject, const std::vector<SceneEdit>& edits) {
+    try {
+        SceneDocument changed = scene_from_json(edited(scene_to_json(document_of(subject)), edits), most_bodies());
+        subject.scene = checked(std::move(changed.scene));
+        if (changed.settings) subject.of_scene = *changed.settings;
+        if (changed.duration > 0) subject.seconds = static_cast<double>(changed.duration);
+    } catch (const SceneError& error) {
+        throw UsageError(subject.name + ", changed by --set: " + error.what());
+    }
 }
 
 }  // namespace
@@ -170,10 +211,11 @@ SceneDocument document_of(const LoadedScene& subject, const World& world) {
 
 LoadedScene load_subject(const SceneOptions& options) {
     const Demo* demo = find_demo(options.name);
+    require_import(options);
     if (!demo && is_file_name(options.name)) {
         if (options.bodies) throw UsageError("--bodies: a scene file has its own bodies; leave the option out");
         try {
-            return from_file(options.name);
+            return from_file(options);
         } catch (const std::bad_alloc&) {
             throw UsageError(options.name + ": beyond memory; " + free_memory());
         }
@@ -182,8 +224,9 @@ LoadedScene load_subject(const SceneOptions& options) {
         std::vector<std::string> names;
         for (const Demo& known : all_demos()) names.emplace_back(known.name);
         const std::string near = nearest(options.name, names);
-        throw UsageError(fmt::format("unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json",
-                                     options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
+        throw UsageError(fmt::format(
+            "unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json, .xml, .mjcf, .urdf, .stl or .obj",
+            options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
     }
     if (options.bodies && !demo->takes_bodies) {
         throw UsageError(
@@ -194,9 +237,11 @@ LoadedScene load_subject(const SceneOptions& options) {
     require_memory_for_pieces(built.scene, options.bodies ? fmt::format("--bodies {}", options.bodies) : options.name);
     Settings settings;
     settings.sleeping = built.sleeping;
-    return {
+    LoadedScene subject{
         demo->name, std::move(built.scene),       built.viewpoint, built.low, built.high, built.seconds, std::move(built.promise),
         settings,   std::move(built.before_step), built.picture};
+    if (!options.edits.empty()) edit(subject, options.edits);
+    return subject;
 }
 
 }  // namespace scree::demos

@@ -11,6 +11,7 @@
 #include "compute/fields/range_text.h"
 #include "compute/fields/settings.h"
 #include "demos/program/option_parsing.h"
+#include "demos/program/scene_edits.h"
 
 namespace scree::demos {
 
@@ -107,8 +108,49 @@ void add_options(CLI::App& command, std::uint64_t& seed) {
         ->group("Simulation");
 }
 
+void add_options(CLI::App& command, ImportOptions& options) {
+    const char* group = "Files of other programs (MJCF .xml, .mjcf; URDF .urdf, .xml; .stl; .obj)";
+    command.add_flag("--strict", options.strict, "What is not translated is an error, not a note.")->group(group);
+    command
+        .add_option_function<std::string>(
+            "--axes",
+            [&options](const std::string& word) { options.axes = word == "file" ? ImportedAxes::file : ImportedAxes::y_up; },
+            "y-up turns scenes whose z axis points up, as robots' do; file keeps their axes, with gravity along -z. Default: "
+            "y-up.")
+        ->check(one_of({"y-up", "file"}))
+        ->group(group);
+    command
+        .add_option_function<std::string>(
+            "--base",
+            [&options](const std::string& word) { options.base = word == "free" ? ImportedBase::free : ImportedBase::fixed; },
+            "Root link of a URDF: fixed to the world, or free. Default: fixed, with a note.")
+        ->check(one_of({"fixed", "free"}))
+        ->group(group);
+    command.add_flag("--ground", options.ground, "Add a plane that the lowest point of the scene touches.")->group(group);
+    command
+        .add_option("--keyframe", options.keyframe,
+                    "Keyframe of an MJCF file to begin with, by name or index: poses, speeds and controls. Default: none.")
+        ->group(group);
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--package",
+            [&options](const std::vector<std::string>& words) {
+                for (const std::string& word : words) {
+                    const std::size_t equals = word.find('=');
+                    if (equals == word.npos || equals == 0 || equals + 1 == word.size())
+                        throw CLI::ValidationError("--package", "is NAME=DIR, such as my_robot=/home/me/my_robot");
+                    options.packages[word.substr(0, equals)] = word.substr(equals + 1);
+                }
+            },
+            "NAME=DIR: folder of package://NAME/..., whose files may be read. Others are looked for around the file.")
+        ->group(group);
+}
+
 void add_options(CLI::App& command, SceneOptions& options) {
-    command.add_option("scene", options.name, "Demo (see scree list) or scene file, NAME.json.")->required();
+    command
+        .add_option("scene", options.name,
+                    "Demo (see scree list), scene file NAME.json, or a robot or mesh: NAME.xml, .mjcf, .urdf, .stl, .obj.")
+        ->required();
     auto* steps =
         command.add_option("--steps", options.steps, "Number of steps.")->check(CLI::Range(1, 1000000000))->group("Simulation");
     command
@@ -125,6 +167,18 @@ void add_options(CLI::App& command, SceneOptions& options) {
             "--bodies", [&options](const std::string& word) { options.bodies = count_of(word); },
             "Number of bodies, such as 500, 10k or 1M. Default: the demo's own.")
         ->group("Simulation");
+    command
+        .add_option_function<std::vector<std::string>>(
+            "--set",
+            [&options](const std::vector<std::string>& words) {
+                for (const std::string& word : words) options.edits.push_back(scene_edit_of(word));
+            },
+            "KEY=VALUE: change a value of the scene, by its path in the scene file: bodies/3/friction=0.2, "
+            "bodies/ball/velocity=[0,5,0], "
+            "bodies/*/restitution=0.5, gravity=[0,-1.6,0], settings/contact_hertz=0.1. May be repeated.")
+        ->allow_extra_args(false)
+        ->group("Simulation");
+    add_options(command, options.imported);
 }
 
 }  // namespace scree::demos

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/scene_file/import/import_options.h"
 #include "compute/settings.h"
 
 namespace CLI {
@@ -25,6 +26,11 @@ struct MachineOptions {
     bool validate = false;
 };
 
+// A value of the scene as a file says it: "bodies/3/friction" = "0.2".
+struct SceneEdit {
+    std::string key, value;
+};
+
 // Scene, duration and settings.
 struct SceneOptions {
     std::string name;  // demo name or scene file
@@ -34,7 +40,9 @@ struct SceneOptions {
     std::optional<double> seconds;
     std::optional<float> rate;  // Hz; none, likewise below: the scene's
     std::optional<int> substeps;
-    bool sleeping = true;  // false: none sleeps, whatever the scene says
+    bool sleeping = true;          // false: none sleeps, whatever the scene says
+    ImportOptions imported{};      // of files of other programs
+    std::vector<SceneEdit> edits;  // values of the scene to change
 
     Settings settings(Settings of_scene = {}) const;
     int step_count(double default_seconds, float steps_a_second) const;
@@ -79,6 +87,7 @@ void add_options(CLI::App& command, MachineOptions& options);
 void add_options(CLI::App& command, float& rate, int& substeps);
 void add_options(CLI::App& command, std::optional<float>& rate, std::optional<int>& substeps);
 void add_options(CLI::App& command, std::uint64_t& seed);
+void add_options(CLI::App& command, ImportOptions& options);
 void add_options(CLI::App& command, SceneOptions& options);
 void add_options(CLI::App& command, PictureOptions& options);
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>
+#include <utility>
 
 #include "host/files/json_depth.h"
 
@@ -80,6 +81,7 @@ MeshFile from_obj(std::string_view bytes, const Source& source) {
         mesh.vertices.emplace_back(numbers[i], numbers[i + 1], numbers[i + 2]);
     for (const tinyobj::shape_t& shape : reader.GetShapes()) {
         const auto& indices = shape.mesh.indices;
+        if (indices.size() > 2) mesh.groups.push_back(mesh.triangles.size());
         for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
             glm::uvec3 triangle;
             for (std::size_t k = 0; k < 3; ++k) {
@@ -118,6 +120,15 @@ public:
             for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) add_mesh(mesh, glm::dmat4(1));
         }
         return std::move(mesh_);
+    }
+
+    std::vector<MeshFile> each_mesh() {
+        std::vector<MeshFile> meshes;
+        for (int mesh = 0; mesh < static_cast<int>(model_.meshes.size()); ++mesh) {
+            add_mesh(mesh, glm::dmat4(1));
+            meshes.push_back(std::exchange(mesh_, MeshFile{}));
+        }
+        return meshes;
     }
 
 private:
@@ -241,7 +252,34 @@ std::string_view json_of(std::string_view bytes, bool binary) {
     return bytes.substr(20, length);
 }
 
-MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, const std::filesystem::path& folder) {
+constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
+
+// A .gltf names its buffers: files of its folder, no others.
+std::filesystem::path buffer_file(const std::string& name, void* folder) {
+    std::error_code failed;
+    const std::filesystem::path within = std::filesystem::weakly_canonical(*static_cast<std::filesystem::path*>(folder), failed);
+    const std::filesystem::path file = std::filesystem::weakly_canonical(name, failed);
+    const auto [end, rest] = std::mismatch(within.begin(), within.end(), file.begin(), file.end());
+    return end == within.end() && rest != file.end() ? file : std::filesystem::path();
+}
+bool buffer_exists(const std::string& name, void* folder) {
+    std::error_code failed;
+    const std::filesystem::path file = buffer_file(name, folder);
+    return !file.empty() && std::filesystem::is_regular_file(file, failed);
+}
+bool read_buffer(std::vector<unsigned char>* bytes, std::string* error, const std::string& name, void* folder) {
+    try {
+        const std::string text = read_regular(buffer_file(name, folder), most_bytes);
+        bytes->assign(text.begin(), text.end());
+        return true;
+    } catch (const FileError& failure) {
+        if (error) *error += failure.what();
+        return false;
+    }
+}
+
+void load_gltf(tinygltf::Model& model, std::string_view bytes, bool binary, const Source& source,
+               const std::filesystem::path& folder) {
     if (const auto place = nested_deeper_than(most_depth, json_of(bytes, binary)))
         source.refuse(*place + ": lies in more than " + std::to_string(most_depth) +
                       " arrays and objects; write the file without such \"extras\"");
@@ -250,33 +288,53 @@ MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, co
     loader.SetImageLoader(
         [](tinygltf::Image*, const int, std::string*, std::string*, int, int, const unsigned char*, int, void*) { return true; },
         nullptr);
-    tinygltf::Model model;
+    std::filesystem::path base = folder.empty() ? "." : folder;
+    loader.SetFsCallbacks({&buffer_exists, [](const std::string& path, void*) { return path; }, &read_buffer, nullptr, &base});
     std::string error, warning;
     const auto size = static_cast<unsigned>(bytes.size());
-    const std::string base = folder.empty() ? "." : folder.string();
-    const bool read = binary ? loader.LoadBinaryFromMemory(&model, &error, &warning,
-                                                           reinterpret_cast<const unsigned char*>(bytes.data()), size, base)
-                             : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, base);
+    const bool read = binary
+                          ? loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                                        reinterpret_cast<const unsigned char*>(bytes.data()), size, base.string())
+                          : loader.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, base.string());
     if (!read) source.refuse("not a glTF file: " + one_line(error.empty() ? warning : error));
+}
+
+MeshFile from_gltf(std::string_view bytes, bool binary, const Source& source, const std::filesystem::path& folder) {
+    tinygltf::Model model;
+    load_gltf(model, bytes, binary, source, folder);
     return Gltf(model, source).triangles();
 }
 
 std::string ending_of(const std::string& name) {
     std::string ending = std::filesystem::path(name).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-    if (ending != ".obj" && ending != ".gltf" && ending != ".glb")
-        Source{name}.refuse("meshes are read from .obj, .gltf and .glb files");
+    if (ending != ".obj" && ending != ".gltf" && ending != ".glb" && ending != ".stl")
+        Source{name}.refuse("meshes are read from .obj, .gltf, .glb and .stl files");
     return ending;
 }
 
-constexpr std::uintmax_t most_bytes = std::uintmax_t{1} << 30;
-
 }  // namespace
+
+std::vector<MeshFile> meshes_of_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder) {
+    const Source source{name};
+    tinygltf::Model model;
+    load_gltf(model, bytes, ending_of(name) == ".glb", source, folder);
+    return Gltf(model, source).each_mesh();
+}
+
+std::string_view json_of_gltf(std::string_view bytes, const std::string& name) {
+    const std::string_view json = json_of(bytes, ending_of(name) == ".glb");
+    if (const auto place = nested_deeper_than(most_depth, json))
+        Source{name}.refuse(*place + ": lies in more than " + std::to_string(most_depth) + " arrays and objects");
+    return json;
+}
 
 MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::filesystem::path& folder) {
     const Source source{name};
     const std::string ending = ending_of(name);
-    MeshFile mesh = ending == ".obj" ? from_obj(bytes, source) : from_gltf(bytes, ending == ".glb", source, folder);
+    MeshFile mesh = ending == ".obj"   ? from_obj(bytes, source)
+                    : ending == ".stl" ? mesh_of_stl(bytes, name)
+                                       : from_gltf(bytes, ending == ".glb", source, folder);
     if (mesh.triangles.empty()) source.refuse("has no triangles");
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
         for (int k = 0; k < 3; ++k)

@@ -1,6 +1,7 @@
-// Triangle mesh files: Wavefront OBJ, glTF and GLB.
+// Triangle mesh files: Wavefront OBJ, glTF and GLB, STL.
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <glm/glm.hpp>
 #include <string>
@@ -14,13 +15,20 @@ namespace scree::host {
 struct MeshFile {
     std::vector<glm::vec3> vertices;    // in the file's units, node transforms applied
     std::vector<glm::uvec3> triangles;  // vertex indices, counter-clockwise seen from outside
+    std::vector<std::size_t> groups{};  // first triangle of each group or object of an OBJ file
 };
 
-// Reads all triangles of a file with the extension .obj, .gltf or .glb; polygons are triangulated, materials and
+// Reads all triangles of a file with the extension .obj, .gltf, .glb or .stl; polygons are triangulated, materials and
 // textures ignored. Throws FileError, naming the file and the place in it, if it is malformed, has no triangles, or
 // needs a compression extension.
 MeshFile read_mesh(const std::filesystem::path& path);
 // The same from memory; `name` gives the extension and appears in messages. A .gltf finds its buffers in `folder`.
 MeshFile mesh_of(std::string_view bytes, const std::string& name, const std::filesystem::path& folder = {});
+// The meshes of a .gltf or .glb one by one, without their nodes; those without triangles are empty. Throws FileError.
+std::vector<MeshFile> meshes_of_gltf(std::string_view bytes, const std::string& name, const std::filesystem::path& folder = {});
+// The JSON of a .gltf, or of the first chunk of a .glb. Throws FileError if it is nested too deeply for parsers.
+std::string_view json_of_gltf(std::string_view bytes, const std::string& name);
+// The triangles of an STL file, binary or text, with three vertices each. Throws FileError.
+MeshFile mesh_of_stl(std::string_view bytes, const std::string& name);
 
 }  // namespace scree::host

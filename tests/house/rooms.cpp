@@ -37,6 +37,8 @@ const std::vector<Room> rooms = {
     {"compute/device/", {"compute/", "host/", "shaders/"}},
     // Scene files reference mesh files: this is the only file of the library that reads them.
     {"compute/scene_file/load_scene.cpp", {"compute/", "host/files/"}},
+    // Files of other programs name files, too.
+    {"compute/scene_file/import/", {"compute/", "host/files/"}},
     // And checkpoints are files: this is the only one that writes any.
     {"compute/scene_file/checkpoint_file.cpp", {"compute/", "host/files/"}},
     {"compute/", {"compute/", "shaders/physics/", "shaders/stages/"}},

@@ -80,6 +80,32 @@ class Building(unittest.TestCase):
         self.assertEqual(scene.copy().hash, scene.hash)
 
 
+class Imports(unittest.TestCase):
+    def test_a_robot_of_a_urdf_and_one_of_mjcf(self):
+        folder = os.path.join(os.environ["SCREE_SOURCE"], "tests", "imports")
+        arm = scree.load(os.path.join(folder, "arm.urdf"))
+        self.assertTrue(any("arm.urdf:" in note and "mimic" in note for note in arm.notes))
+        world = scree.World(arm, backend="cpu")
+        before = world.position
+        world.step(60)
+        np.testing.assert_allclose(world.position, before, atol=2e-3)
+        dog = scree.load(os.path.join(folder, "quadruped.xml"), keyframe="home", axes="file")
+        np.testing.assert_allclose(dog.gravity, (0, 0, -9.81), rtol=1e-6)
+        with self.assertRaisesRegex(scree.SceneError, r"quadruped.xml:\d+: .*without --strict it would be a note"):
+            scree.load(os.path.join(folder, "quadruped.xml"), strict=True)
+        with self.assertRaisesRegex(ValueError, "axes: is"):
+            scree.load(os.path.join(folder, "quadruped.xml"), axes="z")
+
+    def test_a_broken_robot_names_file_and_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "robot.urdf")
+            with open(path, "w") as file:
+                file.write("<robot name='r'>\n<link/>\n</robot>")
+            with self.assertRaises(scree.SceneError) as caught:
+                scree.load(path)
+            self.assertTrue(str(caught.exception).startswith(path + ":2: "))
+
+
 class Errors(unittest.TestCase):
     def test_a_scene_that_cannot_be_names_the_place(self):
         scene = scree.Scene()

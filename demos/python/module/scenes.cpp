@@ -7,6 +7,7 @@
 
 #include "compute/fields/document.h"
 #include "compute/scene_file/fields_read.h"
+#include "compute/scene_file/import/import_scene.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/load_scene.h"
 #include "compute/scene_file/scene_schema.h"
@@ -315,15 +316,36 @@ void bind_description(py::module_& module) {
         .def_readonly("notes", &Description::notes);
 }
 
+Description loaded(const std::string& path, bool strict, const std::string& axes, const std::string& base, bool ground,
+                   const std::string& keyframe, const std::map<std::string, std::string>& packages) {
+    if (axes != "y-up" && axes != "file") throw py::value_error("axes: is \"" + axes + "\"; known: y-up, file");
+    if (!base.empty() && base != "fixed" && base != "free") throw py::value_error("base: is \"" + base + "\"; known: fixed, free");
+    ImportOptions options;
+    options.strict = strict;
+    options.axes = axes == "file" ? ImportedAxes::file : ImportedAxes::y_up;
+    options.base = base.empty() ? ImportedBase::usual : base == "free" ? ImportedBase::free : ImportedBase::fixed;
+    options.ground = ground;
+    options.keyframe = keyframe;
+    options.packages = packages;
+    Description made;
+    try {
+        made.document = load_scene(path, options, &made.notes);
+    } catch (const ImportError& error) {
+        throw SceneError("", error.what());  // it names the file itself
+    }
+    if (is_scene_import(path)) return made;
+    checked(made.document.scene, &made.notes);
+    if (strict && !made.notes.empty()) throw SceneError("", made.notes.front());
+    return made;
+}
+
 }  // namespace
 
 void bind_scenes(py::module_& module) {
     bind_description(module);
-    module.def("load", [](const std::string& path) {
-        Description made{load_scene(path), {}};
-        checked(made.document.scene, &made.notes);
-        return made;
-    });
+    module.def("is_import", [](const std::string& path) { return is_scene_import(path); });
+    module.def("load", &loaded, py::arg("path"), py::arg("strict"), py::arg("axes"), py::arg("base"), py::arg("ground"),
+               py::arg("keyframe"), py::arg("packages"));
     module.def("from_json", [](const std::string& text) {
         Description made{scene_from_json(text), {}};
         return made;

@@ -249,13 +249,22 @@ class Scene:
         return f"<scree.Scene of {len(self)} bodies, {joints} joints>"
 
 
-def load(path: Union[str, "os.PathLike[str]"]) -> Scene:
-    """Reads a scene file and the meshes that it names. Raises OSError, and SceneError with the file and the JSON pointer."""
+def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: str = "y-up", base: str = "",
+         ground: bool = False, keyframe: Union[str, int] = "", packages: Optional[Dict[str, str]] = None) -> Scene:
+    """Reads a scene file and the meshes that it names, or a file of another program: MJCF (.xml, .mjcf), URDF (.urdf, .xml), .stl,
+    .obj. `notes` of the scene tells what of those was not translated, with file and line; strict makes that an error.
+
+    axes: "y-up" turns scenes whose z axis points up; "file" keeps their axes, with gravity along -z. base: the root link of a
+    URDF, "fixed" or "free"; left out: fixed, with a note. ground: adds a plane that the lowest point touches. keyframe: of an
+    MJCF file, by name or index: poses, speeds and controls. packages: folders of package://NAME/..., whose files may be read.
+
+    Raises OSError, and SceneError with the file and the JSON pointer, or the file and line.
+    """
     name = os.fspath(path)
     try:
-        return Scene._of(_native.load(name))
+        return Scene._of(_native.load(name, strict, axes, base, ground, str(keyframe), dict(packages or {})))
     except _native_error() as error:
-        raise type(error)(f"{name}: {error}", error.pointer) from None
+        raise type(error)(str(error) if _native.is_import(name) else f"{name}: {error}", error.pointer) from None
 
 
 def from_json(text: str) -> Scene:

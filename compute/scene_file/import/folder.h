@@ -1,0 +1,51 @@
+// The files that an imported file names: read from its own folder and its packages' alone.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compute/scene_file/import/import_options.h"
+#include "compute/scene_file/import/notes.h"
+#include "compute/scene_file/import/solid_mass.h"
+
+namespace scree::imports {
+
+// The convex hull of a mesh, or of each of its groups, and the mass properties of the mesh.
+struct MeshSolid {
+    std::vector<std::vector<vec3>> hulls;  // corners of each, m; none: the mesh is flat
+    std::string flaw;                      // why there is none
+    SolidMass mass;                        // of what the triangles enclose, density 1; of the hulls if they enclose nothing
+    bool encloses = true;                  // whether the triangles do
+};
+
+class Folder {
+public:
+    Folder(const std::filesystem::path& file, const ImportOptions& options);
+
+    const std::string& shown() const { return shown_; }  // the imported file, for messages
+    // Bytes of a file that `at` names, and the name to show. Refused outside the folders.
+    std::string bytes(const Origin& at, const std::string& name);
+    std::string path_of(const Origin& at, const std::string& name);
+    // A mesh, scaled; of an OBJ file with groups, one hull for each if `groups`. Cached.
+    std::shared_ptr<const MeshSolid> mesh(const Origin& at, const std::string& name, const glm::dvec3& scale,
+                                          bool groups = false);
+
+private:
+    std::filesystem::path resolved(const Origin& at, const std::string& name);
+    std::filesystem::path package(const Origin& at, const std::string& name);
+
+    std::string shown_;
+    std::filesystem::path folder_;
+    std::map<std::string, std::filesystem::path> packages_;
+    std::map<std::string, std::shared_ptr<const MeshSolid>> meshes_;
+    std::uintmax_t read_ = 0;  // bytes so far
+};
+
+// Of vertices and triangles that are in memory.
+MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
+                     const std::vector<std::size_t>& groups);
+
+}  // namespace scree::imports

@@ -1,0 +1,107 @@
+// A mechanism as files of robots say it: a tree of bodies with joints to their parents. assemble() makes a scene of it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "compute/scene.h"
+#include "compute/scene_file/import/import_options.h"
+#include "compute/scene_file/import/notes.h"
+#include "compute/scene_file/import/solid_mass.h"
+
+namespace scree::imports {
+
+constexpr std::size_t world_body = 0;  // of a model
+
+struct Geometry {
+    Origin origin;
+    std::string name;
+    SimpleShape shape = Box{};
+    Placed placed;  // the shape's own frame in the body
+    bool solid = true;
+    Material material{};
+    std::size_t collides_as = 0;  // class of Model::collides
+};
+
+// A hinge or slide to the parent, in the body's frame while its coordinate is 0.
+struct ModelJoint {
+    Origin origin;
+    std::string name;
+    enum class Kind { hinge, slide, ball } kind = Kind::hinge;
+    dvec3 anchor{0}, axis{0, 0, 1};                     // axis of any length but 0
+    std::optional<std::pair<double, double>> limits{};  // m or rad; of a ball the second is its greatest angle
+    double stiffness = 0, damping = 0, rest = 0;
+    double greatest_force = static_cast<double>(unlimited);  // of its springs
+    double friction = 0;
+    std::optional<Motor> motor{};
+    double reference = 0;          // what the file calls the coordinate where it is 0 here
+    double start = 0;              // coordinate at the beginning, m or rad
+    dquat start_turn{1, 0, 0, 0};  // of a ball
+    double start_speed = 0;        // m/s or rad/s
+};
+
+struct ModelBody {
+    Origin origin;
+    std::string name;
+    std::size_t parent = world_body;
+    Placed placed;  // in its parent, all coordinates 0
+    std::vector<ModelJoint> joints;
+    bool free = false, kinematic = false;
+    std::optional<Placed> start{};  // of those, at the beginning, in the parent; none: as placed
+    std::vector<Geometry> geometries;
+    SolidMass mass;              // in the body's frame
+    dvec3 velocity{0}, spin{0};  // of a free body: m/s; rad/s, its own axes
+    float gravity_scale = 1;
+};
+
+// Two bodies whose frames coincide where they are at coordinates 0: by a point, or wholly.
+struct ModelTie {
+    Origin origin;
+    std::string name;
+    std::size_t a = world_body, b = world_body;
+    dvec3 anchor{0};  // in a
+    bool welded = false;
+    std::optional<Placed> b_in_a{};  // of a weld; none: as they are
+};
+
+struct Model {
+    std::vector<ModelBody> bodies{ModelBody{}};  // the first is the world; parents come first
+    std::vector<ModelTie> ties;
+    std::vector<std::pair<std::size_t, std::size_t>> exclusions;
+    std::vector<std::vector<bool>> collides{{true}};  // of each two classes of geometry; symmetric
+    dvec3 gravity{0, 0, -9.81};                       // m/s^2
+    bool joined_collide = false;                      // whether a body collides with its parent
+    bool joined_to_world_collide = true;              // and with one that nothing moves
+    bool z_up = true;
+};
+
+// Checks what it makes. Throws ImportError with the place of a body or joint that cannot be.
+Scene assemble(const Model& model, const ImportOptions& options, Notes& notes);
+
+// ---- parts of assemble()
+struct Assembly {
+    const Model& model;
+    Notes& notes;
+    Placed root;                                   // the file's world in the scene's
+    std::vector<Placed> zero;                      // poses of the model's bodies with all coordinates 0, file's world
+    std::vector<std::size_t> owner;                // the body that carries each rigidly; world_body: nothing moves it
+    std::vector<std::vector<std::size_t>> bodies;  // of each of the model's bodies: indices in the scene
+    std::vector<Placed> frames;                    // of an owner: the scene body's frame, until it is checked, in its own
+    std::vector<Origin> origins, joint_origins;    // of the scene's bodies and joints
+    Scene scene{};
+};
+void add_joints(Assembly& assembly);  // and ties, and exclusions
+// A body between two joints of one body: as heavy as a hundredth of it. Returns its index in the scene.
+std::size_t add_link(Assembly& assembly, std::size_t body, const Placed& start);
+
+// Motion of a body's frame, from that of its parent, after the first `joints` of its joints.
+struct ModelMotion {
+    Placed placed;
+    dvec3 spin{0}, sweep{0};  // rad/s; m/s, of the point of the body that is at the origin
+    dvec3 velocity_at(const dvec3& point) const { return sweep + glm::cross(spin, point); }
+};
+ModelMotion moved(const ModelMotion& parent, const ModelBody& body, bool at_start, std::size_t joints);
+std::vector<ModelMotion> motions_of(const Model& model, bool at_start);
+
+}  // namespace scree::imports

@@ -1,0 +1,356 @@
+// URDF: links and joints.
+#include "compute/scene_file/import/urdf.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+#include "compute/scene_file/import/model.h"
+
+namespace scree::imports {
+
+namespace {
+
+const dquat z_along_y(std::sqrt(0.5), std::sqrt(0.5), 0, 0);  // scree's cylinders lie along y, URDF's along z
+
+class Urdf {
+public:
+    Urdf(Folder& folder, const ImportOptions& options, Notes& notes, std::size_t most_bodies)
+        : folder_(folder), options_(options), notes_(notes), most_bodies_(most_bodies) {}
+    SceneDocument read(const host::XmlElement& root);
+
+private:
+    struct Child {
+        const host::XmlElement* joint;
+        std::string link;
+    };
+
+    void read_names(const host::XmlElement& root);
+    std::string root_link(const host::XmlElement& root) const;
+    void add_link(const std::string& name, std::size_t parent, const host::XmlElement* joint);
+    void read_joint(const host::XmlElement& tree, ModelBody& body);
+    void read_axis(const host::XmlElement& tree, ModelJoint& joint);
+    void read_link(const host::XmlElement& tree, ModelBody& body);
+    void read_shape(const host::XmlElement& tree, bool solid, ModelBody& body);
+    bool read_mesh(Element& mesh, const Placed& at, const Geometry& like, ModelBody& body);
+    SolidMass inertial(const host::XmlElement& tree);
+    Placed origin(const host::XmlElement& tree);
+
+    Folder& folder_;
+    const ImportOptions& options_;
+    Notes& notes_;
+    std::size_t most_bodies_;
+    Model model_;
+    std::map<std::string, const host::XmlElement*> links_;
+    std::map<std::string, std::vector<Child>> children_;
+    std::set<std::string> is_child_;
+    int depth_ = 0;
+};
+
+const host::XmlElement* child_of(const host::XmlElement& tree, const char* name) {
+    for (const host::XmlElement& child : tree.children)
+        if (child.name == name) return &child;
+    return nullptr;
+}
+
+std::string attribute_of(const host::XmlElement& tree, const char* name) {
+    for (const host::XmlAttribute& one : tree.attributes)
+        if (one.name == name) return one.value;
+    return "";
+}
+
+std::array<double, 3> xyz_of(Element& element, const char* key, const std::array<double, 3>& otherwise) {
+    return element.numbers<3>(key, otherwise);
+}
+
+Placed Urdf::origin(const host::XmlElement& tree) {
+    const host::XmlElement* found = child_of(tree, "origin");
+    if (!found) return {};
+    Element element(*found, notes_);
+    const auto at = xyz_of(element, "xyz", {0, 0, 0}), turns = xyz_of(element, "rpy", {0, 0, 0});
+    element.finish();
+    const dquat turn = glm::angleAxis(turns[2], dvec3(0, 0, 1)) * glm::angleAxis(turns[1], dvec3(0, 1, 0)) *
+                       glm::angleAxis(turns[0], dvec3(1, 0, 0));
+    return {{at[0], at[1], at[2]}, glm::normalize(turn)};
+}
+
+SolidMass Urdf::inertial(const host::XmlElement& tree) {
+    const host::XmlElement *mass = child_of(tree, "mass"), *inertia = child_of(tree, "inertia");
+    SolidMass own;
+    if (mass) {
+        Element element(*mass, notes_);
+        own.mass = element.number("value", -1);
+        if (!(own.mass >= 0)) element.refuse("value", "is missing or below 0 kg");
+        element.finish();
+    }
+    if (inertia) {
+        Element element(*inertia, notes_);
+        const auto at = [&](const char* key) { return element.number(key, 0); };
+        const double xx = at("ixx"), yy = at("iyy"), zz = at("izz"), xy = at("ixy"), xz = at("ixz"), yz = at("iyz");
+        own.inertia = {xx, xy, xz, xy, yy, yz, xz, yz, zz};
+        element.finish();
+    }
+    return placed_mass(own, origin(tree));
+}
+
+bool Urdf::read_mesh(Element& mesh, const Placed& at, const Geometry& like, ModelBody& body) {
+    const std::string file = mesh.text("filename");
+    if (file.empty()) mesh.refuse("names no \"filename\"");
+    const auto scale = xyz_of(mesh, "scale", {1, 1, 1});
+    const std::size_t dot = std::min(file.rfind('.'), file.size());
+    std::string ending = file.substr(dot);
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    if (!like.solid && ending != ".stl" && ending != ".obj" && ending != ".gltf" && ending != ".glb") {
+        mesh.note("filename", "of another kind than .stl, .obj, .gltf and .glb is not drawn");
+        return false;
+    }
+    const auto solid = folder_.mesh(mesh.origin(), file, {scale[0], scale[1], scale[2]}, true);
+    mesh.finish();
+    if (solid->hulls.empty()) {
+        if (like.solid) mesh.refuse("\"" + file + "\" has no convex hull: " + solid->flaw);
+        mesh.note("filename", "has no convex hull and is not drawn: " + solid->flaw);
+        return false;
+    }
+    mesh.note("", like.solid ? "collides as the convex hull of each of its groups"
+                             : "is drawn as the convex hull of each of its groups");
+    for (const auto& corners : solid->hulls) {
+        Geometry one = like;
+        one.shape = Hull{corners};
+        one.placed = at;
+        body.geometries.push_back(std::move(one));
+    }
+    return true;
+}
+
+void Urdf::read_shape(const host::XmlElement& tree, bool solid, ModelBody& body) {
+    Element whole(tree, notes_);
+    Geometry geometry;
+    geometry.origin = whole.origin();
+    geometry.name = whole.text("name", body.name);
+    geometry.solid = solid;
+    const Placed at = origin(tree);
+    geometry.placed = at;
+    whole.finish();
+    const host::XmlElement* inside = child_of(tree, "geometry");
+    if (!inside || inside->children.empty()) whole.refuse("has no <geometry>");
+    if (inside->children.size() > 1) Element(*inside, notes_).refuse("has more than one shape");
+    for (const host::XmlElement& child : tree.children) {
+        if (child.name == "material")
+            Element(child, notes_).note("", "is left out; colours show momentum, or what --color says");
+        else if (child.name != "origin" && child.name != "geometry")
+            Element(child, notes_).note("", "is unknown here and left out");
+    }
+    Element shape(inside->children[0], notes_);
+    const auto size = [&](const char* key) {
+        const double value = shape.number(key, 0);
+        if (!(value > 0)) shape.refuse(key, "must be above 0 m");
+        return static_cast<float>(value);
+    };
+    if (shape.tag() == "mesh") {
+        read_mesh(shape, at, geometry, body);
+        return;
+    }
+    if (shape.tag() == "box") {
+        const auto full = xyz_of(shape, "size", {0, 0, 0});
+        if (!(full[0] > 0 && full[1] > 0 && full[2] > 0)) shape.refuse("size", "must be three numbers above 0 m");
+        geometry.shape = Box{vec3(0.5 * dvec3(full[0], full[1], full[2]))};
+    } else if (shape.tag() == "sphere") {
+        geometry.shape = Sphere{size("radius")};
+    } else if (shape.tag() == "cylinder") {
+        geometry.shape = Cylinder{size("radius"), 0.5f * size("length")};
+        geometry.placed.turn = at.turn * z_along_y;
+    } else if (shape.tag() == "capsule") {
+        geometry.shape = Capsule{size("radius"), 0.5f * size("length")};
+        geometry.placed.turn = at.turn * z_along_y;
+    } else {
+        shape.refuse("is no shape of URDF; known: box, sphere, cylinder, capsule, mesh");
+    }
+    shape.finish();
+    body.geometries.push_back(std::move(geometry));
+}
+
+void Urdf::read_link(const host::XmlElement& tree, ModelBody& body) {
+    Element link(tree, notes_);
+    body.origin = link.origin();
+    link.finish();
+    for (const host::XmlElement& child : tree.children) {
+        if (child.name == "inertial") {
+            body.mass = sum_of(body.mass, inertial(child));
+        } else if (child.name == "collision" || child.name == "visual") {
+            read_shape(child, child.name == "collision", body);
+        } else {
+            Element(child, notes_).note("", "is left out");
+        }
+    }
+}
+
+void Urdf::read_axis(const host::XmlElement& tree, ModelJoint& joint) {
+    if (const host::XmlElement* found = child_of(tree, "axis")) {
+        Element element(*found, notes_);
+        const auto xyz = xyz_of(element, "xyz", {1, 0, 0});
+        joint.axis = {xyz[0], xyz[1], xyz[2]};
+        if (!(glm::length(joint.axis) > 1e-9)) element.refuse("xyz", "is a vector of length 0");
+        element.finish();
+    } else {
+        joint.axis = {1, 0, 0};
+    }
+    if (const host::XmlElement* found = child_of(tree, "dynamics")) {
+        Element element(*found, notes_);
+        joint.damping = element.number("damping", 0), joint.friction = element.number("friction", 0);
+        if (joint.damping < 0 || joint.friction < 0) element.refuse("damping and friction must not be below 0");
+        element.finish();
+    }
+}
+
+void Urdf::read_joint(const host::XmlElement& tree, ModelBody& body) {
+    Element element(tree, notes_);
+    const std::size_t type = element.word("type", {"fixed", "revolute", "continuous", "prismatic", "floating", "planar"}, 6);
+    if (type == 6) element.refuse("has no \"type\"");
+    element.finish();
+    static const std::vector<std::string> known = {"origin", "parent", "child", "axis", "limit", "dynamics", "mimic"};
+    for (const host::XmlElement& child : tree.children) {
+        if (std::find(known.begin(), known.end(), child.name) == known.end())
+            Element(child, notes_).note("", "is left out; it is for controllers");
+        if (child.name == "mimic") Element(child, notes_).note("", "is left out: the joint moves by itself");
+    }
+    body.placed = origin(tree);
+    if (type == 0) return;
+    if (type == 4) {
+        for (std::size_t above = body.parent; above != world_body; above = model_.bodies[above].parent)
+            if (model_.bodies[above].free || !model_.bodies[above].joints.empty())
+                element.refuse("a floating joint is read below links alone that nothing moves");
+        body.free = true;
+        return;
+    }
+    ModelJoint joint;
+    joint.origin = element.origin();
+    joint.name = element.text("name");
+    joint.kind = type == 3 ? ModelJoint::Kind::slide : ModelJoint::Kind::hinge;
+    read_axis(tree, joint);
+    if (type == 5) {  // along two axes of its plane, and about its normal
+        const dvec3 normal = glm::normalize(joint.axis);
+        ModelJoint slide = joint;
+        slide.kind = ModelJoint::Kind::slide;
+        slide.axis = std::abs(normal.x) < 0.9 ? glm::normalize(glm::cross(normal, dvec3(1, 0, 0)))
+                                              : glm::normalize(glm::cross(normal, dvec3(0, 1, 0)));
+        body.joints.push_back(slide);
+        slide.axis = glm::cross(normal, slide.axis);
+        body.joints.push_back(slide);
+    }
+    const host::XmlElement* limit = child_of(tree, "limit");
+    if (!limit && (type == 1 || type == 3)) element.refuse("needs a <limit>");
+    if (limit) {
+        Element bounds(*limit, notes_);
+        const double lower = bounds.number("lower", 0), upper = bounds.number("upper", 0), effort = bounds.number("effort", 0);
+        if (lower > upper) bounds.refuse("lower", "is above the upper limit");
+        if (effort < 0) bounds.refuse("effort", "must not be below 0");
+        if (type == 1 || type == 3) joint.limits = {lower, upper};
+        bounds.ignore({"velocity"}, "is left out: no motor is faster than it is told to be");
+        bounds.finish();
+        // As in other simulators, what can exert an effort holds its pose until it is told to move.
+        if (effort > 0 && type != 5) {
+            joint.motor = Motor{0, static_cast<float>(effort)};
+            joint.friction = 0;
+        }
+    }
+    body.joints.push_back(std::move(joint));
+}
+
+void Urdf::add_link(const std::string& name, std::size_t parent, const host::XmlElement* joint) {
+    const host::XmlElement& tree = *links_.at(name);
+    const Origin at{*tree.file, tree.line, "link \"" + name + "\""};
+    if (model_.bodies.size() >= most_bodies_) refuse(at, "there are more links than fit into memory");
+    if (++depth_ > 1000) refuse(at, "more than 1000 links hang on each other");
+    const std::size_t index = model_.bodies.size();
+    ModelBody body;
+    body.name = name;
+    body.parent = parent;
+    read_link(tree, body);
+    if (joint) read_joint(*joint, body);
+    if (!joint) {
+        const bool weightless = !(body.mass.mass > 0) || name == "world";
+        body.free = !weightless && options_.base == ImportedBase::free;
+        if (weightless && options_.base == ImportedBase::free && body.geometries.empty() && children_.contains(name) &&
+            children_.at(name).size() == 1)
+            body.free = attribute_of(*children_.at(name)[0].joint, "type") == "fixed";  // a footprint below the base
+        if (!weightless && options_.base == ImportedBase::usual)
+            notes_.add(body.origin, "",
+                       "is the root and fixed to the world; --base free lets it move, --base fixed says the same");
+    }
+    model_.bodies.push_back(std::move(body));
+    for (const Child& child : children_[name]) add_link(child.link, index, child.joint);
+    --depth_;
+}
+
+void Urdf::read_names(const host::XmlElement& root) {
+    for (const host::XmlElement& child : root.children) {
+        Element element(child, notes_);
+        if (child.name == "link") {
+            const std::string name = element.text("name");
+            if (name.empty()) element.refuse("has no name");
+            if (!links_.try_emplace(name, &child).second) element.refuse("there are two links of this name");
+        } else if (child.name == "material") {
+            element.note("", "is left out; colours show momentum, or what --color says");
+        } else if (child.name.starts_with("xacro:")) {
+            element.refuse("is xacro; write the file with the program xacro first");
+        } else if (child.name != "joint") {
+            element.note("", "is left out; it is for controllers and other simulators");
+        }
+    }
+    for (const host::XmlElement& child : root.children) {
+        if (child.name != "joint") continue;
+        Element element(child, notes_);
+        if (child.children.empty()) element.refuse("has no <parent> and <child>");
+        std::string ends[2];
+        for (int k = 0; k < 2; ++k) {
+            const host::XmlElement* end = child_of(child, k == 0 ? "parent" : "child");
+            if (!end) element.refuse(k == 0 ? "has no <parent>" : "has no <child>");
+            ends[k] = attribute_of(*end, "link");
+            if (!links_.contains(ends[k])) Element(*end, notes_).refuse("there is no link \"" + ends[k] + "\"");
+        }
+        if (!is_child_.insert(ends[1]).second) element.refuse("the link \"" + ends[1] + "\" has two parents");
+        children_[ends[0]].push_back({&child, ends[1]});
+    }
+}
+
+std::string Urdf::root_link(const host::XmlElement& root) const {
+    std::string found;
+    for (const host::XmlElement& child : root.children) {
+        const std::string name = attribute_of(child, "name");
+        if (child.name != "link" || is_child_.contains(name)) continue;
+        if (!found.empty())
+            refuse({*child.file, child.line, "link \"" + name + "\""}, "hangs on no joint, and nor does \"" + found + "\"");
+        found = name;
+    }
+    if (found.empty())
+        refuse({*root.file, root.line, root.name}, links_.empty() ? "has no link" : "its links hang on each other in a circle");
+    return found;
+}
+
+SceneDocument Urdf::read(const host::XmlElement& root) {
+    Element element(root, notes_);
+    element.pass({"version"});
+    for (const host::XmlAttribute& one : root.attributes)
+        if (one.name.starts_with("xmlns")) element.pass({one.name.c_str()});
+    element.finish();
+    read_names(root);
+    const std::string first = root_link(root);
+    model_.joined_to_world_collide = false;
+    add_link(first, world_body, nullptr);
+    if (model_.bodies.size() != links_.size() + 1)
+        element.refuse(std::to_string(links_.size() + 1 - model_.bodies.size()) + " links hang on each other in a circle");
+    SceneDocument document;
+    document.scene = assemble(model_, options_, notes_);
+    return document;
+}
+
+}  // namespace
+
+SceneDocument scene_of_urdf(const host::XmlElement& root, Folder& folder, const ImportOptions& options, Notes& notes,
+                            std::size_t most_bodies) {
+    return Urdf(folder, options, notes, most_bodies).read(root);
+}
+
+}  // namespace scree::imports

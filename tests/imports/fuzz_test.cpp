@@ -1,0 +1,120 @@
+// Mutated files of other programs: refused with file and place, or read; never a crash, a hang, or memory out of proportion.
+#include <chrono>
+#include <cstdlib>
+#include <random>
+#include <sstream>
+
+#include "tests/imports/import_case.h"
+
+using namespace scree;
+using scree::imported::Case;
+
+namespace {
+
+std::string text_of_file(const std::string& name) {
+    std::ostringstream text;
+    text << std::ifstream(std::filesystem::path(SCREE_SOURCE_DIR) / "tests/imports" / name, std::ios::binary).rdbuf();
+    return text.str();
+}
+
+const std::vector<std::string> words = {"0",       "-1",
+                                        "1e30",    "1e-30",
+                                        "nan",     "inf",
+                                        "1e400",   "",
+                                        "\"",      "<",
+                                        ">",       "</",
+                                        "/>",      "<body>",
+                                        "'",       "&lt;",
+                                        "&#0;",    "9999999999999999999",
+                                        "0 0 0",   "1 2 3 4 5 6 7 8 9",
+                                        "class",   "mesh",
+                                        "default", "free",
+                                        "main",    "..//..",
+                                        "true",    "false",
+                                        "fromto",  "type=\"plane\"",
+                                        "\x80\xff"};
+
+// Bytes changed, cut, copied and replaced by words that mean something, mostly at numbers and names.
+std::string mutated(std::string text, std::mt19937& random) {
+    const auto below = [&](std::size_t count) { return std::uniform_int_distribution<std::size_t>(0, count - 1)(random); };
+    for (std::size_t n = 1 + below(4); n-- > 0 && text.size() > 8;) {
+        std::size_t at = below(text.size());
+        switch (below(6)) {
+            case 0:
+                text[at] = static_cast<char>(below(256));
+                break;
+            case 1:
+                text.erase(at, below(std::min<std::size_t>(text.size() - at, 200)) + 1);
+                break;
+            case 2:
+                text.insert(at, text.substr(below(text.size()), below(300)));
+                break;
+            case 3:
+                text.resize(at);
+                break;
+            default: {  // a value
+                at = text.find('"', at);
+                if (at == text.npos) break;
+                const std::size_t end = text.find('"', at + 1);
+                if (end == text.npos || end - at > 300) break;
+                text.replace(at + 1, end - at - 1, words[below(words.size())]);
+            }
+        }
+    }
+    return text;
+}
+
+std::string cube_obj() {
+    return "g one\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\ng two\nv 3 0 0\nv 4 0 0\nv 3 1 0\nv 3 "
+           "0 "
+           "1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+}
+
+}  // namespace
+
+// SCREE_FUZZ=10000 mutates each format so often.
+TEST_CASE("imports: mutated files are read or refused with file and place") {
+    const char* wanted = std::getenv("SCREE_FUZZ");
+    const int count = wanted ? std::atoi(wanted) : 400;
+    std::string stl(84, ' ');
+    stl[80] = 4, stl[81] = stl[82] = stl[83] = 0;
+    const float corners[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    for (const auto& face : {std::array{0, 2, 1}, std::array{0, 1, 3}, std::array{0, 3, 2}, std::array{1, 2, 3}}) {
+        stl.append(12, '\0');
+        for (const int corner : face) stl.append(reinterpret_cast<const char*>(corners + 3 * corner), 12);
+        stl.append(2, '\0');
+    }
+    const std::string ascii =
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 0 1 0\nvertex 1 0 0\nendloop\nendfacet\n"
+        "outer loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 0 1\nendloop\nouter loop\nvertex 1 0 0\nvertex 0 1 "
+        "0\nvertex 0 0 1\nendloop\nendsolid\n";
+    const std::pair<std::string, std::string> formats[] = {{"a.xml", text_of_file("quadruped.xml")},
+                                                           {"b.xml", text_of_file("everything.xml")},
+                                                           {"a.urdf", text_of_file("arm.urdf")},
+                                                           {"a.obj", cube_obj()},
+                                                           {"a.stl", stl},
+                                                           {"b.stl", ascii}};
+    Case file;
+    for (const auto& [name, text] : formats) {
+        INFO(name);
+        REQUIRE(file.refusal(name, text).empty());
+        int refused = 0;
+        double longest = 0;
+        for (int seed = 1; seed <= count; ++seed) {
+            std::mt19937 random(static_cast<unsigned>(seed));
+            const std::string mutant = mutated(text, random);
+            INFO("seed " << seed);
+            ImportOptions options;
+            if (seed % 3 == 0) options.keyframe = "0";
+            if (seed % 5 == 0) options.ground = true, options.base = ImportedBase::free;
+            const auto start = std::chrono::steady_clock::now();
+            const std::string why = file.refusal(name, mutant, options);
+            longest = std::max(longest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+            refused += !why.empty();
+            if (!why.empty() && why.find(name) != 0) FAIL_CHECK("names no file: " << why);
+        }
+        CHECK(longest < 5);
+        CHECK(refused > 0);
+        CHECK(refused < count);
+    }
+}

@@ -1,0 +1,152 @@
+// URDF: an arm that holds its pose, joints of every type, packages, and what is refused.
+#include <cmath>
+
+#include "compute/world.h"
+#include "tests/imports/import_case.h"
+
+using namespace scree;
+using scree::imported::Case;
+
+namespace {
+
+const std::string mass = "<inertial><mass value='2'/><inertia ixx='0.1' iyy='0.1' izz='0.1' ixy='0' ixz='0' iyz='0'/></inertial>";
+
+std::string robot(const std::string& joint) {
+    return "<robot name='r'><link name='world'/>\n<link name='a'>" + mass + "</link>\n<joint name='j' " + joint +
+           "<parent link='world'/><child link='a'/></joint></robot>";
+}
+
+// A cube of 2 m, binary.
+std::string cube_stl() {
+    std::string bytes(80, ' ');
+    const std::uint32_t count = 12;
+    bytes.append(reinterpret_cast<const char*>(&count), 4);
+    const int faces[12][3] = {{0, 2, 1}, {1, 2, 3}, {4, 5, 6}, {5, 7, 6}, {0, 1, 4}, {1, 5, 4},
+                              {2, 6, 3}, {3, 6, 7}, {0, 4, 2}, {2, 4, 6}, {1, 3, 5}, {3, 7, 5}};
+    for (const auto& face : faces) {
+        bytes.append(12, '\0');
+        for (const int corner : face)
+            for (int k = 0; k < 3; ++k) {
+                const float at = (corner >> k & 1) != 0 ? 1.0f : -1.0f;
+                bytes.append(reinterpret_cast<const char*>(&at), 4);
+            }
+        bytes.append(2, '\0');
+    }
+    return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("imports: an arm of a URDF holds its pose by its efforts, and sags beyond them") {
+    std::vector<std::string> notes;
+    const auto path = std::filesystem::path(SCREE_SOURCE_DIR) / "tests/imports/arm.urdf";
+    SceneDocument document = load_scene(path, {}, &notes);
+    REQUIRE(document.scene.joints.size() == 6);
+    World arm(document.scene);
+    arm.step(600);
+    for (std::size_t j = 0; j < 6; ++j) {
+        INFO(document.scene.joints[j].name);
+        const std::size_t axis = std::holds_alternative<Slider>(document.scene.joints[j].kind) ? 0 : 3;
+        CHECK(std::abs(arm.joint(j).coordinates[axis]) < 0.002f);
+    }
+    for (Joint& joint : document.scene.joints)
+        if (auto* hinge = std::get_if<Hinge>(&joint.kind)) hinge->turn.motor->max_force = 1;
+    World weak(document.scene);
+    weak.step(600);
+    CHECK(std::abs(weak.joint(1).coordinates[3]) > 0.2f);
+}
+
+TEST_CASE("imports: joints of every type of URDF become scree's") {
+    Case file;
+    const auto joint = [&](const std::string& text) { return file.load("r.urdf", robot(text)).scene; };
+    CHECK(joint("type='fixed'>").joints.empty());
+    CHECK(joint("type='floating'>").bodies[0].motion == Motion::dynamic);
+    const Scene turns = joint("type='continuous'><axis xyz='0 0 1'/><dynamics damping='3' friction='2'/>");
+    const Axis& turn = std::get<Hinge>(turns.joints[0].kind).turn;
+    CHECK_FALSE(turn.limits);
+    CHECK(turn.spring->damping == 3);
+    CHECK(turn.friction == 2);
+    const Scene slides = joint("type='prismatic'><axis xyz='0 0 2'/><limit lower='-1' upper='2' effort='0'/>");
+    CHECK(std::get<Slider>(slides.joints[0].kind).slide.limits->upper == 2);
+    const Scene plane = joint("type='planar'><axis xyz='0 0 1'/>");
+    const auto& six = std::get<SixDof>(plane.joints[0].kind);
+    CHECK(int(six.x.locked) + int(six.y.locked) + int(six.z.locked) == 1);
+    const Scene held = joint("type='revolute'><limit lower='-1' upper='2' effort='7'/>");
+    CHECK(std::get<Hinge>(held.joints[0].kind).turn.motor->max_force == 7);
+}
+
+TEST_CASE("imports: links that are fixed merge, a root is fixed with a note or free, and ground is added below") {
+    Case file;
+    const std::string two = "<robot name='r'><link name='a'>" + mass +
+                            "<collision><geometry><sphere radius='0.5'/></geometry></collision></link>"
+                            "<link name='b'>" +
+                            mass +
+                            "</link><joint name='j' type='fixed'><parent link='a'/><child link='b'/>"
+                            "<origin xyz='0 0 1'/></joint></robot>";
+    const Scene fixed = file.load("r.urdf", two).scene;
+    CHECK(fixed.bodies[0].motion == Motion::fixed);
+    CHECK(file.noted("is the root and fixed to the world; --base free lets it move"));
+    const Scene scene = checked(file.load("r.urdf", two, {.base = ImportedBase::free, .ground = true}).scene);
+    CHECK(file.notes.empty());
+    REQUIRE(scene.bodies.size() == 2);
+    CHECK(mass_properties(scene.bodies[0]).mass == Approx(4));
+    CHECK(scene.bodies[0].position.y == Approx(0.5));
+    CHECK(std::get<Plane>(scene.bodies[1].shape).offset == Approx(-0.5));
+}
+
+TEST_CASE("imports: meshes of packages are found beside the file, and nowhere else") {
+    Case file;
+    const auto with = [](const std::string& mesh) {
+        return "<robot name='r'><link name='a'>" + mass + "<collision><geometry><mesh filename='" + mesh +
+               "' scale='0.5 0.5 0.5'/></geometry></collision></link></robot>";
+    };
+    file.write("robot/meshes/cube.stl", cube_stl());
+    for (const std::string mesh : {"package://robot/meshes/cube.stl", "meshes/cube.stl"}) {
+        const Scene scene = file.load("robot/r.urdf", with(mesh), {.base = ImportedBase::free}).scene;
+        CHECK(mass_properties(checked(scene).bodies[0]).mass == Approx(2));
+        CHECK(std::get<Hull>(scene.bodies[0].shape).points.size() == 8);
+    }
+    file.load("robot/urdf/r.urdf", with("package://robot/meshes/cube.stl"));  // the package is the folder above
+    CHECK(file.refusal("robot/urdf/r.urdf", with("../meshes/cube.stl")).find("lies outside of the file's folder") !=
+          std::string::npos);
+    CHECK(file.refusal("robot/r.urdf", with("package://robot/../../../etc/passwd")).find("lies outside") != std::string::npos);
+    CHECK(file.refusal("robot/r.urdf", with("none.stl")).find("cannot read") != std::string::npos);
+    file.write("robot/r.dae", "<COLLADA/>");
+    CHECK(file.refusal("robot/r.urdf", with("r.dae")).find("meshes are read from") != std::string::npos);
+    file.write("robot/meshes/cut.stl", cube_stl().substr(0, 300));
+    CHECK(file.refusal("robot/r.urdf", with("meshes/cut.stl")).find("it says 12 triangles in 300 bytes") != std::string::npos);
+}
+
+TEST_CASE("imports: what is wrong with a URDF is refused with its line") {
+    Case file;
+    const auto says = [&](const std::string& text, const std::string& words) {
+        const std::string why = file.refusal("r.urdf", text);
+        INFO(why);
+        CHECK(why.find(words) != std::string::npos);
+    };
+    says(robot("type='revolute'>"), "r.urdf:3: joint \"j\": needs a <limit>");
+    says(robot("type='screw'>"), "r.urdf:3: joint \"j\": \"type\" is \"screw\"; known: fixed, revolute");
+    says("<robot name='r'/>", "r.urdf:1: robot: has no link");
+    says("<robot name='r'><link name='a'/><link name='b'/></robot>", "link \"b\": hangs on no joint, and nor does \"a\"");
+    says("<robot name='r'><link name='a'/><joint name='j' type='fixed'><parent link='b'/><child link='a'/></joint></robot>",
+         "there is no link \"b\"");
+    says("<robot name='r'><xacro:macro/></robot>", "is xacro");
+    CHECK(file.refusal("r.xml", "<robot name='r'><link name='a'/></robot>").empty());
+}
+
+TEST_CASE("imports: an OBJ file's groups are convex parts, an STL file one body") {
+    Case file;
+    const std::string faces = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n", later = "f 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
+    const std::string obj =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\ng one\n" + faces + "g two\n" + later;
+    const Scene parts = checked(file.load("a.obj", obj).scene);
+    REQUIRE(parts.bodies.size() == 1);
+    CHECK(std::get<Compound>(parts.bodies[0].shape).parts.size() == 2);
+    CHECK(mass_properties(parts.bodies[0]).mass == Approx(1000.0 / 3));
+    const Scene cube = checked(file.load("cube.stl", cube_stl(), {.ground = true}).scene);
+    CHECK(mass_properties(cube.bodies[0]).mass == Approx(8000));
+    CHECK(std::get<Plane>(cube.bodies[1].shape).offset == Approx(-1));
+    CHECK(
+        file.refusal("b.stl", "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 z\n").find("b.stl: line 4: a vertex needs") !=
+        std::string::npos);
+}
