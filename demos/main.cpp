@@ -17,6 +17,7 @@ namespace {
 constexpr const char* examples = R"(Examples:
   scree list                                            the demos
   scree run avalanche --frames out --video out.mp4      frames and a video, without a display
+  scree sweep wall --set seed=1..20 -o walls.csv        many runs into one table
   scree view wall                                       a window: grab and throw bodies
   scree run pile --bodies 10k --steps 300 --report -    a report as JSON
   scree export wall -o wall.json                        a scene as a file, to edit
@@ -64,6 +65,7 @@ int main(int argc, char** argv) {
     demos::add_list(program, status);
     demos::add_devices(program, status);
     demos::add_run(program, status);
+    demos::add_sweep(program, status);
     demos::add_view(program, status);
     demos::add_compare(program, status);
     demos::add_check(program, status);

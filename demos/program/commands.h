@@ -10,6 +10,7 @@ namespace scree::demos {
 void add_list(CLI::App& program, int& status);
 void add_devices(CLI::App& program, int& status);
 void add_run(CLI::App& program, int& status);
+void add_sweep(CLI::App& program, int& status);
 void add_view(CLI::App& program, int& status);
 void add_compare(CLI::App& program, int& status);
 void add_check(CLI::App& program, int& status);
