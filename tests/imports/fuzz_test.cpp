@@ -91,6 +91,7 @@ TEST_CASE("imports: mutated files are read or refused with file and place") {
     const std::pair<std::string, std::string> formats[] = {{"a.xml", text_of_file("quadruped.xml")},
                                                            {"b.xml", text_of_file("everything.xml")},
                                                            {"a.urdf", text_of_file("arm.urdf")},
+                                                           {"a.gltf", text_of_file("physics.gltf")},
                                                            {"a.obj", cube_obj()},
                                                            {"a.stl", stl},
                                                            {"b.stl", ascii}};

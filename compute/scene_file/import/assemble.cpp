@@ -60,7 +60,7 @@ Placed give_shape(Body& body, const Shapes& shapes, const std::vector<std::optio
         }
     set_material(body, usual->material);
     body.filter = filters[usual->collides_as];
-    if (!usual->solid) body.role = Role::drawn;
+    if (!usual->solid) body.role = usual->sensor ? Role::sensor : Role::drawn;
     if (shapes.geometries.size() == 1) {
         body.shape = whole_shape(usual->shape);
         return shapes.placed[0];
@@ -73,8 +73,8 @@ Placed give_shape(Body& body, const Shapes& shapes, const std::vector<std::optio
         part.position = vec3(shapes.placed[i].position);
         part.orientation = single_quaternion(shapes.placed[i].turn);
         if (!one.solid) {
-            part.role = Role::drawn;
-            continue;
+            part.role = one.sensor ? Role::sensor : Role::drawn;
+            if (!one.sensor) continue;
         }
         if (!same_material(one.material, usual->material)) part.material = one.material;
         if (one.collides_as != usual->collides_as) part.filter = filters[one.collides_as];
@@ -107,7 +107,7 @@ void add_fixed(Assembly& all, std::size_t index, const std::vector<std::optional
         place(body, placed);
         set_material(body, one.material);
         body.filter = filters[one.collides_as];
-        if (!one.solid) body.role = Role::drawn;
+        if (!one.solid) body.role = one.sensor ? Role::sensor : Role::drawn;
         if (auto* plane = std::get_if<Plane>(&body.shape)) {
             const dvec3 normal = placed.turn * dvec3(plane->normal);
             *plane = {vec3(normal), static_cast<float>(glm::dot(normal, placed.position))};

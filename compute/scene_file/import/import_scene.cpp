@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "compute/scene_file/import/gltf_physics.h"
 #include "compute/scene_file/import/mesh_scene.h"
 #include "compute/scene_file/import/mjcf.h"
 #include "compute/scene_file/import/urdf.h"
@@ -36,7 +37,7 @@ SceneDocument document_of_xml(imports::Folder& folder, const std::string& name, 
 
 bool is_imported(const std::filesystem::path& path) {
     const std::string ending = ending_of_import(path);
-    for (const char* known : {".xml", ".mjcf", ".urdf", ".stl", ".obj"})
+    for (const char* known : {".xml", ".mjcf", ".urdf", ".stl", ".obj", ".gltf", ".glb"})
         if (ending == known) return true;
     return false;
 }
@@ -46,9 +47,10 @@ SceneDocument import_scene(const std::filesystem::path& path, const ImportOption
     imports::Folder folder(path, options);
     imports::Notes collected;
     const std::string ending = ending_of_import(path), name = path.filename().string();
-    const bool mesh = ending == ".stl" || ending == ".obj";
-    SceneDocument document = mesh ? imports::scene_of_mesh(name, folder, options, collected)
-                                  : document_of_xml(folder, name, options, collected, most_bodies);
+    const bool mesh = ending == ".stl" || ending == ".obj", gltf = ending == ".gltf" || ending == ".glb";
+    SceneDocument document = mesh   ? imports::scene_of_mesh(name, folder, options, collected)
+                             : gltf ? imports::scene_of_gltf(name, folder, options, collected, most_bodies)
+                                    : document_of_xml(folder, name, options, collected, most_bodies);
     const std::vector<std::string> told = collected.told(options.strict);
     notes.insert(notes.end(), told.begin(), told.end());
     return document;

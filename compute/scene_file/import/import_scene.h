@@ -1,4 +1,4 @@
-// Files of other programs as scenes: MJCF (.xml, .mjcf), URDF (.urdf, .xml), STL and OBJ.
+// Files of other programs as scenes: MJCF (.xml, .mjcf), URDF (.urdf, .xml), STL, OBJ, and glTF physics (.gltf, .glb).
 #pragma once
 
 #include <filesystem>
@@ -11,7 +11,7 @@
 
 namespace scree {
 
-// A file that cannot become a scene. what() is "FILE:LINE: reason".
+// A file that cannot become a scene. what() is "FILE:LINE: reason", of glTF "FILE: JSON pointer: reason".
 struct ImportError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

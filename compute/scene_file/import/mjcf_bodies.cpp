@@ -200,6 +200,7 @@ void Mjcf::finish_mass(std::size_t index) {
 void Mjcf::scale_masses() {
     if (!(compiler_.total_mass > 0)) return;
     double total = 0;
+    model_.bodies[world_body].mass = {};
     for (const ModelBody& body : model_.bodies) total += body.mass.mass;
     if (total > 0)
         for (ModelBody& body : model_.bodies) body.mass = scaled_mass(body.mass, compiler_.total_mass / total);

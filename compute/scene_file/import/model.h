@@ -18,8 +18,9 @@ struct Geometry {
     Origin origin;
     std::string name;
     SimpleShape shape = Box{};
-    Placed placed;  // the shape's own frame in the body
-    bool solid = true;
+    Placed placed;        // the shape's own frame in the body
+    bool solid = true;    // else only drawn, or
+    bool sensor = false;  // a sensor
     Material material{};
     std::size_t collides_as = 0;  // class of Model::collides
 };
