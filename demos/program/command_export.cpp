@@ -43,7 +43,7 @@ void add_export(CLI::App& program, int&) {
     auto options = std::make_shared<SceneExportOptions>();
     command->add_option("scene", options->scene.name,
                         "Demo (see scree list), a scene file to rewrite, or a robot or mesh to translate: NAME.xml, "
-                        ".mjcf, .urdf, .stl, .obj.");
+                        ".mjcf, .urdf, .gltf, .glb, .stl, .obj.");
     command->add_option("-o,--output", options->output, "Output file. Default: the standard output.");
     command->add_option_function<std::string>(
         "--bodies", [options](const std::string& word) { options->scene.bodies = count_of(word); },

@@ -103,27 +103,27 @@ constexpr int steps_a_timed_one = 16;
 // Files of motion that are written while the run steps.
 class Records {
 public:
-    Records(const RunOptions& options, const World& world) : animation_(make_export(options.animation, world)) {
+    Records(const RunOptions& options, const World& world) : animation_(options.animation, world) {
         if (!options.trajectory.file.empty()) trajectory_.emplace(options.trajectory, world);
     }
     int steps_until_due(const World& world) const {
         int steps = std::numeric_limits<int>::max();
         if (trajectory_) steps = std::min(steps, trajectory_->steps_until_due(world));
-        if (animation_) steps = std::min(steps, animation_->steps_until_due(world));
+        if (animation_) steps = std::min(steps, animation_.steps_until_due(world));
         return steps;
     }
     void after_step(const World& world) {
         if (trajectory_) trajectory_->after_step(world);
-        if (animation_) animation_->after_step(world);
+        if (animation_) animation_.after_step(world);
     }
     void finish() {
         if (trajectory_) trajectory_->finish();
-        if (animation_) animation_->write();
+        if (animation_) animation_.write();
     }
 
 private:
     std::optional<Trajectory> trajectory_;
-    std::unique_ptr<GlbExport> animation_;
+    Animation animation_;
 };
 
 // Returns false if interrupted.
@@ -394,13 +394,16 @@ void add_run(CLI::App& program, int& status) {
         "  scree run wall --camera fit,orbit:10 --preview wall.gif\n"
         "  scree run dominoes --camera follow:7 --preview dominoes.gif\n"
         "  scree run scene.json --backend cpu --threads 4 --report -\n"
+        "  scree run robot.urdf --base free --ground --seconds 5 --video robot.mp4\n"
+        "  scree run quadruped.xml --keyframe home --report -\n"
         "  scree run pile --bodies 10k --no-sleep --seconds 15 --save settled.json\n"
         "  scree run settled.json --video later.mp4\n"
         "  scree run avalanche --bodies 100k --seconds 60 --checkpoint run.checkpoint --every 5\n"
         "  scree run --resume run.checkpoint --checkpoint run.checkpoint\n"
         "  scree run pile --frames out --channels depth,ids,normals,flow --size 640x480\n"
         "  scree run dominoes --trajectory run.npz\n"
-        "  scree run wrecking --export wrecking.glb");
+        "  scree run wrecking --export wrecking.glb\n"
+        "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2");
     command->callback([command, options, &status] {
         options->command_line = words_of_this_program();
         status = run(*command, *options);

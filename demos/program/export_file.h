@@ -1,10 +1,12 @@
-// Animations of scree run: --export FILE.glb --export-every N.
+// Animations of scree run: --export FILE.glb|FILE.usda --export-every N.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 
 #include "demos/film/glb_export.h"
+#include "demos/film/usd_export.h"
 
 namespace CLI {
 class App;
@@ -13,14 +15,26 @@ class App;
 namespace scree::demos {
 
 struct ExportOptions {
-    std::string file;  // .glb; empty: none
+    std::string file;  // .glb or .usda; empty: none
     int every = 1;     // steps
     bool any_number = false;
 };
 void add_options(CLI::App& command, ExportOptions& options);
 // Throws UsageError for an option that means nothing, and for a file of another kind or that cannot be written.
 void require_sense(const CLI::App& command, const ExportOptions& options);
-// None if no file is asked for. Throws UsageError for too many moving bodies.
-std::unique_ptr<GlbExport> make_export(const ExportOptions& options, const World& world);
+// What is written while a run steps.
+class Animation {
+public:
+    // Throws UsageError for too many moving bodies of a .glb.
+    Animation(const ExportOptions& options, const World& world);
+    explicit operator bool() const { return glb_ || usd_; }
+    int steps_until_due(const World& world) const { return glb_ ? glb_->steps_until_due(world) : usd_->steps_until_due(world); }
+    void after_step(const World& world) { glb_ ? glb_->after_step(world) : usd_->after_step(world); }
+    void write() { glb_ ? glb_->write() : usd_->write(); }
+
+private:
+    std::unique_ptr<GlbExport> glb_;
+    std::unique_ptr<UsdExport> usd_;
+};
 
 }  // namespace scree::demos

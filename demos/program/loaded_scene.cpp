@@ -224,9 +224,10 @@ LoadedScene load_subject(const SceneOptions& options) {
         std::vector<std::string> names;
         for (const Demo& known : all_demos()) names.emplace_back(known.name);
         const std::string near = nearest(options.name, names);
-        throw UsageError(fmt::format(
-            "unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json, .xml, .mjcf, .urdf, .stl or .obj",
-            options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
+        throw UsageError(
+            fmt::format("unknown demo \"{}\"{}; `scree list` shows all, and a scene file ends in .json, .xml, .mjcf, .urdf, "
+                        ".gltf, .glb, .stl or .obj",
+                        options.name, near.empty() ? "" : ", nearest: \"" + near + "\""));
     }
     if (options.bodies && !demo->takes_bodies) {
         throw UsageError(

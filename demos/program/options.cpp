@@ -109,7 +109,7 @@ void add_options(CLI::App& command, std::uint64_t& seed) {
 }
 
 void add_options(CLI::App& command, ImportOptions& options) {
-    const char* group = "Files of other programs (MJCF .xml, .mjcf; URDF .urdf, .xml; .stl; .obj)";
+    const char* group = "Files of other programs (MJCF .xml, .mjcf; URDF .urdf, .xml; glTF physics; .stl; .obj)";
     command.add_flag("--strict", options.strict, "What is not translated is an error, not a note.")->group(group);
     command
         .add_option_function<std::string>(
@@ -148,8 +148,9 @@ void add_options(CLI::App& command, ImportOptions& options) {
 
 void add_options(CLI::App& command, SceneOptions& options) {
     command
-        .add_option("scene", options.name,
-                    "Demo (see scree list), scene file NAME.json, or a robot or mesh: NAME.xml, .mjcf, .urdf, .stl, .obj.")
+        .add_option(
+            "scene", options.name,
+            "Demo (see scree list), scene file NAME.json, or a robot or mesh: NAME.xml, .mjcf, .urdf, .gltf, .glb, .stl, .obj.")
         ->required();
     auto* steps =
         command.add_option("--steps", options.steps, "Number of steps.")->check(CLI::Range(1, 1000000000))->group("Simulation");

@@ -1,0 +1,59 @@
+// scree run --export FILE.usda: samples of every moment are the run's poses, fragments hidden until they exist.
+#include <algorithm>
+#include <catch2/catch.hpp>
+
+#include "tests/program/program.h"
+
+using scree::program::Outcome;
+using scree::program::Place;
+using scree::program::run_scree;
+using scree::program::says;
+
+namespace {
+
+// The text of a sample of an attribute; empty if there is none.
+std::string sample(const std::string& usda, const std::string& attribute, int step) {
+    const std::size_t begin = usda.find(attribute + ".timeSamples");
+    if (begin == std::string::npos) return "";
+    const std::size_t end = usda.find("}", begin), at = usda.find(" " + std::to_string(step) + ": ", begin);
+    if (at == std::string::npos || at > end) return "";
+    const std::size_t from = usda.find("[", at);
+    return usda.substr(from, usda.find("],\n", from) + 1 - from);
+}
+
+}  // namespace
+
+TEST_CASE("program: a .usda has the poses of a run at every moment") {
+    const Place place;
+    const std::string scene = place.write("scene.json", R"({"gravity": [0, 0, 0], "bodies": [
+        {"motion": "fixed", "shape": {"plane": {}}}, {"shape": {"sphere": {"radius": 0.5}}, "position": [0, 5, 0], "velocity": [6, 0, 0]},
+        {"shape": {"sphere": {"radius": 0.5}}, "position": [0, 9, 0], "orientation": [0, 1, 0, 0]}]})");
+    const Outcome run = run_scree("run " + scene + " --backend cpu --steps 20 --quiet --export-every 10 --export " +
+                                  (place / "run.usda").string());
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    const std::string usda = place.read("run.usda");
+    CHECK(usda.starts_with("#usda 1.0\n"));
+    CHECK(says(usda, "endTimeCode = 20\n"));
+    CHECK(says(usda, "int64[] ids = [1, 2]"));
+    CHECK(sample(usda, "positions", 0) == "[(0, 5, 0), (0, 9, 0)]");
+    CHECK(sample(usda, "positions", 10).starts_with("[(1"));
+    CHECK(sample(usda, "velocities", 20) == "[(6, 0, 0), (0, 0, 0)]");
+    CHECK(sample(usda, "orientations", 0) == "[(1, 0, 0, 0), (0, 0, 1, 0)]");
+    CHECK(sample(usda, "invisibleIds", 0) == "[]");
+    CHECK(sample(usda, "positions", 5).empty());
+    CHECK(std::count(usda.begin(), usda.end(), '{') == std::count(usda.begin(), usda.end(), '}'));
+    CHECK(run_scree("run " + scene + " --export run.usdc").status == 2);
+}
+
+TEST_CASE("program: fragments in a .usda are hidden until their body breaks") {
+    const Place place;
+    const std::string scene = place.write("scene.json", R"({"bodies": [{"motion": "fixed", "shape": {"plane": {}}},
+        {"shape": {"box": {"half_extents": [0.5, 0.5, 0.5]}}, "position": [0, 4, 0], "fracture": {"impulse": 100, "pieces": 2}}]})");
+    const Outcome run = run_scree("run " + scene + " --backend cpu --steps 90 --quiet --export " + (place / "run.usda").string());
+    INFO(run.errors);
+    REQUIRE(run.status == 0);
+    const std::string usda = place.read("run.usda");
+    CHECK(sample(usda, "invisibleIds", 0) == "[2, 3]");
+    CHECK(says(usda, ": [1],\n"));  // then the broken one
+}
