@@ -3,14 +3,20 @@
 
 #include <dlfcn.h>
 
+#include "host/vulkan/driver_search.h"
+
 namespace scree::host {
 namespace {
 
 // Never unloaded: drivers leave threads and exit handlers in the library.
 void* loader() {
     static void* const library = [] {
-        void* found = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
-        return found ? found : dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
+        void* found = nullptr;
+        // The last is that of the portable archive (demos/packaging/bundle.cmake).
+        for (const char* name : {"libvulkan.so.1", "libvulkan.so", "$ORIGIN/fallback/libvulkan.so.1"})
+            if (!found) found = dlopen(name, RTLD_NOW | RTLD_LOCAL);
+        if (found) show_unlisted_drivers();
+        return found;
     }();
     return library;
 }
