@@ -12,7 +12,7 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libscree-dev)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, libxxhash-dev, libqhull-dev, voro++-dev, libglm-dev, nlohmann-json3-dev")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libtbb-dev, libxxhash-dev, libqhull-dev, libtinyxml2-dev, voro++-dev, libglm-dev, nlohmann-json3-dev")
 if(TARGET scree_program)
     list(APPEND CPACK_COMPONENTS_ALL program)
     set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME scree)
