@@ -317,7 +317,8 @@ void bind_description(py::module_& module) {
 Description loaded(const std::string& path, bool strict, const std::string& axes, const std::string& base, bool ground,
                    const std::string& keyframe, const std::map<std::string, std::string>& packages) {
     if (axes != "y-up" && axes != "file") throw py::value_error("axes: is \"" + axes + "\"; known: y-up, file");
-    if (!base.empty() && base != "fixed" && base != "free") throw py::value_error("base: is \"" + base + "\"; known: fixed, free");
+    if (!base.empty() && base != "fixed" && base != "free")
+        throw py::value_error("base: is \"" + base + "\"; known: fixed, free");
     ImportOptions options;
     options.strict = strict;
     options.axes = axes == "file" ? ImportedAxes::file : ImportedAxes::y_up;
