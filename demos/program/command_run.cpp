@@ -103,7 +103,7 @@ constexpr int steps_a_timed_one = 16;
 // Files of motion that are written while the run steps.
 class Records {
 public:
-    Records(const RunOptions& options, const World& world) : animation_(options.animation, world) {
+    Records(const RunOptions& options, const World& world) : animation_(make_animation(options.animation, world)) {
         if (!options.trajectory.file.empty()) trajectory_.emplace(options.trajectory, world);
     }
     int steps_until_due(const World& world) const {

@@ -53,8 +53,12 @@ Animation::Animation(const ExportOptions& options, const World& world) {
     GlbOptions chosen;
     chosen.every = options.every;
     if (options.any_number) chosen.most_moving = std::numeric_limits<std::size_t>::max();
+    glb_ = std::make_unique<GlbExport>(options.file, world, chosen);
+}
+
+Animation make_animation(const ExportOptions& options, const World& world) {
     try {
-        glb_ = std::make_unique<GlbExport>(options.file, world, chosen);
+        return {options, world};
     } catch (const std::invalid_argument& error) {
         throw UsageError(fmt::format("--export {}: {}; --export-any-number does it all the same, and a .usda bears them",
                                      options.file, error.what()));

@@ -25,7 +25,7 @@ void require_sense(const CLI::App& command, const ExportOptions& options);
 // What is written while a run steps.
 class Animation {
 public:
-    // Throws UsageError for too many moving bodies of a .glb.
+    // By the file's ending; none if it is empty. Throws std::invalid_argument for too many moving bodies of a .glb.
     Animation(const ExportOptions& options, const World& world);
     explicit operator bool() const { return glb_ || usd_; }
     int steps_until_due(const World& world) const { return glb_ ? glb_->steps_until_due(world) : usd_->steps_until_due(world); }
@@ -36,5 +36,7 @@ private:
     std::unique_ptr<GlbExport> glb_;
     std::unique_ptr<UsdExport> usd_;
 };
+// The same, and throws UsageError for too many.
+Animation make_animation(const ExportOptions& options, const World& world);
 
 }  // namespace scree::demos

@@ -9,8 +9,8 @@
 #include "compute/scene_file/events.h"
 #include "compute/world.h"
 #include "demos/film/drawing.h"
-#include "demos/film/glb_export.h"
 #include "demos/program/backend.h"
+#include "demos/program/export_file.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/python/module/bindings.h"
 
@@ -32,7 +32,7 @@ struct WorldObject : std::enable_shared_from_this<WorldObject> {
     World world;
     std::optional<demos::LoadedScene> subject;  // for colour ranges; made for the first picture
     std::vector<Easel> easels;
-    std::vector<std::shared_ptr<demos::GlbExport>> exports;  // being recorded
+    std::vector<std::shared_ptr<demos::Animation>> exports;  // being recorded
     int views = 0;                                           // arrays that look into its tables
     bool busy = false;                                       // a thread is in it, without Python's lock
 

@@ -146,15 +146,13 @@ py::dict statistics_of(const Statistics& s) {
 // An animation that is recorded from now on. The file is there at once, and written again by close().
 struct Export {
     std::shared_ptr<WorldObject> object;
-    std::shared_ptr<demos::GlbExport> file;
+    std::shared_ptr<demos::Animation> file;
 };
 
 std::unique_ptr<Export> start_export(const std::shared_ptr<WorldObject>& object, const std::string& path, int every) {
     if (every < 1) throw py::value_error("every: must be at least 1 step");
     Use world(*object);
-    demos::GlbOptions options;
-    options.every = every;
-    auto file = std::make_shared<demos::GlbExport>(path, *world, options);
+    auto file = std::make_shared<demos::Animation>(demos::ExportOptions{path, every}, *world);
     file->write();
     object->exports.push_back(file);
     return std::make_unique<Export>(Export{object, std::move(file)});
@@ -164,7 +162,7 @@ void close_export(Export& made) {
     if (!made.file) return;
     Use world(*made.object);
     std::erase(made.object->exports, made.file);
-    const std::shared_ptr<demos::GlbExport> file = std::exchange(made.file, nullptr);
+    const std::shared_ptr<demos::Animation> file = std::exchange(made.file, nullptr);
     const py::gil_scoped_release unlocked;
     file->write();
 }

@@ -442,18 +442,19 @@ class World:
 
     # ---- files
     def export(self, path: Union[str, "os.PathLike[str]"], every: int = 1) -> "Export":
-        """Writes an animation, .glb (glTF 2.0), for Blender and web viewers: the bodies as they are, and how they move from now on.
+        """Writes an animation, .glb (glTF 2.0) for Blender and web viewers, or .usda (USD, a point instancer) for Houdini, Maya and
+        Omniverse: the bodies as they are, and how they move from now on.
 
         The file is there at once; steps to come are recorded, one in `every`, and written by close() of what is returned, at the
         end of a with statement, or with the world's end. Bodies are those of now, coloured by their greatest momentum; fragments
-        appear as bodies break. Or .json: the scene as it is now. Raises OSError, and ValueError for more than 10,000 moving bodies.
+        appear as bodies break. Or .json: the scene as it is now. Raises OSError, and ValueError for more than 10,000 moving bodies in a .glb.
         """
         name = os.fspath(path)
         if name.endswith(".json"):
             self.snapshot().save(name)
             return Export(None)
-        if not name.endswith(".glb"):
-            raise ValueError(f"export: {name}: is neither a .glb nor a .json")
+        if not name.endswith((".glb", ".usda")):
+            raise ValueError(f"export: {name}: is neither a .glb, a .usda nor a .json")
         return Export(self._native.export_to(name, every))
 
     # ---- saving
