@@ -24,7 +24,7 @@ struct Easel {
 };
 
 struct WorldObject : std::enable_shared_from_this<WorldObject> {
-    WorldObject(const SceneDocument& document, const Settings& settings, const demos::Backend& backend);
+    WorldObject(const SceneDocument& document, World made, const demos::Backend& backend);
     ~WorldObject();  // writes the animations that are still recorded
 
     demos::Backend machine;
