@@ -31,61 +31,57 @@ void vary(std::size_t copy, Scene& scene) {
 
 }  // namespace
 
-TEST_CASE("copies of a scene, alike and varied, are equal on both processors after every stage") {
+TEST_CASE("copies of a scene with a gravity of their own are equal on both processors after every stage") {
     const Watched watched;
-    const std::function<void(std::size_t, Scene&)> variations[] = {{}, vary};
-    for (const auto& variation : variations) {
-        Lockstep lockstep(tests::museum(12), {.pairs_at_first = 16, .contacts_at_first = 8}, watched.device, 2, 3, variation);
-        for (int step = 0; step < 30; ++step) {
-            lockstep.step();
-            const LockstepResult& result = lockstep.result();
-            INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
-                         << result.detail);
-            REQUIRE(result.equal);
-        }
+    Lockstep lockstep(tests::heap(10), {.pairs_at_first = 16, .contacts_at_first = 8}, watched.device, 2, 3, vary);
+    for (int step = 0; step < 16; ++step) {
+        lockstep.step();
+        const LockstepResult& result = lockstep.result();
+        INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
+                     << result.detail);
+        REQUIRE(result.equal);
     }
 }
 
 TEST_CASE("copies on a device have the bits of the scene alone, while others are reset and fall asleep") {
     const Watched watched;
-    const Scene scene = tests::heap(12);
+    const Scene scene = tests::heap(8);
     const Settings light{.sleep_speed = 0.3f, .sleep_time = 0.1f};
     World alone(scene, light, 2);
     std::vector<std::uint64_t> path{alone.state_hash()};
-    for (int step = 0; step < 120; ++step) alone.step(), path.push_back(alone.state_hash());
+    for (int step = 0; step < 80; ++step) alone.step(), path.push_back(alone.state_hash());
     REQUIRE(alone.statistics().asleep > 0);
-    World world(scene, light, make_device_runner(watched.device), 9);
-    world.step(50);
+    World world(scene, light, make_device_runner(watched.device), 5);
+    world.step(45);
     world.explode({0, 1, 0}, 4, 8, 3);
-    world.reset_copy(7);
-    world.step(30);
-    std::vector<std::uint8_t> mask(9);
+    world.reset_copy(2);
+    world.step(15);
+    std::vector<std::uint8_t> mask(5);
     mask[3] = mask[4] = 1;
     world.reset(mask);
     REQUIRE(world.state_hash_of(4) == path[0]);
-    world.step(40);
+    world.step(20);
     const std::vector<std::uint64_t> hashes = world.state_hashes();
-    for (std::size_t copy = 0; copy < 9; ++copy) {
+    for (std::size_t copy = 0; copy < 5; ++copy) {
         INFO("copy " << copy);
-        REQUIRE(hashes[copy] == path[copy == 7 ? 70 : (copy == 3 || copy == 4 ? 40 : 120)]);
+        REQUIRE(hashes[copy] == path[copy == 2 ? 35 : (copy > 2 ? 20 : 80)]);
     }
 }
 
-TEST_CASE("everything breaks, is joined and driven in copies on a device as in the scene alone, and is reset") {
+TEST_CASE("everything breaks, is joined and driven in copies on a device as in the scene alone, and is reset", "[long]") {
     const Watched watched;
-    const Scene scene = tests::museum(12);
+    const Scene scene = tests::museum(2);
     World alone(scene, {}, 2);
-    World world(scene, {}, make_device_runner(watched.device), 3);
-    alone.step(40), world.step(40);
+    World world(scene, {}, make_device_runner(watched.device), 2);
+    alone.step(24), world.step(24);
     REQUIRE(alone.statistics().broken > 0);
-    REQUIRE(world.state_hashes() == std::vector<std::uint64_t>(3, alone.state_hash()));
-    const std::vector<std::uint8_t> second{0, 1, 0};
-    world.reset(second);
-    world.step(40);
+    REQUIRE(world.state_hashes() == std::vector<std::uint64_t>(2, alone.state_hash()));
+    world.reset_copy(1);
+    world.step(24);
     REQUIRE(world.state_hash_of(1) == alone.state_hash());
     const std::vector<std::byte> mark = world.save();
-    World other(scene, {}, make_reference_runner(1), 3);
+    World other(scene, {}, make_reference_runner(1), 2);
     other.restore(mark);
-    world.step(10), other.step(10);
+    world.step(2), other.step(2);
     REQUIRE(world.state_hashes() == other.state_hashes());
 }

@@ -20,6 +20,7 @@ namespace scree::python {
 struct Easel {
     host::CanvasOptions options;
     std::string canvas;  // auto, vulkan or gl
+    std::optional<std::size_t> copy;
     std::unique_ptr<demos::Drawing> drawing;
 };
 

@@ -650,7 +650,7 @@ class World:
 
     def render(self, camera: Optional[Camera] = None, size: Size = (640, 480), channels: Union[str, typing.Sequence[str]] = ("color",), *,
                color: Optional[str] = None, camera_before: Optional[Camera] = None, seconds_before: Optional[float] = None,
-               **look: Any) -> Picture:
+               copy: Optional[int] = None, **look: Any) -> Picture:
         """A picture, with its channels as arrays.
 
         size: (width, height), pixels. channels of color, depth, body, part, normal, flow: see Picture. All but color are cast
@@ -660,6 +660,7 @@ class World:
         contact-impulse, contacts, sleep, material; default: the scene's, mostly momentum. Also color_map, color_scale,
         color_range (low, high), show (contacts, velocities, joints, boxes, cells, sleep), caption, legend, shadows,
         samples (1, 4, 9 or 16), canvas (auto, vulkan, gl).
+        copy: of the scene, in a world of several; by default the first.
         flow: motion of what is seen since `seconds_before` (default: a step ago), when the camera was camera_before.
         """
         require_keys(look, _LOOK, "render")
@@ -673,7 +674,8 @@ class World:
         seen = self.camera if camera is None else camera
         seconds = 1 / self.settings["rate"] if seconds_before is None else seconds_before
         arrays = self._native.render(seen._text(), width, height, wanted, json_text(look, "/picture"),
-                                     "" if camera_before is None else camera_before._text(), seconds)
+                                     "" if camera_before is None else camera_before._text(), seconds,
+                                     0 if copy is None and self._copies is not None else copy)
         return Picture({name: arrays[name] for name in wanted})
 
     # ---- costs
