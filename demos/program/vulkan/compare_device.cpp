@@ -3,6 +3,7 @@
 
 #include "compute/device/lockstep.h"
 #include "demos/program/backend.h"
+#include "demos/program/exit_status.h"
 #include "demos/program/loaded_scene.h"
 #include "host/vulkan/device.h"
 
