@@ -2,7 +2,8 @@
 """pip install --no-build-isolation --no-deps demos/python
 
 Needs the packages that .ci/setup lists, and no network. Environment: SCREE_CMAKE_ARGS, further arguments of CMake, such as
--DSCREE_VULKAN=OFF; CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once.
+-DSCREE_VULKAN=OFF; SCREE_BUILD_FOLDER, a configured build of this checkout to take the module from, in place of a build of
+its own; CMAKE_BUILD_PARALLEL_LEVEL, how many compilers run at once.
 """
 import os
 import re
@@ -29,17 +30,22 @@ def version() -> str:
 class CMakeBuild(build_ext):
     """Configures and builds the target scree_python, and takes what it made."""
 
-    def build_extension(self, ext: Extension) -> None:
-        # Beside the other builds of the checkout, so that a second installation compiles what has changed.
-        build = TOP / "build" / f"pip-{sys.implementation.cache_tag}"
-        configure = [
+    def configure(self, build: Path) -> None:
+        command = [
             "cmake", "-S", str(TOP), "-B", str(build), "-DCMAKE_BUILD_TYPE=Release", "-DSCREE_PYTHON=ON", "-DSCREE_TESTS=OFF",
             "-DSCREE_WINDOW=OFF", "-DSCREE_PROGRAM=ON", "-DCMAKE_UNITY_BUILD=ON", "-DCMAKE_UNITY_BUILD_BATCH_SIZE=6",
             f"-DSCREE_PYTHON_EXECUTABLE={sys.executable}"]
         if shutil.which("ninja"):
-            configure += ["-G", "Ninja"]
-        configure += shlex.split(os.environ.get("SCREE_CMAKE_ARGS", ""))
-        subprocess.run(configure, check=True)
+            command += ["-G", "Ninja"]
+        subprocess.run(command + shlex.split(os.environ.get("SCREE_CMAKE_ARGS", "")), check=True)
+
+    def build_extension(self, ext: Extension) -> None:
+        # Beside the other builds of the checkout, so that a second installation compiles what has changed.
+        build = TOP / "build" / f"pip-{sys.implementation.cache_tag}"
+        if given := os.environ.get("SCREE_BUILD_FOLDER"):
+            build = Path(given)
+        else:
+            self.configure(build)
         jobs = os.environ.get("CMAKE_BUILD_PARALLEL_LEVEL", str(os.cpu_count() or 1))
         subprocess.run(["cmake", "--build", str(build), "--target", "scree_python", "--parallel", jobs], check=True)
         made = next((build / "python" / "scree").glob("_native*.so"))

@@ -8,6 +8,7 @@
 
 #include "host/vulkan/instance.h"
 #include "host/vulkan/pipeline_cache.h"
+#include "host/vulkan/shared_pipelines.h"
 
 namespace scree::host {
 namespace {
@@ -109,6 +110,7 @@ struct Device::Impl {
     std::uint32_t timestamp_bits = 0;
     VkQueue queue = VK_NULL_HANDLE;
     std::unique_ptr<PipelineCache> cache;
+    std::unique_ptr<SharedPipelines> pipelines;
     bool staged = false;
     std::mutex queue_mutex;  // queues are externally synchronised in Vulkan
 };
@@ -163,6 +165,7 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     }
     in.vk.vkGetDeviceQueue(in.device, in.family, 0, &in.queue);
     in.cache = std::make_unique<PipelineCache>(in.vk, in.physical, in.device);
+    in.pipelines = std::make_unique<SharedPipelines>();
     return device;
 }
 
@@ -170,6 +173,7 @@ Device::~Device() {
     Impl& in = *interior_;
     if (!in.device) return;
     if (in.vk.vkDeviceWaitIdle) in.vk.vkDeviceWaitIdle(in.device);
+    in.pipelines.reset();
     in.cache.reset();
     if (in.vk.vkDestroyDevice) in.vk.vkDestroyDevice(in.device, nullptr);
 }
@@ -209,6 +213,9 @@ std::uint32_t Device::timestamp_bits() const {
 }
 VkPipelineCache Device::pipeline_cache() const {
     return interior_->cache->handle();
+}
+SharedPipelines& Device::pipelines() const {
+    return *interior_->pipelines;
 }
 double Device::timestamp_period_ns() const {
     return interior_->limits.timestampPeriod;

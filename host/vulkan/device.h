@@ -13,6 +13,8 @@
 
 namespace scree::host {
 
+class SharedPipelines;
+
 // Descriptors that the simulation's one descriptor set needs (device_runner.cpp checks these counts). Lavapipe binds
 // 32 storage buffers per stage, MoltenVK 31, most GPUs a million.
 struct TablesOfAStep {
@@ -78,6 +80,7 @@ public:
     std::uint32_t timestamp_bits() const;  // 0: the queue has no timestamps
     // Loaded from cache_folder() on opening and saved there on destruction.
     VkPipelineCache pipeline_cache() const;
+    SharedPipelines& pipelines() const;  // those made so far
     double timestamp_period_ns() const;
     std::vector<std::string> validation_messages() const;
 

@@ -1,6 +1,8 @@
 // Compute pipelines that share one descriptor set of storage buffers.
 #include "host/vulkan/pipeline.h"
 
+#include <xxhash.h>
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -199,10 +201,25 @@ BindingSet& BindingSet::operator=(BindingSet&& other) noexcept {
     return *this;
 }
 
-Pipeline::Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, std::span<const std::uint32_t> words,
-                   const std::vector<std::uint32_t>& specialisation)
-    : layout_(std::move(layout)) {
-    const Device& device = *layout_->device();
+namespace {
+
+// What a pipeline is made from, but for its name.
+SharedPipelines::Key key_of(const BindingSetLayout& layout, std::span<const std::uint32_t> words,
+                            const std::vector<std::uint32_t>& specialisation) {
+    std::vector<std::uint32_t> interface { layout.buffers(), layout.push_bytes(), static_cast<std::uint32_t>(layout.reach()) };
+    for (std::uint32_t i = 0; i < layout.buffers(); ++i) {
+        const Access access = layout.access(i);
+        interface.insert(interface.end(), {access.uniform, access.texel_bytes, access.changing});
+    }
+    interface.insert(interface.end(), specialisation.begin(), specialisation.end());
+    const std::uint64_t seed = XXH3_64bits(interface.data(), interface.size() * sizeof(std::uint32_t));
+    const XXH128_hash_t hash = XXH3_128bits_withSeed(words.data(), words.size_bytes(), seed);
+    return {hash.low64, hash.high64};
+}
+
+VkPipeline make_compute_pipeline(const BindingSetLayout& layout, const char* name, std::span<const std::uint32_t> words,
+                                 const std::vector<std::uint32_t>& specialisation) {
+    const Device& device = *layout.device();
     const VulkanFunctions& vk = device.vk();
     const DeviceReport& report = device.report();
     std::vector<std::uint32_t> patched;
@@ -231,24 +248,32 @@ Pipeline::Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, s
     info.stage.module = module;
     info.stage.pName = "main";
     info.stage.pSpecializationInfo = specialisation.empty() ? nullptr : &constants;
-    info.layout = layout_->pipeline_layout();
-    const VkResult result = vk.vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline_);
+    info.layout = layout.pipeline_layout();
+    VkPipeline pipeline = VK_NULL_HANDLE;
+    const VkResult result = vk.vkCreateComputePipelines(device.handle(), device.pipeline_cache(), 1, &info, nullptr, &pipeline);
     vk.vkDestroyShaderModule(device.handle(), module, nullptr);
     check(result, (std::string("the pipeline ") + name).c_str());
-    device.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline_, name);
+    device.set_name(VK_OBJECT_TYPE_PIPELINE, pipeline, name);
+    return pipeline;
 }
 
-Pipeline::~Pipeline() {
-    if (layout_) layout_->device()->vk().vkDestroyPipeline(layout_->device()->handle(), pipeline_, nullptr);
-}
+}  // namespace
 
-Pipeline::Pipeline(Pipeline&& other) noexcept {
-    *this = std::move(other);
+Pipeline::Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, std::span<const std::uint32_t> words,
+                   const std::vector<std::uint32_t>& specialisation)
+    : layout_(std::move(layout)) {
+    const Device& device = *layout_->device();
+    const SharedPipelines::Key key = key_of(*layout_, words, specialisation);
+    made_ = device.pipelines().find(key);
+    if (made_) return;
+    made_ = std::make_shared<MadePipeline>(device.vk(), device.handle(),
+                                           make_compute_pipeline(*layout_, name, words, specialisation));
+    device.pipelines().keep(key, made_);
 }
 
 Pipeline& Pipeline::operator=(Pipeline&& other) noexcept {
     std::swap(layout_, other.layout_);
-    std::swap(pipeline_, other.pipeline_);
+    std::swap(made_, other.made_);
     return *this;
 }
 

@@ -11,6 +11,7 @@
 
 #include "host/vulkan/buffer.h"
 #include "host/vulkan/device.h"
+#include "host/vulkan/shared_pipelines.h"
 
 namespace scree::host {
 
@@ -80,22 +81,23 @@ private:
     std::vector<VkBufferView> views_;
 };
 
+// A compute pipeline of a device, compiled if no world on the device has made an equal one.
 class Pipeline {
 public:
     // `words` is SPIR-V with entry point main; specialisation constant i has the value specialisation[i]. Requests
     // the float controls (rounding to nearest, denormals, -0, infinities, NaN) that the device supports.
     Pipeline(std::shared_ptr<BindingSetLayout> layout, const char* name, std::span<const std::uint32_t> words,
              const std::vector<std::uint32_t>& specialisation = {});
-    ~Pipeline();
-    Pipeline(Pipeline&& other) noexcept;
+    Pipeline(Pipeline&& other) noexcept = default;
     Pipeline& operator=(Pipeline&& other) noexcept;
-    VkPipeline handle() const { return pipeline_; }
+    VkPipeline handle() const { return made_->handle(); }
     VkPipelineLayout layout() const { return layout_->pipeline_layout(); }
     std::uint32_t push_bytes() const { return layout_->push_bytes(); }
 
 private:
+    // In this order: the layout keeps the device, which the pipeline needs to the end.
     std::shared_ptr<BindingSetLayout> layout_;
-    VkPipeline pipeline_ = VK_NULL_HANDLE;
+    std::shared_ptr<const MadePipeline> made_;
 };
 
 }  // namespace scree::host

@@ -1,6 +1,8 @@
 // The pipeline cache, stored on disk between runs. Internal to Device.
 #include "host/vulkan/pipeline_cache.h"
 
+#include <xxhash.h>
+
 #include <cstdint>
 #include <cstring>
 #include <filesystem>
@@ -17,11 +19,9 @@ std::string hexadecimal(const std::uint8_t* bytes, std::size_t count) {
     return text;
 }
 
-// FNV-1a checksum. Drivers validate the header of a cache, but some crash on damaged data after it.
+// Drivers validate the header of a cache, but some crash on damaged data after it.
 std::uint64_t hash(std::string_view bytes) {
-    std::uint64_t h = 0xcbf29ce484222325u;
-    for (unsigned char byte : bytes) h = (h ^ byte) * 0x100000001b3u;
-    return h;
+    return XXH3_64bits(bytes.data(), bytes.size());
 }
 
 // File format: hash of the driver's data, then the data. Empty if damaged.

@@ -141,6 +141,23 @@ TEST_CASE("every stage gives the same bits on both processors whatever contacts 
     }
 }
 
+// Lavapipe ends a shader's loops after 65,535 rounds in all; a body's contacts are sorted by one thread.
+TEST_CASE("a plate that bears ten thousand balls has the same bits on both processors") {
+    constexpr int edge = 100;
+    Scene scene;
+    scene.bodies.resize(2);
+    scene.bodies[0].shape = Plane{};
+    scene.bodies[0].motion = Motion::fixed;
+    scene.bodies[1].shape = Box{{60, 0.5f, 60}};
+    scene.bodies[1].position = {0, 0.5f, 0};
+    for (int i = 0; i < edge * edge; ++i) {
+        Body& ball = scene.bodies.emplace_back();
+        ball.shape = Sphere{0.5f};
+        ball.position = {1.1f * static_cast<float>(i % edge - edge / 2), 1.495f, 1.1f * static_cast<float>(i / edge - edge / 2)};
+    }
+    CHECK(contacts_walked(scene, Watched(), 2) == edge * edge + 1);
+}
+
 TEST_CASE("both processors stop fast bodies alike") {
     const Watched watched;
     for (const float faster : {10.0f, 60.0f}) {

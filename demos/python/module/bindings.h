@@ -4,11 +4,13 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include <algorithm>
 #include <glm/glm.hpp>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "compute/scene_file/json_reading.h"
 #include "compute/scene_file/scene_json.h"
 
 namespace scree::python {
@@ -38,6 +40,19 @@ void bind_worlds(py::module_& module);
 
 // Throws SceneError with the place in the text.
 nlohmann::json json_of(const std::string& text);
+
+// The place of a whole text, in errors.
+inline const json_reading::Place root{nullptr, nullptr, 0};
+
+py::dict settings_dict(const Settings& settings);
+
+// A structured array, with a record of each item.
+template <class Item, class ToRecord>
+py::array records_of(const std::vector<Item>& items, ToRecord to_record) {
+    py::array_t<decltype(to_record(items.front()))> made(static_cast<py::ssize_t>(items.size()));
+    std::transform(items.begin(), items.end(), made.mutable_data(), to_record);
+    return made;
+}
 
 // Requires `array` to have the shape (n, width), or (n,) for a width of 0; the package has shaped it, so this is for those
 // who call past it.

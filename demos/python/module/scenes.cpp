@@ -31,9 +31,13 @@ nlohmann::json json_of(const std::string& text) {
     }
 }
 
-namespace {
+py::dict settings_dict(const Settings& settings) {
+    py::dict made;
+    fields::for_each_field<Settings>([&](const auto& field) { made[field.key] = settings.*field.member; });
+    return made;
+}
 
-const Place root{nullptr, nullptr, 0};
+namespace {
 
 void read_mesh_file(Body& body, const Place& place) {
     auto* mesh = std::get_if<Mesh>(&body.shape);
@@ -220,12 +224,6 @@ std::vector<std::string> keys_named(const std::string& name) {
     if (name == "picture") return keys_of<PictureStyle>();
     if (name == "camera") return keys_of<Viewpoint>();
     throw py::key_error(name);
-}
-
-py::dict settings_dict(const Settings& settings) {
-    py::dict made;
-    fields::for_each_field<Settings>([&](const auto& field) { made[field.key] = settings.*field.member; });
-    return made;
 }
 
 std::optional<std::size_t> index_by_name(const Description& scene, const std::string& list, const std::string& name) {

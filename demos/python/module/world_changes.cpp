@@ -15,8 +15,6 @@ namespace {
 
 using namespace json_reading;
 
-const Place root{nullptr, nullptr, 0};
-
 template <class Value>
 Value value_of(const std::string& text, const char* name) {
     Value made{};
@@ -86,7 +84,8 @@ py::array_t<bool> are_valid(WorldObject& object, const Indices& handles) {
     return made;
 }
 
-std::size_t add_joint(WorldObject& object, const std::string& text, const std::optional<Floats>& anchor, const Floats& axis) {
+std::size_t add_joint_to_world(WorldObject& object, const std::string& text, const std::optional<Floats>& anchor,
+                               const Floats& axis) {
     Use world(object);
     Joint joint = value_of<Joint>(text, "joint");
     if (anchor) {
@@ -180,7 +179,7 @@ void bind_bodies(WorldClass& of_world) {
 }
 
 void bind_joints(WorldClass& of_world) {
-    of_world.def("add_joint", &add_joint)
+    of_world.def("add_joint", &add_joint_to_world)
         .def("remove_joint", [](WorldObject& object, std::size_t joint) { Use(object)->remove_joint(joint); })
         .def("set_motor",
              [](WorldObject& object, std::size_t joint, const std::string& axis, float speed, float max_force) {

@@ -23,7 +23,6 @@ constexpr std::size_t most_easels = 2;
 host::Camera camera_of(const std::string& text) {
     const Viewpoint view = [&] {
         using namespace json_reading;
-        const Place root{nullptr, nullptr, 0};
         Viewpoint read;
         read_value(json_of(text), root / "camera", read, "", {});
         fields::check_fields(root / "camera", read);
@@ -52,7 +51,7 @@ int factor_of(int samples) {
 
 Look look_of(const SceneDocument& shown, const std::string& text) {
     using namespace json_reading;
-    const Place root{nullptr, nullptr, 0}, place = root / "picture";
+    const Place place = root / "picture";
     json given = json_of(text);
     Look look;
     const auto take = [&](const char* key, auto& out) {

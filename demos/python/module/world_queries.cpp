@@ -22,35 +22,32 @@ struct PartRecord {
     std::int32_t part;
 };
 
-HitRecord record_of(const QueryHit& hit) {
+HitRecord query_record(const QueryHit& hit) {
     return {static_cast<std::int64_t>(hit.body),
             static_cast<std::int32_t>(hit.part),
             hit.distance,
             {hit.point.x, hit.point.y, hit.point.z},
             {hit.normal.x, hit.normal.y, hit.normal.z}};
 }
-HitRecord record_of(const std::optional<QueryHit>& hit) {
-    if (hit) return record_of(*hit);
+HitRecord query_record(const std::optional<QueryHit>& hit) {
+    if (hit) return query_record(*hit);
     const float nan = std::numeric_limits<float>::quiet_NaN();
     return {-1, -1, std::numeric_limits<float>::infinity(), {nan, nan, nan}, {0, 0, 0}};
 }
-PartRecord record_of(const QueryPart& part) {
+PartRecord query_record(const QueryPart& part) {
     return {static_cast<std::int64_t>(part.body), static_cast<std::int32_t>(part.part)};
 }
 
 template <class Item>
-py::array records_of(const std::vector<Item>& items) {
-    using Record = decltype(record_of(items.front()));
-    py::array_t<Record> made(static_cast<py::ssize_t>(items.size()));
-    std::transform(items.begin(), items.end(), made.mutable_data(), [](const Item& item) { return record_of(item); });
-    return made;
+py::array query_records(const std::vector<Item>& items) {
+    return records_of(items, [](const Item& item) { return query_record(item); });
 }
 
 template <class Item>
 py::tuple lists_of(const QueryLists<Item>& lists) {
     Indices starts(static_cast<py::ssize_t>(lists.starts.size()));
     std::copy(lists.starts.begin(), lists.starts.end(), starts.mutable_data());
-    return py::make_tuple(starts, records_of(lists.items));
+    return py::make_tuple(starts, query_records(lists.items));
 }
 
 // One for each query, or one for all.
@@ -83,7 +80,7 @@ std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Flo
 }
 
 SimpleShape shape_of(const std::string& text) {
-    const json_reading::Place root{nullptr, nullptr, 0}, place = root / "shape";
+    const json_reading::Place place = root / "shape";
     Shape shape;
     json_reading::read(json_of(text), place, shape);
     const std::optional<SimpleShape> simple = simple_shape(shape);
@@ -116,7 +113,7 @@ py::array cast_shapes(WorldObject& object, const std::string& shape, const Float
         casts[i].mask = mask;
         casts[i].copy = copy_at(copies, i);
     }
-    return records_of(asked(object, [&](const World& world) { return world.cast_shapes(casts); }));
+    return query_records(asked(object, [&](const World& world) { return world.cast_shapes(casts); }));
 }
 
 py::array closest_points(WorldObject& object, const Floats& points, const Floats& reach, std::uint32_t mask,
@@ -128,7 +125,7 @@ py::array closest_points(WorldObject& object, const Floats& points, const Floats
     std::vector<ClosestQuery> queries(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < queries.size(); ++i)
         queries[i] = {vec3_at(points.data(), i), reach.data()[i], mask, copy_at(copies, i)};
-    return records_of(asked(object, [&](const World& world) { return world.closest_points(queries); }));
+    return query_records(asked(object, [&](const World& world) { return world.closest_points(queries); }));
 }
 
 py::tuple overlaps(WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
@@ -159,7 +156,7 @@ void bind_queries(py::module_& module, WorldClass& of_world) {
              [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid,
                 const Indices& copies) {
                  const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid, copies);
-                 return records_of(asked(object, [&](const World& world) { return world.cast_rays(rays); }));
+                 return query_records(asked(object, [&](const World& world) { return world.cast_rays(rays); }));
              })
         .def("rays_hit",
              [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid,

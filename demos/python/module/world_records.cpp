@@ -112,11 +112,8 @@ VehicleRecord record_of(const VehicleState& v) {
 }
 
 template <class State>
-py::array records_of(const std::vector<State>& states) {
-    using Record = decltype(record_of(states.front()));
-    py::array_t<Record> made(static_cast<py::ssize_t>(states.size()));
-    std::transform(states.begin(), states.end(), made.mutable_data(), [](const State& state) { return record_of(state); });
-    return made;
+py::array state_records(const std::vector<State>& states) {
+    return records_of(states, [](const State& state) { return record_of(state); });
 }
 
 }  // namespace
@@ -132,16 +129,16 @@ void bind_records(py::module_& module, WorldClass& of_world) {
     module.attr("event_dtype") = py::dtype::of<EventRecord>();
     module.attr("joint_dtype") = py::dtype::of<JointRecord>();
     module.attr("vehicle_dtype") = py::dtype::of<VehicleRecord>();
-    of_world.def("contacts", [](WorldObject& object) { return records_of(Use(object)->contacts()); })
-        .def("joints", [](WorldObject& object) { return records_of(Use(object)->joints()); })
-        .def("vehicles", [](WorldObject& object) { return records_of(Use(object)->vehicles()); })
-        .def("take_events", [](WorldObject& object) { return records_of(Use(object)->take_events()); })
+    of_world.def("contacts", [](WorldObject& object) { return state_records(Use(object)->contacts()); })
+        .def("joints", [](WorldObject& object) { return state_records(Use(object)->joints()); })
+        .def("vehicles", [](WorldObject& object) { return state_records(Use(object)->vehicles()); })
+        .def("take_events", [](WorldObject& object) { return state_records(Use(object)->take_events()); })
         .def("records_events", [](WorldObject& object) { return Use(object)->event_settings().any(); })
         .def("set_events",
              [](WorldObject& object, bool contacts, float hit_speed, bool breaks, bool sleep, bool sensors) {
                  Use(object)->set_events({contacts, hit_speed, breaks, sleep, sensors});
              })
-        .def("sensed", [](WorldObject& object) { return records_of(Use(object)->sensed()); });
+        .def("sensed", [](WorldObject& object) { return state_records(Use(object)->sensed()); });
 }
 
 }  // namespace scree::python

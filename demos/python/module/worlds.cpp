@@ -50,7 +50,7 @@ Settings settings_of(const SceneDocument& document, const std::string& text) {
     using namespace json_reading;
     Settings settings = document.settings.value_or(Settings{});
     const json given = json_of(text);
-    const Place root{nullptr, nullptr, 0}, place = root / "settings";
+    const Place place = root / "settings";
     only(given, place, keys_of<Settings>());
     read_fields(given, place, settings);
     fields::check_fields(place, settings);
@@ -148,12 +148,6 @@ py::dict statistics_of(const Statistics& s) {
     made["joints_broken"] = s.joints_broken;
     made["joint_force_max"] = s.joint_force_max;
     made["joint_torque_max"] = s.joint_torque_max;
-    return made;
-}
-
-py::dict settings_dict(const Settings& settings) {
-    py::dict made;
-    fields::for_each_field<Settings>([&](const auto& field) { made[field.key] = settings.*field.member; });
     return made;
 }
 

@@ -232,9 +232,9 @@ LAW VelocityPair to_body_deltas(VelocityPair before, VelocityPair after, Mass a,
 }
 LAW VelocityDelta velocity_delta(Velocity share, float carrying, float payload) {
     VelocityDelta slot;
-    slot.linear = share.linear;
+    slot.linear = flush_tiny(share.linear);
     slot.is_active = carrying;
-    slot.angular = share.angular;
+    slot.angular = flush_tiny(share.angular);
     slot.payload = payload;
     return slot;
 }

@@ -187,7 +187,9 @@ struct PatchImpulse {
 // The impulse of a patch that slides or spins: a step of projected gradient descent from `before`. `spin` and
 // `spin_mass` (rad/s; 1 / (kg m^2), 0 without torsional friction) are scaled as the block; F's terms by arm^2.
 LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float spin_mass, float arm, float hold) {
-    float area = arm * arm, x = smaller(dot3(before.friction, before.friction) * hold * hold, 1.0f), y = before.twist * hold;
+    // Squares are of quotients by the friction limit: the squares of impulses on grains leave the range of a float.
+    vec3 held = before.friction * hold;
+    float area = arm * arm, x = smaller(dot3(held, held), 1.0f), y = before.twist * hold;
     y = smaller(y * y, area);
     float p = area + LIMIT_COUPLING * y, q = 1.0f + LIMIT_COUPLING * x;
     float bound = area + LIMIT_COUPLING * x * y;
@@ -198,8 +200,8 @@ LAW PatchImpulse slid(FrictionBlock k, PatchImpulse before, float spin, float sp
     after.friction = flush_tiny(before.friction - (k.row1.direction * k.slip1 + k.row2.direction * k.slip2) * (q * step));
     after.twist = flush_tiny(before.twist - spin * (p * step));
     // Bounded, for a contact that has all but let go: the square of its quotient leaves the range of a float.
-    float squared = (p * dot3(after.friction, after.friction) + q * after.twist * after.twist) * hold * hold;
-    squared = smaller(squared, 1.0e30f);
+    vec3 quotient = after.friction * hold;
+    float turned = after.twist * hold, squared = smaller(p * dot3(quotient, quotient) + q * turned * turned, 1.0e30f);
     float scale = choose(squared > bound, bound * inverse_square_root(squared * bound), 1.0f);
     after.friction = flush_tiny(after.friction * scale);
     after.twist = flush_tiny(after.twist * scale);
@@ -255,7 +257,8 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     float hold_sticking = hold;
     bool clings = c.arms[2].w > 0.0f;
     if (!none(clings)) hold_sticking = choose(clings, reciprocal(larger(c.arms[2].w * normal, LEAST_HOLD)), hold);
-    float x = dot3(after.friction, after.friction) * hold_sticking * hold_sticking, y = after.twist * hold_sticking;
+    vec3 held = after.friction * hold_sticking;
+    float x = dot3(held, held), y = after.twist * hold_sticking;
     y = smaller(y * y, 4.0f * arm * arm);
     bool slides = holds && x * (arm * arm + LIMIT_COUPLING * y) + y > arm * arm;
     if (!none(slides)) {

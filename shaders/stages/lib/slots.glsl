@@ -48,6 +48,17 @@ bool comes_before(uint side, uint other) {
 #define SORT_BEFORE(x, y) comes_before(x, y)
 #include "shaders/stages/lib/sort.glsl"
 
+// Tells a side its slot.
+void assign_slot(uint slot) {
+    uint side = WORD(slot_sides, slot);
+    if ((side & OF_JOINT) != 0u)
+        joints.at[side & ~OF_JOINT].slot = slot;
+    else if ((side & 1u) == 0u)
+        constraints.at[side >> 1].slot_a = slot;
+    else
+        constraints.at[side >> 1].slot_b = slot;
+}
+
 // Sorts a body's slots and writes where the contacts it owns begin.
 void order_slots_of(uint body) {
     if (COUNTED.overflow != 0u) return;
@@ -57,14 +68,12 @@ void order_slots_of(uint body) {
     uint first = body == 0u ? 0u : READ_WORD(slot_ends, body - 1u);
     uint count = READ_WORD(slot_ends, body) - first;
     sort_range(first, count);
-    for (uint k = first; k < first + count; ++k) {
-        uint side = WORD(slot_sides, k);
-        if ((side & OF_JOINT) != 0u)
-            joints.at[side & ~OF_JOINT].slot = k;
-        else if ((side & 1u) == 0u)
-            constraints.at[side >> 1].slot_a = k;
-        else
-            constraints.at[side >> 1].slot_b = k;
+    // Four a round, for long lists on lavapipe (sort.glsl).
+    for (uint k = first; k < first + count; k += 4u) {
+        assign_slot(k);
+        if (k + 1u < first + count) assign_slot(k + 1u);
+        if (k + 2u < first + count) assign_slot(k + 2u);
+        if (k + 3u < first + count) assign_slot(k + 3u);
     }
 }
 

@@ -250,6 +250,33 @@ TEST_CASE("stages that feed each other through a barrier run in order") {
     REQUIRE(got == std::vector<std::uint32_t>(count, 0));
 }
 
+TEST_CASE("equal pipelines of a device are one, whoever made the first; others are not") {
+    const Watched device;
+    VkPipeline first;
+    {
+        const Pipeline made(std::make_shared<BindingSetLayout>(device.get(), 2, 8), "affine", affine(), {1});
+        first = made.handle();
+    }
+    const auto layout = std::make_shared<BindingSetLayout>(device.get(), 2, 8);
+    CHECK(Pipeline(layout, "again", affine(), {1}).handle() == first);
+    CHECK(Pipeline(layout, "affine", affine(), {2}).handle() != first);
+    CHECK(Pipeline(std::make_shared<BindingSetLayout>(device.get(), 3, 8), "affine", affine(), {1}).handle() != first);
+    CHECK(device->pipelines().size() == 3);
+}
+
+TEST_CASE("a device keeps the most recently used of its pipelines") {
+    const Watched device;
+    const auto made = std::make_shared<MadePipeline>(device->vk(), device->handle(), VK_NULL_HANDLE);
+    SharedPipelines pipelines(2);
+    pipelines.keep({1, 0}, made);
+    pipelines.keep({2, 0}, made);
+    CHECK(pipelines.find({1, 0}));
+    pipelines.keep({3, 0}, made);
+    CHECK(pipelines.size() == 2);
+    CHECK(pipelines.find({1, 0}));
+    CHECK_FALSE(pipelines.find({2, 0}));
+}
+
 TEST_CASE("wrong use of a table, a pipeline and a recording is refused with its reason") {
     const Watched device;
     const Buffer buffer(device.get(), "buffer", 16);
