@@ -161,7 +161,7 @@ host::BodyTables Drawing::tables_of_copies() {
     host::BodyTables tables = tables_of(state);
     poses_ = state.poses;
     bounds_ = state.bounds;
-    contacts_shown_.assign(tables.contacts.begin(), tables.contacts.end());
+    contacts_shown_.assign(state.contacts.begin(), state.contacts.begin() + tables.touch_count);
     for (std::uint32_t row = 0; row < poses_.size(); ++row) {
         const vec3 offset = shown_.offset(state.copy_of(row));
         poses_[row].position += offset;
@@ -178,7 +178,7 @@ host::BodyTables Drawing::tables_of_copies() {
     }
     tables.poses = poses_;
     tables.bounds = bounds_;
-    tables.contacts = contacts_shown_;
+    tables.touches = contacts_shown_;
     tables.joints = joints_;
     return tables;
 }
