@@ -63,7 +63,7 @@ DemoScene assortment(const DemoOptions& options) {
 
 // The stones are the same for every seed, which says how they lie: copies of the scene with seeds of their own share them.
 DemoScene bins(const DemoOptions& options) {
-    constexpr float half = 0.3f, height = 0.25f, cell = 0.2f;  // m
+    constexpr float half = 0.3f, height = 0.3f, cell = 0.2f;  // m
     Scene scene;
     scene.bodies.push_back(fixed_box({0, -0.05f, 0}, {half + 0.1f, 0.05f, half + 0.1f}));
     add_pit(scene, {half, height, half}, 0.05f);
@@ -73,7 +73,7 @@ DemoScene bins(const DemoOptions& options) {
         stone.orientation = random.orientation();
         stone.position =
             cell * vec3(static_cast<float>(i % 3 - 1), static_cast<float>(i / 9) + 0.6f, static_cast<float>(i / 3 % 3 - 1));
-        stone.velocity = {random.between(-0.5f, 0.5f), 0, random.between(-0.5f, 0.5f)};
+        stone.velocity = {random.between(-0.25f, 0.25f), 0, random.between(-0.25f, 0.25f)};
         scene.bodies.push_back(std::move(stone));
     }
     const vec3 low(-half - 0.1f, -0.1f, -half - 0.1f), high(half + 0.1f, 0.6f, half + 0.1f);
