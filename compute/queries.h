@@ -23,6 +23,7 @@ struct RayQuery {
     float reach = unlimited;          // m, > 0
     std::uint32_t mask = 0xFFFFFFFF;  // of the categories of bodies and parts (Filter) that it sees
     bool solid = true;                // a body in which the ray begins is hit at distance 0; false: is not seen
+    std::size_t copy = 0;             // of the scene, in a world of several
 };
 
 // A convex shape that moves along a line without turning. No plane, no hull.
@@ -33,6 +34,7 @@ struct ShapeCast {
     vec3 along{0, 0, -1};             // unit
     float reach = 1;                  // m, 0 to 1e6
     std::uint32_t mask = 0xFFFFFFFF;  // as of a ray
+    std::size_t copy = 0;             // likewise
 };
 
 // A convex shape somewhere. No plane, no hull.
@@ -41,6 +43,7 @@ struct ShapeOverlap {
     vec3 position{0};              // of its centre, m
     vec4 orientation{0, 0, 0, 1};  // quaternion x, y, z, w of any length but 0
     std::uint32_t mask = 0xFFFFFFFF;
+    std::size_t copy = 0;  // as of a ray
 };
 
 // The point of any body that is nearest to a point.
@@ -48,6 +51,7 @@ struct ClosestQuery {
     vec3 point{0};                    // m
     float reach = 1;                  // m, > 0 and at most 1e6: what is further away is not found
     std::uint32_t mask = 0xFFFFFFFF;  // as of a ray
+    std::size_t copy = 0;             // likewise
 };
 
 struct QueryHit {

@@ -4,6 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <bit>
 #include <cinttypes>
 #include <cmath>
 #include <cstdio>
@@ -35,6 +36,12 @@ dvec3 angular_momentum(const MassProperties& mass, vec4 q, dvec3 angular) {
     return turn * (dvec3(mass.inertia) * (glm::conjugate(turn) * angular));
 }
 
+vec3 gravity_on(const Scene& scene, const State& state, std::uint32_t row) {
+    if (state.gravities.empty()) return scene.gravity;
+    const physics::uvec4 words = state.gravities[state.copy_of(row)];
+    return {std::bit_cast<float>(words.x), std::bit_cast<float>(words.y), std::bit_cast<float>(words.z)};
+}
+
 void add_motion(const Scene& scene, const State& state, std::size_t i, Statistics& s, dvec3& momentum, dvec3& spin) {
     const MassProperties mass = mass_properties(scene.bodies[i]);
     const std::uint32_t row = state.row_of(i);
@@ -44,7 +51,7 @@ void add_motion(const Scene& scene, const State& state, std::size_t i, Statistic
     momentum += m * v;
     spin += m * glm::cross(x, v) + own_spin;
     s.kinetic_energy += 0.5 * m * glm::dot(v, v) + 0.5 * glm::dot(w, own_spin);
-    s.potential_energy -= m * scene.bodies[i].gravity_scale * glm::dot(dvec3(scene.gravity), x);
+    s.potential_energy -= m * scene.bodies[i].gravity_scale * glm::dot(dvec3(gravity_on(scene, state, row)), x);
     s.max_speed = std::max(s.max_speed, glm::length(v));
     s.max_spin = std::max(s.max_spin, glm::length(w));
     s.drift_max = std::max(s.drift_max, glm::length(x - dvec3(scene.bodies[i].position)));
@@ -52,13 +59,14 @@ void add_motion(const Scene& scene, const State& state, std::size_t i, Statistic
 
 constexpr float resting_speed = 0.1f;  // m/s
 
-void add_contacts(const State& state, Statistics& s) {
+void add_contacts(const State& state, std::optional<std::uint32_t> copy, Statistics& s) {
     const auto rests = [&](std::uint32_t row) { return glm::length(state.velocities[row].linear) < resting_speed; };
     std::size_t inside = 0;
     double depth = 0;
-    s.manifolds = state.counted().contacts;
     s.spin_limited = state.counted().spin_limited;
     for (const std::uint32_t i : contacts_by_id(state)) {
+        if (copy && state.copy_of(state.contacts[i].a) != *copy) continue;
+        ++s.manifolds;
         // Contacts that ended within the last step by sliding off (contact_solver.h).
         if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;
         const physics::uint count = state.contacts[i].count;
@@ -76,10 +84,10 @@ void add_contacts(const State& state, Statistics& s) {
     if (inside) s.penetration_mean = depth / static_cast<double>(inside);
 }
 
-void add_joints(const State& state, Statistics& s) {
-    s.joints = state.joint_records.size();
-    for (const std::uint32_t record : state.joint_records) {
-        const physics::Joint& joint = state.joints[record];
+void add_joints(const State& state, std::size_t first, std::size_t count, Statistics& s) {
+    s.joints = count;
+    for (std::size_t i = first; i < first + count; ++i) {
+        const physics::Joint& joint = state.joints[state.joint_records[i]];
         s.joints_broken += joint.broken != 0;
         s.joint_force_max = std::max(s.joint_force_max, static_cast<double>(joint.max_force));
         s.joint_torque_max = std::max(s.joint_torque_max, static_cast<double>(joint.max_torque));
@@ -88,13 +96,16 @@ void add_joints(const State& state, Statistics& s) {
 
 }  // namespace
 
-Statistics statistics_of(const Scene& scene, const State& state) {
+Statistics statistics_of(const Scene& scene, const State& state, std::optional<std::uint32_t> copy) {
     Statistics s;
     dvec3 momentum(0), spin(0);
-    std::vector<const Plane*> planes;
-    for (const Body& body : scene.bodies)
-        if (const auto* plane = std::get_if<Plane>(&body.shape); plane && body.role == Role::solid) planes.push_back(plane);
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    std::vector<std::vector<const Plane*>> planes(state.fixed().copies);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (const auto* plane = std::get_if<Plane>(&scene.bodies[i].shape); plane && scene.bodies[i].role == Role::solid)
+            planes[state.copy_of(state.row_of(i))].push_back(plane);
+    const std::size_t copies = state.fixed().copies, joints = state.joint_records.size() / (copy ? copies : 1);
+    const std::size_t bodies = copy ? state.fixed().bodies_of_copy : scene.bodies.size(), first = copy.value_or(0) * bodies;
+    for (std::size_t i = first; i < first + bodies; ++i) {
         const std::uint32_t row = state.row_of(i);
         s.broken += state.properties[row].motion == physics::MOTION_BROKEN;
         if (physics::is_absent(state.properties[row].motion)) continue;
@@ -108,12 +119,13 @@ Statistics statistics_of(const Scene& scene, const State& state) {
         s.asleep += physics::is_asleep(state.sleep_states[row], state.fixed().sleep_steps);
         add_motion(scene, state, i, s, momentum, spin);
         const vec3 centre = state.poses[row].position;
-        s.below_ground += std::any_of(planes.begin(), planes.end(), [&](const Plane* plane) {
+        const std::vector<const Plane*>& own = planes[state.copy_of(row)];
+        s.below_ground += std::any_of(own.begin(), own.end(), [&](const Plane* plane) {
             return glm::dot(dvec3(plane->normal), dvec3(centre)) < plane->offset;
         });
     }
-    add_contacts(state, s);
-    add_joints(state, s);
+    add_contacts(state, copy, s);
+    add_joints(state, copy.value_or(0) * joints, joints, s);
     for (int axis = 0; axis < 3; ++axis) {
         s.momentum[axis] = momentum[axis];
         s.angular_momentum[axis] = spin[axis];
@@ -121,13 +133,14 @@ Statistics statistics_of(const Scene& scene, const State& state) {
     return s;
 }
 
-std::uint64_t hash_of(const State& state) {
+std::uint64_t hash_of(const State& state, std::optional<std::uint32_t> copy) {
     constexpr std::size_t floats = 13;
-    const std::size_t bodies = state.body_count;  // parts follow from their bodies
+    // Parts follow from their bodies.
+    const std::size_t bodies = copy ? state.fixed().bodies_of_copy : state.body_count, first = copy.value_or(0) * bodies;
     std::vector<float> values(floats * bodies);
     for (std::size_t i = 0; i < bodies; ++i) {
         float* body = values.data() + floats * i;
-        const std::uint32_t row = state.row_of(i);
+        const std::uint32_t row = state.row_of(first + i);
         std::memcpy(body, &state.poses[row].position, 12);
         std::memcpy(body + 3, &state.poses[row].orientation, 16);
         std::memcpy(body + 7, &state.velocities[row].linear, 12);
@@ -136,9 +149,9 @@ std::uint64_t hash_of(const State& state) {
     const std::uint64_t hash = XXH64(values.data(), values.size() * sizeof(float), 0);
     if (!state.has_fractures()) return hash;
     std::vector<physics::uint> there;  // and which bodies exist
-    for (std::size_t i = 0; i < bodies; ++i) there.push_back(state.properties[state.row_of(i)].motion);
-    for (std::size_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
-        there.push_back(state.properties[row].motion);
+    for (std::size_t i = 0; i < bodies; ++i) there.push_back(state.properties[state.row_of(first + i)].motion);
+    for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
+        if (!copy || state.copy_of(row) == *copy) there.push_back(state.properties[row].motion);
     return XXH64(there.data(), there.size() * sizeof(physics::uint), hash);
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -139,6 +140,10 @@ struct Statistics {
     std::size_t below_ground = 0;  // dynamic bodies whose centre is behind a plane of the scene
 };
 
+// Changes one copy of a scene before a world of many begins: poses, velocities, materials, masses, joints, gravity; the
+// number of bodies, parts, joints and vehicles stays.
+using VaryCopy = std::function<void(std::size_t copy, Scene& scene)>;
+
 class World {
 public:
     // Validates and copies the scene. Throws SceneError, and std::invalid_argument for settings out of range. `runner`:
@@ -146,6 +151,12 @@ public:
     World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
     // On the CPU, with `threads` worker threads (0: one per core).
     explicit World(const Scene& scene, const Settings& settings = {}, int threads = 0);
+    // Many copies of the scene in one world (`copies`, 1 to 4,194,304), in one set of tables: each moves with the same bits
+    // as a world of that scene alone, whatever happens in the others. Copy w has the bodies from w * bodies_of_copy() on,
+    // its joints and vehicles likewise, at the scene's own coordinates. Throws std::invalid_argument, too, if `vary` changes
+    // what must be equal.
+    World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, std::size_t copies,
+          const VaryCopy& vary = {});
     ~World();
     World(World&&) noexcept;
     World& operator=(World&&) noexcept;
@@ -154,6 +165,26 @@ public:
     // (std::bad_alloc, std::length_error or the device's own error): then the bodies are as after the last whole step,
     // but for the impulses of the one that failed, and can be read; a further step throws std::logic_error.
     void step(int count = 1);
+
+    // ---- copies of the scene. Functions that take a copy throw std::out_of_range for one that is not there. A world of
+    // several copies has the bodies and joints of the scene: those that add and remove them throw std::logic_error.
+    std::size_t copies() const;
+    std::size_t bodies_of_copy() const;                             // fragments included
+    std::size_t body_of(std::size_t copy, std::size_t body) const;  // index in the world; throws for the body, too
+    std::size_t copy_of(std::size_t body) const;                    // throws std::out_of_range
+    std::uint64_t state_hash_of(std::size_t copy) const;            // that of the scene alone
+    std::vector<std::uint64_t> state_hashes() const;                // of all copies; reads the bodies once
+    Statistics statistics_of(std::size_t copy) const;
+    Scene snapshot_of(std::size_t copy) const;            // snapshot(), of a copy
+    void set_gravity_of(std::size_t copy, vec3 gravity);  // m/s^2, from the next step on; wakes the copy
+    vec3 gravity_of(std::size_t copy) const;              // m/s^2
+    void wake_copy(std::size_t copy);                     // in the next step
+    // Puts copies back to their start, as if they began with the next step: poses, velocities, contacts and their impulses,
+    // sleep, what has broken, joints, routes and controls of vehicles. Forces and grips end. What the user has changed about
+    // materials, masses, motors, springs, filters and gravity stays. Uploads their bodies and joints, and reads nothing.
+    // `mask`: 1 for each copy to be reset; throws std::invalid_argument for another length.
+    void reset(std::span<const std::uint8_t> mask);
+    void reset_copy(std::size_t copy);
 
     std::uint64_t steps() const;       // steps done
     std::size_t bodies_there() const;  // number of bodies that exist; reads the bodies back if some may break
@@ -207,8 +238,8 @@ public:
 
     // Adds a velocity away from `centre` to every dynamic body within `radius` (m): `speed` (m/s) at the centre,
     // falling linearly to 0 at the radius. Throws std::invalid_argument for values that are not finite or a radius that
-    // is not positive.
-    void explode(vec3 centre, float radius, float speed);
+    // is not positive. In every copy of the scene, or in one.
+    void explode(vec3 centre, float radius, float speed, std::optional<std::size_t> copy = std::nullopt);
 
     // From the next step on; these wake all bodies. They throw like the validation of a scene or of Settings.
     void set_gravity(vec3 gravity);          // m/s^2
@@ -324,7 +355,7 @@ public:
     std::vector<VehicleState> vehicles() const;
     // The present scene: existing bodies with their poses and velocities; fragments are ordinary bodies. A world made
     // of it continues, but not bit-identically: contacts begin anew, sleepers are awake, and low-order parts of
-    // positions are lost. save() keeps all of these.
+    // positions are lost. save() keeps all of these. Throws std::logic_error in a world of several copies.
     Scene snapshot() const;
     Statistics statistics() const;
     const State& state() const;  // all tables of a step (compute/step/state.h), bodies and contacts up to date

@@ -1,10 +1,12 @@
 // Reference stages over bodies: forces, bounds, and the body stages of a substep.
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <span>
 
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
+#include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
@@ -55,12 +57,25 @@ std::vector<std::uint32_t> movable_bodies(const State& state) {
     return bodies;
 }
 
+// Skips the atomic where the bits are set already.
+void note(physics::uint& mask, physics::uint bits) {
+    const std::atomic_ref all(mask);
+    if ((all.load(std::memory_order_relaxed) & bits) != bits) all.fetch_or(bits, std::memory_order_relaxed);
+}
+
+// Steps of the copy that a body belongs to.
+physics::uint age_of(const State& state, std::size_t body) {
+    const physics::uint steps = state.counted().steps;
+    return state.has_copies() ? physics::age_of_copy(steps, state.births[state.copy_of(static_cast<std::uint32_t>(body))])
+                              : steps;
+}
+
 void begin_substep_of(State& state, std::size_t i, bool first) {
     const Sum sum = sum_of_slots(state, i);
     state.velocities[i] =
         physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
     float& split_state = state.masses[i].split;
-    if (first) split_state = physics::update_hysteresis(split_state, sum.carrying, state.counted().steps);
+    if (first) split_state = physics::update_hysteresis(split_state, sum.carrying, age_of(state, i));
     split_state = physics::split_state_after(split_state, sum.carrying, sum.payload_sum);
 }
 
@@ -82,12 +97,24 @@ void move(State& state, std::size_t i) {
 
 }  // namespace
 
+void feel_gravities(State& state) {
+    if (state.gravities.empty()) return;
+    state.felt.clear();
+    for (const physics::uvec4& gravity : state.gravities) {
+        state.felt.push_back(state.fixed());
+        for (int axis = 0; axis < 3; ++axis) state.felt.back().gravity[axis] = std::bit_cast<float>(gravity[axis]);
+    }
+}
+
 void begin_step(State& state, const Threads& threads, std::uint32_t) {
     std::ranges::fill(state.cell_counts(), 0u);
     std::ranges::fill(state.pair_counts(), 0u);
     std::ranges::fill(state.slot_counts(), 0u);
-    threads.for_each(state.fixed().bodies,
-                     [&](std::size_t i) { state.forces[i] = physics::gravity_forces(state.properties[i], state.fixed()); });
+    std::ranges::fill(state.copy_states, 0u);
+    feel_gravities(state);
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        state.forces[i] = physics::gravity_forces(state.properties[i], felt_by(state, static_cast<std::uint32_t>(i)));
+    });
     if (state.fixed().wake_all) std::fill(state.sleep_states.begin(), state.sleep_states.end(), 0u);
     state.counted() = physics::emptied(state.counted(), state.fixed());
 }
@@ -120,10 +147,7 @@ void pose_parts(State& state, const Threads& threads, std::uint32_t) {
 
 void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
     physics::Counts& counts = state.counted();
-    const auto note = [](physics::uint& mask, physics::uint bits) {
-        const std::atomic_ref all(mask);
-        if ((all.load(std::memory_order_relaxed) & bits) != bits) all.fetch_or(bits, std::memory_order_relaxed);
-    };
+    const bool copied = state.has_copies();
     const physics::uint sleep_steps = state.fixed().sleep_steps;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         // Copies: else the compiler assumes that the writes below alias them, and computes twice.
@@ -142,8 +166,6 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
         if (physics::will_sweep(properties, velocity, state.fixed())) note(counts.fast, 1u);
         state.masses[i] =
             owner == i ? physics::mass_in_world(properties, pose.orientation, state.masses[i].split) : physics::Mass{};
-        if (bounds.bucket != physics::NONE)
-            std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         const bool stirs =
             physics::stirs(physics::motion_of(properties), state.velocities[owner], state.sleep_states[owner], sleep_steps);
         const bool large = physics::is_large(properties);
@@ -152,6 +174,13 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
         if (listed && stirs) note(counts.levels_stirring, 1u << bounds.level);
         if (!listed && stirs) note(counts.large_stirring, large ? 1u : 2u);
         if (physics::has_slept(state.sleep_states[i], sleep_steps)) note(counts.sleepers, 1u);
+        if (copied) {
+            const std::uint32_t copy = state.copy_of(owner);
+            if (bounds.bucket != physics::NONE) bounds = physics::of_copy(bounds, copy, state.fixed());
+            if (stirs) note(state.copy_states[copy], physics::COPY_STIRS);
+        }
+        if (bounds.bucket != physics::NONE)
+            std::atomic_ref(state.cell_counts()[bounds.bucket]).fetch_add(1, std::memory_order_relaxed);
         if (!stirs) bounds.level |= physics::INACTIVE;
         state.bounds[i] = bounds;
     });
@@ -164,6 +193,12 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
         WideTables tables = wide_tables(state, bodies);
         tables.first = first != 0;
         tables.steps = state.counted().steps;
+        std::vector<std::uint32_t> ages;
+        if (first && state.has_copies()) {
+            ages.resize(state.fixed().bodies);
+            threads.for_each(ages.size(), [&](std::size_t i) { ages[i] = age_of(state, i); });
+            tables.ages = ages.data();
+        }
         threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->begin(tables, begin, end); });
     } else {
         threads.for_each(state.fixed().bodies, [&](std::size_t i) {

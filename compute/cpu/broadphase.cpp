@@ -36,7 +36,8 @@ bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
     return (both[0] & (both[1] | 0xFFFFFFFF00000000u)) == ~std::uint64_t{0};
 }
 
-// Calls visit(entries) for the bodies in a row of cells along x, whose buckets may wrap round the end of the grid.
+// Calls visit(entries) for the bodies in a row of cells along x, whose buckets may wrap round the end of the grid. `level`:
+// with the copy.
 template <typename Visit>
 void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cells, std::uint32_t level, const Visit& visit) {
     const std::uint32_t buckets = state.fixed().buckets;
@@ -108,7 +109,9 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
     if ((around.level & physics::NOT_IN_GRID) != 0) return;
     for_each_carried_over(state, body, found);
     if (still(state, body) && !physics::any_stirs(state.counted())) return;
-    for (const physics::CellEntry& other : bucket(state, p.buckets)) {
+    const physics::uint of_copy = around.level & physics::COPY_BITS, copy = of_copy >> physics::COPY_SHIFT;
+    if (still(state, body) && state.has_copies() && (state.copy_states[copy] & physics::COPY_STIRS) == 0) return;
+    for (const physics::CellEntry& other : bucket(state, p.buckets + copy)) {
         if (!physics::finds_large(id, around.level, physics::is_large(own), state.id_of(other.body), other.level)) continue;
         if (physics::can_touch(own, state.properties[other.body]) && near_large(state, body, other)) found(other.body);
     }
@@ -117,10 +120,11 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
         const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
         const auto cells = static_cast<std::uint32_t>(range.last.x - range.first.x + 1);
+        const std::uint32_t key = level | of_copy;
         physics::ivec3 from = range.first;
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
-                if (!(overlap(around, other) & ((other.level & ~(physics::INACTIVE | physics::MOVES)) == level))) continue;
+                if (!(overlap(around, other) & ((other.level & ~(physics::INACTIVE | physics::MOVES)) == key))) continue;
                 if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
                 const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
                 if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
@@ -128,7 +132,7 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
             }
         };
         for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
-            for (from.y = range.first.y; from.y <= range.last.y; ++from.y) for_each_in_row(state, from, cells, level, visit);
+            for (from.y = range.first.y; from.y <= range.last.y; ++from.y) for_each_in_row(state, from, cells, key, visit);
     }
 }
 
@@ -146,8 +150,10 @@ std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint3
 physics::Pair matched(const State& state, const physics::Candidate& candidate) {
     physics::Pair pair{candidate.owner, candidate.other, 0, physics::NONE};
     if (state.id_of(pair.b) < state.id_of(pair.a)) std::swap(pair.a, pair.b);
-    pair.previous = contact_before(state, pair.a, pair.b);
-    if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
+    if (!state.is_newborn(state.copy_of(pair.a))) {
+        pair.previous = contact_before(state, pair.a, pair.b);
+        if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
+    }
     if (still(state, pair.a) && still(state, pair.b)) {
         pair.pair_type = physics::PAIR_INACTIVE;
         return pair;
@@ -155,7 +161,7 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
     const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
     const std::uint32_t of_a = state.body_of(pair.a), of_b = state.body_of(pair.b);
     const bool kept =
-        pair.previous != physics::NONE && physics::has_weight(state.fixed()) &&
+        pair.previous != physics::NONE && physics::has_weight(felt_by(state, of_a)) &&
         physics::is_persistent(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[of_a],
                                state.velocities[of_a], tb, state.poses[of_b], state.velocities[of_b]);
     pair.pair_type = kept ? physics::PAIR_PERSISTENT : physics::pair_type_of(ta.shape, tb.shape);
@@ -174,7 +180,7 @@ void fill_cells(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void sort_cells(State& state, const Threads& threads, std::uint32_t) {
-    threads.for_each(state.fixed().buckets + 1, [&](std::size_t b) {
+    threads.for_each(physics::buckets_in_all(state.fixed()), [&](std::size_t b) {
         const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
         const auto last = state.cell_entries.begin() + state.cell_ends[b];
         std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });

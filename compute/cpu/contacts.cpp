@@ -42,6 +42,33 @@ void hand_out(State& state, const physics::Constraint& c, const physics::Velocit
     if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(share.b, carrying, payload[0]);
 }
 
+// Where the gravity of copies differs, the SIMD stages take the contacts of one after those of the other.
+void find_runs(State& state) {
+    state.solver_runs.clear();
+    const std::uint32_t count = state.counted().solver_contacts;
+    std::sort(state.contacts_to_solve.begin(), state.contacts_to_solve.begin() + count);
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t copy = state.copy_of(state.pairs[state.constraints[state.contacts_to_solve[k]].pair].a);
+        if (k == 0 || state.solver_runs.back().copy != copy) state.solver_runs.push_back({k, k, copy});
+        state.solver_runs.back().last = k + 1;
+    }
+}
+
+using WidePass = void (*)(const WideTables&, std::size_t first, std::size_t last);
+void for_each_group(State& state, const Threads& threads, const WideTables& tables, WidePass pass) {
+    if (state.gravities.empty()) {
+        threads.for_ranges(state.counted().solver_contacts,
+                           [&](std::size_t first, std::size_t last) { pass(tables, first, last); });
+        return;
+    }
+    threads.for_each(state.solver_runs.size(), [&](std::size_t k) {
+        const State::Run& run = state.solver_runs[k];
+        WideTables own = tables;
+        own.parameters = reinterpret_cast<const std::uint32_t*>(&state.felt[run.copy]);
+        pass(own, run.first, run.last);
+    });
+}
+
 }  // namespace
 
 void compact_contacts(State& state, const Threads& threads, std::uint32_t) {
@@ -84,6 +111,7 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
         std::copy(solved.begin(), solved.end(),
                   state.contacts_to_solve.begin() + taken(counts.solver_contacts, static_cast<std::uint32_t>(solved.size())));
     });
+    if (!state.gravities.empty()) find_runs(state);
     counts.arguments[physics::WORK_SOLVER_CONTACTS].x = physics::work_for(counts.solver_contacts, state.fixed()).x;
 }
 
@@ -150,7 +178,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
             c = physics::idle_between(prepared.contact, a, b);
             return;
         }
-        c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, p);
+        c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, felt_by(state, a));
         if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
             c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
                                        state.poses[b].orientation, p);
@@ -158,22 +186,18 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
             c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, velocities_of(state, c));
         if (wide) return;
-        const physics::ContactShare share =
-            physics::first_share(c, prepared.impulse, velocities_of(state, c), state.masses[a], state.masses[b], p);
+        const physics::ContactShare share = physics::first_share(c, prepared.impulse, velocities_of(state, c), state.masses[a],
+                                                                 state.masses[b], felt_by(state, a));
         const float normal_sum = prepared.impulse.normal_sum;
         hand_out(state, c, share.change, share.carrying, {normal_sum, normal_sum});
     });
     if (!wide) return;
-    const WideTables tables = wide_tables(state, state.contacts_to_solve);
-    threads.for_ranges(state.counted().solver_contacts,
-                       [&](std::size_t first, std::size_t end) { wide->hand_out(tables, first, end); });
+    for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), wide->hand_out);
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     if (const WideStages* wide = wide_stages(threads.lanes())) {
-        const WideTables tables = wide_tables(state, state.contacts_to_solve);
-        threads.for_ranges(state.counted().solver_contacts,
-                           [&](std::size_t first, std::size_t end) { wide->solve(tables, first, end); });
+        for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), wide->solve);
         return;
     }
     threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
@@ -183,7 +207,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Mass mb = physics::split_mass(state.masses[c.b], state.impulses[i], state.fixed());
         const physics::VelocityPair before = velocities_of(state, c);
         const physics::SolveResult after =
-            physics::solve_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), state.fixed());
+            physics::solve_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), felt_by(state, c.a));
         state.impulses[i] = after.impulse;
         hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), physics::impact_weight(after.impulse));
     });
@@ -201,8 +225,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         if (felt) tables.carried = state.carried.data();
         tables.first = first;
         if (last) tables.quiet_steps = reinterpret_cast<const std::uint32_t*>(shown.data());
-        threads.for_ranges(state.counted().solver_contacts,
-                           [&](std::size_t from, std::size_t to) { wide->relax(tables, from, to); });
+        for_each_group(state, threads, tables, wide->relax);
         return;
     }
     threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
@@ -212,7 +235,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         const physics::Mass mb = physics::impact_mass(state.impulses[i], state.masses[c.b], state.forces[c.b], state.fixed());
         const physics::VelocityPair before = velocities_of(state, c);
         const physics::SolveResult after =
-            physics::relax_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), state.fixed());
+            physics::relax_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), felt_by(state, c.a));
         physics::Impulse& impulse = state.impulses[i];
         if (felt) {
             const float carried = physics::solved_impulse(after.impulse);
@@ -221,7 +244,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         impulse = physics::clear_impacts(after.impulse, c.count);
         impulse.normal_sum = physics::normal_impulse(impulse);
         physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
-        const float carrying = physics::is_active(c, impulse, after.pair_velocity, state.fixed());
+        const float carrying = physics::is_active(c, impulse, after.pair_velocity, felt_by(state, c.a));
         if (last) {
             std::array<float, 2> shown{quiet_steps(c.a), quiet_steps(c.b)};
             if (physics::is_driven(c)) shown.fill(physics::BESIDE_MOVING);

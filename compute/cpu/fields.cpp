@@ -17,7 +17,8 @@ void apply_fields(State& state, const Threads& threads, std::uint32_t) {
         const physics::Immersion immersion =
             wet ? state.immersions[state.id_of(static_cast<std::uint32_t>(i))] : physics::no_immersion();
         state.forces[i] = physics::with_fields(state.forces[i], body, immersion, state.poses[i], state.velocities[i],
-                                               physics::mass_in_world(body, state.poses[i].orientation, 1), p);
+                                               physics::mass_in_world(body, state.poses[i].orientation, 1),
+                                               felt_by(state, static_cast<std::uint32_t>(i)));
     });
 }
 

@@ -6,6 +6,7 @@
 #include <bit>
 
 #include "compute/cpu/stages.h"
+#include "shaders/physics/base/copies.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree::reference {
@@ -46,6 +47,8 @@ void find_broken(State& state, const Threads& threads, std::uint32_t) {
         if (kept >= 1) return;
         state.forces[i].kept = kept;
         std::atomic_ref(state.counted().broken).fetch_add(1, std::memory_order_relaxed);
+        if (state.has_copies())
+            std::atomic_ref(state.copy_states[state.copy_of(static_cast<std::uint32_t>(i))]).fetch_or(physics::COPY_BREAKS);
     });
 }
 
@@ -53,6 +56,8 @@ void return_excess_impulse(State& state, const Threads& threads, std::uint32_t) 
     if (!some_broken(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (!physics::is_movable(state.properties[i].motion, state.sleep_states[i], state.fixed().sleep_steps)) return;
+        if (state.has_copies() && (state.copy_states[state.copy_of(static_cast<std::uint32_t>(i))] & physics::COPY_BREAKS) == 0)
+            return;
         physics::Velocity velocity = state.velocities[i];
         for_each_slot(state, i, [&](std::size_t contact, physics::uint side) {
             const physics::Constraint& c = state.constraints[contact];

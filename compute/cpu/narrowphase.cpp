@@ -82,7 +82,7 @@ void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
         const physics::BodyProperties &ta = state.properties[a], &tb = state.properties[b];
         const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
         physics::Pose pa = state.poses[a], pb = state.poses[b];
-        const physics::Margin margin = physics::margin_of(ta, va, tb, vb, state.fixed());
+        const physics::Margin margin = physics::margin_of(ta, va, tb, vb, felt_by(state, state.pairs[index].a));
         const float most = physics::greatest_margin(margin);
         const float ahead = physics::time_ahead(ta, va, tb, vb, state.fixed());
         if (ahead > 0) {

@@ -20,7 +20,7 @@ void scan_in_place(std::vector<physics::uint>& list, std::size_t items) {
 void scan_nothing(State&, const Threads&, std::uint32_t) {}
 
 void scan_cells_offsets(State& state, const Threads&, std::uint32_t) {
-    scan_in_place(state.cell_ends, state.fixed().buckets + 1);
+    scan_in_place(state.cell_ends, physics::buckets_in_all(state.fixed()));
 }
 
 void scan_pairs_spine(State& state, const Threads&, std::uint32_t) {

@@ -13,6 +13,12 @@ namespace scree::reference {
 struct WideTables;
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items);
 
+// The parameters with the gravity of a row's copy; of every step anew.
+inline const physics::Parameters& felt_by(const State& state, std::uint32_t row) {
+    return state.gravities.empty() ? state.fixed() : state.felt[state.copy_of(row)];
+}
+void feel_gravities(State& state);
+
 #define SCREE_STAGE(name) void name(State& state, const Threads& threads, std::uint32_t pass)
 
 // bodies.cpp

@@ -177,13 +177,13 @@ void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stag
             commands.dispatch(std::max(1u, physics::work_for(p.bodies, p).x));
             break;
         case DispatchDomain::buckets:
-            commands.dispatch(physics::work_for(p.buckets + 2, p).x);
+            commands.dispatch(physics::work_for(physics::buckets_in_all(p) + 1, p).x);
             break;
         case DispatchDomain::body_scan_blocks:
             commands.dispatch(physics::scan_work_for(p.bodies, p).x);
             break;
         case DispatchDomain::bucket_scan_blocks:
-            commands.dispatch(physics::scan_work_for(p.buckets + 1, p).x);
+            commands.dispatch(physics::scan_work_for(physics::buckets_in_all(p), p).x);
             break;
         case DispatchDomain::pairs:
             indirect(physics::WORK_PAIRS);

@@ -83,7 +83,7 @@ std::size_t room_behind(const State& state, BufferLength length) {
 void DeviceRunner::make_buffers() {
     const std::uint32_t most_groups = device_->limits().maxComputeWorkGroupCount[0];
     const physics::Parameters& p = state_->fixed();
-    if (std::max({p.pair_capacity, p.buckets, p.contact_capacity}) / p.group_size >= most_groups)
+    if (std::max({p.pair_capacity, p.buckets + p.copies, p.contact_capacity}) / p.group_size >= most_groups)
         throw host::DeviceError("the scene needs lists of " + std::to_string(std::max(p.pair_capacity, p.buckets)) +
                                 " items, but this device runs at most " +
                                 std::to_string(std::uint64_t{most_groups} * p.group_size) +

@@ -6,7 +6,9 @@
 
 #include "compute/cpu/reference_runner.h"
 #include "compute/device/device_runner.h"
+#include "compute/scene/copies.h"
 #include "compute/statistics.h"
+#include "compute/step/scene_compiler.h"
 
 namespace scree {
 
@@ -16,11 +18,15 @@ struct Lockstep::Impl {
     State image, state;  // of the device; of the CPU. Equal parameters, hence equal group size
     LockstepResult result;
 
-    Impl(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
+    Impl(const CopiedScene& of, const Settings& settings, std::shared_ptr<host::Device> device, int threads, std::uint32_t copies)
         : there(std::move(device)),
           here(threads),
-          image(scene, settings, there.group_size(), there.in_place()),
-          state(scene, settings, there.group_size(), here.in_place()) {
+          image(of.scene, settings, there.group_size(), there.in_place(), copies),
+          state(of.scene, settings, there.group_size(), here.in_place(), copies) {
+        for (State* each : {&image, &state}) {
+            each->gravities = records_of_gravities(of.gravities);
+            each->allocate();
+        }
         attach();
     }
 
@@ -57,8 +63,10 @@ struct Lockstep::Impl {
     }
 };
 
-Lockstep::Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads)
-    : interior_(std::make_unique<Impl>(checked(scene), checked(settings), std::move(device), threads)) {}
+Lockstep::Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads,
+                   std::size_t copies, const std::function<void(std::size_t, Scene&)>& vary)
+    : interior_(std::make_unique<Impl>(copies ? copied(checked(scene), copies, vary) : CopiedScene{checked(scene), {}},
+                                       checked(settings), std::move(device), threads, static_cast<std::uint32_t>(copies))) {}
 Lockstep::~Lockstep() = default;
 const LockstepResult& Lockstep::result() const {
     return interior_->result;
@@ -99,8 +107,8 @@ bool Lockstep::step() {
 }
 
 LockstepResult compare_in_lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device,
-                                   int threads, int steps, const std::function<bool(int)>& progress) {
-    Lockstep lockstep(scene, settings, std::move(device), threads);
+                                   int threads, int steps, const std::function<bool(int)>& progress, std::size_t copies) {
+    Lockstep lockstep(scene, settings, std::move(device), threads, copies);
     while (lockstep.result().step < steps) {
         if (progress && !progress(lockstep.result().step)) break;
         if (!lockstep.step()) break;

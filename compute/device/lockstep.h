@@ -1,6 +1,7 @@
 // Lockstep: the CPU and a device execute the same plan; after every stage the tables it wrote are compared bit by bit.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
@@ -21,8 +22,9 @@ class DeviceRunner;  // compute/device/device_runner.h
 // Stepping both, for tests that edit between steps.
 class Lockstep {
 public:
-    // Throws like World.
-    Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads);
+    // Throws like World. `copies`: of the scene, which `vary` changes, as of World; 0: the scene itself.
+    Lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device, int threads,
+             std::size_t copies = 0, const std::function<void(std::size_t, Scene&)>& vary = {});
     ~Lockstep();
     bool step();  // false: a difference, described by result()
     // The same edit of both, between steps; the device receives the ranges that the editor returns.
@@ -39,6 +41,6 @@ private:
 
 // Runs `steps` steps, until a difference or until `progress` (argument: steps done) returns false. Throws like World.
 LockstepResult compare_in_lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device,
-                                   int threads, int steps, const std::function<bool(int)>& progress = {});
+                                   int threads, int steps, const std::function<bool(int)>& progress = {}, std::size_t copies = 0);
 
 }  // namespace scree

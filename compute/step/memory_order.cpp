@@ -50,10 +50,23 @@ std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state,
                      static_cast<std::uint32_t>(id)};
     });
     std::erase_if(order, [&](const auto& one) { return !may_move(scene.bodies[one.second]); });
-    if (threads.count() == 1)
+    const std::size_t copies = state.fixed().copies;
+    if (copies > 1) {  // one behind the other, because all are at the same place
+        std::vector<std::size_t> begins;
+        for (std::size_t copy = 0; copy <= copies; ++copy)
+            begins.push_back(static_cast<std::size_t>(
+                std::partition_point(order.begin(), order.end(),
+                                     [&](const auto& one) { return one.second < copy * state.fixed().bodies_of_copy; }) -
+                order.begin()));
+        threads.for_each(copies, [&](std::size_t copy) {
+            std::sort(order.begin() + static_cast<std::ptrdiff_t>(begins[copy]),
+                      order.begin() + static_cast<std::ptrdiff_t>(begins[copy + 1]));
+        });
+    } else if (threads.count() == 1) {
         std::sort(order.begin(), order.end());
-    else
+    } else {
         threads.run([&] { tbb::parallel_sort(order.begin(), order.end()); });
+    }
     std::vector<std::uint32_t> rows(n);
     std::iota(rows.begin(), rows.end(), 0u);
     auto next = order.begin();
@@ -82,9 +95,12 @@ std::vector<std::uint32_t> contacts_by_id(const State& state) {
     const std::uint32_t contacts = state.counted().contacts;
     std::vector<std::uint32_t> order;
     order.reserve(contacts);
+    // A copy of the scene that was reset since has none.
+    const auto is_over = [&](std::uint32_t contact) { return state.is_newborn(state.copy_of(state.contacts[contact].a)); };
     if (!state.reordered()) {
         order.resize(contacts);
         std::iota(order.begin(), order.end(), 0u);
+        if (state.has_copies()) std::erase_if(order, is_over);
         return order;
     }
     for (std::uint32_t id = 0; id < state.fixed().bodies; ++id) {
@@ -92,6 +108,7 @@ std::vector<std::uint32_t> contacts_by_id(const State& state) {
         for (std::uint32_t k = state.first_contacts[row]; k < std::min(contacts, state.first_contacts[row + 1]); ++k)
             order.push_back(k);
     }
+    if (state.has_copies()) std::erase_if(order, is_over);
     return order;
 }
 

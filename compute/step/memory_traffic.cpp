@@ -26,7 +26,7 @@ struct Step {
     explicit Step(const State& state) {
         const physics::Counts& c = state.counted();
         bodies = state.fixed().bodies;
-        buckets = state.fixed().buckets + 1;
+        buckets = physics::buckets_in_all(state.fixed());
         pairs = c.pairs;
         contacts = c.contacts;
         solver_contacts = c.solver_contacts;

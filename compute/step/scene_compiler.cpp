@@ -58,6 +58,22 @@ void mark_large(std::vector<physics::BodyProperties>& properties, float cell) {
     }
 }
 
+// The grid and its list of large bodies, from the first copy of the scene: rows in the order of bodies, then parts.
+void lay_out_grid(std::vector<physics::BodyProperties>& properties, physics::Parameters& p, std::uint32_t bodies) {
+    const auto of_one = [&](std::size_t all) { return static_cast<std::ptrdiff_t>(all / p.copies); };
+    const auto n = of_one(bodies), parts = of_one(properties.size() - bodies);
+    std::vector<physics::BodyProperties> one(properties.begin(), properties.begin() + n);
+    one.insert(one.end(), properties.begin() + bodies, properties.begin() + bodies + parts);
+    p.cell = cell_width(one, p);
+    p.inverse_cell = 1 / p.cell;
+    mark_large(one, p.cell);
+    for (std::size_t row = 0; row < properties.size(); ++row) {
+        const std::size_t same = row < bodies ? row % static_cast<std::size_t>(n)
+                                              : static_cast<std::size_t>(n) + (row - bodies) % static_cast<std::size_t>(parts);
+        properties[row].flags |= one[same].flags & physics::ROW_LARGE;
+    }
+}
+
 }  // namespace
 
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings) {
@@ -85,12 +101,23 @@ physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& s
     return p;
 }
 
+std::vector<physics::uvec4> records_of_gravities(const std::vector<vec3>& gravities) {
+    std::vector<physics::uvec4> records;
+    for (const vec3& one : gravities) {
+        const vec3 gravity = physics::flush_tiny(one);
+        records.emplace_back(std::bit_cast<physics::uint>(gravity.x), std::bit_cast<physics::uint>(gravity.y),
+                             std::bit_cast<physics::uint>(gravity.z), 0u);
+    }
+    return records;
+}
+
 physics::uint sleep_steps_of(const Settings& settings) {
     return settings.sleeping ? std::max(1u, static_cast<physics::uint>(std::ceil(settings.sleep_time * settings.rate)))
                              : physics::NO_SLEEP;
 }
 
-void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size) {
+void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies) {
+    shares_meshes_ = copies > 1;
     std::vector<physics::BodyProperties>& properties = state_.properties;
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
     properties.reserve(n + 1);
@@ -103,9 +130,9 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
 
     state_.parameters.assign(1, tuned({}, scene.gravity, settings));
     physics::Parameters& p = state_.fixed();
-    p.cell = cell_width(properties, p);
-    p.inverse_cell = 1 / p.cell;
-    mark_large(properties, p.cell);
+    p.copies = std::max(1u, copies);
+    p.bodies_of_copy = copies ? n / copies : 0;
+    lay_out_grid(properties, p, n);
     JointTables joined = joint_tables(scene, properties);
     state_.joints = std::move(joined.records);
     state_.joint_records = std::move(joined.record_of);

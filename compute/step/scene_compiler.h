@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 
 #include "compute/scene.h"
@@ -10,10 +11,15 @@
 
 namespace scree {
 
+struct MeshForm;  // compute/scene/mesh.h
+
 // Parameters::sleep_steps.
 physics::uint sleep_steps_of(const Settings& settings);
 // The parameters with new gravity and settings; the others unchanged.
 physics::Parameters tuned(physics::Parameters p, vec3 gravity, const Settings& settings);
+
+// The table of gravities, of copies of a scene.
+std::vector<physics::uvec4> records_of_gravities(const std::vector<vec3>& gravities);
 
 // Whether a body or one of its parts has a collision filter.
 bool has_filter(const Body& body);
@@ -22,8 +28,8 @@ class SceneCompiler {
 public:
     explicit SceneCompiler(State& state) : state_(state) {}
 
-    // The initial tables of a checked scene, in an empty state.
-    void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size);
+    // The initial tables of a checked scene, made of `copies` copies (scene/copies.h), in an empty state.
+    void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies = 0);
 
     // shape_records.cpp
     physics::BodyProperties properties_of(const Body& body,
@@ -49,11 +55,14 @@ private:
     physics::BodyProperties form_of(const SimpleShape& shape);
     physics::BodyProperties form_of(const SimpleShape& shape, const std::optional<Tyre>& tyre);
     physics::uint place_of(const Hull& hull);
+    physics::uint place_of(const MeshForm& mesh);
     physics::uint place_of(const Fracture& fracture);
     physics::uint place_of(const std::optional<Tyre>& tyre);
     physics::uint place_of(const Material& material);
 
     State& state_;
+    bool shares_meshes_ = false;
+    std::map<const MeshForm*, physics::uint> meshes_;  // places, if copies share them
 };
 
 }  // namespace scree

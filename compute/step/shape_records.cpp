@@ -122,6 +122,21 @@ physics::uint SceneCompiler::place_of(const Hull& hull) {
     return known->second;
 }
 
+// Index of the mesh's records, one triangle behind the other. The copies of a scene share them.
+physics::uint SceneCompiler::place_of(const MeshForm& mesh) {
+    const auto place = static_cast<physics::uint>(state_.hulls.size());
+    if (shares_meshes_) {
+        const auto [known, fresh] = meshes_.try_emplace(&mesh, place);
+        if (!fresh) return known->second;
+    }
+    state_.hulls.reserve(state_.hulls.size() + physics::TRIANGLE_RECORDS * mesh.triangles.size());
+    for (const MeshForm::Triangle& triangle : mesh.triangles) {
+        const std::vector<physics::uvec4> records = triangle_records(triangle);
+        state_.hulls.insert(state_.hulls.end(), records.begin(), records.end());
+    }
+    return place;
+}
+
 physics::BodyProperties SceneCompiler::form_of(const SimpleShape& shape) {
     physics::BodyProperties made = simple_form(shape);
     if (const auto* hull = std::get_if<Hull>(&shape)) made.shape_data = place_of(*hull);
@@ -270,14 +285,13 @@ void SceneCompiler::append_parts(const Body& body, std::uint32_t owner) {
             append(form, part.position, part.orientation, part.material.value_or(own));
         }
     if (const MeshForm* form = mesh_form_of(body.shape)) {
-        state_.hulls.reserve(state_.hulls.size() + physics::TRIANGLE_RECORDS * form->triangles.size());
+        physics::uint next = place_of(*form);
         for (const MeshForm::Triangle& triangle : form->triangles) {
             physics::BodyProperties part{};
             part.shape = physics::SHAPE_TRIANGLE;
-            part.shape_data = static_cast<physics::uint>(state_.hulls.size());
+            part.shape_data = next;
             part.size = triangle.half_extents;
-            const std::vector<physics::uvec4> records = triangle_records(triangle);
-            state_.hulls.insert(state_.hulls.end(), records.begin(), records.end());
+            next += physics::TRIANGLE_RECORDS;
             append(part, triangle.middle, vec4(0, 0, 0, 1), own);
         }
     }

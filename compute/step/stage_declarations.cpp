@@ -29,6 +29,9 @@ Access some_only(Access access) { return with(access, Manner::some_only); }
 Access as_long_as(BufferLength length, Access access) { access.as_long_as = length; return access; }
 // clang-format on
 
+// Of stages that read the gravity of a copy.
+constexpr std::uint32_t felt = physics::FEATURE_REORDERED | physics::FEATURE_GRAVITIES;
+
 // By pair type, PAIR_*.
 constexpr std::array<const char*, physics::PAIR_TYPES> pair_type_names{
     "collide_sphere_sphere",   "collide_sphere_capsule",  "collide_sphere_box",    "collide_sphere_plane",
@@ -72,7 +75,7 @@ void declare_convex(std::vector<StageDeclaration>& all) {
 
 void declare_broadphase(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features =
-        physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS;
+        physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS | physics::FEATURE_COPIES;
     declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
         {{bounds, A::bodies, 1}, {cell_ends, A::bodies}},
@@ -84,17 +87,17 @@ void declare_broadphase(std::vector<StageDeclaration>& all) {
     // search again.
     all.push_back({"count_pairs", DispatchDomain::bodies, count_pairs,
         {{counts}, {bounds, A::bodies, 1}, {properties, A::bodies}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {poses}, {ids}, {joints},
-         {filters}, {exclusions}, {first_contacts}, {contacts_before}},
+         {filters}, {exclusions}, {first_contacts}, {contacts_before}, {copy_states}},
         {{pair_starts, A::bodies}, unfinished({pairs, A::bodies, 2}), {counts}}, features});
     declare_scan(all, {"pairs", DispatchDomain::body_scan_blocks, pair_starts, pair_starts, A::bodies, scan_pairs_spine, scan_pairs_offsets, false, true});
     all.push_back({"fill_pairs", DispatchDomain::bodies, fill_pairs,
         {{counts}, {pair_starts, A::bodies}, {pairs, A::bodies, 2}, {bounds}, {properties}, {cell_ends}, {cell_entries}, {poses}, {ids}, {joints},
-         {filters}, {exclusions}, {first_contacts}, {contacts_before}},
+         {filters}, {exclusions}, {first_contacts}, {contacts_before}, {copy_states}},
         {unfinished({candidates, A::pairs})}, features});
     all.push_back({"match_pairs", DispatchDomain::pairs, match_pairs,
         {{counts}, {candidates, A::pairs}, {pair_starts, A::bodies}, {first_contacts, A::bodies}, {bounds, A::bodies, 1}, {properties, A::bodies},
-         {poses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {ids}},
-        {{pairs, A::pairs}}, physics::FEATURE_REORDERED});
+         {poses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {ids}, {births}, {gravities}},
+        {{pairs, A::pairs}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
 }
 
 void declare_narrowphase(std::vector<StageDeclaration>& all) {
@@ -108,7 +111,8 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
     for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_PERSISTENT; ++pair_type) {
         all.push_back({pair_type_names[pair_type], DispatchDomain::pair_type, collide,
             {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {properties, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
-            {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
+            {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}, felt});
+        for (const Table table : {gravities, ids}) all.back().reads.push_back({table});
         if (pair_type >= physics::PAIR_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
     }
     all.push_back({pair_type_names[physics::PAIR_PERSISTENT], DispatchDomain::pair_type, collide_persistent,
@@ -136,12 +140,12 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     // write.
     all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
         {in_parts({counts}), {constraints, A::stirred, 1}, {pairs, A::stirred}, {manifolds, A::stirred}, {point_counts}, {properties}, {poses, A::stirred_bodies},
-         {velocities, A::stirred_bodies}, by_atomics({sleep_states, A::stirred_bodies}), {contacts_before}, {impulses_before}},
-        {by_atomics({sleep_states}), in_parts({counts})}});
+         {velocities, A::stirred_bodies}, by_atomics({sleep_states, A::stirred_bodies}), {contacts_before}, {impulses_before}, {gravities}, {ids}},
+        {by_atomics({sleep_states}), in_parts({counts})}, felt});
     all.push_back({"wake_unsupported", DispatchDomain::bodies, wake_unsupported,
         {in_parts({counts}), {bounds, A::stirred_bodies, 1}, {first_contacts, A::stirred_bodies}, {contacts_before, A::stirred, 1}, {pairs},
-         {pair_starts}, {point_counts}, {properties}, {ids}, by_atomics({sleep_states})},
-        {by_atomics({sleep_states})}, physics::FEATURE_REORDERED});
+         {pair_starts}, {point_counts}, {properties}, {ids}, by_atomics({sleep_states}), {gravities}},
+        {by_atomics({sleep_states})}, felt});
     all.push_back({"wake_joined", DispatchDomain::joint_blocks, wake_joined,
         {{counts}, {joints, A::joints, 2}, {sleep_states, A::joints}, {properties}, {velocities}},
         {{joints}, {sleep_states}}});
@@ -166,22 +170,22 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {joints}}, physics::FEATURE_REORDERED});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
-         {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}},
-        {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES});
+         {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {gravities}, {ids}},
+        {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | felt});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
 void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
-                                       physics::FEATURE_SURFACES;
+                                       physics::FEATURE_SURFACES | felt;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}},
         {{joints, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
-        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}},
-        {{velocities, A::movers}, {masses, A::movers, 1}}});
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}, {births}, {ids}},
+        {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
     all.push_back({"solve_contacts", DispatchDomain::solver_contacts, solve_contacts,
-        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}},
+        {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
     all.push_back({"solve_joints", DispatchDomain::joint_blocks, solve_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots}},
@@ -191,7 +195,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}}});
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
-         {velocities, A::movers}, {properties}, {sleep_states}},
+         {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_SUMS});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
         {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, {slots}, {properties}, {sleep_states}},
@@ -204,14 +208,15 @@ void declare_solver(std::vector<StageDeclaration>& all) {
 std::vector<StageDeclaration> declare() {
     std::vector<StageDeclaration> all;
     all.push_back({"begin_step", DispatchDomain::buckets, begin_step,
-        {{counts}, {properties, A::bodies, 1}},
-        {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {counts}}});
+        {{counts}, {properties, A::bodies, 1}, {gravities}, {ids}},
+        {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {copy_states}, {counts}},
+        physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
         {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {forces, A::actions}},
         {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
     all.push_back({"apply_fields", DispatchDomain::bodies, apply_fields,
-        {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}},
-        {some_only({forces, A::movers})}, physics::FEATURE_REORDERED});
+        {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}, {gravities}},
+        {some_only({forces, A::movers})}, physics::FEATURE_REORDERED | physics::FEATURE_GRAVITIES});
     all.push_back({"drive_vehicles", DispatchDomain::vehicles, drive_vehicles,
         {{counts}, {vehicles, A::vehicles}, {properties}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {way_points}},
         {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({sleep_states, A::joints})}});
@@ -219,8 +224,10 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}},
         {{poses, A::bodies}, {velocities, A::bodies}}});
     all.push_back({"compute_bounds", DispatchDomain::bodies, compute_bounds,
-        {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {forces, A::bodies}, {masses, A::bodies, 1}, {sleep_states, A::bodies}, {cell_ends, A::bodies}},
-        {{bounds, A::bodies}, {masses, A::bodies}, {cell_ends, A::bodies}, {counts}}});
+        {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}, {forces, A::bodies}, {masses, A::bodies, 1}, {sleep_states, A::bodies}, {cell_ends, A::bodies}, {ids},
+         {copy_states}},
+        {{bounds, A::bodies}, {masses, A::bodies}, {cell_ends, A::bodies}, {copy_states}, {counts}},
+        physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
     declare_broadphase(all);
     declare_narrowphase(all);
     declare_contacts(all);
@@ -233,12 +240,12 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {bounds, A::ccd_bodies, 1}, {properties}, {poses}, {velocities}, {forces}},
         {{poses}, {velocities}}});
     all.push_back({"find_broken", DispatchDomain::bodies, find_broken,
-        {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solver_contacts}, {velocities}, {fractures}, {strains}},
-        {some_only({strains, A::movers}), {forces}, {counts}}});
+        {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solver_contacts}, {velocities}, {fractures}, {strains}, {ids}, {copy_states}},
+        {some_only({strains, A::movers}), {forces}, {copy_states}, {counts}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
     all.push_back({"return_excess_impulse", DispatchDomain::bodies, return_excess_impulse,
         {{counts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints, A::solver_contacts}, {impulses}, {masses},
-         {forces, A::bodies, 1}, {carried, A::solver_contacts}, {velocities, A::movers}},
-        {{velocities, A::movers}}});
+         {forces, A::bodies, 1}, {carried, A::solver_contacts}, {velocities, A::movers}, {ids}, {copy_states}},
+        {{velocities, A::movers}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
     all.push_back({"break_bodies", DispatchDomain::bodies, break_bodies,
         {{counts}, {forces, A::bodies, 1}, {properties}, {poses}, {velocities}, {fractures}, {pieces}},
         {{properties}, some_only({strains}), {poses}, {velocities}, {sleep_states}}});

@@ -17,7 +17,8 @@ constexpr std::uint32_t most_contacts = 320;
 constexpr std::uint32_t most_items = 2048;
 
 bool is_small(const physics::Parameters& p) {
-    return p.contact_capacity <= most_contacts && std::max({p.pair_capacity, p.bodies, p.buckets}) <= most_items;
+    return p.contact_capacity <= most_contacts && std::max(p.pair_capacity, p.bodies) <= most_items &&
+           p.buckets + p.copies <= most_items + 1;
 }
 
 // lavapipe silently ends a shader's loops after 65,535 rounds in all, and one vector of its threads runs through

@@ -16,9 +16,9 @@
 
 namespace scree {
 
-State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all)
+State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies)
     : substeps(settings.substeps), all_(all) {
-    SceneCompiler(*this).compile(scene, settings, group_size);
+    SceneCompiler(*this).compile(scene, settings, group_size, copies);
 }
 
 std::uint32_t State::buckets_for(std::uint32_t bodies) {
@@ -48,7 +48,7 @@ std::size_t State::allocated(BufferLength length) const {
         case BufferLength::bodies_and_end:
             return p.bodies + 1;
         case BufferLength::buckets:
-            return p.buckets + 2;
+            return physics::buckets_in_all(p) + 1;
         case BufferLength::pairs:
             return p.pair_capacity;
         case BufferLength::pairs_and_end:
@@ -58,7 +58,7 @@ std::size_t State::allocated(BufferLength length) const {
         case BufferLength::candidates:
             return p.pair_capacity;
         case BufferLength::scan_blocks:  // for the longest scanned list
-            return std::max({pair_types, std::size_t{p.pair_capacity}, std::size_t{p.buckets} + 1}) / block + 2;
+            return std::max({pair_types, std::size_t{p.pair_capacity}, std::size_t{physics::buckets_in_all(p)}}) / block + 2;
         case BufferLength::contacts:
             return p.contact_capacity;
         case BufferLength::slots:
@@ -87,6 +87,10 @@ std::size_t State::allocated(BufferLength length) const {
             return filters.empty() ? 0 : p.bodies;
         case BufferLength::exclusions:
             return exclusions.size();
+        case BufferLength::copies:
+            return has_copies() ? p.copies : 0;
+        case BufferLength::gravities:
+            return gravities.size();
         case BufferLength::actions:
             return action_room;
     }
@@ -99,7 +103,7 @@ std::size_t State::live(BufferLength length) const {
         case BufferLength::bodies:
             return fixed().bodies;
         case BufferLength::entries:
-            return cell_ends[fixed().buckets];
+            return cell_ends[physics::buckets_in_all(fixed()) - 1];
         case BufferLength::pairs:
             return c.pairs;
         case BufferLength::pairs_and_end:
@@ -128,6 +132,8 @@ SceneFeatures State::features() const {
     found.filters = !filters.empty();
     found.sums = found.breaking || sums_impulses;
     found.bounces |= fixed().least_restitution > 0;
+    found.copies = has_copies();
+    found.gravities = !gravities.empty();
     return found;
 }
 
@@ -173,8 +179,8 @@ void State::make(Table table) {
 void State::allocate() {
     const std::size_t numbered = ids.size();  // number of rows
     using enum Table;
-    for (const Table table :
-         {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints, vehicles, ids})
+    for (const Table table : {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints,
+                              vehicles, ids, births})
         make(table);
     if (!this->filters.empty()) this->filters.resize(fixed().bodies, no_filter);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);

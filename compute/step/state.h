@@ -12,6 +12,7 @@
 
 #include "compute/scene.h"
 #include "compute/settings.h"
+#include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/shape_data.h"
 #include "shaders/stages/lib/tables.h"
@@ -46,6 +47,8 @@ enum class BufferLength {
     exclusions,
     joints,
     vehicles,
+    copies,
+    gravities,
     actions
 };
 
@@ -91,6 +94,8 @@ struct SceneFeatures {
     bool surfaces = false;   // some material has more than friction, restitution and rolling resistance
     bool filters = false;    // some body has a collision filter or an excluded partner
     bool sums = false;       // contacts sum their impulses over the step
+    bool copies = false;     // there are several copies of the scene
+    bool gravities = false;  // whose gravity differs
     static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
@@ -107,11 +112,13 @@ struct SceneFeatures {
                 .fields = true,
                 .surfaces = true,
                 .filters = true,
-                .sums = true};
+                .sums = true,
+                .copies = true,
+                .gravities = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 16 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 18 * sizeof(bool));  // everything() names all
 
 inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 
@@ -136,8 +143,8 @@ struct State {
 #undef SCREE_VIEW
 
     // The initial tables of a checked scene. `all`: allocates every table; else only those that the scene defines, and
-    // make() allocates others.
-    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all);
+    // make() allocates others. `copies`: the scene is made of as many copies (scene/copies.h); 0: of none.
+    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies = 0);
     void make(Table table);
 
     // Swaps contacts and contacts_before; called at the start of every step that is not a repetition.
@@ -180,6 +187,17 @@ struct State {
     std::uint32_t body_of(std::uint32_t row) const {
         return row < fixed().first_part ? row : properties[row].owner;
     }
+    bool has_copies() const {
+        return physics::has_copies(fixed());
+    }
+    // The copy of the scene that a row belongs to.
+    std::uint32_t copy_of(std::uint32_t row) const {
+        return has_copies() ? id_of(body_of(row)) / fixed().bodies_of_copy : 0;
+    }
+    // Whether the next step is the first of a copy: contacts before it are those of a life before.
+    bool is_newborn(std::uint32_t copy) const {
+        return has_copies() && births[copy] == counted().steps;
+    }
     // The pose of a part in its body.
     const physics::PoseInBody& part_in(std::size_t row) const {
         return parts[row - fixed().first_part];
@@ -216,6 +234,12 @@ struct State {
     // has in a heap of equal ones; others search again.
     static constexpr std::size_t noted = 15;
     std::vector<std::array<std::uint32_t, noted>> partners;
+    // Likewise, if the gravity of copies differs: the parameters of each copy, and runs of contacts_to_solve of one copy each.
+    struct Run {
+        std::uint32_t first, last, copy;
+    };
+    std::vector<physics::Parameters> felt;
+    std::vector<Run> solver_runs;
 
     ShapePlaces shape_places;
     // Records of removed bodies, for new ones: runs of part rows (offset behind first_part, count), fractures.

@@ -137,6 +137,7 @@ std::vector<std::vector<Body>> World::Impl::checked_families(std::span<const Bod
 
 std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     Impl& in = *interior_;
+    in.require_one_copy("add_bodies");
     std::vector<std::vector<Body>> families = in.checked_families(bodies);
     if (families.empty()) return {};
     in.count_bodies();
@@ -276,12 +277,14 @@ void World::Impl::remove(std::vector<std::size_t> bodies) {
 }
 
 void World::remove_bodies(std::span<const BodyHandle> bodies) {
+    interior_->require_one_copy("remove_bodies");
     std::vector<std::size_t> indices;
     for (const BodyHandle& body : bodies) indices.push_back(index_of(body));
     interior_->remove(std::move(indices));
 }
 
 void World::remove_body(std::size_t body) {
+    interior_->require_one_copy("remove_body");
     interior_->remove({body});
 }
 

@@ -1,6 +1,7 @@
 // World: changing bodies: poses and velocities in bulk, materials, filters, motion.
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -78,6 +79,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
     if (state.has_fractures()) append(needed, ranges_of(rows, {Table::properties}));
     runner->download(needed);
     for (const BodyChange& change : bodies) require_there(change.body);
+    std::set<std::size_t> woken;  // copies
     for (const BodyChange& change : bodies) {
         const std::uint32_t row = state.row_of(change.body);
         physics::Pose& pose = state.poses[row];
@@ -93,7 +95,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         arrivals.erase(change.body);
         const Body& body = scene.bodies[change.body];
         if (body.motion == Motion::dynamic || !(change.position || change.orientation)) continue;
-        state.fixed().wake_all = 1;
+        woken.insert(copy_of(change.body));
         append(changed, StateEditor(state).place_parts(static_cast<std::uint32_t>(change.body)));
         if (body.motion != Motion::fixed) continue;
         keep_original(change.body);
@@ -102,6 +104,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         edits.clear();
     }
     runner->upload(changed);
+    for (const std::size_t copy : woken) wake_copy(copy);
     ++changes;
 }
 
@@ -127,7 +130,7 @@ void World::Impl::change(std::size_t index, const std::function<void(Body&)>& ed
     const TableLengths before = TableLengths::of(state);
     send(StateEditor(state).change(body, static_cast<std::uint32_t>(index)), before);
     if (wakes_all || body.motion != Motion::dynamic)
-        state.fixed().wake_all = 1;
+        wake_copy_of(index);
     else
         actions[index];
     edits.clear();
@@ -138,10 +141,10 @@ void World::set_material(std::size_t body, const Material& material) {
         body, [&](Body& b) { scree::set_material(b, material); }, false);
 }
 
-void World::Impl::refilter() {
+void World::Impl::refilter(std::size_t body) {
     const TableLengths before = TableLengths::of(state);
     send(StateEditor(state).filter(scene), before);
-    state.fixed().wake_all = 1;
+    wake_copy_of(body);
     edits.clear();
     ++changes;
 }
@@ -151,7 +154,7 @@ void World::set_filter(std::size_t body, const Filter& filter) {
     in.require_body(body);
     in.keep_original(body);
     in.scene.bodies[body].filter = filter;
-    in.refilter();
+    in.refilter(body);
 }
 
 void World::set_exclusion(std::size_t a, std::size_t b, bool excluded) {
@@ -159,9 +162,12 @@ void World::set_exclusion(std::size_t a, std::size_t b, bool excluded) {
     in.require_body(a);
     in.require_body(b);
     if (a == b) throw std::invalid_argument("body " + std::to_string(a) + " cannot collide with itself");
+    if (in.copy_of(a) != in.copy_of(b))
+        throw std::invalid_argument("bodies " + std::to_string(a) + " and " + std::to_string(b) +
+                                    " are in two copies of the scene, which never meet");
     std::erase_if(in.scene.exclusions, [&](const Exclusion& e) { return e == Exclusion{a, b} || e == Exclusion{b, a}; });
     if (excluded) in.scene.exclusions.push_back({a, b});
-    in.refilter();
+    in.refilter(a);
 }
 
 void World::set_motion(std::size_t body, Motion motion) {

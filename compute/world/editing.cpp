@@ -89,14 +89,15 @@ void World::release(std::size_t grip) {
     interior_->grips[grip].reset();
 }
 
-void World::explode(vec3 centre, float radius, float speed) {
+void World::explode(vec3 centre, float radius, float speed, std::optional<std::size_t> copy) {
+    if (copy) interior_->require_copy(*copy);
     demand(within(centre, farthest), "explosion: the centre must be within 1000000 m of 0");
     demand(radius > 0 && radius <= farthest, "explosion: the radius must be in (0, 1000000] m");
     demand(std::abs(speed) <= 1e4f, "explosion: the speed must be within 10000 m/s");
     const std::vector<BodyState> states = bodies();
     for (std::size_t i = 0; i < states.size(); ++i) {
         const Body& body = interior_->scene.bodies[i];
-        if (body.motion != Motion::dynamic || !states[i].exists) continue;
+        if (body.motion != Motion::dynamic || !states[i].exists || (copy && interior_->copy_of(i) != *copy)) continue;
         const vec3 apart = states[i].position - centre;
         const float distance = glm::length(apart);
         if (!(distance < radius)) continue;
@@ -130,6 +131,7 @@ void World::set_fields(const Fields& fields) {
 
 void World::set_gravity(vec3 gravity) {
     interior_->scene.gravity = checked(Scene{gravity, {}, {}}).gravity;
+    if (!interior_->state.gravities.empty()) interior_->set_gravities({});
     interior_->retune(interior_->settings);
     wake_all();
 }

@@ -194,6 +194,7 @@ void World::Impl::check_new_joints(std::span<const std::size_t> joints) {
 
 std::size_t World::add_joint(const Joint& joint) {
     Impl& in = *interior_;
+    in.require_one_copy("add_joint");
     in.count_joints();
     const std::size_t index = in.scene.joints.size();
     in.scene.joints.push_back(joint);
@@ -214,6 +215,7 @@ std::size_t World::add_joint(const Joint& joint) {
 std::vector<JointHandle> World::add_joints(std::span<const Joint> joints) {
     if (joints.empty()) return {};
     Impl& in = *interior_;
+    in.require_one_copy("add_joints");
     in.count_joints();
     const std::size_t before = in.scene.joints.size();
     std::vector<std::size_t> indices;
@@ -246,6 +248,7 @@ std::vector<JointHandle> World::add_joints(std::span<const Joint> joints) {
 
 void World::remove_joint(std::size_t index) {
     Impl& in = *interior_;
+    in.require_one_copy("remove_joint");
     in.require_joint(index);
     in.require_no_wheel(index);
     in.count_joints();
@@ -261,6 +264,7 @@ void World::remove_joint(std::size_t index) {
 
 void World::remove_joints(std::span<const JointHandle> joints) {
     Impl& in = *interior_;
+    in.require_one_copy("remove_joints");
     std::vector<std::size_t> indices;
     for (const JointHandle& joint : joints) {
         indices.push_back(index_of(joint));

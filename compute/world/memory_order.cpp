@@ -23,7 +23,7 @@ double seconds_since(Clock::time_point then) {
 }  // namespace
 
 bool World::Impl::keeps_order() const {
-    return settings.reordering && scene.bodies.size() >= fewest_bodies;
+    return settings.reordering && scene.bodies.size() / copies() >= fewest_bodies;
 }
 
 void World::Impl::begin_in_order() {

@@ -72,17 +72,19 @@ bool nearer(const QueryHit& x, const QueryHit& y) {
 
 // ---- the bodies as a tree
 QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), state_(state) {
-    std::vector<BoundingBox> boxes;
+    of_.resize(state.fixed().copies);
+    std::vector<std::vector<BoundingBox>> boxes(of_.size());
     const auto add = [&](std::uint32_t row, std::uint32_t body, std::uint32_t part) {
         const physics::BodyProperties& properties = state.properties[row];
         const vec3 centre = state.poses[row].position, half = physics::half_extents_of(properties, state.poses[row].orientation);
         if (physics::is_apart(properties)) return;
+        const std::uint32_t copy = state.copy_of(row);
         if (properties.shape == physics::SHAPE_PLANE) {
-            planes_.push_back({row, body, part});
+            of_[copy].planes.push_back({row, body, part});
         } else if (is_finite(centre)) {
             const vec3 slack = 1e-5f * (glm::abs(centre) + half) + 1e-6f;
-            boxes.push_back({centre - half - slack, centre + half + slack});
-            leaves_.push_back({row, body, part});
+            boxes[copy].push_back({centre - half - slack, centre + half + slack});
+            of_[copy].leaves.push_back({row, body, part});
         }
     };
     const physics::Parameters& p = state.fixed();
@@ -98,7 +100,7 @@ QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), 
         owner = state.properties[row].owner;
         add(row, state.id_of(owner), part);
     }
-    tree_ = BoundsTree(boxes);
+    for (std::size_t copy = 0; copy < of_.size(); ++copy) of_[copy].tree = BoundsTree(boxes[copy]);
 }
 
 bool QueryScene::sees(const Leaf& leaf, std::uint32_t mask) const {
@@ -145,6 +147,7 @@ void QueryScene::complete(QueryHit& hit, const RayQuery& ray) const {
 }
 
 std::optional<QueryHit> QueryScene::nearest(const RayQuery& ray, bool any) const {
+    const Bodies& in = of_[ray.copy];
     std::optional<QueryHit> best;
     float reach = ray.reach;
     const auto offer = [&](const Leaf& leaf) {
@@ -153,19 +156,20 @@ std::optional<QueryHit> QueryScene::nearest(const RayQuery& ray, bool any) const
         best = found;
         reach = any ? -1 : found->distance;  // equally near ones are still met
     };
-    for (const Leaf& plane : planes_) offer(plane);
+    for (const Leaf& plane : in.planes) offer(plane);
     if (!(any && best))
-        tree_.for_each_met(ray.from, ray.along, vec3(0), reach, [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+        in.tree.for_each_met(ray.from, ray.along, vec3(0), reach, [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
     return best;
 }
 
 std::vector<QueryHit> QueryScene::all(const RayQuery& ray) const {
+    const Bodies& in = of_[ray.copy];
     std::vector<QueryHit> found;
     const auto offer = [&](const Leaf& leaf) {
         if (const std::optional<QueryHit> one = hit(leaf, ray)) found.push_back(*one);
     };
-    for (const Leaf& plane : planes_) offer(plane);
-    tree_.for_each_met(ray.from, ray.along, vec3(0), ray.reach, [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+    for (const Leaf& plane : in.planes) offer(plane);
+    in.tree.for_each_met(ray.from, ray.along, vec3(0), ray.reach, [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
     std::sort(found.begin(), found.end(), nearer);
     for (QueryHit& one : found) complete(one, ray);
     return found;
@@ -186,6 +190,7 @@ float QueryScene::gap(const Leaf& leaf, const physics::BodyProperties& probe, co
 }
 
 std::vector<QueryPart> QueryScene::overlapping(const ShapeOverlap& query, vec4 orientation) const {
+    const Bodies& in = of_[query.copy];
     const physics::BodyProperties probe = probe_of(query.shape);
     const physics::Pose pose{query.position, 0, orientation};
     const vec3 half = physics::half_extents_of(probe, orientation) * 1.00001f + 1e-6f;
@@ -193,8 +198,8 @@ std::vector<QueryPart> QueryScene::overlapping(const ShapeOverlap& query, vec4 o
     const auto offer = [&](const Leaf& leaf) {
         if (sees(leaf, query.mask) && gap(leaf, probe, pose) <= 0) found.push_back({leaf.body, leaf.part});
     };
-    for (const Leaf& plane : planes_) offer(plane);
-    tree_.for_each_overlap({query.position - half, query.position + half}, [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+    for (const Leaf& plane : in.planes) offer(plane);
+    in.tree.for_each_overlap({query.position - half, query.position + half}, [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
     std::sort(found.begin(), found.end(),
               [](const QueryPart& x, const QueryPart& y) { return std::tie(x.body, x.part) < std::tie(y.body, y.part); });
     return found;
@@ -203,6 +208,7 @@ std::vector<QueryPart> QueryScene::overlapping(const ShapeOverlap& query, vec4 o
 // A point is a ball without a radius, whose distances are exact. The box that is looked through shrinks to the nearest so far,
 // so first to a tenth of the reach.
 std::optional<QueryHit> QueryScene::closest(const ClosestQuery& query) const {
+    const Bodies& in = of_[query.copy];
     physics::BodyProperties probe{};
     probe.shape = physics::SHAPE_SPHERE;
     const physics::Pose pose{query.point, 0, vec4(0, 0, 0, 1)};
@@ -215,11 +221,11 @@ std::optional<QueryHit> QueryScene::closest(const ClosestQuery& query) const {
         const QueryHit found{leaf.body, leaf.part, distance, query.point - normal * distance, normal};
         if (!best || nearer(found, *best)) best = found;
     };
-    for (const Leaf& plane : planes_) offer(plane);
+    for (const Leaf& plane : in.planes) offer(plane);
     for (const float share : {0.01f, 0.1f, 1.0f}) {
         const float reach = best ? std::min(best->distance, query.reach) : share * query.reach;
-        tree_.for_each_overlap({query.point - vec3(reach), query.point + vec3(reach)},
-                               [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+        in.tree.for_each_overlap({query.point - vec3(reach), query.point + vec3(reach)},
+                                 [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
         if (best && best->distance <= reach) break;
     }
     return best;
@@ -247,6 +253,7 @@ std::optional<QueryHit> QueryScene::cast_at(const Leaf& leaf, const ShapeCast& c
 }
 
 std::optional<QueryHit> QueryScene::nearest(const ShapeCast& cast, vec4 orientation) const {
+    const Bodies& in = of_[cast.copy];
     const physics::BodyProperties probe = probe_of(cast.shape);
     std::optional<QueryHit> best;
     float reach = cast.reach;
@@ -256,9 +263,9 @@ std::optional<QueryHit> QueryScene::nearest(const ShapeCast& cast, vec4 orientat
         best = found;
         reach = found->distance;
     };
-    for (const Leaf& plane : planes_) offer(plane);
-    tree_.for_each_met(cast.from, cast.along, physics::half_extents_of(probe, orientation) + touching, reach,
-                       [&](std::uint32_t leaf) { offer(leaves_[leaf]); });
+    for (const Leaf& plane : in.planes) offer(plane);
+    in.tree.for_each_met(cast.from, cast.along, physics::half_extents_of(probe, orientation) + touching, reach,
+                         [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
     return best;
 }
 
@@ -273,7 +280,12 @@ const QueryScene& World::Impl::query_scene() const {
 
 namespace {
 
-void check_ray(const RayQuery& ray, std::size_t i) {
+void check_copy(const char* kind, std::size_t i, std::size_t copy, std::size_t copies) {
+    if (copy >= copies)
+        refuse_query(kind, i, "there is no copy " + std::to_string(copy) + " of the scene, of " + std::to_string(copies));
+}
+void check_ray(const RayQuery& ray, std::size_t i, std::size_t copies) {
+    check_copy("ray", i, ray.copy, copies);
     if (!is_finite(ray.from)) refuse_query("ray", i, "its origin must be finite");
     if (!is_unit(ray.along)) refuse_query("ray", i, "its direction must be of length 1");
     if (!(ray.reach > 0)) refuse_query("ray", i, "its reach must be above 0 m");
@@ -292,7 +304,7 @@ QueryLists<Item> joined_lists(std::vector<std::vector<Item>>&& lists) {
 }  // namespace
 
 std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i);
+    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
     const QueryScene& bodies = interior_->query_scene();
     std::vector<std::optional<QueryHit>> hits(rays.size());
     interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) {
@@ -303,7 +315,7 @@ std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> 
 }
 
 std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i);
+    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
     const QueryScene& bodies = interior_->query_scene();
     std::vector<std::uint8_t> hits(rays.size());
     interior_->runner->threads().for_each(rays.size(),
@@ -312,7 +324,7 @@ std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const 
 }
 
 QueryLists<QueryHit> World::cast_rays_through(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i);
+    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
     const QueryScene& bodies = interior_->query_scene();
     std::vector<std::vector<QueryHit>> lists(rays.size());
     interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) { lists[i] = bodies.all(rays[i]); });
@@ -323,6 +335,7 @@ std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCas
     std::vector<vec4> turns;
     for (std::size_t i = 0; i < casts.size(); ++i) {
         const ShapeCast& cast = casts[i];
+        check_copy("cast", i, cast.copy, copies());
         check_shape("cast", i, cast.shape);
         turns.push_back(checked_turn("cast", i, cast.orientation));
         if (!is_finite(cast.from)) refuse_query("cast", i, "its origin must be finite");
@@ -337,6 +350,7 @@ std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCas
 
 std::vector<std::optional<QueryHit>> World::closest_points(std::span<const ClosestQuery> points) const {
     for (std::size_t i = 0; i < points.size(); ++i) {
+        check_copy("point", i, points[i].copy, copies());
         if (!is_finite(points[i].point)) refuse_query("point", i, "it must be finite");
         if (!(points[i].reach > 0 && points[i].reach <= 1e6f))
             refuse_query("point", i, "its reach must be above 0 and at most 1000000 m");
@@ -350,6 +364,7 @@ std::vector<std::optional<QueryHit>> World::closest_points(std::span<const Close
 QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> queries) const {
     std::vector<vec4> turns;
     for (std::size_t i = 0; i < queries.size(); ++i) {
+        check_copy("overlap", i, queries[i].copy, copies());
         check_shape("overlap", i, queries[i].shape);
         turns.push_back(checked_turn("overlap", i, queries[i].orientation));
         if (!is_finite(queries[i].position)) refuse_query("overlap", i, "its position must be finite");

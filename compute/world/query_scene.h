@@ -1,4 +1,5 @@
-// The bodies of a world at one moment, for queries: a tree over bodies, parts and triangles; planes apart.
+// The bodies of a world at one moment, for queries: for each copy of the scene
+// a tree over bodies, parts and triangles; planes apart.
 #pragma once
 
 #include <cstdint>
@@ -36,10 +37,14 @@ private:
     float gap(const Leaf& leaf, const physics::BodyProperties& probe, const physics::Pose& pose, vec3* normal = nullptr) const;
     static physics::BodyProperties probe_of(const SimpleShape& shape);
 
+    struct Bodies {
+        std::vector<Leaf> leaves, planes;
+        BoundsTree tree;
+    };
+
     const Scene& scene_;
     const State& state_;
-    std::vector<Leaf> leaves_, planes_;
-    BoundsTree tree_;
+    std::vector<Bodies> of_;  // by copy of the scene
 };
 
 }  // namespace scree

@@ -83,6 +83,18 @@ BoundingBox box_around(const State& state, std::uint32_t row) {
 // Few sensors go through all rows by bounding spheres, many through a tree.
 constexpr std::size_t few_sensors = 8;
 
+// Of each copy of the scene.
+std::vector<Colliders> apart_by_copies(Colliders&& all, const State& state) {
+    std::vector<Colliders> found(state.fixed().copies);
+    if (found.size() == 1) {
+        found[0] = std::move(all);
+        return found;
+    }
+    for (const Collider& sensor : all.sensors) found[state.copy_of(sensor.row)].sensors.push_back(sensor);
+    for (const Collider& solid : all.solids) found[state.copy_of(solid.row)].solids.push_back(solid);
+    return found;
+}
+
 bool may_reach(const State& state, const BoundingBox& around, const Collider& solid) {
     const physics::BodyProperties& properties = state.properties[solid.row];
     if (properties.shape == physics::SHAPE_PLANE) return true;
@@ -92,14 +104,8 @@ bool may_reach(const State& state, const BoundingBox& around, const Collider& so
     return glm::dot(apart, apart) <= reach * reach;
 }
 
-}  // namespace
-
-bool has_sensors(const State& state) {
-    return std::any_of(state.properties.begin(), state.properties.end(), is_sensor);
-}
-
-std::vector<SensorOverlap> overlaps_of_sensors(const State& state, const Threads& threads) {
-    const Colliders found = colliders_of(state);
+// A list for each sensor.
+std::vector<std::vector<SensorOverlap>> overlaps_among(const Colliders& found, const State& state, const Threads& threads) {
     std::vector<std::vector<SensorOverlap>> lists(found.sensors.size());
     const auto offer = [&](std::size_t i, const Collider& solid) {
         const Collider& sensor = found.sensors[i];
@@ -120,8 +126,20 @@ std::vector<SensorOverlap> overlaps_of_sensors(const State& state, const Threads
             tree.for_each_overlap(box_around(state, found.sensors[i].row), [&](std::uint32_t k) { offer(i, found.solids[k]); });
         });
     }
+    return lists;
+}
+
+}  // namespace
+
+bool has_sensors(const State& state) {
+    return std::any_of(state.properties.begin(), state.properties.end(), is_sensor);
+}
+
+std::vector<SensorOverlap> overlaps_of_sensors(const State& state, const Threads& threads) {
     std::vector<SensorOverlap> all;
-    for (const std::vector<SensorOverlap>& list : lists) all.insert(all.end(), list.begin(), list.end());
+    for (const Colliders& found : apart_by_copies(colliders_of(state), state))
+        for (const std::vector<SensorOverlap>& list : overlaps_among(found, state, threads))
+            all.insert(all.end(), list.begin(), list.end());
     std::sort(all.begin(), all.end());
     all.erase(std::unique(all.begin(), all.end()), all.end());
     return all;

@@ -118,6 +118,8 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put_list(std::span(state.exclusions));
     out.put_list(std::span(state.surfaces));
     out.put_list(std::span(state.immersions));
+    out.put_list(std::span(state.births));
+    out.put_list(std::span(state.gravities));
 }
 
 StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
@@ -139,7 +141,8 @@ StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
     vehicles_ = in.take_records(sizeof(physics::Vehicle));
     constexpr std::array sizes{sizeof(physics::uvec4),      sizeof(physics::PoseInBody), sizeof(physics::Fracturing),
                                sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::uvec4),
-                               sizeof(physics::uvec4),      sizeof(physics::Surface),    sizeof(physics::Immersion)};
+                               sizeof(physics::uvec4),      sizeof(physics::Surface),    sizeof(physics::Immersion),
+                               sizeof(physics::uint),       sizeof(physics::uvec4)};
     for (std::size_t i = 0; i < sizes.size(); ++i) shapes_[i] = in.take_records(sizes[i]);
     const std::size_t parts = shapes_[1].size() / sizeof(physics::PoseInBody);
     const auto in_range = [](const auto& list, std::size_t end) {
@@ -149,7 +152,9 @@ StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
         (shapes_[5].size() != 0 && shapes_[5].size() != rows * sizeof(physics::uvec4)) ||
         (!rows_.empty() && rows_.size() != body_count_) || !in_range(rows_, parameters_.first_part) ||
         !in_range(joint_records_, joints_.size() / sizeof(physics::Joint)) ||
-        parameters_.vehicles > vehicles_.size() / sizeof(physics::Vehicle) || substeps_ < 1)
+        parameters_.vehicles > vehicles_.size() / sizeof(physics::Vehicle) || substeps_ < 1 ||
+        shapes_[9].size() != (physics::has_copies(parameters_) ? parameters_.copies * sizeof(physics::uint) : 0) ||
+        (shapes_[10].size() != 0 && shapes_[10].size() != parameters_.copies * sizeof(physics::uvec4)))
         refuse();
 }
 
@@ -177,6 +182,8 @@ TableRanges StateBytes::restore(State& state) const {
     assign(state.exclusions, shapes_[6]);
     assign(state.surfaces, shapes_[7]);
     assign(state.immersions, shapes_[8]);
+    assign(state.births, shapes_[9]);
+    assign(state.gravities, shapes_[10]);
     for (const auto& [table, bytes] : tables_) state.make(table);
     state.allocate();
     for (const auto& [table, bytes] : tables_)
@@ -198,6 +205,8 @@ TableRanges StateBytes::restore(State& state) const {
     add(Table::exclusions, 0, state.exclusions.size());
     add(Table::surfaces, 0, state.surfaces.size());
     add(Table::immersions, 0, state.immersions.size());
+    add(Table::births, 0, state.births.size());
+    add(Table::gravities, 0, state.gravities.size());
     return changed;
 }
 

@@ -46,7 +46,7 @@ private:
     std::vector<std::uint32_t> rows_, joint_records_;
     std::vector<std::pair<Table, std::span<const std::byte>>> tables_;
     std::span<const std::byte> joints_, vehicles_;
-    std::array<std::span<const std::byte>, 9> shapes_;  // those of StartLengths: behind `at_start`
+    std::array<std::span<const std::byte>, 11> shapes_;  // those of StartLengths: behind `at_start`
     StartLengths at_start_;
 };
 

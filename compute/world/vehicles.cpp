@@ -111,8 +111,9 @@ void World::reset_upright(std::size_t vehicle) {
     in.runner->download(row_ranges(in.state, in.state.row_of(v.chassis)));
     const vec4 frame = in.state.vehicles[vehicle].dynamics.frame;
     const physics::Pose before = in.state.poses[in.state.row_of(v.chassis)];
-    const float pull = glm::length(in.scene.gravity);
-    const vec3 up = pull > 1e-6f ? -in.scene.gravity / pull : vec3(0, 1, 0);
+    const vec3 gravity = in.gravity_of(in.copy_of(v.chassis));
+    const float pull = glm::length(gravity);
+    const vec3 up = pull > 1e-6f ? -gravity / pull : vec3(0, 1, 0);
     const vec4 now = physics::compose(before.orientation, frame);
     vec3 left = physics::rotate(now, vec3(1, 0, 0)), ahead = physics::rotate(now, vec3(0, 0, 1));
     ahead -= up * glm::dot(ahead, up);

@@ -10,7 +10,9 @@
 #include "compute/scene/fracture.h"
 #include "compute/statistics.h"
 #include "compute/step/memory_order.h"
+#include "compute/step/scene_compiler.h"
 #include "compute/world/world_impl.h"
+#include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree {
@@ -36,17 +38,29 @@ bool finite(vec3 v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
+CopiedScene copied_as_said(const Scene& scene, std::size_t copies, const VaryCopy& vary) {
+    if (copies < 1 || copies > physics::MOST_COPIES)
+        throw std::invalid_argument("a world has between 1 and " + std::to_string(physics::MOST_COPIES) +
+                                    " copies of its scene, not " + std::to_string(copies));
+    return copied(scree::checked(scene), copies, vary);
+}
+
 }  // namespace
 
-World::Impl::Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r)
-    : scene(std::move(s)),
+World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, std::size_t copies)
+    : scene(std::move(s.scene)),
       settings(t),
       runner(std::move(r)),
-      state(scene, settings, runner->group_size(), runner->in_place()),
+      state(scene, settings, runner->group_size(), runner->in_place(), static_cast<std::uint32_t>(copies)),
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
       fingerprint(fingerprint_of(state)) {
     count_joints();
+    if (state.has_copies()) keep_start();
+    if (!s.gravities.empty()) {
+        state.gravities = records_of_gravities(s.gravities);
+        state.allocate();
+    }
     begin_in_order();
     runner->attach(state);
 }
@@ -126,7 +140,11 @@ int World::Impl::steps_alone(int count) {
 }
 
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
-    : interior_(std::make_unique<Impl>(scree::checked(scene), scree::checked(settings), std::move(runner))) {}
+    : interior_(std::make_unique<Impl>(CopiedScene{scree::checked(scene), {}}, scree::checked(settings), std::move(runner), 0)) {}
+World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, std::size_t copies,
+             const VaryCopy& vary)
+    : interior_(
+          std::make_unique<Impl>(copied_as_said(scene, copies, vary), scree::checked(settings), std::move(runner), copies)) {}
 World::World(const Scene& scene, const Settings& settings, int threads)
     : World(scene, settings, make_reference_runner(threads)) {}
 World::~World() = default;
@@ -214,51 +232,6 @@ std::vector<BodyState> World::bodies() const {
     return bodies;
 }
 
-Scene World::snapshot() const {
-    Scene scene = interior_->scene;
-    interior_->bring(body_ranges);
-    std::vector<Body> there;
-    std::vector<std::size_t> place_there(scene.bodies.size(), no_body);
-    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
-        const BodyState now = interior_->body_state(i);
-        if (!now.exists) continue;
-        place_there[i] = there.size();
-        Body& body = there.emplace_back(on_its_own(std::move(scene.bodies[i])));
-        if (body.motion == Motion::fixed) continue;
-        body.position = now.position;
-        body.orientation = now.orientation;
-        body.velocity = now.velocity;
-        body.angular_velocity = now.angular_velocity;
-    }
-    scene.bodies = std::move(there);
-    interior_->bring(joint_ranges);
-    std::vector<Joint> joints;
-    std::vector<std::size_t> joint_there(scene.joints.size(), no_body);
-    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-        if (interior_->is_joint_gone(i)) {
-            joint_there[i] = no_body;
-            continue;
-        }
-        joint_there[i] = joints.size();
-        Joint& joint = joints.emplace_back(scene.joints[i]);
-        joint.broken = interior_->joint_state(i).broken;
-        // Renumbers the body; true if it does not exist.
-        const auto gone = [&](std::size_t& body) {
-            if (body == the_world) return false;
-            body = place_there[body];
-            return body == no_body;
-        };
-        const bool a_gone = gone(joint.a), b_gone = gone(joint.b);
-        if (a_gone || b_gone) {
-            joints.pop_back();
-            joint_there[i] = no_body;
-        }
-    }
-    scene.joints = std::move(joints);
-    interior_->keep_vehicles(scene, place_there, joint_there);
-    return scene;
-}
-
 BodyState World::body(std::size_t index) const {
     interior_->require_body(index);
     interior_->runner->download(row_ranges(interior_->state, interior_->state.row_of(index)));
@@ -286,7 +259,7 @@ Statistics World::statistics() const {
     interior_->bring(body_ranges);
     interior_->bring(contact_ranges);
     interior_->bring(joint_ranges);
-    Statistics found = statistics_of(interior_->scene, interior_->state);
+    Statistics found = scree::statistics_of(interior_->scene, interior_->state);
     const std::vector<std::uint8_t>& gone = interior_->joints_gone;
     const auto removed = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
     found.joints -= removed;

@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/scene/copies.h"
 #include "compute/scene/joint_validation.h"
 #include "compute/step/table_ranges.h"
 #include "compute/world.h"
@@ -74,7 +75,29 @@ struct World::Impl {
     std::uint64_t fingerprint;
     mutable std::vector<std::byte> edits;
 
-    Impl(Scene s, const Settings& t, std::unique_ptr<Runner> r);
+    Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, std::size_t copies);
+    // copies.cpp: what a reset puts back, by row, as bodies begin in the order of their ids; empty for a scene without copies.
+    struct Start {
+        std::vector<physics::Pose> poses;
+        std::vector<physics::Velocity> velocities;
+        std::vector<float> strains;
+        std::vector<physics::Vehicle> vehicles;
+    };
+    Start start;
+    std::size_t copies() const { return state.fixed().copies; }
+    void keep_start();
+    void require_copy(std::size_t copy) const;             // throws std::out_of_range
+    void require_one_copy(const std::string& what) const;  // throws std::logic_error
+    void require_copies(const std::string& what) const;    // likewise
+    std::size_t copy_of(std::size_t body) const { return state.has_copies() ? body / state.fixed().bodies_of_copy : 0; }
+    vec3 gravity_of(std::size_t copy) const;
+    void set_gravities(const std::vector<vec3>& gravities);  // of all copies
+    void wake_copy(std::size_t copy);
+    void wake_copy_of(std::size_t body) { wake_copy(copy_of(body)); }
+    TableRanges rows_of_copies(std::span<const std::size_t> which, std::initializer_list<Table> tables) const;
+    void reset_joints(std::size_t copy, TableRanges& changed);
+    void reset(std::span<const std::size_t> which);
+    Scene snapshot(std::optional<std::size_t> copy) const;
     void step();
     int steps_alone(int count);  // up to `count` steps without actions; 0 while a grip is held. Returns their number
     bool keeps_order() const;    // whether bodies are reordered in memory
@@ -142,7 +165,7 @@ struct World::Impl {
     void require_there(std::size_t body) const;  // throws std::invalid_argument for a body that has broken, or a fragment
     void set(std::span<const BodyChange> bodies);
     void change(std::size_t body, const std::function<void(Body&)>& edit, bool wakes_all);
-    void refilter();
+    void refilter(std::size_t body);
     int steps_until_arrival() const;
     void stop_arrived();  // before a step: the bodies that have reached their targets
     void require_reachable(const BodyTarget& target) const;

@@ -26,12 +26,13 @@ RayQuery ray_through(const host::PixelRays& rays, float x, float y) {
 class Casting {
 public:
     Casting(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
-            const Before& before)
+            const Before& before, std::size_t copy)
         : world_(world),
           rays_(host::pixel_rays(camera, width, height)),
           rays_before_(host::pixel_rays(before.camera, width, height)),
           choice_(choice),
-          seconds_(before.seconds) {
+          seconds_(before.seconds),
+          copy_(copy) {
         made.width = width;
         made.height = height;
         const std::size_t pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -55,7 +56,10 @@ private:
     void cast(std::size_t first, std::size_t last) {
         std::vector<RayQuery> queries;
         queries.reserve(last - first);
-        for (std::size_t i = first; i < last; ++i) queries.push_back(ray_through(rays_, centre_of(i).x, centre_of(i).y));
+        for (std::size_t i = first; i < last; ++i) {
+            queries.push_back(ray_through(rays_, centre_of(i).x, centre_of(i).y));
+            queries.back().copy = copy_;
+        }
         const std::vector<std::optional<QueryHit>> hits = world_.cast_rays(queries);
         for (std::size_t i = first; i < last; ++i) take(i, queries[i - first], hits[i - first]);
     }
@@ -92,14 +96,15 @@ private:
     host::PixelRays rays_, rays_before_;
     ChannelChoice choice_;
     float seconds_;
+    std::size_t copy_;
     std::vector<BodyState> bodies_;
 };
 
 }  // namespace
 
 Channels channels_of(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
-                     const Before& before) {
-    return std::move(Casting(world, camera, width, height, choice, before).made);
+                     const Before& before, std::size_t copy) {
+    return std::move(Casting(world, camera, width, height, choice, before, copy).made);
 }
 
 std::vector<RayQuery> rays_through_pixels(const host::Camera& camera, int width, int height) {

@@ -35,9 +35,9 @@ struct Before {
     float seconds = 0;  // ago. Bodies are taken to have moved with their present velocities
 };
 
-// Throws std::invalid_argument for a camera whose direction is undefined.
+// Of one copy of the scene. Throws std::invalid_argument for a camera whose direction is undefined.
 Channels channels_of(const World& world, const host::Camera& camera, int width, int height, const ChannelChoice& choice,
-                     const Before& before);
+                     const Before& before, std::size_t copy = 0);
 
 // The rays through the centres of all pixels, row by row from the upper left, which the channels are cast with.
 std::vector<RayQuery> rays_through_pixels(const host::Camera& camera, int width, int height);

@@ -63,13 +63,15 @@ private:
 
 }  // namespace
 
-host::ShapeInstances instances_of(const World& world) {
+host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) {
     const Scene& scene = world.scene();
     Instances instances;
     const std::vector<std::size_t> first_parts = world.first_part_rows();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
         const Shape& shape = scene.bodies[i].shape;
         if (scene.bodies[i].role == Role::sensor) continue;
+        const std::size_t copy = i / world.bodies_of_copy();
+        if (!shown.shows(copy) || (copy > shown.first && std::holds_alternative<Plane>(shape))) continue;
         auto part = static_cast<std::uint32_t>(first_parts[i]);
         if (const std::optional<SimpleShape> simple = simple_shape(shape))
             instances.add(static_cast<std::uint32_t>(world.row_of(i)), *simple);
@@ -123,14 +125,15 @@ std::unique_ptr<host::Canvas> any_canvas(const Backend& machine, const host::Sha
 
 }  // namespace
 
-Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options)
-    : world_(world), word_(canvas), machine_(machine), options_(options) {
-    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device;
+Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options,
+                 const CopiesShown& shown)
+    : world_(world), word_(canvas), machine_(machine), options_(options), shown_(shown) {
+    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device && shown.count == 0;
     update();
 }
 
 std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
-    const host::ShapeInstances instances = instances_of(world_);
+    const host::ShapeInstances instances = instances_of(world_, shown_);
     try {
         if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
         return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);
@@ -145,9 +148,39 @@ void Drawing::update() {
         canvas_ = make_canvas();
         arrangements_ = world_.arrangements();
     }
-    const host::BodyTables tables = from_device_ ? tables_on_device(world_.runner()) : tables_of(world_.state());
+    const host::BodyTables tables = from_device_       ? tables_on_device(world_.runner())
+                                    : shown_.count > 0 ? tables_of_copies()
+                                                       : tables_of(world_.state());
     contacts_ = tables.touch_count;
     canvas_->set_tables(tables);
+}
+
+// Contacts and joints of copies that are not shown have no points, and are broken.
+host::BodyTables Drawing::tables_of_copies() {
+    const State& state = world_.state();
+    host::BodyTables tables = tables_of(state);
+    poses_ = state.poses;
+    bounds_ = state.bounds;
+    contacts_shown_.assign(state.contacts.begin(), state.contacts.begin() + tables.touch_count);
+    for (std::uint32_t row = 0; row < poses_.size(); ++row) {
+        const vec3 offset = shown_.offset(state.copy_of(row));
+        poses_[row].position += offset;
+        if (row >= bounds_.size()) continue;
+        bounds_[row].lower += offset;
+        bounds_[row].upper += offset;
+    }
+    for (physics::Contact& contact : contacts_shown_)
+        if (!shown_.shows(state.copy_of(contact.a))) contact.count = 0;
+    joints_ = state.joints;
+    for (physics::Joint& joint : joints_) {
+        const physics::uint body = joint.a != physics::NONE ? joint.a : joint.b;
+        if (body != physics::NONE && !shown_.shows(state.copy_of(body))) joint.broken = 1;
+    }
+    tables.poses = poses_;
+    tables.bounds = bounds_;
+    tables.touches = contacts_shown_;
+    tables.joints = joints_;
+    return tables;
 }
 
 std::uint32_t Drawing::contacts() const {

@@ -5,15 +5,18 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
+#include "compute/step/state.h"
 #include "compute/world.h"
 #include "demos/program/backend.h"
+#include "demos/program/copies.h"
 #include "host/canvas/canvas.h"
 
 namespace scree::demos {
 
-// Bodies grouped by shape.
-host::ShapeInstances instances_of(const World& world);
+// Bodies grouped by shape. Of copies of a scene those that are shown; a plane of the first of them is that of all.
+host::ShapeInstances instances_of(const World& world, const CopiesShown& shown = {});
 // Tables of a world that is simulated on the CPU.
 host::BodyTables tables_of(const State& state);
 
@@ -21,7 +24,8 @@ class Drawing {
 public:
     // `canvas` is a value of --canvas. Throws UsageError where that canvas is not available, naming the package to
     // install.
-    Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options);
+    Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options,
+            const CopiesShown& shown = {});
 
     host::Canvas& canvas() { return *canvas_; }
     void update();                   // to be called before a picture: takes the world's current tables, with added bodies
@@ -33,11 +37,18 @@ public:
 
 private:
     std::unique_ptr<host::Canvas> make_canvas() const;
+    host::BodyTables tables_of_copies();
 
     World& world_;
     std::string word_;
     Backend machine_;
     host::CanvasOptions options_;
+    CopiesShown shown_;
+    // Of the copies that are shown, side by side.
+    std::vector<physics::Pose> poses_;
+    std::vector<physics::Bounds> bounds_;
+    std::vector<physics::Contact> contacts_shown_;
+    std::vector<physics::Joint> joints_;
     std::uint64_t arrangements_ = 0;  // of the bodies that the canvas was made for
     std::unique_ptr<host::Canvas> canvas_;
     bool from_device_ = false;  // draws from the simulation's tables on the device

@@ -106,12 +106,15 @@ struct Pictures::Impl {
 
     std::string caption() const {
         if (!captioned) return "";
-        return fmt::format("{} · {:.2f} s\n{}, {}\n{}", name, world.time(), counted(world.bodies_there(), "body", "bodies"),
-                           counted(drawing->contacts(), "contact", "contacts"), world.runner().device());
+        const std::string copies = world.copies() > 1 ? fmt::format("{} copies, ", world.copies()) : "";
+        return fmt::format("{} · {:.2f} s\n{}{}, {}\n{}", name, world.time(), copies,
+                           counted(world.bodies_there(), "body", "bodies"), counted(drawing->contacts(), "contact", "contacts"),
+                           world.runner().device());
     }
 };
 
-Pictures::Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world)
+Pictures::Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world,
+                   const CopiesShown& shown)
     : interior_(
           new Impl{world,
                    {},
@@ -139,7 +142,7 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.height = options.height;
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world));
+    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world), shown);
     if (!options.channels.empty()) in.channels.emplace(options, world);
     if (world.steps() > 0) {
         const double half_step = 0.5 / world.settings().rate;

@@ -9,6 +9,7 @@
 #include "compute/scene_file/picture_style.h"
 #include "compute/world.h"
 #include "demos/program/backend.h"
+#include "demos/program/copies.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/options.h"
 
@@ -23,7 +24,8 @@ struct PictureTimes {
 class Pictures {
 public:
     // Throws if the folder, the video or the device is not usable.
-    Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world);
+    Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world,
+             const CopiesShown& shown = {});
     ~Pictures();
     Pictures(const Pictures&) = delete;
     Pictures& operator=(const Pictures&) = delete;

@@ -21,6 +21,7 @@ namespace {
 struct CompareOptions {
     SceneOptions scene;
     MachineOptions machine;
+    std::size_t copies = 0;
     bool flush_denormals = false;
     bool quiet = false;
 };
@@ -40,7 +41,7 @@ int compare(const CompareOptions& options) {
         found.device = "the same processor with denormals flushed";
         found.result = at_work([&] { return compare_flushing(subject.scene, settings, steps, step_done); });
     } else {
-        found = compare_with_device(subject.scene, settings, options.machine, steps, step_done);
+        found = compare_with_device(subject.scene, settings, options.machine, steps, step_done, options.copies);
     }
     progress.reset();
     if (is_interrupted()) {
@@ -69,11 +70,15 @@ void add_compare(CLI::App& program, int& status) {
     command->add_option("--device", options->machine.device, "Vulkan device, by index or part of its name (see scree devices).");
     command->add_option("--threads", options->machine.threads, "Worker threads of the CPU (0: one per core). Default: 0.")
         ->check(CLI::Range(0, 1024));
+    CLI::Option* copies = command->add_option_function<std::string>(
+        "--copies", [options](const std::string& word) { options->copies = count_of(word, "--copies"); },
+        "Number of copies of the scene, such as 1k. Default: the scene itself.");
     command
         ->add_flag("--flush-denormals", options->flush_denormals,
                    "Compare the CPU with itself while denormals are flushed to zero, which Vulkan leaves to the device. Needs no "
                    "GPU.")
-        ->excludes("--device");
+        ->excludes("--device")
+        ->excludes(copies);
     command->add_flag("--validate", options->machine.validate, "Check every Vulkan call with the validation layers (slow).");
     command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(

@@ -15,6 +15,7 @@
 #include "demos/program/checkpoints.h"
 #include "demos/program/commands.h"
 #include "demos/program/console.h"
+#include "demos/program/copies.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/export_file.h"
 #include "demos/program/interrupt.h"
@@ -35,6 +36,7 @@ struct RunOptions {
     SceneOptions scene;
     MachineOptions machine;
     PictureOptions pictures;
+    CopyOptions copies;
     CheckpointOptions checkpoints;
     TrajectoryOptions trajectory;
     ExportOptions animation;
@@ -222,6 +224,11 @@ void measure(World& world, RunReport& report) {
     report.buffer_growths = world.buffer_growths();
     report.buffer_bytes = world.buffer_bytes();
     report.state_hash = world.state_hash();
+    if (report.copies == 0) return;
+    std::vector<std::uint64_t> hashes = world.state_hashes();
+    std::sort(hashes.begin(), hashes.end());
+    report.distinct = static_cast<std::size_t>(std::unique(hashes.begin(), hashes.end()) - hashes.begin());
+    if (report.distinct == 1) report.copy_hash = hashes[0];
 }
 
 // Completes the frames and the video, which an interrupted run has, too.
@@ -259,7 +266,8 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     report.peak_memory_bytes = peak_memory();
     if (!report.interrupted) machine.require_valid();
     conclude(options, subject, report);
-    if (!options.save.empty()) host::write_atomically(options.save, scene_to_json(document_of(subject, world)));
+    if (!options.save.empty())
+        host::write_atomically(options.save, scene_to_json(document_of(subject, world, options.copies.copy)));
     if (!report.interrupted) return all_pass(report.rows) ? done : promise_missed;
     say("scree: interrupted after {} steps{}\n", world.steps(), report.frames ? fmt::format(", {} pictures", report.frames) : "");
     return interrupted;
@@ -277,27 +285,47 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
         count == 1 ? "1 body starts" : fmt::format("{} bodies start", count), settings.max_speed, count == 1 ? "is" : "are");
 }
 
+World world_of(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, const CopyOptions& options,
+               const VaryCopy& vary) {
+    if (options.copies == 0) return {scene, settings, std::move(runner)};
+    try {
+        return {scene, settings, std::move(runner), options.copies, vary};
+    } catch (const SceneError& error) {
+        throw UsageError(std::string("--vary: ") + error.what());
+    } catch (const std::invalid_argument& error) {
+        throw UsageError(std::string("--vary: ") + error.what());
+    }
+}
+
 int run(const RunOptions& options) {
     RunReport report;
     report.started_at = date_and_time();
     require_writable(options);
     LoadedScene subject = load_subject(options.scene);
     require_steps_for_pictures(options, subject.settings(options.scene).rate);
-    if (options.played) {  // replay the commands; the demo's promise does not apply
+    require_sense(options.copies, subject);
+    const VaryCopy vary = vary_of(options.copies, options.scene);
+    if (options.copies.copies) subject.promise.reset();  // it is of the scene alone
+    if (options.played) {                                // replay the commands; the demo's promise does not apply
         subject.before_step = script_of(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
     const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
-    World world(subject.scene, subject.settings(options.scene), machine.make_runner());
+    World world = world_of(subject.scene, subject.settings(options.scene), machine.make_runner(), options.copies, vary);
+    report.copies = options.copies.copies;
+    report.varied = options.copies.vary;
     if (options.resumed) {
         resume(world, *options.resumed, options.checkpoints.resume);
         subject.promise.reset();  // it is judged over the whole run
         report.resumed_at = world.steps();
     }
     std::optional<Pictures> pictures;
-    if (options.pictures.wanted()) pictures.emplace(options.pictures, machine, subject, world);
+    if (options.pictures.wanted()) {
+        const CopiesShown shown = shown_of(options.copies, subject);
+        pictures.emplace(options.pictures, machine, subject, world, shown);
+    }
     if (pictures) report.canvas = pictures->canvas();
     report.driver = machine.driver();
     report.command_line = options.command_line;
@@ -357,6 +385,7 @@ void take_resumed(const CLI::App& command, RunOptions& options) {
 
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command, options.report);
+    require_sense(command, options.copies);
     require_sense(command, options.trajectory);
     require_sense(command, options.animation);
     if (!options.checkpoints.resume.empty()) take_resumed(command, options);
@@ -378,6 +407,7 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->scene);
     add_options(*command, options->machine);
     add_options(*command, options->pictures);
+    add_options(*command, options->copies);
     add_options(*command, options->checkpoints);
     add_options(*command, options->trajectory);
     add_options(*command, options->animation);
@@ -403,7 +433,8 @@ void add_run(CLI::App& program, int& status) {
         "  scree run pile --frames out --channels depth,ids,normals,flow --size 640x480\n"
         "  scree run dominoes --trajectory run.npz\n"
         "  scree run wrecking --export wrecking.glb\n"
-        "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2");
+        "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2\n"
+        "  scree run bins --copies 1k --vary seed,friction=0.2:0.8 --video bins.mp4");
     command->callback([command, options, &status] {
         options->command_line = words_of_this_program();
         status = run(*command, *options);

@@ -16,8 +16,9 @@ struct DeviceComparison {
     std::string device;  // name
 };
 
-// Until a difference, or until `progress` (argument: steps done) returns false. Throws UsageError without Vulkan.
+// `copies`: of the scene; 0: the scene itself. Until a difference, or until `progress` (argument: steps done) returns false.
+// Throws UsageError without Vulkan.
 DeviceComparison compare_with_device(const Scene& scene, const Settings& settings, const MachineOptions& machine, int steps,
-                                     const std::function<bool(int)>& progress);
+                                     const std::function<bool(int)>& progress, std::size_t copies);
 
 }  // namespace scree::demos

@@ -202,9 +202,9 @@ SceneDocument document_of(const LoadedScene& subject) {
     return document;
 }
 
-SceneDocument document_of(const LoadedScene& subject, const World& world) {
+SceneDocument document_of(const LoadedScene& subject, const World& world, std::optional<std::size_t> copy) {
     SceneDocument document = document_of(subject);
-    document.scene = world.snapshot();
+    document.scene = copy ? world.snapshot_of(*copy) : world.snapshot();
     document.events = coming_events(subject.events, world);
     return document;
 }

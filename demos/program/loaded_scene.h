@@ -38,8 +38,8 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
 
 // The scene as a file says it.
 SceneDocument document_of(const LoadedScene& subject);
-// A file to continue from: the present scene, and the events that are still to come.
-SceneDocument document_of(const LoadedScene& subject, const World& world);
+// A file to continue from: the present scene, of one of its copies if there are any, and the events that are still to come.
+SceneDocument document_of(const LoadedScene& subject, const World& world, std::optional<std::size_t> copy = std::nullopt);
 
 // Throws UsageError if a run of that many bodies would not fit into free memory.
 void require_memory_for(std::size_t bodies);

@@ -27,7 +27,7 @@ int SceneOptions::step_count(double default_seconds, float steps_a_second) const
     return static_cast<int>(std::max(1L, std::lround(seconds.value_or(default_seconds) * static_cast<double>(steps_a_second))));
 }
 
-std::size_t count_of(const std::string& word) {
+std::size_t count_of(const std::string& word, const char* option) {
     std::string digits = word;
     double scale = 1;
     if (!word.empty()) {
@@ -35,9 +35,9 @@ std::size_t count_of(const std::string& word) {
         scale = last == 'k' || last == 'K' ? 1e3 : last == 'm' || last == 'M' ? 1e6 : last == 'g' || last == 'G' ? 1e9 : 1;
         if (scale > 1) digits.pop_back();
     }
-    const double value = number_of(digits, "--bodies", ", such as 500, 10k or 1M") * scale;
+    const double value = number_of(digits, option, ", such as 500, 10k or 1M") * scale;
     if (value < 1 || value > 1e15 || value != std::floor(value)) {
-        throw CLI::ValidationError("--bodies", fmt::format("must be a whole number of at least 1, is \"{}\"", word));
+        throw CLI::ValidationError(option, fmt::format("must be a whole number of at least 1, is \"{}\"", word));
     }
     return static_cast<std::size_t>(value);
 }

@@ -92,7 +92,7 @@ void add_options(CLI::App& command, SceneOptions& options);
 void add_options(CLI::App& command, PictureOptions& options);
 
 // "10k", "1M", "250" and the like. Throws CLI::ValidationError.
-std::size_t count_of(const std::string& word);
+std::size_t count_of(const std::string& word, const char* option = "--bodies");
 std::uint64_t seed_of(const std::string& word);               // throws the same
 std::vector<std::size_t> counts_of(const std::string& list);  // comma-separated
 

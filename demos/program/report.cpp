@@ -65,6 +65,21 @@ double per_body(const RunReport& r, std::size_t bytes) {
     return r.statistics.bodies ? static_cast<double>(bytes) / static_cast<double>(r.statistics.bodies) : 0.0;
 }
 
+// Simulated seconds of all copies in a second.
+double pace_of(const RunReport& r) {
+    const double mean = spread_of(r.step_ms).mean;
+    return mean > 0 ? static_cast<double>(r.copies) * 1e3 / (mean * static_cast<double>(r.rate)) : 0;
+}
+
+nlohmann::ordered_json copies_of(const RunReport& r) {
+    if (r.copies == 0) return {};
+    return {{"count", r.copies},
+            {"vary", r.varied},
+            {"distinct", r.distinct},
+            {"hash", r.distinct == 1 ? nlohmann::ordered_json(hash_text(r.copy_hash)) : nlohmann::ordered_json()},
+            {"seconds_a_second", pace_of(r)}};
+}
+
 }  // namespace
 
 std::string json_of(const RunReport& r) {
@@ -134,6 +149,7 @@ std::string json_of(const RunReport& r) {
           {"draw", r.seconds_drawing},
           {"encode_wait", r.seconds_waiting}}},
         {"state_hash", hash_text(r.state_hash)},
+        {"copies", copies_of(r)},
         {"advice", advice},
         {"promise",
          {{"judged", r.judged || !r.promised}, {"pass", (r.judged || !r.promised) && all_pass(r.rows)}, {"rows", promise}}},
@@ -164,6 +180,11 @@ std::string summary_of(const RunReport& r) {
     line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
                                 per_body(r, r.buffer_bytes), r.buffer_growths));
     line("state hash", hash_text(r.state_hash));
+    if (r.copies > 0)
+        line("copies",
+             r.distinct == 1
+                 ? fmt::format("{}, each {}; {:.4g} s of them simulated a second", r.copies, hash_text(r.copy_hash), pace_of(r))
+                 : fmt::format("{}, in {} states; {:.4g} s of them simulated a second", r.copies, r.distinct, pace_of(r)));
     if (r.frames > 0) {
         line("pictures",
              fmt::format("{}, {} in all: {} simulating, {} drawing, {} waiting for encoders; {:.3g} a second", r.frames,

@@ -42,6 +42,10 @@ struct RunReport {
     double seconds_running = 0;                                               // parts below, and recording, script, statistics
     double seconds_simulating = 0, seconds_drawing = 0, seconds_waiting = 0;  // the last one: waiting for the encoders
     bool judged = false;                                                      // the run was long enough for its promise
+    std::size_t copies = 0;                                                   // of the scene; 0: the scene itself
+    std::size_t distinct = 0;                                                 // different hashes of copies
+    std::uint64_t copy_hash = 0;                                              // of every copy, if they are equal
+    std::vector<std::string> varied;                                          // --vary
     std::vector<Row> rows;
 };
 

@@ -22,6 +22,7 @@ const std::vector<Demo>& all_demos() {
         {"mix", "spheres, capsules and boxes fall into a pit and come to rest", 1000, true, mix},
         {"avalanche", "mixed bodies tumble down a terraced slope", 4000, true, avalanche},
         {"assortment", "bodies of every shape and of varied size fall into a pit and come to rest", 2000, true, assortment},
+        {"bins", "twenty stones settle into a bin; many bins at once with --copies", 20, false, bins},
         {"terrain", "bodies of every shape tumble down hills, a height field, and gather in the valley", 600, true, terrain},
         {"fountain", "bodies are born at a nozzle, fall into a basin, and are taken away for ever", 900, true, fountain},
         {"mesh", "bodies of every shape come down a staircase into a bowl, a mesh from a file", 120, true, mesh},

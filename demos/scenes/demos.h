@@ -58,6 +58,7 @@ DemoScene pile(const DemoOptions&);
 DemoScene mix(const DemoOptions&);
 DemoScene avalanche(const DemoOptions&);
 DemoScene assortment(const DemoOptions&);
+DemoScene bins(const DemoOptions&);
 DemoScene terrain(const DemoOptions&);
 DemoScene fountain(const DemoOptions&);
 DemoScene mesh(const DemoOptions&);

@@ -38,6 +38,7 @@ const std::vector<Look>& looks() {
         {"mix", by(kinetic_energy, 3000)},
         {"avalanche", by(momentum, 3000), 37},
         {"assortment", by(body)},
+        {"bins", by(body)},
         {"terrain", by(momentum, 15000), 43},
         {"mesh", by(momentum, 300), 38},
         {"chain", by(momentum, 80, {joints})},

@@ -1,4 +1,4 @@
-// Piles in a pit: boxes, and boxes with spheres and capsules.
+// Piles in a pit: boxes, boxes with spheres and capsules, stones in a bin.
 #include <algorithm>
 #include <cmath>
 
@@ -59,6 +59,32 @@ DemoScene mix(const DemoOptions& options) {
 
 DemoScene assortment(const DemoOptions& options) {
     return heap(options, random_assorted, 0.2f);
+}
+
+// The stones are the same for every seed, which says how they lie: copies of the scene with seeds of their own share them.
+DemoScene bins(const DemoOptions& options) {
+    constexpr float half = 0.3f, height = 0.3f, cell = 0.2f;  // m
+    Scene scene;
+    scene.bodies.push_back(fixed_box({0, -0.05f, 0}, {half + 0.1f, 0.05f, half + 0.1f}));
+    add_pit(scene, {half, height, half}, 0.05f);
+    Random shapes(1), random(options.seed);
+    for (int i = 0; i < 20; ++i) {
+        Body stone = random_stone(shapes.between(0.07f, 0.095f), shapes);
+        stone.orientation = random.orientation();
+        stone.position =
+            cell * vec3(static_cast<float>(i % 3 - 1), static_cast<float>(i / 9) + 0.6f, static_cast<float>(i / 3 % 3 - 1));
+        stone.velocity = {random.between(-0.25f, 0.25f), 0, random.between(-0.25f, 0.25f)};
+        scene.bodies.push_back(std::move(stone));
+    }
+    const vec3 low(-half - 0.1f, -0.1f, -half - 0.1f), high(half + 0.1f, 0.6f, half + 0.1f);
+    return {std::move(scene),
+            view_of(low, high, 35, 38),
+            low,
+            high,
+            5,
+            Promise(all_within({-half, 0, -half}, {half, 2 * height, half}), penetration_below(0.005), energy_never_rises(0.01),
+                    end_speed_below(0.005), end_spin_below(0.01))
+                .watching_energy()};
 }
 
 }  // namespace scree::demos

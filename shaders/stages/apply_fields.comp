@@ -5,7 +5,7 @@
 #include "shaders/physics/extra/fields.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/stages/lib/ids.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 void main() {
     uint i = thread();
@@ -16,5 +16,5 @@ void main() {
     if (PARAMETERS.air_density + PARAMETERS.water_density > 0.0f) immersion = READ_QUADS(immersions, id_of(i));
     Pose pose = READ(poses, i);
     forces.at[i] = with_fields(READ(forces, i), body, immersion, pose, READ(velocities, i),
-                               mass_in_world(body, pose.orientation, 1.0f), PARAMETERS);
+                               mass_in_world(body, pose.orientation, 1.0f), felt_by(i));
 }

@@ -3,17 +3,22 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/motion.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 void main() {
     uint i = thread();
-    if (i < PARAMETERS.buckets + 2u) WORD(cell_counts, i) = 0u;
+    if (i <= buckets_in_all(PARAMETERS)) WORD(cell_counts, i) = 0u;
+    if (COPIES && i < PARAMETERS.copies) WORD(copy_states, i) = 0u;
     if (i <= PARAMETERS.bodies) {
         WORD(pair_counts, i) = 0u;
         WORD(slot_counts, i) = 0u;
     }
     if (i < PARAMETERS.bodies) {
-        forces.at[i] = gravity_forces(READ(properties, i), PARAMETERS);
+        BodyProperties body = READ(properties, i);
+        if (GRAVITIES)
+            forces.at[i] = gravity_forces(body, felt_by(body.owner));
+        else
+            forces.at[i] = gravity_forces(body, PARAMETERS);
         if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = 0u;
     }
     // Rows by different threads: a software device repeats what a single thread does for every vector of threads.

@@ -53,6 +53,7 @@
 #include "shaders/stages/lib/stage.glsl"
 #define AND_HULLS
 #endif
+#include "shaders/stages/lib/copies.glsl"
 
 void main() {
     uint i = thread() + COUNTED.pair_type_first[KIND];
@@ -62,7 +63,7 @@ void main() {
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     Pose pa = READ(poses, a), pb = READ(poses, b);
     Velocity va = READ(velocities, a), vb = READ(velocities, b);
-    Margin margin = margin_of(ta, va, tb, vb, PARAMETERS);
+    Margin margin = margin_of(ta, va, tb, vb, felt_by(ta.owner));
 #ifdef MAY_BE_SMOOTH
     float ahead = time_ahead(ta, va, tb, vb, PARAMETERS);
     if (ahead > 0.0f) {

@@ -5,7 +5,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 // Skips the atomic where the bits are set already: most bodies add nothing, and a contended atomic is slow.
 #define note(mask, bits)                                     \
@@ -32,15 +32,17 @@ void main() {
     } else {
         masses.at[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }
-    if (around.bucket != NONE) atomicAdd(WORD(cell_counts, around.bucket), 1u);
     bool listed = !is_large(body) && (around.level & NOT_IN_GRID) == 0u;
     if (listed) note(COUNTS.levels, 1u << around.level);
     if (has_slept(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) note(COUNTS.sleepers, 1u);
     if (stirs(motion_of(body), READ(velocities, owner), READ_WORD(sleep_states, owner), PARAMETERS.sleep_steps)) {
         if (listed) note(COUNTS.levels_stirring, 1u << around.level);
         if (!listed) note(COUNTS.large_stirring, is_large(body) ? 1u : 2u);
+        if (COPIES) note(WORD(copy_states, copy_of(owner)), COPY_STIRS);
     } else {
         around.level |= INACTIVE;
     }
+    if (COPIES && around.bucket != NONE) around = of_copy(around, copy_of(owner), PARAMETERS);
+    if (around.bucket != NONE) atomicAdd(WORD(cell_counts, around.bucket), 1u);
     bounds.at[i] = around;
 }

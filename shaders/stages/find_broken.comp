@@ -3,7 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/extra/fracture.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 void main() {
     uint i = thread();
@@ -20,4 +20,5 @@ void main() {
     if (!(kept < 1.0f)) return;
     forces.at[i].kept = kept;
     atomicAdd(COUNTS.broken, 1u);
+    if (COPIES) atomicOr(WORD(copy_states, copy_of(i)), COPY_BREAKS);
 }

@@ -4,7 +4,7 @@
 
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/persistence.h"
-#include "shaders/stages/lib/ids.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 // Binary search: contacts of an owner are sorted by the other body's id.
 uint contact_before(uint owner, uint other) {
@@ -35,15 +35,17 @@ void main() {
         if (id_of(READ(candidates, k).other) < id) ++place;
     Pair pair = Pair(own < id ? candidate.owner : candidate.other, own < id ? candidate.other : candidate.owner, 0u, NONE);
     // The owner differs from last step's if a body's grid level changed.
-    pair.previous = contact_before(pair.a, pair.b);
-    if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);
+    if (!is_newborn(body_of(pair.a))) {
+        pair.previous = contact_before(pair.a, pair.b);
+        if (pair.previous == NONE) pair.previous = contact_before(pair.b, pair.a);
+    }
     if ((READ(bounds, pair.a).level & READ(bounds, pair.b).level & INACTIVE) != 0u) {
         pair.pair_type = PAIR_INACTIVE;
     } else {
         BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
         uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
-        if (pair.previous != NONE && has_weight(PARAMETERS))
+        if (pair.previous != NONE && has_weight(felt_by(of_a)))
             kept = is_persistent(READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta,
                                  READ(poses, of_a), READ(velocities, of_a), tb, READ(poses, of_b), READ(velocities, of_b));
         pair.pair_type = kept ? PAIR_PERSISTENT : pair_type_of(ta.shape, tb.shape);

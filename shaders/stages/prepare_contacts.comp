@@ -3,8 +3,8 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
-#include "shaders/stages/lib/stage.glsl"
 
 Constraint on_tyre_of(BodyProperties ta, BodyProperties tb, Constraint constraint, vec3 d, VelocityPair now) {
     bool is_a = tyre_of(ta) != 0u;
@@ -51,7 +51,8 @@ void main() {
         constraints.at[i] = idle_between(prepared.contact, of_a, of_b);
         return;
     }
-    Constraint constraint = constraint_between(prepared.contact, pair_index, ta, of_a, slot_a, tb, of_b, slot_b, PARAMETERS);
+    Parameters felt = felt_by(of_a);
+    Constraint constraint = constraint_between(prepared.contact, pair_index, ta, of_a, slot_a, tb, of_b, slot_b, felt);
     if (SURFACES && (surface_of(ta) | surface_of(tb)) != 0u)
         constraint = with_surfaces(constraint, ta, surface_on(ta), READ(poses, of_a).orientation, tb, surface_on(tb),
                                    READ(poses, of_b).orientation, PARAMETERS);
@@ -61,7 +62,7 @@ void main() {
     if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, prepared.contact.center_offset, now);
     constraints.at[i] = constraint;
 
-    ContactShare share = first_share(constraint, prepared.impulse, now, READ(masses, of_a), READ(masses, of_b), PARAMETERS);
+    ContactShare share = first_share(constraint, prepared.impulse, now, READ(masses, of_a), READ(masses, of_b), felt);
     float normal_sum = prepared.impulse.normal_sum;
     if (slot_a != NONE) slots.at[slot_a] = velocity_delta(share.change.a, share.carrying, normal_sum);
     if (slot_b != NONE) slots.at[slot_b] = velocity_delta(share.change.b, share.carrying, normal_sum);

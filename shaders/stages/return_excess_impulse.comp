@@ -4,12 +4,13 @@
 
 #include "shaders/physics/extra/fracture.h"
 #include "shaders/physics/extra/sleep.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.broken == 0u) return;
     if (!is_movable(READ(properties, i).motion, READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
+    if (COPIES && (READ_WORD(copy_states, copy_of(i)) & COPY_BREAKS) == 0u) return;
     Velocity velocity = velocities.at[i];
     uint last = READ_WORD(slot_ends, i);
     for (uint k = i == 0u ? 0u : READ_WORD(slot_ends, i - 1u); k < last; ++k) {

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/stages/lib/stage.glsl"
 
@@ -11,7 +12,7 @@
 
 void main() {
     uint i = thread();
-    if (i > PARAMETERS.buckets) return;
+    if (i >= buckets_in_all(PARAMETERS)) return;
     uint first = i == 0u ? 0u : READ_WORD(cell_ends, i - 1u);
     uint last = READ_WORD(cell_ends, i);
     sort_range(first, last - first);

@@ -5,7 +5,7 @@
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 void raise(uint body, uint bits) {
     if (bits != 0u && READ(properties, body).motion == MOTION_DYNAMIC) atomicOr(WORD(sleep_states, body), bits);
@@ -35,7 +35,7 @@ void main() {
             then = READ(contacts_before, pair.previous).load;
         }
         woken = wakes(is_restless(READ(properties, other).motion, WORD(sleep_states, other)), approach, now, then,
-                      READ(properties, sleeper), PARAMETERS);
+                      READ(properties, sleeper), felt_by(sleeper));
     }
     raise(of_a, (woken && a_sleeps ? WOKEN : 0u) | shaking_bit(depth));
     raise(of_b, (woken && b_sleeps ? WOKEN : 0u) | shaking_bit(depth));

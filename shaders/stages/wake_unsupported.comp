@@ -5,7 +5,7 @@
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
-#include "shaders/stages/lib/ids.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 // Binary search: pairs of an owner are sorted by the other body's id.
 bool owner_touches(uint owner, uint other) {
@@ -36,7 +36,7 @@ void main() {
         uint sleeper = body_of(own_still ? i : other);
         if (!has_slept(WORD(sleep_states, sleeper), PARAMETERS.sleep_steps)) continue;
         if (owner_touches(i, other) || owner_touches(other, i)) continue;
-        if (load_changed(0.0f, READ(contacts_before, k).load, READ(properties, sleeper), PARAMETERS))
+        if (load_changed(0.0f, READ(contacts_before, k).load, READ(properties, sleeper), felt_by(sleeper)))
             atomicOr(WORD(sleep_states, sleeper), WOKEN);
     }
 }

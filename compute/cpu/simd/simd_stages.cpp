@@ -166,6 +166,13 @@ SCREE_INLINE VelocityDelta sums_of_slots(const WideTables& tables, const Indices
     return gather<VelocityDelta>(sums, Indices(lane_numbers()));
 }
 
+SCREE_INLINE Uint steps_of(const WideTables& tables, const Indices& bodies) {
+    if (tables.ages == nullptr) return tables.steps;
+    Words words;
+    for (int lane = 0; lane < lanes; ++lane) words[lane] = tables.ages[bodies.of[lane]];
+    return words;
+}
+
 void begin(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
@@ -179,7 +186,7 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         change.angular = sum.angular;
         velocity = integrate_velocity(velocity, change, load, properties, p);
         Mass mass = gather<Mass>(tables.masses, bodies);
-        if (tables.first) mass.split = update_hysteresis(mass.split, sum.is_active, tables.steps);
+        if (tables.first) mass.split = update_hysteresis(mass.split, sum.is_active, steps_of(tables, bodies));
         mass.split = split_state_after(mass.split, sum.is_active, sum.payload);
         const Indices live = bodies.only(living(first, last));
         scatter(tables.velocities, live, velocity);

@@ -22,6 +22,7 @@ struct WideTables {
     const std::uint32_t* quiet_steps = nullptr;  // quiet steps of each body, as floats; null but in the last pass
     float* carried = nullptr;                    // normal impulse of each contact in the step, N s; null if no body may break
     std::uint32_t steps = 0;                     // Counts::steps in the first substep, for the hysteresis of mass splitting
+    const std::uint32_t* ages = nullptr;         // of each body, in place of `steps`, if there are several copies of the scene
     bool first = false;
 };
 

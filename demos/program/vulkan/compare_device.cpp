@@ -3,18 +3,19 @@
 
 #include "compute/device/lockstep.h"
 #include "demos/program/backend.h"
+#include "demos/program/exit_status.h"
 #include "demos/program/loaded_scene.h"
 #include "host/vulkan/device.h"
 
 namespace scree::demos {
 
 DeviceComparison compare_with_device(const Scene& scene, const Settings& settings, const MachineOptions& machine, int steps,
-                                     const std::function<bool(int)>& progress) {
+                                     const std::function<bool(int)>& progress, std::size_t copies) {
     const Backend backend = choose_machine(machine, Choice::a_device);
     DeviceComparison found;
     found.device = backend.device->report().name;
     found.result =
-        at_work([&] { return compare_in_lockstep(scene, settings, backend.device, machine.threads, steps, progress); });
+        at_work([&] { return compare_in_lockstep(scene, settings, backend.device, machine.threads, steps, progress, copies); });
     backend.require_valid();
     return found;
 }

@@ -21,7 +21,8 @@ void add_devices(CLI::App& program, int&) {
     program.add_subcommand("devices", "Vulkan devices (not in this build)")->callback(refuse);
 }
 
-DeviceComparison compare_with_device(const Scene&, const Settings&, const MachineOptions&, int, const std::function<bool(int)>&) {
+DeviceComparison compare_with_device(const Scene&, const Settings&, const MachineOptions&, int, const std::function<bool(int)>&,
+                                     std::size_t) {
     throw UsageError(std::string(lacking) + "; without a device: --flush-denormals");
 }
 

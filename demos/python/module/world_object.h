@@ -20,11 +20,12 @@ namespace scree::python {
 struct Easel {
     host::CanvasOptions options;
     std::string canvas;  // auto, vulkan or gl
+    std::optional<std::size_t> copy;
     std::unique_ptr<demos::Drawing> drawing;
 };
 
 struct WorldObject : std::enable_shared_from_this<WorldObject> {
-    WorldObject(const SceneDocument& document, const Settings& settings, const demos::Backend& backend);
+    WorldObject(const SceneDocument& document, World made, const demos::Backend& backend);
     ~WorldObject();  // writes the animations that are still recorded
 
     demos::Backend machine;

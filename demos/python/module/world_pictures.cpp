@@ -81,21 +81,26 @@ bool alike(const host::CanvasOptions& a, const host::CanvasOptions& b) {
            a.joints == b.joints && a.sleep == b.sleep && a.mark_push == b.mark_push && a.joint_pull == b.joint_pull;
 }
 
-demos::Drawing& drawing_for(WorldObject& object, const host::CanvasOptions& options, const std::string& canvas) {
+demos::Drawing& drawing_for(WorldObject& object, const host::CanvasOptions& options, const std::string& canvas,
+                            std::optional<std::size_t> copy) {
     std::vector<Easel>& easels = object.easels;
-    const auto found = std::find_if(easels.begin(), easels.end(),
-                                    [&](const Easel& one) { return one.canvas == canvas && alike(one.options, options); });
+    const auto found = std::find_if(easels.begin(), easels.end(), [&](const Easel& one) {
+        return one.canvas == canvas && one.copy == copy && alike(one.options, options);
+    });
     if (found != easels.end()) {
         std::rotate(easels.begin(), found, found + 1);
     } else {
         if (easels.size() == most_easels) easels.pop_back();
-        easels.insert(easels.begin(),
-                      {options, canvas, std::make_unique<demos::Drawing>(canvas, object.machine, object.world, options)});
+        demos::CopiesShown shown;
+        if (copy) shown = {.first = *copy, .count = 1};
+        easels.insert(easels.begin(), {options, canvas, copy,
+                                       std::make_unique<demos::Drawing>(canvas, object.machine, object.world, options, shown)});
     }
     return *easels.front().drawing;
 }
 
-host::Image colour_picture(WorldObject& object, const host::Camera& camera, int width, int height, const Look& look) {
+host::Image colour_picture(WorldObject& object, const host::Camera& camera, int width, int height, const Look& look,
+                           std::optional<std::size_t> copy) {
     const int factor = factor_of(look.samples);
     host::CanvasOptions options;
     options.width = width * factor;
@@ -104,7 +109,7 @@ host::Image colour_picture(WorldObject& object, const host::Camera& camera, int 
     options.shadows = look.shadows;
     options.smooth = look.samples == 1;
     demos::show_overlays(look.style, object.world, options);
-    demos::Drawing& drawing = drawing_for(object, options, look.canvas);
+    demos::Drawing& drawing = drawing_for(object, options, look.canvas, copy);
     drawing.update();
     const demos::LoadedScene& subject = object.as_subject();
     const host::ColorScale scale = demos::scale_of(look.style, subject, object.world.settings(), false);
@@ -121,10 +126,11 @@ py::array array_of(const std::vector<Value>& values, std::vector<py::ssize_t> sh
 
 py::dict render(WorldObject& object, const std::string& camera_text, int width, int height,
                 const std::vector<std::string>& channels, const std::string& look_text, const std::string& camera_before,
-                double seconds_before) {
+                double seconds_before, std::optional<std::size_t> copy) {
     if (width < 1 || height < 1 || width > 16384 || height > 16384)
         throw py::value_error("size: each side must be between 1 and 16384 pixels");
     Use world(object);
+    if (copy) world->gravity_of(*copy);  // throws if there is none
     const host::Camera camera = camera_of(camera_text);
     const Look look = look_of(object.shown, look_text);
     const auto wants = [&](const char* name) { return std::find(channels.begin(), channels.end(), name) != channels.end(); };
@@ -134,8 +140,8 @@ py::dict render(WorldObject& object, const std::string& camera_text, int width, 
     demos::Channels made;
     {
         const py::gil_scoped_release unlocked;
-        if (wants("color")) picture = colour_picture(object, camera, width, height, look);
-        if (choice.any()) made = demos::channels_of(*world, camera, width, height, choice, before);
+        if (wants("color")) picture = colour_picture(object, camera, width, height, look, copy);
+        if (choice.any()) made = demos::channels_of(*world, camera, width, height, choice, before, copy.value_or(0));
     }
     py::dict arrays;
     if (wants("color")) arrays["color"] = array_of(host::rgb_bytes(picture), {height, width, 3});

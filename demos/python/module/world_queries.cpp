@@ -50,11 +50,23 @@ py::tuple lists_of(const QueryLists<Item>& lists) {
     return py::make_tuple(starts, query_records(lists.items));
 }
 
-std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid) {
+// One for each query, or one for all.
+std::size_t copy_at(const Indices& copies, std::size_t i) {
+    const std::int64_t copy = copies.data()[copies.size() == 1 ? 0 : i];
+    if (copy < 0) throw py::index_error("copy " + std::to_string(copy));
+    return static_cast<std::size_t>(copy);
+}
+void require_copies(const Indices& copies, py::ssize_t n) {
+    if (copies.size() != 1) require_shape(copies, n, 0, "copy");
+}
+
+std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid,
+                              const Indices& copies) {
     const py::ssize_t n = from.ndim() > 0 ? from.shape(0) : 0;
     require_shape(from, n, 3, "origins");
     require_shape(along, n, 3, "directions");
     require_shape(reach, n, 0, "reach");
+    require_copies(copies, n);
     std::vector<RayQuery> rays(static_cast<std::size_t>(n));
     for (std::size_t i = 0; i < rays.size(); ++i) {
         rays[i].from = vec3_at(from.data(), i);
@@ -62,6 +74,7 @@ std::vector<RayQuery> rays_of(const Floats& from, const Floats& along, const Flo
         rays[i].reach = std::isinf(reach.data()[i]) && reach.data()[i] > 0 ? unlimited : reach.data()[i];
         rays[i].mask = mask;
         rays[i].solid = solid;
+        rays[i].copy = copy_at(copies, i);
     }
     return rays;
 }
@@ -84,12 +97,13 @@ auto asked(WorldObject& object, const Query& query) {
 }
 
 py::array cast_shapes(WorldObject& object, const std::string& shape, const Floats& from, const Floats& along,
-                      const Floats& orientation, const Floats& reach, std::uint32_t mask) {
+                      const Floats& orientation, const Floats& reach, std::uint32_t mask, const Indices& copies) {
     const py::ssize_t n = from.ndim() > 0 ? from.shape(0) : 0;
     require_shape(from, n, 3, "origins");
     require_shape(along, n, 3, "directions");
     require_shape(orientation, n, 4, "orientation");
     require_shape(reach, n, 0, "reach");
+    require_copies(copies, n);
     std::vector<ShapeCast> casts(static_cast<std::size_t>(n), ShapeCast{.shape = shape_of(shape)});
     for (std::size_t i = 0; i < casts.size(); ++i) {
         casts[i].from = vec3_at(from.data(), i);
@@ -97,29 +111,35 @@ py::array cast_shapes(WorldObject& object, const std::string& shape, const Float
         casts[i].orientation = vec4_at(orientation.data(), i);
         casts[i].reach = reach.data()[i];
         casts[i].mask = mask;
+        casts[i].copy = copy_at(copies, i);
     }
     return query_records(asked(object, [&](const World& world) { return world.cast_shapes(casts); }));
 }
 
-py::array closest_points(WorldObject& object, const Floats& points, const Floats& reach, std::uint32_t mask) {
+py::array closest_points(WorldObject& object, const Floats& points, const Floats& reach, std::uint32_t mask,
+                         const Indices& copies) {
     const py::ssize_t n = points.ndim() > 0 ? points.shape(0) : 0;
     require_shape(points, n, 3, "points");
     require_shape(reach, n, 0, "reach");
+    require_copies(copies, n);
     std::vector<ClosestQuery> queries(static_cast<std::size_t>(n));
-    for (std::size_t i = 0; i < queries.size(); ++i) queries[i] = {vec3_at(points.data(), i), reach.data()[i], mask};
+    for (std::size_t i = 0; i < queries.size(); ++i)
+        queries[i] = {vec3_at(points.data(), i), reach.data()[i], mask, copy_at(copies, i)};
     return query_records(asked(object, [&](const World& world) { return world.closest_points(queries); }));
 }
 
 py::tuple overlaps(WorldObject& object, const std::string& shape, const Floats& position, const Floats& orientation,
-                   std::uint32_t mask) {
+                   std::uint32_t mask, const Indices& copies) {
     const py::ssize_t n = position.ndim() > 0 ? position.shape(0) : 0;
     require_shape(position, n, 3, "positions");
     require_shape(orientation, n, 4, "orientation");
+    require_copies(copies, n);
     std::vector<ShapeOverlap> shapes(static_cast<std::size_t>(n), ShapeOverlap{.shape = shape_of(shape)});
     for (std::size_t i = 0; i < shapes.size(); ++i) {
         shapes[i].position = vec3_at(position.data(), i);
         shapes[i].orientation = vec4_at(orientation.data(), i);
         shapes[i].mask = mask;
+        shapes[i].copy = copy_at(copies, i);
     }
     return lists_of(asked(object, [&](const World& world) { return world.overlaps(shapes); }));
 }
@@ -133,24 +153,24 @@ void bind_queries(py::module_& module, WorldClass& of_world) {
     module.attr("part_dtype") = py::dtype::of<PartRecord>();
     of_world
         .def("cast_rays",
-             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask,
-                bool solid) {
-                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid);
+             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid,
+                const Indices& copies) {
+                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid, copies);
                  return query_records(asked(object, [&](const World& world) { return world.cast_rays(rays); }));
              })
         .def("rays_hit",
-             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask,
-                bool solid) {
-                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid);
+             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid,
+                const Indices& copies) {
+                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid, copies);
                  const auto hits = asked(object, [&](const World& world) { return world.rays_hit(rays); });
                  py::array_t<bool> made(static_cast<py::ssize_t>(hits.size()));
                  std::transform(hits.begin(), hits.end(), made.mutable_data(), [](std::uint8_t hit) { return hit != 0; });
                  return made;
              })
         .def("cast_rays_through",
-             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask,
-                bool solid) {
-                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid);
+             [](WorldObject& object, const Floats& from, const Floats& along, const Floats& reach, std::uint32_t mask, bool solid,
+                const Indices& copies) {
+                 const std::vector<RayQuery> rays = rays_of(from, along, reach, mask, solid, copies);
                  return lists_of(asked(object, [&](const World& world) { return world.cast_rays_through(rays); }));
              })
         .def("cast_shapes", &cast_shapes)

@@ -57,13 +57,21 @@ Settings settings_of(const SceneDocument& document, const std::string& text) {
     return settings;
 }
 
-std::shared_ptr<WorldObject> make_world(const Description& scene, const std::string& settings, const std::string& backend,
-                                        const std::string& device, int threads, bool validate) {
-    check_events(scene.document.events, scene.document.scene);
-    const Settings chosen = settings_of(scene.document, settings);
+// `scenes`: one, of which there are `copies` (0: none but itself), or one for each copy.
+std::shared_ptr<WorldObject> make_world(const std::vector<Description>& scenes, const std::string& settings,
+                                        const std::string& backend, const std::string& device, int threads, bool validate,
+                                        std::size_t copies) {
+    const SceneDocument& first = scenes.at(0).document;
+    check_events(first.events, first.scene);
+    if (copies > 0 && !first.events.empty())
+        throw py::value_error("copies: the scene acts on its bodies over time (Scene.at), which copies do not");
+    const Settings chosen = settings_of(first, settings);
     const demos::Backend& machine = backend_named(backend, device, threads, validate);
     const py::gil_scoped_release unlocked;
-    return std::make_shared<WorldObject>(scene.document, chosen, machine);
+    if (copies == 0) return std::make_shared<WorldObject>(first, World(first.scene, chosen, machine.make_runner()), machine);
+    VaryCopy vary;
+    if (scenes.size() > 1) vary = [&](std::size_t copy, Scene& scene) { scene = scenes[copy].document.scene; };
+    return std::make_shared<WorldObject>(first, World(first.scene, chosen, machine.make_runner(), copies, vary), machine);
 }
 
 // Steps without Python's lock, in batches of about 20 ms, between which signals are heard and progress is told.
@@ -184,10 +192,10 @@ void restore(WorldObject& object, const std::string_view saved) {
     world->restore(std::as_bytes(std::span(saved)));
 }
 
-Description snapshot(WorldObject& object) {
+Description snapshot(WorldObject& object, std::optional<std::size_t> copy) {
     Use world(object);
     Description made{object.shown, {}};
-    made.document.scene = world->snapshot();
+    made.document.scene = copy ? world->snapshot_of(*copy) : world->snapshot();
     made.document.settings = world->settings();
     made.document.events = coming_events(object.shown.events, *world);
     if (made.document.events.size() != object.shown.events.size() && world->statistics().broken > 0 &&
@@ -196,12 +204,19 @@ Description snapshot(WorldObject& object) {
     return made;
 }
 
+void reset(WorldObject& object, const py::array_t<bool, py::array::c_style | py::array::forcecast>& mask) {
+    Use world(object);
+    const std::vector<std::uint8_t> which(mask.data(), mask.data() + mask.size());
+    const py::gil_scoped_release unlocked;
+    world->reset(which);
+}
+
 }  // namespace
 
-WorldObject::WorldObject(const SceneDocument& document, const Settings& settings, const demos::Backend& backend)
+WorldObject::WorldObject(const SceneDocument& document, World made, const demos::Backend& backend)
     : machine(backend),
       shown{{}, document.viewpoint, document.settings, document.duration, document.picture, document.events},
-      world(document.scene, settings, backend.make_runner()) {}
+      world(std::move(made)) {}
 
 WorldObject::~WorldObject() {
     try {
@@ -254,7 +269,29 @@ void bind_worlds(py::module_& module) {
                  world->restore(file.state);
                  return file.note;
              })
-        .def("statistics", [](WorldObject& object) { return statistics_of(Use(object)->statistics()); })
+        .def("statistics",
+             [](WorldObject& object, std::optional<std::size_t> copy) {
+                 Use world(object);
+                 return statistics_of(copy ? world->statistics_of(*copy) : world->statistics());
+             })
+        .def("copies", [](WorldObject& object) { return Use(object)->copies(); })
+        .def("state_hashes",
+             [](WorldObject& object) {
+                 std::vector<std::string> made;
+                 for (const std::uint64_t hash : Use(object)->state_hashes()) made.push_back(hash_text(hash));
+                 return made;
+             })
+        .def("reset", &reset)
+        .def("gravity_of",
+             [](WorldObject& object, std::size_t copy) {
+                 const vec3 gravity = Use(object)->gravity_of(copy);
+                 return py::make_tuple(gravity.x, gravity.y, gravity.z);
+             })
+        .def("set_gravity_of",
+             [](WorldObject& object, std::size_t copy, std::array<float, 3> gravity) {
+                 Use(object)->set_gravity_of(copy, {gravity[0], gravity[1], gravity[2]});
+             })
+        .def("wake_copy", [](WorldObject& object, std::size_t copy) { Use(object)->wake_copy(copy); })
         .def("settings", [](WorldObject& object) { return settings_dict(Use(object)->settings()); })
         .def("state_hash", [](WorldObject& object) { return hash_text(Use(object)->state_hash()); })
         .def("stage_times",

@@ -107,12 +107,17 @@ class World:
     least_restitution, ...) override those of the scene. events: True, or a dict of set_events().
 
     Bodies are named by their ids, which Scene.add and World.add return; arrays are in the order of ids.
+
+    copies: many copies of the scene at once, each with the same bits as a world of it alone. Or a list of scenes, one for each
+    copy, which differ in values (poses, masses, friction, gravity, ...) and not in the number of bodies and joints. Arrays of
+    all bodies are then (copies, n, ...), and ids() gives the ids of bodies in copies.
     Raises SceneError (a ValueError with a `pointer`), and DeviceError where the backend is not to be had.
     """
 
-    def __init__(self, scene: Union[Scene, str, "os.PathLike[str]"], backend: str = "auto", rate: Optional[float] = None,
-                 substeps: Optional[int] = None, *, device: str = "", threads: int = 0, validate: bool = False,
-                 events: Union[bool, typing.Mapping[str, Any]] = False, **settings: Any) -> None:
+    def __init__(self, scene: Union[Scene, str, "os.PathLike[str]", typing.Sequence[Scene]], backend: str = "auto",
+                 rate: Optional[float] = None, substeps: Optional[int] = None, *, copies: Optional[int] = None, device: str = "",
+                 threads: int = 0, validate: bool = False, events: Union[bool, typing.Mapping[str, Any]] = False,
+                 **settings: Any) -> None:
         require_keys(settings, _native.keys("settings"), "World")
         if backend not in ("auto", "cpu", "vulkan"):
             raise ValueError(f'backend: unknown "{backend}"; known: auto, cpu, vulkan')
@@ -120,8 +125,18 @@ class World:
             settings["rate"] = rate
         if substeps is not None:
             settings["substeps"] = substeps
-        described = scene if isinstance(scene, Scene) else load(scene)
-        self._native = _native.World(described._native, json_text(settings, "/settings"), backend, str(device), threads, validate)
+        if isinstance(scene, (list, tuple)):
+            scenes = list(scene)
+            if not scenes or copies not in (None, len(scenes)):
+                raise ValueError(f"copies: {len(scenes)} scenes are given, one for each copy, not {copies}")
+            copies = len(scenes)
+        else:
+            scenes = [scene if isinstance(scene, Scene) else load(typing.cast(Union[str, "os.PathLike[str]"], scene))]
+        if copies is not None and copies < 1:
+            raise ValueError(f"copies: must be at least 1, is {copies}")
+        self._copies = copies
+        self._native = _native.World([one._native for one in scenes], json_text(settings, "/settings"), backend, str(device), threads,
+                                     validate, copies or 0)
         self._told_of_events = False
         _worlds.add(self)
         if events:
@@ -191,8 +206,11 @@ class World:
         """The number of ids: bodies, and fragments whether they exist yet or not."""
         return self._native.count()
 
+    def _shaped(self, column: Array) -> Array:
+        return column if self._copies is None else column.reshape(self._copies, -1, *column.shape[1:])
+
     def _column(self, name: str) -> Array:
-        return self._native.columns([name])[name]
+        return self._shaped(self._native.columns([name])[name])
 
     @property
     def position(self) -> Floats:
@@ -226,7 +244,82 @@ class World:
 
     def read(self, *names: str) -> Dict[str, Array]:
         """Several of the above by name, in one transfer from a device; without names all."""
-        return self._native.columns(list(names or ("position", "orientation", "velocity", "angular_velocity", "asleep", "exists")))
+        wanted = list(names or ("position", "orientation", "velocity", "angular_velocity", "asleep", "exists"))
+        return {name: self._shaped(column) for name, column in self._native.columns(wanted).items()}
+
+    # ---- copies of the scene
+    @property
+    def copies(self) -> int:
+        """Copies of the scene: 1 for a world of a scene alone."""
+        return self._native.copies()
+
+    def ids(self, bodies: Any = None, copies: Any = None) -> Ids:
+        """(copies, bodies): the ids, in this world, of bodies of the scene in copies; without arguments of all."""
+        each = len(self) // self.copies
+        body = np.arange(each) if bodies is None else ids_of(bodies)
+        copy = np.arange(self.copies) if copies is None else ids_of(copies)
+        for name, given, most in (("body", body, each), ("copy", copy, self.copies)):
+            if given.size and (given.min() < 0 or given.max() >= most):
+                raise IndexError(f"{name} {given.max() if given.max() >= most else given.min()} of {most}")
+        made: Ids = copy[:, None].astype(np.int64) * each + body[None, :]
+        return made
+
+    def reset(self, copies: Optional[Any] = None) -> None:
+        """Puts copies (a mask, or their numbers; all without) back to their start, as if they began with the next step.
+
+        Poses, velocities, contacts, sleep, breaks, joints, vehicles; materials, masses, motors and gravity stay as they are set.
+        """
+        mask = np.zeros(self.copies, dtype=bool)
+        which = np.arange(self.copies) if copies is None else np.asarray(copies)
+        if which.dtype == np.bool_:
+            if which.shape != mask.shape:
+                raise ValueError(f"reset: a mask of the shape {which.shape} for {self.copies} copies")
+            mask = which.copy()
+        else:
+            mask[ids_of(which)] = True
+        self._native.reset(mask)
+
+    def state_hashes(self) -> typing.List[str]:
+        """Of each copy state_hash() of the scene alone."""
+        return self._native.state_hashes()
+
+    def statistics_of(self, copy: int) -> Dict[str, Any]:
+        """statistics of one copy."""
+        return self._native.statistics(copy)
+
+    def gravity_of(self, copy: int) -> Tuple[float, float, float]:
+        """(3,), m/s^2."""
+        return self._native.gravity_of(copy)
+
+    def set_gravity_of(self, copy: int, gravity: Vector) -> None:
+        """(3,), m/s^2, of one copy from the next step on, which wakes it."""
+        x, y, z = triple(gravity, "gravity")
+        self._native.set_gravity_of(copy, (float(x), float(y), float(z)))
+
+    def wake_copy(self, copy: int) -> None:
+        """Wakes all bodies of a copy in the next step."""
+        self._native.wake_copy(copy)
+
+    @staticmethod
+    def _in_a_row(ids: Any, values: Tuple[Optional[Any], ...]) -> Tuple[Ids, typing.List[Optional[Any]]]:
+        """Ids of (copies, k), and their values, one after the other; others as they are."""
+        array = np.asarray(ids)
+        if array.ndim != 2 or array.size == 0:
+            return ids_of(array), list(values)
+        shape = array.shape
+        if array.dtype == np.bool_:
+            return ids_of(array.reshape(-1)), list(values)
+
+        def flat(value: Optional[Any]) -> Optional[Any]:
+            if value is None:
+                return None
+            wide = np.asarray(value, dtype=np.float32)
+            try:
+                return np.broadcast_to(wide, (*shape, wide.shape[-1])).reshape(-1, wide.shape[-1])
+            except (ValueError, IndexError):
+                raise ValueError(f"has the shape {wide.shape}, for ids of the shape {shape}") from None
+
+        return ids_of(array.reshape(-1)), [flat(value) for value in values]
 
     @property
     def tables(self) -> Tables:
@@ -237,10 +330,11 @@ class World:
             angular_velocity: Optional[Any] = None) -> None:
         """Sets poses and velocities of many bodies in one transfer: (n, 3) and (n, 4), or one row for all.
 
-        ids: (n,), one id, or a mask of all bodies. Bodies wake. Raises IndexError for an id, ValueError for a body that is
+        ids: (n,), one id, a mask of all bodies, or (copies, k) as of ids(), with values (copies, k, 3). Bodies wake. Raises IndexError for an id, ValueError for a body that is
         not there and for values out of range, and then changes nothing.
         """
-        named = ids_of(ids)
+        named, (position, orientation, velocity, angular_velocity) = self._in_a_row(
+            ids, (position, orientation, velocity, angular_velocity))
         n = len(named)
         self._native.set(named, maybe_vectors(position, n, 3, "position"), maybe_vectors(orientation, n, 4, "orientation"),
                          maybe_vectors(velocity, n, 3, "velocity"),
@@ -252,7 +346,8 @@ class World:
 
         Each is (n, 3), or one row for all; offset, m, from the centre of mass, is where forces and impulses act. Calls add up.
         """
-        named = ids_of(ids)
+        named, (force, torque, impulse, angular_impulse, offset) = self._in_a_row(
+            ids, (force, torque, impulse, angular_impulse, offset))
         n = len(named)
         self._native.apply(named, maybe_vectors(force, n, 3, "force"), maybe_vectors(torque, n, 3, "torque"),
                            maybe_vectors(impulse, n, 3, "impulse"), maybe_vectors(angular_impulse, n, 3, "angular_impulse"),
@@ -378,26 +473,29 @@ class World:
         return self._native.sensed().view(np.recarray)
 
     # ---- queries
-    def cast_rays(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True) -> "np.recarray[Any, Any]":
+    def cast_rays(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True,
+                  copy: Any = 0) -> "np.recarray[Any, Any]":
         """The nearest hit of each ray. origins, directions: (n, 3) or one row for all; reach: m, one or (n,).
 
         Fields, also attributes: body (-1: nothing), part, distance (m, infinite where there is nothing), point (3,), normal (3,).
-        mask: of the categories seen; solid: a ray that begins in a body hits it at 0, else it leaves it unseen.
+        mask: of the categories seen; solid: a ray that begins in a body hits it at 0, else it leaves it unseen. copy: of the
+        scene, one or (n,), in a world of several; likewise below.
         (height, width, 3) give (height, width) hits.
         """
         rays, shape = self._rays(origins, directions, reach)
-        return self._native.cast_rays(*rays, mask, solid).reshape(shape).view(np.recarray)
+        return self._native.cast_rays(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1))).reshape(shape).view(np.recarray)
 
-    def rays_hit(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True) -> npt.NDArray[np.bool_]:
+    def rays_hit(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES, solid: bool = True,
+                 copy: Any = 0) -> npt.NDArray[np.bool_]:
         """(n,): whether each ray hits anything; otherwise as cast_rays, and faster."""
         rays, shape = self._rays(origins, directions, reach)
-        return self._native.rays_hit(*rays, mask, solid).reshape(shape)
+        return self._native.rays_hit(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1))).reshape(shape)
 
     def cast_rays_through(self, origins: Any, directions: Any, reach: Any = np.inf, *, mask: int = ALL_CATEGORIES,
-                          solid: bool = True) -> Tuple[Ids, "np.recarray[Any, Any]"]:
+                          solid: bool = True, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
         """The first hit of each body and part, near ones first: (starts, hits), of ray i hits[starts[i]:starts[i + 1]]."""
         rays, _ = self._rays(origins, directions, reach)
-        starts, hits = self._native.cast_rays_through(*rays, mask, solid)
+        starts, hits = self._native.cast_rays_through(*rays, mask, solid, ids_of(np.asarray(copy).reshape(-1)))
         return starts, hits.view(np.recarray)
 
     @staticmethod
@@ -416,28 +514,29 @@ class World:
         return (flat[0], unit(flat[1], "directions"), np.ascontiguousarray(far)), shape
 
     def cast_shapes(self, shape: Shape, origins: Any, directions: Any, reach: Any = 1.0, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
-                    mask: int = ALL_CATEGORIES) -> "np.recarray[Any, Any]":
+                    mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
         """The first body that a convex shape meets as it moves along each line; fields as of cast_rays, point: its centre then.
 
         shape: no plane and no hull. reach: m, up to 1e6, one or (n,); orientation: (4,) or (n, 4).
         """
         (start, along, far), _ = self._rays(origins, directions, reach)
         turns = vectors(orientation, len(start), 4, "orientation")
-        return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, mask).view(np.recarray)
+        return self._native.cast_shapes(json_text(shape, "/shape"), start, along, turns, far, mask,
+                                        ids_of(copy)).view(np.recarray)
 
-    def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES) -> "np.recarray[Any, Any]":
+    def closest_points(self, points: Any, reach: Any = 1.0, *, mask: int = ALL_CATEGORIES, copy: Any = 0) -> "np.recarray[Any, Any]":
         """The nearest point of any body within reach (m) of each point, (n, 3); fields as of cast_rays, distance 0 in a body."""
         place = np.atleast_2d(np.asarray(points, dtype=np.float32))
         place = vectors(place, len(place), 3, "points")
-        return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), mask).view(np.recarray)
+        return self._native.closest_points(place, vectors(reach, len(place), 0, "reach"), mask, ids_of(copy)).view(np.recarray)
 
     def overlaps(self, shape: Shape, positions: Any, *, orientation: Any = (0.0, 0.0, 0.0, 1.0),
-                 mask: int = ALL_CATEGORIES) -> Tuple[Ids, "np.recarray[Any, Any]"]:
+                 mask: int = ALL_CATEGORIES, copy: Any = 0) -> Tuple[Ids, "np.recarray[Any, Any]"]:
         """All bodies and parts that a convex shape overlaps at each position: (starts, parts), as of cast_rays_through."""
         place = np.atleast_2d(np.asarray(positions, dtype=np.float32))
         place = vectors(place, len(place), 3, "positions")
         turns = vectors(orientation, len(place), 4, "orientation")
-        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, mask)
+        starts, parts = self._native.overlaps(json_text(shape, "/shape"), place, turns, mask, ids_of(copy))
         return starts, parts.view(np.recarray)
 
     # ---- files
@@ -477,9 +576,12 @@ class World:
         """Restores what write_checkpoint or scree run --checkpoint wrote, and returns the note. Raises as restore, and OSError."""
         return self._native.read_checkpoint(os.fspath(path))
 
-    def snapshot(self) -> Scene:
-        """The present scene: existing bodies with their poses and velocities; contacts begin anew in a world made of it."""
-        return Scene._of(self._native.snapshot())
+    def snapshot(self, copy: Optional[int] = None) -> Scene:
+        """The present scene: existing bodies with their poses and velocities; contacts begin anew in a world made of it.
+
+        copy: which, in a world of several.
+        """
+        return Scene._of(self._native.snapshot(copy))
 
     # ---- joints and vehicles
     def joints(self) -> "np.recarray[Any, Any]":
@@ -549,7 +651,7 @@ class World:
 
     def render(self, camera: Optional[Camera] = None, size: Size = (640, 480), channels: Union[str, typing.Sequence[str]] = ("color",), *,
                color: Optional[str] = None, camera_before: Optional[Camera] = None, seconds_before: Optional[float] = None,
-               **look: Any) -> Picture:
+               copy: Optional[int] = None, **look: Any) -> Picture:
         """A picture, with its channels as arrays.
 
         size: (width, height), pixels. channels of color, depth, body, part, normal, flow: see Picture. All but color are cast
@@ -559,6 +661,7 @@ class World:
         contact-impulse, contacts, sleep, material; default: the scene's, mostly momentum. Also color_map, color_scale,
         color_range (low, high), show (contacts, velocities, joints, boxes, cells, sleep), caption, legend, shadows,
         samples (1, 4, 9 or 16), canvas (auto, vulkan, gl).
+        copy: of the scene, in a world of several; by default the first.
         flow: motion of what is seen since `seconds_before` (default: a step ago), when the camera was camera_before.
         """
         require_keys(look, _LOOK, "render")
@@ -572,7 +675,8 @@ class World:
         seen = self.camera if camera is None else camera
         seconds = 1 / self.settings["rate"] if seconds_before is None else seconds_before
         arrays = self._native.render(seen._text(), width, height, wanted, json_text(look, "/picture"),
-                                     "" if camera_before is None else camera_before._text(), seconds)
+                                     "" if camera_before is None else camera_before._text(), seconds,
+                                     0 if copy is None and self._copies is not None else copy)
         return Picture({name: arrays[name] for name in wanted})
 
     # ---- costs

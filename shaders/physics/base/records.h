@@ -180,9 +180,9 @@ struct Sweep {      // motion of a body through the step
 // ---- broadphase
 struct Bounds {   // swept AABB of a body over the step, with its margin
     vec3 lower;   // m
-    uint level;   // grid level, whose cells are cell * 2^l wide; with INACTIVE (grid.h)
+    uint level;   // grid level, whose cells are cell * 2^l wide; with INACTIVE and the copy (grid.h)
     vec3 upper;   // m
-    uint bucket;  // hash bucket of its centre's cell; the last one for a large body
+    uint bucket;  // hash bucket of its centre's cell; one behind all others for a large body
     Sweep sweep;
 };
 struct CellEntry {  // a body's bounds, sorted by bucket, then by body
@@ -416,7 +416,7 @@ struct Parameters {  // uniform over a step
     float cell;                   // width of the grid's finest cells, m
     float inverse_cell;
     uint bodies;   // rows of the bodies' tables, parts included
-    uint buckets;  // hash buckets of the grid, a power of two; one more holds the large bodies
+    uint buckets;  // hash buckets of the grid, a power of two; one more per copy holds its large bodies
     uint pair_capacity;
     uint contact_capacity;
     uint group_size;          // threads of a workgroup, a power of two
@@ -459,6 +459,10 @@ struct Parameters {  // uniform over a step
     uint surfaces_offset;
     uint immersions_offset;
     uint removed;  // 1: bodies were removed since the last step; sleepers that touched them wake
+    uint births_offset;
+    uint copy_states_offset;
+    uint gravities_offset;
+    uint copies;  // of the scene, at least 1 (copies.h)
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air
@@ -469,9 +473,9 @@ struct Parameters {  // uniform over a step
     float water_damping;     // 1/s
     float attractor_radius;  // m
     uint attractors;         // number of them
-    uint pad0;
-    vec4 attractor[4];  // MOST_ATTRACTORS. xyz: position, m; w: strength, m^3/s^2
-    Grip grips[4];      // MOST_GRIPS
+    uint bodies_of_copy;     // copy w has the bodies with ids from w * bodies_of_copy on; 0: a scene without copies
+    vec4 attractor[4];       // MOST_ATTRACTORS. xyz: position, m; w: strength, m^3/s^2
+    Grip grips[4];           // MOST_GRIPS
 };
 
 // Features of a scene; shaders are specialised to leave out the others.
@@ -482,9 +486,11 @@ CONSTANT uint FEATURE_TYRES = 8u;
 CONSTANT uint FEATURE_PARTS = 16u;      // moving compounds
 CONSTANT uint FEATURE_REORDERED = 32u;  // rows in an order other than that of ids
 CONSTANT uint FEATURE_JOINTS = 64u;
-CONSTANT uint FEATURE_SUMS = 128u;      // contact impulses are summed over the step: breakable bodies, events
-CONSTANT uint FEATURE_FILTERS = 256u;   // collision filters, excluded pairs
-CONSTANT uint FEATURE_SURFACES = 512u;  // materials with more than friction, restitution and rolling resistance
+CONSTANT uint FEATURE_SUMS = 128u;        // contact impulses are summed over the step: breakable bodies, events
+CONSTANT uint FEATURE_FILTERS = 256u;     // collision filters, excluded pairs
+CONSTANT uint FEATURE_SURFACES = 512u;    // materials with more than friction, restitution and rolling resistance
+CONSTANT uint FEATURE_COPIES = 1024u;     // several copies of a scene
+CONSTANT uint FEATURE_GRAVITIES = 2048u;  // whose gravity differs
 
 CONSTANT uint PAIR_TYPES = 16u;  // fourteen of shape pairs, persistent and inactive
 CONSTANT uint PAIR_BLOCK = 16u;  // pairs that one thread bins by type

@@ -19,6 +19,10 @@ LAW uvec4 scan_work_for(uint items, Parameters parameters) {
     uint block = parameters.group_size << SCAN_SHIFT;
     return uvec4((items + block) >> (parameters.group_shift + SCAN_SHIFT), 1u, 1u, items + 1u);
 }
+// Buckets of the grid and of large bodies.
+LAW uint buckets_in_all(Parameters parameters) {
+    return parameters.buckets + parameters.copies;
+}
 LAW uint pair_blocks_of(uint pairs) {
     return (pairs + PAIR_BLOCK - 1u) >> PAIR_BLOCK_SHIFT;
 }

@@ -4,11 +4,13 @@
 // cells are at least as wide as its AABB. So any body whose AABB overlaps has its centre at most half a cell outside
 // the AABB: in two or three cells along each axis, on its own level and on each coarser one. A row of cells along x is
 // a run of buckets, hence one range of the sorted list. Planes and rare large bodies are in one more bucket, which
-// every body searches.
+// every body searches. Copies of a scene (copies.h) have the same coordinates: their cells differ in the number of the
+// copy, which is in the upper bits of the level, and each copy has a bucket of large bodies.
 #ifndef SCREE_PHYSICS_GRID_H
 #define SCREE_PHYSICS_GRID_H
 
 #include "shaders/physics/base/arithmetic.h"
+#include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/manifold.h"
@@ -17,6 +19,13 @@
 LAWS_BEGIN
 
 CONSTANT uint LEVELS = 32u;
+
+// Of the level in bounds and entries: the level, its flags (below), and the copy of the scene above them. The functions
+// that compare two bodies' levels are for bodies of one copy.
+CONSTANT uint LEVEL_BITS = 0x1Fu;
+CONSTANT uint COPY_SHIFT = 10u;
+CONSTANT uint COPY_BITS = 0xFFFFFC00u;
+CONSTANT uint MOST_COPIES = 0x400000u;
 
 LAW float power_of_two(int exponent) {
     return uintBitsToFloat(uint(exponent + 127) << 23);
@@ -60,7 +69,7 @@ LAW CellRange cells_in_reach(vec3 lower, vec3 upper, uint level, Parameters para
 }
 
 // The hash bucket of a cell: consecutive along x; rows by a multiplicative hash (Teschner et al. 2003, with other
-// primes and one more mix).
+// primes and one more mix). `level`: with the copy.
 LAW uint bucket_of(ivec3 cell, uint level, uint buckets) {
     uint row = uint(cell.y) * 0x9E3779B1u ^ uint(cell.z) * 0x85EBCA77u ^ level * 0xC2B2AE3Du;
     row = (row ^ (row >> 15)) * 0x2C1B3C6Du;
@@ -137,6 +146,17 @@ LAW bool reaches_plane(vec3 lower, vec3 upper, vec3 normal, vec3 point) {
     return dot3(corner - point, normal) <= 0.0f;
 }
 
+// The bounds of a body in a copy of the scene: of a row that is in a bucket.
+LAW Bounds of_copy(Bounds bounds, uint copy, Parameters parameters) {
+    uint level = bounds.level & LEVEL_BITS;
+    bounds.level = bounds.level | (copy << COPY_SHIFT);
+    bounds.bucket = bounds.bucket == parameters.buckets
+                        ? parameters.buckets + copy
+                        : bucket_of(cell_of(bounds.lower, bounds.upper, level, parameters.inverse_cell),
+                                    level | (copy << COPY_SHIFT), parameters.buckets);
+    return bounds;
+}
+
 // The owner of a pair of grid bodies: the one on the finer level, on equal levels the lower id. `body` and `other` are
 // ids, because rows in memory may be permuted.
 LAW bool owns_pair(uint body, uint level, uint other, uint other_level) {
@@ -169,8 +189,9 @@ LAW bool finds_large(uint body, uint level, bool large, uint other, uint other_l
 // Bit mask of the levels a body must search.
 LAW uint levels_to_search(uint level, Counts counts) {
     if ((level & NOT_IN_GRID) != 0u) return 0u;
-    if ((level & INACTIVE) != 0u) return counts.levels_stirring & ~((2u << (level - INACTIVE)) - 1u);
-    return counts.levels & ~((1u << level) - 1u);
+    uint own = level & LEVEL_BITS;
+    if ((level & INACTIVE) != 0u) return counts.levels_stirring & ~((2u << own) - 1u);
+    return counts.levels & ~((1u << own) - 1u);
 }
 
 LAW bool can_touch(BodyProperties a, BodyProperties b) {

@@ -15,6 +15,8 @@ const bool JOINTS = (FEATURES & FEATURE_JOINTS) != 0u;
 const bool SUMS = (FEATURES & FEATURE_SUMS) != 0u;
 const bool SURFACES = (FEATURES & FEATURE_SURFACES) != 0u;
 const bool FILTERS = (FEATURES & FEATURE_FILTERS) != 0u;
+const bool COPIES = (FEATURES & FEATURE_COPIES) != 0u;
+const bool GRAVITIES = (FEATURES & FEATURE_GRAVITIES) != 0u;
 
 // The variant of a shared module: the lines `variants` of its file.
 layout(constant_id = 3) const uint VARIANT = 0u;

@@ -44,7 +44,8 @@ void meets(uint body, uint other) {
 }
 
 void look_through_large(uint body, BodyProperties own, Bounds around) {
-    for (uint k = READ_WORD(cell_ends, PARAMETERS.buckets - 1u); k < READ_WORD(cell_ends, PARAMETERS.buckets); ++k) {
+    uint own_bucket = PARAMETERS.buckets + (COPIES ? around.level >> COPY_SHIFT : 0u), last = READ_WORD(cell_ends, own_bucket);
+    for (uint k = READ_WORD(cell_ends, own_bucket - 1u); k < last; ++k) {
         uint other = READ(cell_entries, k).body;
         CellEntry entry = READ(cell_entries, k);
         if (!finds_large(id_of(body), around.level, is_large(own), id_of(other), entry.level)) continue;
@@ -62,8 +63,9 @@ void look_through_large(uint body, BodyProperties own, Bounds around) {
 
 // Cells along x are consecutive buckets, which may wrap round the end of the grid's entries.
 void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, int last_x, uint level) {
-    uint low = bucket_of(from, level, PARAMETERS.buckets);
-    uint high = bucket_of(ivec3(last_x, from.y, from.z), level, PARAMETERS.buckets);
+    uint key = COPIES ? level | (around.level & COPY_BITS) : level;
+    uint low = bucket_of(from, key, PARAMETERS.buckets);
+    uint high = bucket_of(ivec3(last_x, from.y, from.z), key, PARAMETERS.buckets);
     uint end = READ_WORD(cell_ends, PARAMETERS.buckets - 1u);
     uint first = low == 0u ? 0u : READ_WORD(cell_ends, low - 1u);
     uint id = id_of(body);
@@ -71,7 +73,7 @@ void look_through_row(uint body, BodyProperties own, Bounds around, ivec3 from, 
     for (uint k = 0u; k < entries; ++k) {
         uint place = first + k < end ? first + k : first + k - end;
         CellEntry entry = READ(cell_entries, place);
-        if ((entry.level & ~(INACTIVE | MOVES)) != level) continue;
+        if ((entry.level & ~(INACTIVE | MOVES)) != key) continue;
         if (!boxes_overlap(around.lower, around.upper, entry.lower, entry.upper)) continue;
         if (!finds(id, around.level, id_of(entry.body), entry.level & ~MOVES)) continue;
         ivec3 cell = cell_of(entry.lower, entry.upper, level, PARAMETERS.inverse_cell);
@@ -103,6 +105,7 @@ void look_around(uint body) {
     if (still) carry_over(body);
     uint levels = levels_to_search(around.level, COUNTED);
     if (still && levels == 0u && (COUNTED.large_stirring & 1u) == 0u) return;
+    if (COPIES && still && (READ_WORD(copy_states, around.level >> COPY_SHIFT) & COPY_STIRS) == 0u) return;
     BodyProperties own = READ(properties, body);
     look_through_large(body, own, around);
     if (is_large(own)) return;

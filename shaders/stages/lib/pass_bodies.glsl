@@ -7,7 +7,7 @@
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/copies.glsl"
 
 // after the declarations of the tables
 #include "shaders/stages/lib/gather.glsl"
@@ -25,7 +25,9 @@ void begin_body(uint i, bool first) {
     }
     velocities.at[i] = velocity;
     float split_state = READ(masses, i).split;
-    if (first) split_state = update_hysteresis(split_state, sum.carrying, COUNTED.steps);
+    uint age = COUNTED.steps;
+    if (COPIES && first) age = age_of_copy(age, READ_WORD(births, copy_of(i)));
+    if (first) split_state = update_hysteresis(split_state, sum.carrying, age);
     masses.at[i].split = split_state_after(split_state, sum.carrying, sum.payload_sum);
 }
 

@@ -4,8 +4,8 @@
 
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
+#include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
-#include "shaders/stages/lib/stage.glsl"
 
 // The biased pass.
 void solve_contact(uint place) {
@@ -19,7 +19,7 @@ void solve_contact(uint place) {
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
     vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
-    SolveResult after = solve_contact(c, impulse, before, ma, mb, state, PARAMETERS);
+    SolveResult after = solve_contact(c, impulse, before, ma, mb, state, felt_by(c.a));
     impulses.at[i].normal = after.impulse.normal;
     if (BOUNCES) {
         impulses.at[i].impact_velocity = after.impulse.impact_velocity;
@@ -51,7 +51,7 @@ void relax_contact(uint place, uint pass) {
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
     vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
-    SolveResult after = relax_contact(c, impulse, before, ma, mb, state, PARAMETERS);
+    SolveResult after = relax_contact(c, impulse, before, ma, mb, state, felt_by(c.a));
     if (SUMS) {
         float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
@@ -83,7 +83,7 @@ void relax_contact(uint place, uint pass) {
         payload_b = quiet_steps_shown(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
         if (is_driven(c)) payload_a = payload_b = BESIDE_MOVING;
     }
-    float carrying = is_active(c, impulse, after.pair_velocity, PARAMETERS);
+    float carrying = is_active(c, impulse, after.pair_velocity, felt_by(c.a));
     if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, carrying, payload_b);
     if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, carrying, payload_a);
 }

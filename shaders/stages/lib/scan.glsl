@@ -20,7 +20,7 @@ const uint SCAN_SLOTS = 4u;
 uint scan_items() {
     uint items = PARAMETERS.bodies;  // SCAN_PAIRS, SCAN_SLOTS
     if (SCANNED == SCAN_CELLS)
-        items = PARAMETERS.buckets + 1u;
+        items = buckets_in_all(PARAMETERS);
     else if (SCANNED == SCAN_KINDS)
         items = PAIR_TYPES * pair_blocks_of(COUNTED.pairs);
     else if (SCANNED == SCAN_CONTACTS)

@@ -50,7 +50,9 @@
     X(21, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                      \
     X(21, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */      \
     X(21, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | record */     \
-    X(21, scan_sums, WordsTable, uint, scan_blocks)
+    X(21, scan_sums, WordsTable, uint, scan_blocks)                                                                         \
+    X(21, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                         \
+    X(21, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
 
 #define SCREE_QUAD_TABLES(X)                                                                                  \
     X(22, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
@@ -62,7 +64,8 @@
     X(22, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
     X(22, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
     X(22, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
-    X(22, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */
+    X(22, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */   \
+    X(22, gravities, QuadsTable, uvec4, gravities)       /* of each copy, if they differ, m/s^2: copies.h */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \

@@ -1,0 +1,62 @@
+// World: its present scene, of all bodies or of one copy.
+#include <utility>
+
+#include "compute/scene/fracture.h"
+#include "compute/world/world_impl.h"
+
+namespace scree {
+
+Scene World::snapshot() const {
+    interior_->require_one_copy("snapshot: name the copy (snapshot_of)");
+    return interior_->snapshot(std::nullopt);
+}
+
+Scene World::snapshot_of(std::size_t copy) const {
+    interior_->require_copy(copy);
+    return interior_->snapshot(copy);
+}
+
+Scene World::Impl::snapshot(std::optional<std::size_t> copy) const {
+    Scene now = scene;
+    if (copy) now.gravity = gravity_of(*copy);
+    bring(body_ranges);
+    std::vector<Body> there;
+    std::vector<std::size_t> place_there(scene.bodies.size(), no_body);
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+        if (copy && copy_of(i) != *copy) continue;
+        const BodyState at = body_state(i);
+        if (!at.exists) continue;
+        place_there[i] = there.size();
+        Body& body = there.emplace_back(on_its_own(std::move(now.bodies[i])));
+        if (body.motion == Motion::fixed) continue;
+        body.position = at.position;
+        body.orientation = at.orientation;
+        body.velocity = at.velocity;
+        body.angular_velocity = at.angular_velocity;
+    }
+    now.bodies = std::move(there);
+    // Renumbers the body; true if it does not exist.
+    const auto is_missing = [&](std::size_t& body) {
+        if (body == the_world) return false;
+        body = place_there[body];
+        return body == no_body;
+    };
+    bring(joint_ranges);
+    std::vector<Joint> joints;
+    std::vector<std::size_t> joint_there(scene.joints.size(), no_body);
+    for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+        if (is_joint_gone(i)) continue;
+        Joint joint = scene.joints[i];
+        joint.broken = joint_state(i).broken;
+        const bool no_a = is_missing(joint.a), no_b = is_missing(joint.b);
+        if (no_a || no_b) continue;
+        joint_there[i] = joints.size();
+        joints.push_back(std::move(joint));
+    }
+    now.joints = std::move(joints);
+    std::erase_if(now.exclusions, [&](Exclusion& pair) { return is_missing(pair.a) || is_missing(pair.b); });
+    keep_vehicles(now, place_there, joint_there);
+    return now;
+}
+
+}  // namespace scree

@@ -1,0 +1,36 @@
+// Many copies of a scene in one set of tables, at the same coordinates: each moves with the bits of the scene alone.
+//
+// Copy w has the bodies with ids from w * bodies_of_copy on, so that the order of ids within a copy, which decides every
+// order in a step, is that of the scene alone. The broadphase finds no pair of two copies (grid.h); all else in a step
+// is of one body or of one pair. What is counted over all bodies (Counts) only skips work that would change nothing,
+// but for what is here.
+#ifndef SCREE_PHYSICS_COPIES_H
+#define SCREE_PHYSICS_COPIES_H
+
+#include "shaders/physics/base/records.h"
+
+LAWS_BEGIN
+
+// The table of copy_states, set anew in each step.
+CONSTANT uint COPY_STIRS = 1u;   // some body may move in this step
+CONSTANT uint COPY_BREAKS = 2u;  // some body breaks in this step
+
+LAW bool has_copies(Parameters parameters) {
+    return parameters.bodies_of_copy != 0u;
+}
+// The copy of a body by its id.
+LAW uint copy_of_id(uint id, Parameters parameters) {
+    return id / parameters.bodies_of_copy;
+}
+// Steps since a copy began: in the step of its birth it has no contacts before.
+LAW uint age_of_copy(uint steps, uint birth) {
+    return steps - birth;
+}
+LAW Parameters with_gravity(Parameters parameters, vec3 gravity) {
+    parameters.gravity = gravity;
+    return parameters;
+}
+
+LAWS_END
+
+#endif
