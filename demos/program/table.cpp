@@ -8,7 +8,7 @@ namespace scree::demos {
 
 namespace {
 
-bool is_number(const std::string& cell) {
+bool is_numeric_cell(const std::string& cell) {
     return !cell.empty() && (std::isdigit(static_cast<unsigned char>(cell[0])) || (cell[0] == '-' && cell.size() > 1));
 }
 
@@ -22,7 +22,7 @@ std::string table(const std::vector<Cells>& rows) {
         right.resize(width.size(), rows.size() > 1);
         for (std::size_t i = 0; i < row.size(); ++i) {
             width[i] = std::max(width[i], row[i].size());
-            if (&row != &rows.front() && !is_number(row[i])) right[i] = false;
+            if (&row != &rows.front() && !is_numeric_cell(row[i])) right[i] = false;
         }
     }
     std::string text;
