@@ -55,8 +55,8 @@ void add_export(CLI::App& program, int&) {
     command->add_flag("--schema", options->schema, "Print the JSON Schema of scene files instead.");
     command->footer(
         "The file has the scene with its camera, colours, settings and duration. A demo's promise, and what\n"
-        "its script does while it runs, stay in the program. Of files of other programs, what is not translated\n"
-        "is told once on the standard error output, with file and line.\n\n"
+        "its script does while it runs, stay in the program. Of files of other programs, what is not\n"
+        "translated is told once on the standard error output, with file and line.\n\n"
         "Examples:\n  scree export wall -o wall.json\n  scree export pile --bodies 500 --seed 7 -o pile.json\n"
         "  scree export robot.urdf --base free --ground -o robot.json\n  scree export humanoid.xml --keyframe squat -o "
         "squat.json\n"

@@ -63,7 +63,7 @@ TEST_CASE("a GLB file gives its triangles where its nodes put them") {
 }
 
 TEST_CASE("a mesh file that cannot be read is refused with its name and the reason") {
-    REQUIRE(says(refusal("", "a.stl"), "a.stl: meshes are read from .obj, .gltf and .glb files"));
+    REQUIRE(says(refusal("", "a.ply"), "a.ply: meshes are read from .obj, .gltf, .glb and .stl files"));
     REQUIRE(says(refusal("v 0 0 0\n", "a.obj"), "a.obj: has no triangles"));
     REQUIRE(says(refusal("v 0 0 0\nv 1 0 0\nv 0 0 1\nf 1 2 9\n", "a.obj"), "a.obj: "));
     REQUIRE(

@@ -54,7 +54,8 @@ std::vector<std::string> breaches(const SourceFile& file, const std::set<std::st
         const Token& token = tokens[i];
         const std::string next = i + 1 < tokens.size() ? tokens[i + 1].text : "";
         const std::string previous = i > 0 ? tokens[i - 1].text : "";
-        if (token.text == "/") found.push_back(at(file, token.line, "division; multiply by reciprocal()"));
+        const bool quotient = previous == "dividend" && next == "divisor";  // of integers, in copies.h
+        if (token.text == "/" && !quotient) found.push_back(at(file, token.line, "division; multiply by reciprocal()"));
         // Stages use these on integers, which is exact; tests/house/vulkan/spirv.cpp detects uses on floats.
         const bool on_integers =
             file.in("shaders/stages/") && (token.text == "min" || token.text == "max" || token.text == "clamp");

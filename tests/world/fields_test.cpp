@@ -122,7 +122,9 @@ TEST_CASE("fields: the host code names a body's property in its table alone", "[
         INFO(key);
         std::vector<std::string> found;
         for (const house::SourceFile& file : house::source_files())
-            if (file.in("compute/") && file.text.find("\"" + std::string(key) + "\"") != std::string::npos)
+            // Files of other programs have keys of their own.
+            if (file.in("compute/") && !file.in("compute/scene_file/import/") &&
+                file.text.find("\"" + std::string(key) + "\"") != std::string::npos)
                 found.push_back(file.path);
         CHECK(found == std::vector<std::string>{"compute/fields/body.h"});
     }

@@ -255,7 +255,7 @@ void bind_worlds(py::module_& module) {
         .def("close_exports", &WorldObject::close_exports)
         .def("save", &save)
         .def("restore", &restore)
-        .def("snapshot", &snapshot)
+        .def("snapshot", &snapshot, py::arg("copy") = py::none())
         .def("write_checkpoint",
              [](WorldObject& object, const std::string& path, const std::string& note) {
                  Use world(object);
@@ -269,11 +269,13 @@ void bind_worlds(py::module_& module) {
                  world->restore(file.state);
                  return file.note;
              })
-        .def("statistics",
-             [](WorldObject& object, std::optional<std::size_t> copy) {
-                 Use world(object);
-                 return statistics_of(copy ? world->statistics_of(*copy) : world->statistics());
-             })
+        .def(
+            "statistics",
+            [](WorldObject& object, std::optional<std::size_t> copy) {
+                Use world(object);
+                return statistics_of(copy ? world->statistics_of(*copy) : world->statistics());
+            },
+            py::arg("copy") = py::none())
         .def("copies", [](WorldObject& object) { return Use(object)->copies(); })
         .def("state_hashes",
              [](WorldObject& object) {
