@@ -5,24 +5,13 @@
 #include "compute/device/device_runner.h"
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
 
 using namespace scree;
 
 namespace {
-
-struct Watched {
-    std::shared_ptr<host::Device> device;
-    Watched() {
-        host::DeviceOptions options;
-        options.validation = true;
-        device = host::Device::open(options);
-    }
-    ~Watched() {
-        for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
-    }
-};
 
 void vary(std::size_t copy, Scene& scene) {
     scene.gravity = {static_cast<float>(copy), -9.81f + static_cast<float>(copy), 0};

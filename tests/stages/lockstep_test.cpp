@@ -9,25 +9,19 @@
 #include "compute/device/lockstep.h"
 #include "compute/world.h"
 #include "shaders/physics/extra/sweep.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
 
 namespace {
 
-struct Watched {
-    std::shared_ptr<host::Device> device;
-    explicit Watched(std::uint64_t largest_binding = 0, bool without_texels = false) {
-        host::DeviceOptions options;
-        options.validation = true;
-        options.largest_binding = largest_binding;
-        options.without_texels = without_texels;
-        device = host::Device::open(options);
-    }
-    ~Watched() {
-        for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
-    }
-};
+host::DeviceOptions limited_to(std::uint64_t largest_binding, bool without_texels) {
+    host::DeviceOptions options;
+    options.largest_binding = largest_binding;
+    options.without_texels = without_texels;
+    return options;
+}
 
 void require_equal(const LockstepResult& result) {
     INFO("step " << result.step << ", stage " << result.stage << ", " << result.buffer << "[" << result.element << "], "
@@ -58,7 +52,7 @@ TEST_CASE("tables longer than a binding are found by address, from the start or 
     const bool without_texels = GENERATE(false, true);
     for (const std::uint64_t largest_binding : {1024u, 65536u}) {
         CAPTURE(largest_binding, without_texels);
-        const Watched watched(largest_binding, without_texels);
+        const Watched watched(limited_to(largest_binding, without_texels));
         Lockstep lockstep(tests::packed(300), small, watched.device, 1);
         REQUIRE(lockstep.device().reach() == (largest_binding == 1024 ? host::Reach::far : host::Reach::bound));
         for (int step = 0; step < 10; ++step) {
@@ -70,7 +64,7 @@ TEST_CASE("tables longer than a binding are found by address, from the start or 
 }
 
 TEST_CASE("every stage gives the same bits on both processors where tables are not read as texels") {
-    const Watched watched(0, /* without_texels */ true);
+    const Watched watched(limited_to(0, /* without_texels */ true));
     REQUIRE(contacts_walked(tests::packed(300), watched, 10) > 300);
 }
 

@@ -9,23 +9,12 @@
 #include "compute/step/scene_compiler.h"
 #include "compute/world.h"
 #include "shaders/physics/extra/sleep.h"
+#include "tests/stages/watched_device.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
 
 namespace {
-
-struct Watched {
-    std::shared_ptr<host::Device> device;
-    Watched() {
-        host::DeviceOptions options;
-        options.validation = true;
-        device = host::Device::open(options);
-    }
-    ~Watched() {
-        for (const std::string& message : device->validation_messages()) FAIL_CHECK(message);
-    }
-};
 
 // Small bodies at rest, which a large ball and a kinematic box hit after some steps.
 Scene struck(Scene scene) {
