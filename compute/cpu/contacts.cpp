@@ -241,7 +241,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
             const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = first ? carried : state.carried[i] + carried;
         }
-        impulse = physics::clear_impacts(after.impulse, c.count);
+        impulse = physics::clear_impacts(after.impulse, physics::point_count(c));
         impulse.normal_sum = physics::normal_impulse(impulse);
         physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
         const float carrying = physics::is_active(c, impulse, after.pair_velocity, felt_by(state, c.a));

@@ -29,9 +29,8 @@ Constraint patch(float twist_arm) {
     c.normal = vec3(0, 1, 0);
     c.friction = 0.3f;
     c.centre = vec3(0, -0.3f, 0);
-    c.anchor = ANCHOR_B;
+    c.flags = 4 | CONSTRAINT_ON_B;
     c.twist_arm = twist_arm;
-    c.count = 4;
     return c;
 }
 // Without gravity; the anchor of friction has the default settings' spring and leak at 480 substeps a second.
@@ -179,7 +178,7 @@ TEST_CASE("a patch that has slid keeps the stretch at which the anchor bears its
 
 TEST_CASE("what touches in one point has no anchor, nor what bears nothing") {
     Constraint c = patch(0);
-    c.count = 1;
+    c.flags = 1 | CONSTRAINT_ON_B;
     SolveResult s{};
     s.impulse.stretch = vec3(1e-4f, 0, 0);
     s = solve_patch_friction(c, s, 1, nothing(), uneven(0), true, plain());

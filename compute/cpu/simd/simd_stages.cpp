@@ -131,7 +131,7 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
         const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), p);
         if (tables.carried != nullptr) feel(tables, group, after.impulse, last - first);
-        Impulse impulse = clear_impacts(after.impulse, group.c.count);
+        Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
         VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         const Float carrying = is_active(group.c, impulse, after.pair_velocity, p);

@@ -231,29 +231,32 @@ struct Impulse {
 };
 
 // ---- contacts: solver data of this step
-// The body to which a contact's points are fixed while both move through the substeps of a step.
-CONSTANT uint ANCHOR_A = 0u;
-CONSTANT uint ANCHOR_B = 1u;
-CONSTANT uint ANCHOR_ROUND = 2u;  // neither: the single point of two round bodies follows both
+CONSTANT uint CONSTRAINT_POINTS = 7u;  // mask of the number of points
+// The body to which the points are fixed while both move through the substeps of a step; without either flag, A.
+CONSTANT uint CONSTRAINT_ON_B = 8u;
+CONSTANT uint CONSTRAINT_ROUND = 16u;       // neither: the single point of two round bodies follows both
+CONSTANT uint CONSTRAINT_ROLLS_ONLY = 32u;  // the rolling resistance does not resist spinning
 
 struct Constraint {
     uint a, b;            // rows of bodies, never of parts
     uint slot_a, slot_b;  // slots of their VelocityDelta; NONE for a body that contacts do not move
     vec3 normal;          // unit, world, from A to B
     float friction;       // Coulomb coefficient of the pair
-    // xyz: from the anchor body's centre, m (ANCHOR_ROUND: from A's to its centre of curvature). w, of materials (material.h): of
-    // the first two the slip of B's surface over A's while the bodies stand still, along both tangents of the normal, m/s; of
-    // the third the coefficient of static friction, or 0; of the last the speed of the slowest impacts, m/s, or 0.
-    vec4 arms[4];
-    vec3 centre;               // of the friction patch, m (ANCHOR_ROUND: from B's centre to its centre of curvature)
-    float twist_arm;           // of torsional friction, m: mean distance of the patch from its centre
-    float rolling_resistance;  // of the pair, m; < 0: resists rolling alone, not spinning
-    float restitution;         // of the pair
-    uint count;                // points
-    uint anchor;               // ANCHOR_*
-    float radius_a, radius_b;  // ANCHOR_ROUND: of curvature, m; else radius_a: a tyre's slip speed, m/s, or 0
-    uint pair;                 // index of the pair
-    float slide_limit;         // slide after which the points have left the body they slide over, m
+    // Lever arms, per point: from the anchor body's centre, m (CONSTRAINT_ROUND: from A's to its centre of curvature).
+    vec4 arms_x, arms_y, arms_z;
+    // Slip of B's surface over A's while the bodies stand still, along both tangents of the normal, m/s (surface.h).
+    float drive1, drive2;
+    float static_friction;        // coefficient, or 0: the dynamic one
+    float restitution_threshold;  // speed of the slowest impacts, m/s, or 0: the setting's
+    vec3 centre;                  // of the friction patch, m (CONSTRAINT_ROUND: from B's centre to its centre of curvature)
+    float twist_arm;              // of torsional friction, m: mean distance of the patch from its centre
+    float rolling_resistance;     // of the pair, m
+    float restitution;            // of the pair
+    uint flags;                   // CONSTRAINT_*, with the number of points
+    float tyre_slip;              // speed of slip up to which a tyre's friction rises, m/s, or 0: no tyre rolls
+    float radius_a, radius_b;     // CONSTRAINT_ROUND: of curvature, m
+    uint pair;                    // index of the pair
+    float slide_limit;            // slide after which the points have left the body they slide over, m
 };
 struct VelocityDelta {  // velocity change of one body by one contact; summed in the order of slots
     vec3 linear;        // m/s

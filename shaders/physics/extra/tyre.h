@@ -25,7 +25,7 @@ LAW vec3 along_surface(vec3 normal, vec3 v) {
 // Turns a contact's constraint into a tyre's, of A or of B. `v`: of both bodies as the step begins; d: centre of B
 // minus centre of A, m.
 LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, VelocityPair v) {
-    if (c.anchor == ANCHOR_ROUND) return c;
+    if (is_of_round_bodies(c)) return c;
     LeverArms r = lever_arms(c, c.centre, d);
     vec3 drive = is_driven(c) ? drive_of(c) : vec3(0.0f);  // of the ground
     vec3 slip = along_surface(c.normal, velocity_at(r, v)) + drive;
@@ -36,7 +36,7 @@ LAW Constraint on_tyre(Constraint c, bool is_a, Tyre tyre, vec3 d, VelocityPair 
     float slipping = length3(slip) * reciprocal(larger(pace, 1.0e-6f));
     float beyond = clamped((slipping - tyre.best_slip) * reciprocal(1.0f - tyre.best_slip), 0.0f, 1.0f);
     c.friction = c.friction * (1.0f - beyond * (1.0f - tyre.sliding));
-    c.radius_a = tyre.best_slip * pace;
+    c.tyre_slip = tyre.best_slip * pace;
     c.twist_arm = 0.0f;  // torsional friction of a tread is small, and would keep the car straight
     return c;
 }

@@ -5,6 +5,7 @@
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/rolling_contact.h"
 #include "shaders/physics/extra/sweep.h"
+#include "shaders/physics/solve/constraint.h"
 #include "shaders/physics/solve/motion.h"
 
 LAWS_BEGIN
@@ -151,11 +152,11 @@ LAW float face_half_width(BodyProperties properties, vec4 orientation, vec3 norm
 // On three points and more nothing rolls, and the points are those of the smaller face, whichever body is thinner: on a
 // thin turntable the contact of a thick box turned about the table, and the box crept inwards by 0.3 mm/s.
 LAW uint anchor_of(Contact contact, BodyProperties a, BodyProperties b) {
-    if (is_round(a) && is_round(b) && contact.count == 1u) return ANCHOR_ROUND;
-    if (contact.count < 3u) return stays_with_b(a, b) ? ANCHOR_B : ANCHOR_A;
+    if (is_round(a) && is_round(b) && contact.count == 1u) return CONSTRAINT_ROUND;
+    if (contact.count < 3u) return stays_with_b(a, b) ? CONSTRAINT_ON_B : 0u;
     float width_a = face_half_width(a, contact.orientation_a, contact.normal, contact.count);
     float width_b = face_half_width(b, contact.orientation_b, contact.normal, contact.count);
-    return width_b < width_a ? ANCHOR_B : ANCHOR_A;
+    return width_b < width_a ? CONSTRAINT_ON_B : 0u;
 }
 
 // Radius of the patch of a single point, of the smaller min_half_width, for torsional friction: with 0, a box pinched
@@ -192,43 +193,6 @@ LAW vec3 patch_centre(Contact contact, float speculative) {
     return centre * reciprocal(weights);
 }
 
-LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties tb, uint slot_a, uint slot_b,
-                             Parameters parameters) {
-    Constraint c;
-    c.a = contact.a;
-    c.b = contact.b;
-    c.slot_a = slot_a;
-    c.slot_b = slot_b;
-    c.normal = contact.normal;
-    c.friction = parameters.friction_factor * square_root(ta.friction * tb.friction);
-    c.rolling_resistance = larger(ta.rolling_resistance, tb.rolling_resistance);
-    c.restitution = larger(parameters.least_restitution, larger(ta.restitution, tb.restitution));
-    c.count = contact.count;
-    c.pair = NONE;
-    c.anchor = anchor_of(contact, ta, tb);
-    c.radius_a = c.anchor == ANCHOR_ROUND ? ta.size.x : 0.0f;
-    c.radius_b = c.anchor == ANCHOR_ROUND ? tb.size.x : 0.0f;
-    c.slide_limit = c.anchor == ANCHOR_ROUND ? 1.0e30f : face_half_width(ta, contact.orientation_a, contact.normal, c.count);
-    if (c.anchor == ANCHOR_A) c.slide_limit = face_half_width(tb, contact.orientation_b, contact.normal, c.count);
-    vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters));
-    float reach = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        c.arms[k] = vec4(0.0f);
-        if (k >= contact.count) continue;
-        vec3 arm = xyz(contact.points[k]);
-        c.arms[k] = vec4(c.anchor == ANCHOR_B ? arm - contact.center_offset : arm, 0.0f);
-        reach = reach + length3(arm - centre);
-    }
-    c.twist_arm = twist_arm_of(ta, tb, contact.count, reach * reciprocal(float(contact.count)));
-    c.centre = c.anchor == ANCHOR_B ? centre - contact.center_offset : centre;
-    if (c.anchor == ANCHOR_ROUND) {
-        vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
-        c.arms[0] = vec4(centre - half_gap - contact.normal * c.radius_a, 0.0f);
-        c.centre = (centre - contact.center_offset) + half_gap + contact.normal * c.radius_b;
-    }
-    return c;
-}
-
 // The constraint of a contact between inactive bodies, read by statistics alone.
 LAW Constraint idle_constraint(Contact contact) {
     Constraint c;
@@ -238,17 +202,56 @@ LAW Constraint idle_constraint(Contact contact) {
     c.slot_b = NONE;
     c.normal = contact.normal;
     c.friction = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) c.arms[k] = vec4(0.0f);
+    c.arms_x = vec4(0.0f);
+    c.arms_y = vec4(0.0f);
+    c.arms_z = vec4(0.0f);
+    c.drive1 = 0.0f;
+    c.drive2 = 0.0f;
+    c.static_friction = 0.0f;
+    c.restitution_threshold = 0.0f;
     c.centre = vec3(0.0f);
     c.twist_arm = 0.0f;
     c.rolling_resistance = 0.0f;
     c.restitution = 0.0f;
-    c.count = contact.count;
-    c.anchor = ANCHOR_A;
+    c.flags = contact.count;
+    c.tyre_slip = 0.0f;
     c.radius_a = 0.0f;
     c.radius_b = 0.0f;
     c.pair = NONE;
     c.slide_limit = 1.0e30f;
+    return c;
+}
+
+LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties tb, uint slot_a, uint slot_b,
+                             Parameters parameters) {
+    Constraint c = idle_constraint(contact);
+    c.slot_a = slot_a;
+    c.slot_b = slot_b;
+    c.friction = parameters.friction_factor * square_root(ta.friction * tb.friction);
+    c.rolling_resistance = larger(ta.rolling_resistance, tb.rolling_resistance);
+    c.restitution = larger(parameters.least_restitution, larger(ta.restitution, tb.restitution));
+    uint anchor = anchor_of(contact, ta, tb);
+    bool on_b = anchor == CONSTRAINT_ON_B, round = anchor == CONSTRAINT_ROUND;
+    c.flags = contact.count | anchor;
+    if (on_b) c.slide_limit = face_half_width(ta, contact.orientation_a, contact.normal, contact.count);
+    if (!on_b && !round) c.slide_limit = face_half_width(tb, contact.orientation_b, contact.normal, contact.count);
+    vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters));
+    float reach = 0.0f;
+    for (uint k = 0u; k < 4u; ++k) {
+        if (k >= contact.count) break;
+        vec3 arm = xyz(contact.points[k]);
+        c = with_lever_arm(c, int(k), on_b ? arm - contact.center_offset : arm);
+        reach = reach + length3(arm - centre);
+    }
+    c.twist_arm = twist_arm_of(ta, tb, contact.count, reach * reciprocal(float(contact.count)));
+    c.centre = on_b ? centre - contact.center_offset : centre;
+    if (round) {
+        c.radius_a = ta.size.x;
+        c.radius_b = tb.size.x;
+        vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
+        c = with_lever_arm(c, 0, centre - half_gap - contact.normal * c.radius_a);
+        c.centre = (centre - contact.center_offset) + half_gap + contact.normal * c.radius_b;
+    }
     return c;
 }
 

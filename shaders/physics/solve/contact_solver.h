@@ -42,23 +42,22 @@
 LAWS_BEGIN
 
 LAW float round_gap(Constraint c, vec3 d) {
-    return length3((d + c.centre) - xyz(c.arms[0])) - (c.radius_a + c.radius_b);
+    return length3((d + c.centre) - lever_arm(c, 0)) - (c.radius_a + c.radius_b);
 }
 // The constraint at the present poses: between two round bodies, normal and point follow the centres of curvature.
 LAW Constraint refresh_round_contact(Constraint c, vec3 d) {
-    bool follows = c.anchor == ANCHOR_ROUND;
+    bool follows = is_of_round_bodies(c);
     if (none(follows)) return c;
-    vec3 core = xyz(c.arms[0]);
+    vec3 core = lever_arm(c, 0);
     bool driven = follows && is_driven(c);
     vec3 drive = vec3(0.0f);
     if (!none(driven)) drive = drive_of(c);
     c.normal = choose(follows, unit3((d + c.centre) - core, c.normal), c.normal);
     vec3 arm = core + c.normal * (c.radius_a + 0.5f * round_gap(c, d));
-    c.arms[0] = choose(follows, vec4(arm, c.arms[0].w), c.arms[0]);
+    c = with_lever_arm(c, 0, choose(follows, arm, core));
     if (!none(driven)) c = choose_drive(driven, with_drive(c, drive), c);
     c.centre = choose(follows, arm, c.centre);
-    c.anchor = choose(follows, ANCHOR_A, c.anchor);
-    c.radius_a = choose(follows, 0.0f, c.radius_a);
+    c.flags = choose(follows, c.flags & ~CONSTRAINT_ROUND, c.flags);
     return c;
 }
 
@@ -84,9 +83,9 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         bool swept = uint(sweep) < sweeps;
         normal = choose(swept, 0.0f, normal);
         for (int k = 0; k < 4; ++k) {
-            bool there = swept && uint(k) < c.count;
+            bool there = swept && uint(k) < point_count(c);
             if (none(there)) break;
-            LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
+            LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
             float speed = dot3(c.normal, velocity_at(r, v));
             float separation = impulse.separation[k];
             float before = impulse.normal[k];
@@ -97,7 +96,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;  // a third of all contacts are speculative and inactive
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
-            float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, c.count, a, b, parameters));
+            float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, point_count(c), a, b, parameters));
             change = choose(separation <= 0.0f, change - leak * before, change);
             float after = choose(gone, 0.0f, positive(flush_tiny(before + change)));
             impulse.normal[k] = choose(acts, after, before);
@@ -117,13 +116,13 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     bool struck = is_impact(impulse) > 0.0f;
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
-    bool follows = c.anchor == ANCHOR_ROUND;
+    bool follows = is_of_round_bodies(c);
     if (!none(struck || follows)) met = refresh_round_contact(c, met_offset);
     impulse = stretched(met, impulse, v, parameters);
     for (int k = 0; k < 4; ++k) {
-        bool there = uint(k) < c.count && !follows;
+        bool there = uint(k) < point_count(c) && !follows;
         if (none(there)) break;
-        LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
+        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
         float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
         impulse.separation[k] = choose(there, separation, impulse.separation[k]);
     }
@@ -143,9 +142,9 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         bool swept = uint(sweep) < sweeps;
         normal = choose(swept, 0.0f, normal);
         for (int k = 0; k < 4; ++k) {
-            bool there = swept && uint(k) < c.count;
+            bool there = swept && uint(k) < point_count(c);
             if (none(there)) break;
-            LeverArms r = lever_arms(c, xyz(c.arms[k]), impulse.center_offset);
+            LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
             float speed = dot3(c.normal, velocity_at(r, v));
             float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
             target = choose(impulse.impact_velocity[k] < 0.0f, -rebound[k], target);
@@ -156,7 +155,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float mass = mass_along(row, a, b);
-            momentum[k] = choose(acts, contact_momentum(row, c.count, a, b, parameters), momentum[k]);
+            momentum[k] = choose(acts, contact_momentum(row, point_count(c), a, b, parameters), momentum[k]);
             acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
             float after = choose(gone, 0.0f, positive(flush_tiny(before - mass * (speed + target))));
             impulse.normal[k] = choose(acts, after, before);
@@ -165,7 +164,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         }
     }
     SolveResult result;
-    result.impulse = with_momentum(impulse, c.count, momentum);
+    result.impulse = with_momentum(impulse, point_count(c), momentum);
     if (!none(struck)) result.impulse = rebounding(c, result.impulse, rebound, state, parameters);
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, false, parameters);
@@ -175,12 +174,12 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b) {
     c = refresh_round_contact(c, impulse.center_offset);
     float normal = impulse.normal.x;
-    vec3 moment = xyz(c.arms[0]) * impulse.normal.x;
+    vec3 moment = lever_arm(c, 0) * impulse.normal.x;
     for (int k = 1; k < 4; ++k) {
-        bool there = uint(k) < c.count;
+        bool there = uint(k) < point_count(c);
         if (none(there)) break;
         normal = choose(there, normal + impulse.normal[k], normal);
-        moment = choose(there, moment + xyz(c.arms[k]) * impulse.normal[k], moment);
+        moment = choose(there, moment + lever_arm(c, k) * impulse.normal[k], moment);
     }
     bool acts = normal != 0.0f || has_friction(impulse);
     if (none(acts)) return v;
@@ -189,7 +188,7 @@ LAW VelocityPair warm_start(Constraint c, Impulse impulse, VelocityPair v, Mass 
     vec3 push = c.normal * normal + impulse.friction;
     vec3 twist = impulse.rolling + c.normal * impulse.twist;
     LeverArms r = lever_arms(c, c.centre, impulse.center_offset);
-    bool on_b = c.anchor == ANCHOR_B;
+    bool on_b = is_on_b(c);
     vec3 about_a = cross3(choose(on_b, moment + across, moment), c.normal) + cross3(r.a, impulse.friction) + twist;
     vec3 about_b = cross3(choose(on_b, moment, moment - across), c.normal) + cross3(r.b, impulse.friction) + twist;
     VelocityPair after = v;
@@ -208,11 +207,11 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
     c = refresh_round_contact(c, impulse.center_offset);
     float fall = 2.0f * parameters.h * parameters.h * length3(parameters.gravity);
     for (int k = 0; k < 4; ++k) {
-        open = open && uint(k) < c.count;
+        open = open && uint(k) < point_count(c);
         carrying = carrying || (open && impulse.normal[k] > 0.0f);
         open = open && !carrying;
         if (none(open)) break;
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, xyz(c.arms[k]), impulse.center_offset), v));
+        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
         carrying = carrying || (open && impulse.separation[k] + parameters.h * speed < fall);
         open = open && !carrying;
     }

@@ -52,14 +52,14 @@ LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a,
     float determinant = reciprocal(dot3(x, yz));
     vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;
     vec3 stopping = vec3(dot3(yz, spin), dot3(zx, spin), dot3(xy, spin)) * determinant;
-    bool spins = c.rolling_resistance < 0.0f;  // freely, but for the friction of the patch
+    bool spins = (c.flags & CONSTRAINT_ROLLS_ONLY) != 0u;  // freely, but for the friction of the patch
     if (!none(spins)) {
         spin = choose(spins, spin - c.normal * dot3(c.normal, spin), spin);
         stopping = choose(spins, stopping - c.normal * dot3(c.normal, stopping), stopping);
     }
     vec3 before = s.impulse.rolling, from = before;
     if (!none(spins)) from = choose(spins, before - c.normal * dot3(c.normal, before), before);
-    float most = abs(c.rolling_resistance) * normal;
+    float most = c.rolling_resistance * normal;
     vec3 after = flush_tiny(from - stopping);
     bool rolls = dot3(after, after) > most * most;
     if (!none(rolls)) {
@@ -100,7 +100,7 @@ struct Anchor {
 };
 LAW Anchor anchor_of_pass(Constraint c, bool biased, Parameters parameters) {
     // What touches in one or two points may roll, and a tyre has a compliance of its own.
-    bool anchored = c.count > 2u && !(c.radius_a > 0.0f);
+    bool anchored = point_count(c) > 2u && !(c.tyre_slip > 0.0f);
     Anchor anchor;
     anchor.rate = choose(anchored && biased, parameters.bias_rate, 0.0f);
     anchor.leak = choose(anchored && biased, parameters.impulse_scale, 0.0f);
@@ -216,7 +216,7 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     after.twist = before.twist;
     VelocityPair v = s.pair_velocity;
     // What stops the spin, then what stops the slip that is left; without a normal impulse, nothing.
-    bool holds = most > 0.0f, twists = c.twist_arm > 0.0f, slips = c.radius_a > 0.0f;
+    bool holds = most > 0.0f, twists = c.twist_arm > 0.0f, slips = c.tyre_slip > 0.0f;
     Anchor anchor = anchor_of_pass(c, biased, parameters);
     float spin = 0.0f, spin_mass = 0.0f, stopping = 0.0f;
     vec3 response_a = c.normal, response_b = c.normal;
@@ -236,11 +236,11 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     // The block's tangents are those of the drive.
     bool driven = is_driven(c);
     if (!none(driven)) {
-        k.slip1 = choose(driven, k.slip1 + c.arms[0].w * k.unit, k.slip1);
-        k.slip2 = choose(driven, k.slip2 + c.arms[1].w * k.unit, k.slip2);
+        k.slip1 = choose(driven, k.slip1 + c.drive1 * k.unit, k.slip1);
+        k.slip2 = choose(driven, k.slip2 + c.drive2 * k.unit, k.slip2);
     }
     if (!none(slips)) {
-        float compliance = smaller(c.radius_a * reciprocal(larger(most, LEAST_HOLD)) * k.unit, MAX_COMPLIANCE);
+        float compliance = smaller(c.tyre_slip * reciprocal(larger(most, LEAST_HOLD)) * k.unit, MAX_COMPLIANCE);
         k = with_compliance(k, slips, compliance, before.friction);
     }
     float inverse = reciprocal(k.k11 * k.k22 - k.k12 * k.k12);
@@ -255,8 +255,8 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     float hold = reciprocal(larger(most, LEAST_HOLD));
     // What sticks holds up to the static friction; what does not slides by the dynamic one.
     float hold_sticking = hold;
-    bool clings = c.arms[2].w > 0.0f;
-    if (!none(clings)) hold_sticking = choose(clings, reciprocal(larger(c.arms[2].w * normal, LEAST_HOLD)), hold);
+    bool clings = c.static_friction > 0.0f;
+    if (!none(clings)) hold_sticking = choose(clings, reciprocal(larger(c.static_friction * normal, LEAST_HOLD)), hold);
     vec3 held = after.friction * hold_sticking;
     float x = dot3(held, held), y = after.twist * hold_sticking;
     y = smaller(y * y, 4.0f * arm * arm);

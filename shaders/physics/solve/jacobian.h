@@ -3,6 +3,7 @@
 #define SCREE_PHYSICS_JACOBIAN_H
 
 #include "shaders/physics/base/inertia.h"
+#include "shaders/physics/solve/constraint.h"
 
 LAWS_BEGIN
 
@@ -26,8 +27,8 @@ struct LeverArms {
 // From each centre of mass to the point; `d` = centre of B minus centre of A, m.
 LAW LeverArms lever_arms(Constraint c, vec3 arm, vec3 d) {
     LeverArms arms;
-    arms.a = choose(c.anchor == ANCHOR_B, arm + d, arm);
-    arms.b = choose(c.anchor == ANCHOR_B, arm, arm - d);
+    arms.a = choose(is_on_b(c), arm + d, arm);
+    arms.b = choose(is_on_b(c), arm, arm - d);
     arms.pad0 = 0.0f;
     arms.pad1 = 0.0f;
     return arms;

@@ -40,18 +40,15 @@ LAW Constraint with_surfaces(Constraint c, BodyProperties ta, Surface sa, vec4 t
     float sticking =
         parameters.friction_factor * combined(sa.friction_rule, sb.friction_rule, COMBINE_GEOMETRIC,
                                               larger(sa.static_friction, ta.friction), larger(sb.static_friction, tb.friction));
-    vec3 t1 = tangent(c.normal), t2 = cross3(c.normal, t1);
-    vec3 runs = rotate(turn_b, sb.velocity) - rotate(turn_a, sa.velocity);
-    c.arms[0].w = dot3(t1, runs);
-    c.arms[1].w = dot3(t2, runs);
-    c.arms[2].w = sticking > c.friction ? sticking : 0.0f;
+    c = with_drive(c, rotate(turn_b, sb.velocity) - rotate(turn_a, sa.velocity));
+    c.static_friction = sticking > c.friction ? sticking : 0.0f;
     // Of a threshold of 0 the least float that is not flushed.
     float threshold = larger(sa.restitution_threshold, sb.restitution_threshold);
-    c.arms[3].w = threshold < 0.0f ? 0.0f : larger(threshold, 1.0e-30f);
+    c.restitution_threshold = threshold < 0.0f ? 0.0f : larger(threshold, 1.0e-30f);
     // What resists spinning is the patch's friction with an arm long enough, so that spin and slip share one limit.
     float spinning = larger(sa.spinning_resistance, sb.spinning_resistance);
     if (spinning >= 0.0f) {
-        c.rolling_resistance = -c.rolling_resistance;
+        c.flags = c.flags | CONSTRAINT_ROLLS_ONLY;
         if (c.friction > 0.0f) c.twist_arm = larger(c.twist_arm, spinning * reciprocal(c.friction));
     }
     return c;

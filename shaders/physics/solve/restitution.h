@@ -44,7 +44,7 @@ LAW vec4 impact_state(BodyForces a, BodyForces b) {
 // heap of 200 boxes gained 2e-4 of its energy in a step.)
 LAW float slowest_impact(Constraint c, vec4 state, Parameters parameters) {
     float pull = larger(abs(dot3(c.normal, parameters.gravity)), abs(dot3(c.normal, xyz(state))));
-    float threshold = choose(c.arms[3].w > 0.0f, c.arms[3].w, parameters.restitution_threshold);
+    float threshold = choose(c.restitution_threshold > 0.0f, c.restitution_threshold, parameters.restitution_threshold);
     return larger(threshold, 2.0f * parameters.dt * pull);
 }
 
@@ -68,13 +68,13 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
     bool lasts = true;
     float least = 1.0e30f;
     for (int k = 0; k < 4; ++k) {
-        bool struck = uint(k) < c.count && impulse.rebound_deficit[k] > 0.0f;
+        bool struck = uint(k) < point_count(c) && impulse.rebound_deficit[k] > 0.0f;
         float impact_velocity = 0.0f;
         if (!none(struck)) {
             // By now gravity has changed the velocity that the rebound shall reach.
             impact_velocity = impulse.impact_velocity[k] - parameters.h * pull * reciprocal(c.restitution);
             float wanted = plain_rebound(c, impact_velocity, pull, parameters);
-            float missing = wanted - dot3(c.normal, velocity_at(lever_arms(c, xyz(c.arms[k]), impulse.center_offset), v));
+            float missing = wanted - dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), impulse.center_offset), v));
             bool misses = missing > REBOUND_LEFT * wanted && missing < REBOUND_PROGRESS * impulse.rebound_deficit[k];
             lasts = lasts && (!struck || (impact_velocity < 0.0f && misses));
             least = choose(struck, smaller(least, missing), least);
@@ -82,7 +82,7 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
         impulse.impact_velocity[k] = choose(struck, impact_velocity, 0.0f);
     }
     for (int k = 0; k < 4; ++k) {
-        bool struck = uint(k) < c.count && impulse.rebound_deficit[k] > 0.0f;
+        bool struck = uint(k) < point_count(c) && impulse.rebound_deficit[k] > 0.0f;
         impulse.rebound_deficit[k] = choose(struck && lasts, least, 0.0f);
         impulse.impact_velocity[k] = choose(struck && lasts, impulse.impact_velocity[k], 0.0f);
     }
@@ -96,9 +96,9 @@ LAW vec4 impact_velocities(Constraint c, Impulse impulse, VelocityPair v, Mass a
     float gain = parameters.h * dot3(c.normal, xyz(state));
     float slowest = slowest_impact(c, state, parameters);
     for (int k = 0; k < 4; ++k) {
-        bool there = uint(k) < c.count && found[k] == 0.0f;
+        bool there = uint(k) < point_count(c) && found[k] == 0.0f;
         if (none(there)) continue;
-        JacobianRow row = jacobian_row(lever_arms(c, xyz(c.arms[k]), impulse.center_offset), c.normal, a, b);
+        JacobianRow row = jacobian_row(lever_arms(c, lever_arm(c, k), impulse.center_offset), c.normal, a, b);
         float speed = speed_along(row, v);
         float way = parameters.h * speed;
         bool strikes = impulse.normal[k] <= -IMPACT_DISTANCE * mass_along(row, a, b) * speed;
@@ -124,10 +124,10 @@ LAW vec4 rebound_velocities(Constraint met, vec3 offset, Constraint c, Impulse i
     vec4 found = vec4(0.0f);
     float pull = dot3(met.normal, xyz(state));
     for (int k = 0; k < 4; ++k) {
-        bool struck = uint(k) < c.count && impulse.impact_velocity[k] < 0.0f;
+        bool struck = uint(k) < point_count(c) && impulse.impact_velocity[k] < 0.0f;
         if (none(struck)) continue;
-        JacobianRow before = jacobian_row(lever_arms(met, xyz(met.arms[k]), offset), met.normal, a, b);
-        JacobianRow now = jacobian_row(lever_arms(c, xyz(c.arms[k]), impulse.center_offset), c.normal, a, b);
+        JacobianRow before = jacobian_row(lever_arms(met, lever_arm(met, k), offset), met.normal, a, b);
+        JacobianRow now = jacobian_row(lever_arms(c, lever_arm(c, k), impulse.center_offset), c.normal, a, b);
         float wanted = plain_rebound(c, impulse.impact_velocity[k], pull, parameters);
         float speed_before = speed_along(before, v), speed = speed_along(now, v);
         float ratio = mass_along(before, a, b) * reciprocal(mass_along(now, a, b));
@@ -158,11 +158,11 @@ LAW float is_impact(Impulse impulse) {
 LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 rebound, vec4 state, Parameters parameters) {
     float pull = dot3(c.normal, xyz(state));
     for (int k = 0; k < 4; ++k) {
-        bool struck = uint(k) < c.count && impulse.impact_velocity[k] < 0.0f;
+        bool struck = uint(k) < point_count(c) && impulse.impact_velocity[k] < 0.0f;
         if (none(struck)) continue;
         float aimed = -(rebound[k] + 0.5f * parameters.h * pull) * reciprocal(c.restitution);
         bool goes_on = impulse.rebound_deficit[k] > 0.0f;
-        bool begins = struck && (state.w < 0.0f || (state.w > 1.5f && c.count == 1u)) && !goes_on && aimed < 0.0f;
+        bool begins = struck && (state.w < 0.0f || (state.w > 1.5f && point_count(c) == 1u)) && !goes_on && aimed < 0.0f;
         impulse.rebound_deficit[k] = choose(begins, rebound[k] - impulse.impact_velocity[k], impulse.rebound_deficit[k]);
         impulse.impact_velocity[k] = choose(begins, aimed, impulse.impact_velocity[k]);
     }
@@ -201,7 +201,7 @@ LAW Impulse clear_impacts(Impulse impulse, uint count) {
 }
 
 LAW uint sweeps_of(Constraint c, Impulse impulse) {
-    return choose(c.count > 1u && is_impact(impulse) > 0.0f, uint(IMPACT_SWEEPS), 1u);
+    return choose(point_count(c) > 1u && is_impact(impulse) > 0.0f, uint(IMPACT_SWEEPS), 1u);
 }
 
 LAWS_END

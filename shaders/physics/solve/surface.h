@@ -2,25 +2,24 @@
 #ifndef SCREE_PHYSICS_SURFACE_H
 #define SCREE_PHYSICS_SURFACE_H
 
-#include "shaders/physics/base/arithmetic.h"
-#include "shaders/physics/base/records.h"
+#include "shaders/physics/solve/constraint.h"
 
 LAWS_BEGIN
 
 // Whether one of the surfaces runs.
 LAW bool is_driven(Constraint c) {
-    return c.arms[0].w != 0.0f || c.arms[1].w != 0.0f;
+    return c.drive1 != 0.0f || c.drive2 != 0.0f;
 }
 // Slip of B's surface over A's while the bodies stand still, m/s.
 LAW vec3 drive_of(Constraint c) {
     vec3 t1 = tangent(c.normal), t2 = cross3(c.normal, t1);
-    return t1 * c.arms[0].w + t2 * c.arms[1].w;
+    return t1 * c.drive1 + t2 * c.drive2;
 }
 // The same drive for another normal.
 LAW Constraint with_drive(Constraint c, vec3 drive) {
     vec3 t1 = tangent(c.normal), t2 = cross3(c.normal, t1);
-    c.arms[0].w = dot3(t1, drive);
-    c.arms[1].w = dot3(t2, drive);
+    c.drive1 = dot3(t1, drive);
+    c.drive2 = dot3(t2, drive);
     return c;
 }
 
@@ -28,8 +27,8 @@ LAW Constraint with_drive(Constraint c, vec3 drive) {
 CONSTANT float BESIDE_MOVING = -1.0f;
 
 LAW Constraint choose_drive(bool condition, Constraint c, Constraint d) {
-    d.arms[0].w = choose(condition, c.arms[0].w, d.arms[0].w);
-    d.arms[1].w = choose(condition, c.arms[1].w, d.arms[1].w);
+    d.drive1 = choose(condition, c.drive1, d.drive1);
+    d.drive2 = choose(condition, c.drive2, d.drive2);
     return d;
 }
 

@@ -26,10 +26,12 @@ layout(constant_id = 3) const uint VARIANT = 0u;
 Constraint narrowed(Constraint c) {
     if (!BOUNCES) c.restitution = 0.0f;
     if (!ROLLS) c.rolling_resistance = 0.0f;
-    if ((FEATURES & FEATURE_ROUND) == 0u) c.anchor = c.anchor == ANCHOR_B ? ANCHOR_B : ANCHOR_A;
-    if ((FEATURES & (FEATURE_ROUND | FEATURE_TYRES)) == 0u) c.radius_a = 0.0f;
-    if (!SURFACES)
-        for (int k = 0; k < 4; ++k) c.arms[k].w = 0.0f;
+    if ((FEATURES & FEATURE_ROUND) == 0u) c.flags = c.flags & ~CONSTRAINT_ROUND;
+    if ((FEATURES & FEATURE_TYRES) == 0u) c.tyre_slip = 0.0f;
+    if (!SURFACES) {
+        c.drive1 = c.drive2 = c.static_friction = c.restitution_threshold = 0.0f;
+        c.flags = c.flags & ~CONSTRAINT_ROLLS_ONLY;
+    }
     return c;
 }
 Impulse narrowed(Impulse impulse) {

@@ -57,7 +57,7 @@ void relax_contact(uint place, uint pass) {
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
         SET_FLOAT(carried, i, sum);
     }
-    impulse = clear_impacts(after.impulse, c.count);
+    impulse = clear_impacts(after.impulse, point_count(c));
     impulse.normal_sum = normal_impulse(impulse);
     impulses.at[i].normal = impulse.normal;
     impulses.at[i].solved_normal = impulse.solved_normal;
