@@ -185,9 +185,13 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const bool tyre_is_a = physics::tyre_of(ta) != 0;
         if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
             c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, velocities_of(state, c));
+        const physics::VelocityPair now = velocities_of(state, c);
+        const float unrest = physics::unrest_of(prepared, c, ta, tb, now, felt_by(state, a));
+        state.contacts[i].unrest = unrest;
+        c = physics::with_unrest(c, unrest);
         if (wide) return;
-        const physics::ContactShare share = physics::first_share(c, prepared.impulse, velocities_of(state, c), state.masses[a],
-                                                                 state.masses[b], felt_by(state, a));
+        const physics::ContactShare share =
+            physics::first_share(c, prepared.impulse, now, state.masses[a], state.masses[b], felt_by(state, a));
         const float normal_sum = prepared.impulse.normal_sum;
         hand_out(state, c, share.change, share.carrying, {normal_sum, normal_sum});
     });

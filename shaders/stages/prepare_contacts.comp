@@ -45,9 +45,9 @@ void main() {
         prepared.contact.load =
             load_since(READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta, slot_a, tb, slot_b);
     if (!idle) prepared.impulse.normal_sum = normal_impulse(prepared.impulse);
-    contacts.at[i] = prepared.contact;
     impulses.at[i] = prepared.impulse;
     if (idle) {
+        contacts.at[i] = prepared.contact;
         constraints.at[i] = idle_between(prepared.contact, of_a, of_b);
         return;
     }
@@ -60,6 +60,9 @@ void main() {
     now.a = READ(velocities, of_a);
     now.b = READ(velocities, of_b);
     if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, prepared.contact.center_offset, now);
+    prepared.contact.unrest = unrest_of(prepared, constraint, ta, tb, now, felt);
+    contacts.at[i] = prepared.contact;
+    constraint = with_unrest(constraint, prepared.contact.unrest);
     constraints.at[i] = constraint;
 
     ContactShare share = first_share(constraint, prepared.impulse, now, READ(masses, of_a), READ(masses, of_b), felt);

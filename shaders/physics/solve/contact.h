@@ -123,7 +123,7 @@ LAW Contact contact_of(Pair pair, Manifold manifold, uint count, Pose a, Pose b)
     contact.count = count;
     contact.features = manifold.features;
     contact.normal = manifold.normal;
-    contact.age = 0u;
+    contact.unrest = 0.0f;
     contact.center_offset = b.position - a.position;
     contact.load = 0.0f;
     for (uint k = 0u; k < 4u; ++k) contact.points[k] = manifold.points[k];

@@ -28,7 +28,7 @@ LAW bool is_carried_forward(uint pair_type) {
 // A persistent contact: geometry and impulses of the last step, separations of this one.
 LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifold) {
     PreparedContact prepared;
-    prepared.contact = carry_forward(before);
+    prepared.contact = before;
     prepared.impulse = carry_forward(prepared.contact, was);
     prepared.impulse.separation = separations_of(manifold);
     return prepared;
@@ -52,6 +52,7 @@ LAW PreparedContact warm_started(PreparedContact prepared, Contact before, Impul
     vec4 separation = prepared.impulse.separation;
     prepared.impulse = warm_start_from(prepared.contact, was, matches);
     prepared.impulse.separation = separation;
+    prepared.contact.unrest = before.unrest;
     return prepared;
 }
 
@@ -75,6 +76,17 @@ LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta,
     c.a = body_a;
     c.b = body_b;
     c.pair = pair;
+    return c;
+}
+
+// The contact's unrest in this step, s. `now`: velocities as the step begins.
+LAW float unrest_of(PreparedContact prepared, Constraint c, BodyProperties ta, BodyProperties tb, VelocityPair now,
+                    Parameters parameters) {
+    float calm = calm_speed(smaller(min_half_width(ta), min_half_width(tb)), parameters);
+    return unrest_after(prepared.contact.unrest, c, prepared.contact.center_offset, now, calm, parameters);
+}
+LAW Constraint with_unrest(Constraint c, float unrest) {
+    if (is_restless_contact(unrest)) c.flags = c.flags | CONSTRAINT_RESTLESS;
     return c;
 }
 

@@ -78,6 +78,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
         impulse.impact_velocity = choose(bounces, impact_velocities(c, lasting, v, a, b, state, parameters), vec4(0.0f));
     }
     float normal = 0.0f;
+    float cut = choose((c.flags & CONSTRAINT_RESTLESS) != 0u, 0.0f, LEAK_CUT);
     uint sweeps = sweeps_of(c, impulse);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         bool swept = uint(sweep) < sweeps;
@@ -96,7 +97,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
             if (none(acts)) continue;  // a third of all contacts are speculative and inactive
             JacobianRow row = jacobian_row(r, c.normal, a, b);
             float change = -mass_along(row, a, b) * excess;
-            float leak = parameters.impulse_scale * (1.0f - LEAK_CUT * contact_momentum(row, point_count(c), a, b, parameters));
+            float leak = parameters.impulse_scale * (1.0f - cut * contact_momentum(row, point_count(c), a, b, parameters));
             change = choose(separation <= 0.0f, change - leak * before, change);
             float after = choose(gone, 0.0f, positive(flush_tiny(before + change)));
             impulse.normal[k] = choose(acts, after, before);

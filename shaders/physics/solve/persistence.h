@@ -114,10 +114,6 @@ LAW Manifold resting_manifold(Contact contact, Impulse impulse) {
     return manifold;
 }
 
-LAW Contact carry_forward(Contact contact) {
-    contact.age = contact.age + 1u;
-    return contact;
-}
 LAW Impulse carry_forward(Contact contact, Impulse was) {
     Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = was.normal;
