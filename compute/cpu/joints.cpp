@@ -37,9 +37,9 @@ void for_each_block(State& state, const Threads& threads, const Work& work) {
     });
 }
 
-// A pass over the blocks that move: begin(block, room), then the rows of a few blocks together, then end(block).
-template <class Begin, class End>
-void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, const End& end) {
+// A pass over the blocks that move: begin(block, room), then the rows of a few blocks together, then finish(block).
+template <class Begin, class Finish>
+void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, const Finish& finish) {
     constexpr std::size_t together = 64;  // joints whose rows are placed together: they stay in the cache
     for_ranges_of_blocks(state, threads, [&](std::size_t first, std::size_t last) {
         thread_local JointRoom room;
@@ -57,7 +57,7 @@ void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, 
                 blocks.push_back(block);
             }
             JointBlock::place_rows(room, blocks);
-            for (JointBlock& block : blocks) end(block);
+            for (JointBlock& block : blocks) finish(block);
         }
     });
 }
