@@ -188,8 +188,8 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
     all.push_back({"solve_joints", DispatchDomain::joint_blocks, solve_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots}},
-        {{joints, A::joints}, in_parts({slots, A::joints})}});
+        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots}, {joint_equations, A::joints}},
+        {{joints, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
     all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}}});
@@ -198,8 +198,8 @@ void declare_solver(std::vector<StageDeclaration>& all) {
          {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_SUMS});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, {slots}, {properties}, {sleep_states}},
-        {{joints, A::joints}, in_parts({slots, A::joints})}});
+        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},
+        {{joints, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
         {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}}});

@@ -9,103 +9,14 @@
 #include "compute/world.h"
 #include "host/vulkan/device.h"
 #include "shaders/physics/solve/joint_block.h"
+#include "tests/world/jointed.h"
 
 using namespace scree;
+using tests::all_kinds;
+using tests::entangled;
+using tests::spokes;
 
 namespace {
-
-// Rows of capsules that hang from the world, fall to the ground and fall asleep; each row has different joint kinds.
-Scene all_kinds() {
-    Scene scene;
-    Body ground;
-    ground.motion = Motion::fixed;
-    ground.shape = Plane{};
-    scene.bodies.push_back(ground);
-    Hinge limited, driven, sprung;
-    limited.turn.limits = Limits{-0.3f, 0.5f};
-    driven.turn.motor = Motor{2, 3};
-    sprung.turn.spring = Spring{2000, 5, 0.3f};  // too stiff to act as an explicit force
-    Slider damped;
-    damped.slide.spring = Spring{500, 5, 0};
-    SixDof wheel;
-    wheel.x.locked = wheel.z.locked = wheel.swing_z.locked = true;
-    wheel.y.limits = Limits{-0.1f, 0.1f};
-    wheel.twist.motor = Motor{5, 1};
-    wheel.swing_y.spring = Spring{50, 2, 0.2f};
-    const std::vector<std::vector<JointKind>> rows = {
-        {Ball{}, Ball{0.5f}, limited, ConeTwist{0.4f, {-0.2f, 0.2f}, 0.1f}, driven, Fixed{}},
-        {Ball{}, damped, sprung, wheel, Distance{0.1f, 0.3f, Spring{1000, 1, 0.2f}}, limited},
-        {Distance{0.2f, 0.2f, {}}, Ball{}, Fixed{}, driven, Ball{}, Distance{0, 0.3f, {}}}};
-    for (std::size_t k = 0; k < rows.size(); ++k) {
-        std::size_t before = the_world;
-        for (std::size_t i = 0; i < rows[k].size(); ++i) {
-            const float x = 0.5f * static_cast<float>(i), z = 0.6f * static_cast<float>(k);
-            Body body;
-            body.shape = Capsule{0.05f, 0.2f};
-            body.position = {x + 0.25f, 0.9f, z};
-            body.orientation = {0, 0, 0.70710678f, 0.70710678f};
-            scene.bodies.push_back(body);
-            const std::size_t now = scene.bodies.size() - 1;
-            Joint joint = joint_at(scene, rows[k][i], before, now, {x, 0.9f, z}, {0, 0, 1});
-            if (i == 3) joint.break_force = 150;
-            scene.joints.push_back(joint);
-            before = now;
-        }
-    }
-    return scene;
-}
-
-// A wheel on a motor with six spokes, the last of them with two joints and driven by a distant body at maximum force:
-// seven joints that share the hub, whose active set takes several rounds.
-Scene spokes() {
-    Scene scene;
-    const auto add = [&](Shape shape, vec3 position) {
-        Body& body = scene.bodies.emplace_back();
-        body.shape = std::move(shape);
-        body.position = position;
-        return scene.bodies.size() - 1;
-    };
-    const std::size_t hub = add(Cylinder{0.58f, 0.2f}, {0, 2, 0});
-    Hinge motor, wild;
-    motor.turn.motor = Motor{2, 1e6f};
-    wild.turn.motor = Motor{-1e4f, 1e9f};
-    Slider slot;
-    slot.slide.locked = true;
-    scene.joints.push_back(joint_at(scene, motor, the_world, hub, {0, 2, 0}, {0, 1, 0}));
-    const glm::vec2 around[] = {{1, 0}, {0.5f, 0.87f}, {-0.5f, 0.87f}, {-1, 0}, {-0.5f, -0.87f}, {0.5f, -0.87f}};
-    for (const glm::vec2 way : around) {
-        const std::size_t spoke = add(Box{{0.31f, 0.14f, 0.2f}}, {0.89f * way.x, 2, 0.89f * way.y});
-        if (spoke < 6) scene.joints.push_back(joint_at(scene, Fixed{}, hub, spoke, {0.58f * way.x, 2, 0.58f * way.y}, {0, 1, 0}));
-    }
-    const std::size_t near = add(Box{{0.31f, 0.14f, 0.2f}}, {1, 2.5f, 0.5f}),
-                      far = add(Box{{0.31f, 0.14f, 0.2f}}, {2.6f, 0.9f, 0});
-    scene.joints.push_back({.kind = wild, .a = far, .b = 6, .anchor_a = {-1.8f, -0.4f, 0.6f}});
-    scene.joints.push_back({.kind = slot, .a = 6, .b = hub, .anchor_a = {1.9f, 0.1f, 1.1f}});
-    scene.joints.push_back({.kind = ConeTwist{1.95f, {-0.2f, 0.1f}, 0.1f}, .a = 1, .b = near, .anchor_a = {-0.2f, -2.4f, -1.5f}});
-    return scene;
-}
-
-// As many joints as a block holds, with the maximum fill-in: four between consecutive plates of a row.
-Scene entangled() {
-    Scene scene;
-    SixDof loose;
-    loose.x.limits = loose.y.limits = loose.z.limits = Limits{-0.01f, 0.01f};
-    loose.twist.limits = loose.swing_y.limits = loose.swing_z.limits = Limits{-0.02f, 0.02f};
-    loose.twist.motor = Motor{3, 50};
-    for (int i = 0; i <= 32; ++i) {
-        Body& plate = scene.bodies.emplace_back();
-        plate.shape = Box{{0.02f, 0.2f, 0.2f}};
-        plate.position = {0.1f * static_cast<float>(i), 0.03f * static_cast<float>(i % 5), 0.02f * static_cast<float>(i % 3)};
-        plate.angular_velocity = {static_cast<float>(i % 4), 0, static_cast<float>(i % 7 - 3)};
-        if (i == 0) continue;
-        for (const float y : {-0.15f, 0.15f})
-            for (const float z : {-0.15f, 0.15f}) {
-                const auto now = static_cast<std::size_t>(i);
-                scene.joints.push_back(joint_at(scene, loose, now - 1, now, plate.position + vec3(-0.05f, y, z), {1, 0, 0}));
-            }
-    }
-    return scene;
-}
 
 void require_equal(const Scene& scene, int steps) {
     Lockstep lockstep(scene, {}, host::Device::open(), 2);

@@ -5,9 +5,11 @@
 #include <vector>
 
 #include "compute/cpu/reference_runner.h"
+#include "compute/cpu/simd/simd_joints.h"
 #include "compute/cpu/simd/simd_stages.h"
 #include "tests/world/belts.h"
 #include "tests/world/heaps.h"
+#include "tests/world/jointed.h"
 
 using namespace scree;
 
@@ -89,7 +91,18 @@ TEST_CASE("several contacts at once leave the right bits whatever their number i
     }
 }
 
+TEST_CASE("joints solved in lanes leave the bits of the plain loops, whatever their kind, broken or entangled") {
+    for (const int lanes : {4, 8}) {
+        CAPTURE(lanes);
+        compare(tests::all_kinds(), 1, lanes, 60);
+        compare(tests::spokes(), 2, lanes, 10);
+        compare(tests::entangled(), 1, lanes, 3);
+    }
+}
+
 TEST_CASE("one contact at a time is done where that is asked for") {
     REQUIRE(reference::wide_stages(1) == nullptr);
+    REQUIRE(reference::wide_joint_stages(1) == nullptr);
+    REQUIRE(reference::wide_joint_stages(4) == &reference::wide_joint_stages_baseline);
     REQUIRE(reference::wide_stages(4) == &reference::wide_stages_4);
 }

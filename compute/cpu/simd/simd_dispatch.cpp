@@ -1,6 +1,7 @@
 // Selects the widest SIMD stages of this processor, and views a state's tables as words.
 #include "compute/cpu/simd/simd_stages.h"
 
+#include "compute/cpu/simd/simd_joints.h"
 #include "compute/step/state.h"
 
 namespace scree::reference {
@@ -20,6 +21,13 @@ const WideStages* wide_stages(int most) {
     if (most >= 8 && __builtin_cpu_supports("avx2")) return &wide_stages_8;
 #endif
     return most >= 4 ? &wide_stages_4 : nullptr;
+}
+
+const WideJointStages* wide_joint_stages(int most) {
+#if defined(__x86_64__)
+    if (most >= 8 && __builtin_cpu_supports("avx2")) return &wide_joint_stages_avx2;
+#endif
+    return most >= 4 ? &wide_joint_stages_baseline : nullptr;
 }
 
 }  // namespace scree::reference

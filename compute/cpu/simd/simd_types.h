@@ -142,6 +142,7 @@ struct vec4 {
     SCREE_INLINE Float operator[](int i) const { return i == 0 ? x : i == 1 ? y : i == 2 ? z : w; }
     friend SCREE_INLINE vec4 operator+(vec4 a, vec4 b) { return {a.x + b.x, a.y + b.y, a.z + b.z, a.w + b.w}; }
     friend SCREE_INLINE vec4 operator*(vec4 a, Float b) { return {a.x * b, a.y * b, a.z * b, a.w * b}; }
+    friend SCREE_INLINE vec4 operator-(vec4 a) { return {-a.x, -a.y, -a.z, -a.w}; }
 };
 struct uvec4 {
     Uint x, y, z, w;
@@ -266,6 +267,41 @@ SCREE_INLINE void scatter(uint32_t* table, const Indices& indices, const Record&
         for (int block = 0; block < blocks; ++block) {
             const Quad quad = quarter(rows[block].words[lane % 4], lane / 4);
             __builtin_memcpy(to + 4 * block, &quad, sizeof quad);
+        }
+    }
+}
+
+// Records at any places: of each lane the one at its pointer.
+template <typename Record, typename Pointers>
+SCREE_INLINE Record gather_at(const Pointers& pointers, size_t offset = 0) {
+    constexpr int blocks = sizeof(Record) / sizeof(Block);
+    static_assert(sizeof(Record) % sizeof(Block) == 0);
+    Record record;
+    Block* const out = reinterpret_cast<Block*>(&record);
+#pragma GCC unroll 16
+    for (int block = 0; block < blocks; ++block) {
+        Quad rows[SCREE_LANES];
+#pragma GCC unroll 16
+        for (int lane = 0; lane < lanes; ++lane) rows[lane] = quad_at(pointers[lane] + offset + 4 * block);
+        out[block] = transposed({{joined(rows), joined(rows + 1), joined(rows + 2), joined(rows + 3)}});
+    }
+    return record;
+}
+// Lanes with a null pointer write nothing.
+template <typename Record>
+SCREE_INLINE void scatter_at(uint32_t* const* pointers, size_t offset, const Record& record) {
+    constexpr int blocks = sizeof(Record) / sizeof(Block);
+    const Block* const in = reinterpret_cast<const Block*>(&record);
+    Block rows[blocks];
+#pragma GCC unroll 16
+    for (int block = 0; block < blocks; ++block) rows[block] = transposed(in[block]);
+#pragma GCC unroll 16
+    for (int lane = 0; lane < lanes; ++lane) {
+        if (pointers[lane] == nullptr) continue;
+#pragma GCC unroll 16
+        for (int block = 0; block < blocks; ++block) {
+            const Quad quad = quarter(rows[block].words[lane % 4], lane / 4);
+            __builtin_memcpy(pointers[lane] + offset + 4 * block, &quad, sizeof quad);
         }
     }
 }

@@ -345,13 +345,16 @@ struct Joint {
     Mass mass;                 // split
     Velocity velocity;         // of the split body
     Velocity velocity_before;  // as a round of the pass begins
-    // ---- the pass's equations
+    // ---- of the pass
     JointRow rows[6];
-    float solution[8];    // 6 in use
-    float diagonal[36];   // 6 x 6
-    float coupling[288];  // per fill-in entry, 6 rows of the later joint x 6 of this one
 };
 CONSTANT uint MAX_FILL_IN = 8u;
+// The equations of the joint in this record, within a pass.
+struct JointEquations {
+    float solution[8];    // right-hand sides, then solutions; 6 in use
+    float diagonal[40];   // 6 x 6
+    float coupling[288];  // per fill-in entry, 6 rows of the later joint x 6 of this one
+};
 CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slot sides: the side is the block's body in this record
 
 // ---- vehicles (vehicle.h)

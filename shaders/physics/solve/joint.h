@@ -1,5 +1,5 @@
 // Joint kinematics: the coordinates of a joint along and about its six axes, and the Jacobian rows of their rates. The
-// targets of rows are in joint_axis.h, the direct solver of a block in joint_block.h.
+// targets of rows are in joint_axis.h, the equations of a block in joint_matrix.h and joint_block.h.
 //
 // A pendulum whose velocity is only projected onto its constraint, moved and projected again would lose (h w)^2 of its
 // energy in each substep, half of all in a minute. So the biased pass includes the drift, the second derivative of the
@@ -115,38 +115,41 @@ LAW float drift_part(VelocityPair v, float h) {
 }
 
 // The row of a linear axis; `row` provides its impulses.
-LAW JointRow linear_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, float h) {
+LAW JointRow linear_row(JointRow row, JointConfiguration at, int axis, uint flags, VelocityPair v, float h) {
     vec3 speed = anchors_apart(at, v);
     vec3 turning = turning_of(at, v);
-    if ((flags & JOINT_RADIAL) != 0u) {
-        row.direction = unit3(at.gap, at.x);
-        row.coordinate = length3(at.gap);
-        row.angular_a = cross3(at.angular_a, row.direction);
-        vec3 around = speed - row.direction * dot3(speed, row.direction);
-        float curve = dot3(around, around) * reciprocal(larger(row.coordinate, 1.0e-3f));
-        row.drift = drift_part(v, h) * (dot3(row.direction, turning) + curve);
-    } else {
-        vec3 u = axis == 0u ? at.x : (axis == 1u ? at.y : at.z);
-        row.direction = u;
-        row.coordinate = dot3(u, at.gap);
-        row.angular_a = cross3(at.angular_a + at.gap, u);
-        vec3 rate = cross3(v.a.angular, u);
-        row.drift = drift_part(v, h) * ((dot3(u, turning) + 2.0f * dot3(rate, speed)) + dot3(cross3(v.a.angular, rate), at.gap));
+    vec3 u = axis == 0 ? at.x : (axis == 1 ? at.y : at.z);
+    row.direction = u;
+    row.coordinate = dot3(u, at.gap);
+    row.angular_a = cross3(at.angular_a + at.gap, u);
+    vec3 rate = cross3(v.a.angular, u);
+    float second = (dot3(u, turning) + 2.0f * dot3(rate, speed)) + dot3(cross3(v.a.angular, rate), at.gap);
+    bool radial = (flags & JOINT_RADIAL) != 0u;
+    if (!none(radial)) {
+        vec3 outward = unit3(at.gap, at.x);
+        float apart = length3(at.gap);
+        vec3 around = speed - outward * dot3(speed, outward);
+        float curve = dot3(around, around) * reciprocal(larger(apart, 1.0e-3f));
+        row.direction = choose(radial, outward, row.direction);
+        row.coordinate = choose(radial, apart, row.coordinate);
+        row.angular_a = choose(radial, cross3(at.angular_a, outward), row.angular_a);
+        second = choose(radial, dot3(outward, turning) + curve, second);
     }
+    row.drift = drift_part(v, h) * second;
     row.direction = flush_tiny(row.direction);
     row.angular_a = flush_tiny(row.angular_a);
     row.angular_b = flush_tiny(cross3(at.angular_b, row.direction));
     return row;
 }
 // The row of an angular axis: 0 is the twist, 1 and 2 the swing.
-LAW JointRow angular_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, float h) {
+LAW JointRow angular_row(JointRow row, JointConfiguration at, int axis, uint flags, VelocityPair v, float h) {
     bool cone = (flags & JOINT_CONE) != 0u;
-    vec3 u = axis == 0u ? at.twist_axis : (axis == 1u ? (cone ? at.swing_axis : at.y) : at.z);
+    vec3 u = axis == 0 ? at.twist_axis : (axis == 1 ? choose(cone, at.swing_axis, at.y) : at.z);
     // Removes the twist from a swing axis: B may spin about its own x axis without swinging (a steered wheel).
-    if (axis != 0u && (flags & JOINT_SPINS) != 0u) u = u - at.twist_axis * dot3(u, at.x_b);
+    if (axis != 0) u = choose((flags & JOINT_SPINS) != 0u, u - at.twist_axis * dot3(u, at.x_b), u);
     u = flush_tiny(u);
     row.direction = u;
-    row.coordinate = axis == 0u ? at.twist : (axis == 1u ? (cone ? at.swing : at.swing_y) : at.swing_z);
+    row.coordinate = axis == 0 ? at.twist : (axis == 1 ? choose(cone, at.swing, at.swing_y) : at.swing_z);
     row.angular_a = u;
     row.angular_b = u;
     row.drift = drift_part(v, h) * dot3(cross3(v.a.angular, u), v.b.angular - v.a.angular);
@@ -159,11 +162,11 @@ LAW bool is_linear(uint axis) {
 // J v: the rate of the coordinate.
 LAW float row_speed(JointRow row, bool linear, VelocityPair v) {
     float turning = dot3(row.angular_b, v.b.angular) - dot3(row.angular_a, v.a.angular);
-    return linear ? dot3(row.direction, v.b.linear - v.a.linear) + turning : turning;
+    return choose(linear, dot3(row.direction, v.b.linear - v.a.linear) + turning, turning);
 }
 // The velocity after an impulse along (linear) or about the row.
 LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
-    if (linear) v.linear = flush_tiny(v.linear + direction * (impulse * mass.inverse_mass * mass.split));
+    v.linear = choose(linear, flush_tiny(v.linear + direction * (impulse * mass.inverse_mass * mass.split)), v.linear);
     v.angular = flush_tiny(v.angular + turned_by(mass, arm) * (impulse * mass.split));
     return v;
 }

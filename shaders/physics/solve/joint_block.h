@@ -9,6 +9,7 @@
 #define SCREE_PHYSICS_JOINT_BLOCK_H
 
 #include "shaders/physics/solve/joint_axis.h"
+#include "shaders/physics/solve/joint_matrix.h"
 #include "shaders/physics/solve/mass_splitting.h"
 
 LAWS_BEGIN
@@ -38,110 +39,14 @@ LAW Velocity changed_by(Velocity velocity, VelocityDelta slot) {
     return velocity;
 }
 
-// ---- entries of J M^-1 J^T
-// M^-1 J^T of one row: what an impulse of 1 along it does to its two bodies.
-struct RowResponse {
-    vec3 direction;
-    uint axis;
-    vec3 turn_a;  // I^-1 of the row's angular part, not yet split
-    float inverse_mass_a;
-    vec3 turn_b;
-    float inverse_mass_b;
-    float split_a;
-    float split_b;
-    float pad0;
-    float pad1;
-};
-LAW RowResponse row_response(JointRow row, uint axis, Mass a, Mass b) {
-    RowResponse response;
-    response.direction = row.direction;
-    response.axis = axis;
-    response.turn_a = turned_by(a, row.angular_a);
-    response.inverse_mass_a = a.inverse_mass;
-    response.turn_b = turned_by(b, row.angular_b);
-    response.inverse_mass_b = b.inverse_mass;
-    response.split_a = a.split;
-    response.split_b = b.split;
-    response.pad0 = 0.0f;
-    response.pad1 = 0.0f;
-    return response;
-}
-
-// Which bodies two joints share: A or B of the one is A or B of the other. At most two bits are set.
-CONSTANT uint ENDS_A_A = 1u;
-CONSTANT uint ENDS_A_B = 2u;
-CONSTANT uint ENDS_B_A = 4u;
-CONSTANT uint ENDS_B_B = 8u;
-LAW uint shared_ends(uint a, uint b, uint other_a, uint other_b) {
-    uint ends = 0u;
+// Which bodies two joints share, as ENDS_*.
+LAW int shared_ends(uint a, uint b, uint other_a, uint other_b) {
+    int ends = 0;
     if (a != NONE && a == other_a) ends = ends | ENDS_A_A;
     if (a != NONE && a == other_b) ends = ends | ENDS_A_B;
     if (b != NONE && b == other_a) ends = ends | ENDS_B_A;
     if (b != NONE && b == other_b) ends = ends | ENDS_B_B;
     return ends;
-}
-
-// The part of an entry due to one shared body: the row's speed from an impulse of 1 along the other row.
-LAW float entry_through(vec3 direction, vec3 arm, vec3 other_direction, vec3 other_turn, bool both_linear, float inverse_mass,
-                        float split) {
-    float turning = dot3(arm, other_turn);
-    return (both_linear ? dot3(direction, other_direction) * inverse_mass + turning : turning) * split;
-}
-// The entry of J M^-1 J^T for a row with this direction and these angular parts, and the row of `to`.
-LAW float row_entry(vec3 direction, vec3 angular_a, vec3 angular_b, uint axis, RowResponse to, uint ends) {
-    bool linear = is_linear(axis) && is_linear(to.axis);
-    float sum = 0.0f;
-    if ((ends & ENDS_A_A) != 0u)
-        sum = entry_through(direction, angular_a, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
-    if ((ends & ENDS_A_B) != 0u) {
-        float entry = -entry_through(direction, angular_a, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
-        sum = (ends & ENDS_A_A) != 0u ? sum + entry : entry;
-    }
-    if ((ends & ENDS_B_A) != 0u) {
-        float entry = -entry_through(direction, angular_b, to.direction, to.turn_a, linear, to.inverse_mass_a, to.split_a);
-        sum = (ends & (ENDS_A_A | ENDS_A_B)) != 0u ? sum + entry : entry;
-    }
-    if ((ends & ENDS_B_B) != 0u) {
-        float entry = entry_through(direction, angular_b, to.direction, to.turn_b, linear, to.inverse_mass_b, to.split_b);
-        sum = ends != ENDS_B_B ? sum + entry : entry;
-    }
-    return flush_least(sum);
-}
-
-// The row at the present poses with its inverse effective mass (`a`, `b`: split bodies; `ends`: ENDS_A_A and ENDS_B_B
-// of those that exist).
-LAW JointRow placed_row(JointRow row, JointConfiguration at, uint axis, uint flags, VelocityPair v, Mass a, Mass b, uint ends,
-                        float h) {
-    if (is_linear(axis))
-        row = linear_row(row, at, axis, flags, v, h);
-    else
-        row = angular_row(row, at, axis - 3u, flags, v, h);
-    row.coordinate = flush_tiny(row.coordinate);
-    row.drift = flush_tiny(row.drift);
-    row.inverse_effective_mass =
-        row_entry(row.direction, row.angular_a, row.angular_b, axis, row_response(row, axis, a, b), ends);
-    row.motor_change = 0.0f;
-    row.limit_change = 0.0f;
-    return row;
-}
-
-// ---- elimination and substitution
-LAW float right_hand_side(float speed, RowTarget demand) {
-    return -flush_tiny(speed + demand.bias);
-}
-LAW float softened(float entry, RowTarget demand) {
-    return entry + demand.compliance;
-}
-// The elimination multiplier: entry over pivot.
-LAW float multiplier_of(float entry, float inverse_pivot) {
-    return entry * inverse_pivot;
-}
-// The update of an entry or right-hand side in elimination (Schur complement), or of a sum in back substitution.
-LAW float less_multiple(float entry, float multiplier, float other) {
-    return flush_least(entry - multiplier * other);
-}
-LAW float substituted(float sum, float inverse_pivot) {
-    return flush_tiny(sum * inverse_pivot);
 }
 
 // ---- after a solution
@@ -152,13 +57,12 @@ struct RowAfter {
     uint pad1;
     uint pad2;
 };
-// The row's impulse changes after a solution, within their bounds, and the active set of the next round. `v`: of its
-// bodies afterwards.
+// The row's impulse changes after a solution, within their bounds, and the active set of the next round. `speed`: of the
+// row afterwards.
 LAW RowAfter row_after_round(JointAxis axis, JointRow row, uint index, uint active_flags, bool solved, float solution,
-                             VelocityPair v, bool biased, bool settling, Parameters parameters) {
+                             float speed, bool biased, bool settling, Parameters parameters) {
     RowAfter after;
     after.row = row_after(row, axis, active_flags, solved, solution, parameters);
-    float speed = row_speed(row, is_linear(index), v);
     after.active_flags = active_set_after(axis, row, index, active_flags, solved, solution, speed, biased, settling, parameters);
     after.pad0 = 0u;
     after.pad1 = 0u;

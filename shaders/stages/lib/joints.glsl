@@ -91,10 +91,10 @@ void place_rows(uint j) {
     uint flags = joints.at[j].flags;
     uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b;
     Mass mass_a = mass_of(side_a), mass_b = mass_of(side_b);
-    uint ends = shared_ends(side_a, side_b, side_a, side_b);
     for (uint k = 0u; k < 6u; ++k) {
         if (joints.at[j].axes[k].mode == 0u) continue;
-        joints.at[j].rows[k] = placed_row(joints.at[j].rows[k], at, k, flags, v, mass_a, mass_b, ends, PARAMETERS.h);
+        joints.at[j].rows[k] = placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE,
+                                          side_b != NONE, PARAMETERS.h);
     }
 }
 
@@ -151,19 +151,19 @@ float entry_of(uint i, uint n, RowResponse to, uint block_body_a, uint block_bod
 void set_up_equation(uint j, uint k, VelocityPair v, bool biased) {
     JointRow row = joints.at[j].rows[k];
     RowTarget demand = row_demand(joints.at[j].axes[k], row, k, active_set_of(joints.at[j].active_set, k), biased, PARAMETERS);
-    joints.at[j].solution[k] = right_hand_side(row_speed(row, is_linear(k), v), demand);
+    joint_equations.at[j].solution[k] = right_hand_side(row_speed(row, is_linear(k), v), demand.bias);
     uint block_body_a = joints.at[j].block_body_a, block_body_b = joints.at[j].block_body_b;
     RowResponse response = row_response(row, k, mass_of(block_body_a), mass_of(block_body_b));
     uint own = joints.at[j].solved_axes;
 #define SET_UP_OWN(n) \
-    if (n >= k && has(own, n)) joints.at[j].diagonal[6u * n + k] = entry_of(j, n, response, block_body_a, block_body_b);
+    if (n >= k && has(own, n)) joint_equations.at[j].diagonal[6u * n + k] = entry_of(j, n, response, block_body_a, block_body_b);
     EACH_OF_SIX(SET_UP_OWN)
-    joints.at[j].diagonal[7u * k] = softened(joints.at[j].diagonal[7u * k], demand);
+    joint_equations.at[j].diagonal[7u * k] = softened(joint_equations.at[j].diagonal[7u * k], demand.compliance);
     uint fill_in = joints.at[j].fill_in;
     for (uint l = 0u; l < fill_in; ++l) {
         uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
 #define SET_UP_LINK(n) \
-    if (has(theirs, n)) joints.at[j].coupling[36u * l + 6u * n + k] = entry_of(i, n, response, block_body_a, block_body_b);
+    if (has(theirs, n)) joint_equations.at[j].coupling[36u * l + 6u * n + k] = entry_of(i, n, response, block_body_a, block_body_b);
         EACH_OF_SIX(SET_UP_LINK)
     }
 }
@@ -190,13 +190,13 @@ struct Column {
 };
 Column own_column(uint j, uint k) {
     Column column;
-#define TAKE_OWN(n) column.at[n] = joints.at[j].diagonal[6u * n + k];
+#define TAKE_OWN(n) column.at[n] = joint_equations.at[j].diagonal[6u * n + k];
     EACH_OF_SIX(TAKE_OWN)
     return column;
 }
 Column column_of_link(uint j, uint l, uint k) {
     Column column;
-#define TAKE_LINK(n) column.at[n] = joints.at[j].coupling[36u * l + 6u * n + k];
+#define TAKE_LINK(n) column.at[n] = joint_equations.at[j].coupling[36u * l + 6u * n + k];
     EACH_OF_SIX(TAKE_LINK)
     return column;
 }
@@ -204,26 +204,26 @@ Column column_of_link(uint j, uint l, uint k) {
 // Subtracts a multiple of a column from a row, in the unknowns `of`.
 void lessen_diagonal(uint j, uint row, uint of, float multiplier, Column by) {
 #define LESSEN_DIAGONAL(c) \
-    if (has(of, c)) joints.at[j].diagonal[row + c] = less_multiple(joints.at[j].diagonal[row + c], multiplier, by.at[c]);
+    if (has(of, c)) joint_equations.at[j].diagonal[row + c] = less_multiple(joint_equations.at[j].diagonal[row + c], multiplier, by.at[c]);
     EACH_OF_SIX(LESSEN_DIAGONAL)
 }
 void lessen_coupling(uint j, uint row, uint of, float multiplier, Column by) {
 #define LESSEN_COUPLING(c) \
-    if (has(of, c)) joints.at[j].coupling[row + c] = less_multiple(joints.at[j].coupling[row + c], multiplier, by.at[c]);
+    if (has(of, c)) joint_equations.at[j].coupling[row + c] = less_multiple(joint_equations.at[j].coupling[row + c], multiplier, by.at[c]);
     EACH_OF_SIX(LESSEN_COUPLING)
 }
 
 // Eliminates unknown k of joint j from all later equations.
 void eliminate(uint j, uint k) {
     Column own = own_column(j, k);
-    float inverse = reciprocal(joints.at[j].diagonal[7u * k]);
-    float known = joints.at[j].solution[k];
-    joints.at[j].diagonal[7u * k] = inverse;
+    float inverse = reciprocal(joint_equations.at[j].diagonal[7u * k]);
+    float known = joint_equations.at[j].solution[k];
+    joint_equations.at[j].diagonal[7u * k] = inverse;
     uint behind = joints.at[j].solved_axes >> (k + 1u) << (k + 1u);
 #define ELIMINATE_OWN(n)                                                                       \
     if (has(behind, n)) {                                                                      \
         float multiplier = multiplier_of(own.at[n], inverse);                                  \
-        joints.at[j].solution[n] = less_multiple(joints.at[j].solution[n], multiplier, known); \
+        joint_equations.at[j].solution[n] = less_multiple(joint_equations.at[j].solution[n], multiplier, known); \
         lessen_diagonal(j, 6u * n, behind & UP_TO(n), multiplier, own);                        \
     }
     EACH_OF_SIX(ELIMINATE_OWN)
@@ -234,7 +234,7 @@ void eliminate(uint j, uint k) {
 #define ELIMINATE_LINK(n)                                                                      \
     if (has(theirs, n)) {                                                                      \
         float multiplier = multiplier_of(pushed.at[n], inverse);                               \
-        joints.at[i].solution[n] = less_multiple(joints.at[i].solution[n], multiplier, known); \
+        joint_equations.at[i].solution[n] = less_multiple(joint_equations.at[i].solution[n], multiplier, known); \
         lessen_coupling(j, 36u * l + 6u * n, behind, multiplier, own);                         \
         lessen_diagonal(i, 6u * n, theirs & UP_TO(n), multiplier, pushed);                     \
     }
@@ -250,18 +250,18 @@ void eliminate(uint j, uint k) {
 }
 
 void substitute(uint j, uint k) {
-    float sum = joints.at[j].solution[k];
+    float sum = joint_equations.at[j].solution[k];
     uint own = joints.at[j].solved_axes, fill_in = joints.at[j].fill_in;
 #define SUBSTITUTE_OWN(n) \
-    if (n > k && has(own, n)) sum = less_multiple(sum, joints.at[j].diagonal[6u * n + k], joints.at[j].solution[n]);
+    if (n > k && has(own, n)) sum = less_multiple(sum, joint_equations.at[j].diagonal[6u * n + k], joint_equations.at[j].solution[n]);
     EACH_OF_SIX(SUBSTITUTE_OWN)
     for (uint l = 0u; l < fill_in; ++l) {
         uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
 #define SUBSTITUTE_LINK(n) \
-    if (has(theirs, n)) sum = less_multiple(sum, joints.at[j].coupling[36u * l + 6u * n + k], joints.at[i].solution[n]);
+    if (has(theirs, n)) sum = less_multiple(sum, joint_equations.at[j].coupling[36u * l + 6u * n + k], joint_equations.at[i].solution[n]);
         EACH_OF_SIX(SUBSTITUTE_LINK)
     }
-    joints.at[j].solution[k] = substituted(sum, joints.at[j].diagonal[7u * k]);
+    joint_equations.at[j].solution[k] = substituted(sum, joint_equations.at[j].diagonal[7u * k]);
 }
 
 void solve_equations(bool biased) {
@@ -275,7 +275,7 @@ void solve_equations(bool biased) {
             if (holds(j) && unknown(j, k)) substitute(j, k);
     for (uint j = block_first; j < block_joints; ++j)
         for (uint k = 0u; k < 6u; ++k)
-            if (holds(j) && unknown(j, k)) push_row(j, k, joints.at[j].solution[k]);
+            if (holds(j) && unknown(j, k)) push_row(j, k, joint_equations.at[j].solution[k]);
 }
 
 // Updates the active set after a solution; true if it changed.
@@ -288,8 +288,9 @@ bool look_at_bounds(uint j, bool biased, bool settling) {
         if (!row_acts(axis, row)) continue;
         uint active_flags = active_set_of(joints.at[j].active_set, k);
         bool solved = unknown(j, k);
-        float solution = solved ? joints.at[j].solution[k] : 0.0f;
-        RowAfter after = row_after_round(axis, row, k, active_flags, solved, solution, v, biased, settling, PARAMETERS);
+        float solution = solved ? joint_equations.at[j].solution[k] : 0.0f;
+        RowAfter after = row_after_round(axis, row, k, active_flags, solved, solution,
+                                         row_speed(row, is_linear(k), v), biased, settling, PARAMETERS);
         joints.at[j].rows[k] = after.row;
         if (after.active_flags == active_flags) continue;
         joints.at[j].active_set = with_active_set(joints.at[j].active_set, k, after.active_flags);

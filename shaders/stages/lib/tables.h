@@ -31,41 +31,42 @@
     X(17, slots, SlotsTable, VelocityDelta, slots)                                            \
     X(18, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */ \
     X(19, joints, JointsTable, Joint, joints)                                                 \
-    X(20, vehicles, VehiclesTable, Vehicle, vehicles)
+    X(20, vehicles, VehiclesTable, Vehicle, vehicles)                                         \
+    X(21, joint_equations, JointEquationsTable, JointEquations, joints) /* within a pass */
 
 // Lists that are counted, scanned and filled are named after their final content; earlier contents have names of their
 // own (SCREE_VIEWS).
 #define SCREE_WORD_TABLES(X)                                                                                                \
-    X(21, cell_ends, WordsTable, uint, buckets)             /* end of each bucket in cell_entries */                        \
-    X(21, pair_starts, WordsTable, uint, bodies_and_end)    /* first pair that each row owns */                             \
-    X(21, slot_ends, WordsTable, uint, bodies_and_end)      /* end of each body's slots */                                  \
-    X(21, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */ \
-    X(21, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */              \
-    X(21, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                        \
-    X(21, strains, WordsTable, float, bodies)    /* last step's impulse or momentum of breakable bodies: fracture.h */      \
-    X(21, point_counts, WordsTable, uint, pairs) /* points of each pair's manifold; with SPECULATIVE */                     \
-    X(21, pairs_by_type, WordsTable, uint, pairs)                                                                           \
-    X(21, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                       \
-    X(21, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */             \
-    X(21, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                      \
-    X(21, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */      \
-    X(21, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | record */     \
-    X(21, scan_sums, WordsTable, uint, scan_blocks)                                                                         \
-    X(21, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                         \
-    X(21, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
+    X(22, cell_ends, WordsTable, uint, buckets)             /* end of each bucket in cell_entries */                        \
+    X(22, pair_starts, WordsTable, uint, bodies_and_end)    /* first pair that each row owns */                             \
+    X(22, slot_ends, WordsTable, uint, bodies_and_end)      /* end of each body's slots */                                  \
+    X(22, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */ \
+    X(22, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */              \
+    X(22, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                        \
+    X(22, strains, WordsTable, float, bodies)    /* last step's impulse or momentum of breakable bodies: fracture.h */      \
+    X(22, point_counts, WordsTable, uint, pairs) /* points of each pair's manifold; with SPECULATIVE */                     \
+    X(22, pairs_by_type, WordsTable, uint, pairs)                                                                           \
+    X(22, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                       \
+    X(22, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */             \
+    X(22, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                      \
+    X(22, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */      \
+    X(22, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | record */     \
+    X(22, scan_sums, WordsTable, uint, scan_blocks)                                                                         \
+    X(22, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                         \
+    X(22, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
 
 #define SCREE_QUAD_TABLES(X)                                                                                  \
-    X(22, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
-    X(22, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                  \
-    X(22, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
-    X(22, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
-    X(22, tyres, QuadsTable, Tyre, tyres)                                                                     \
-    X(22, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: fields.h */      \
-    X(22, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
-    X(22, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
-    X(22, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
-    X(22, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */   \
-    X(22, gravities, QuadsTable, uvec4, gravities)       /* of each copy, if they differ, m/s^2: copies.h */
+    X(23, hulls, QuadsTable, uvec4, hulls)              /* convex hulls, triangles of meshes: shape_data.h */ \
+    X(23, parts, QuadsTable, PoseInBody, parts)         /* poses of parts in their bodies */                  \
+    X(23, fractures, QuadsTable, Fracturing, fractures) /* of each breakable body */                          \
+    X(23, pieces, QuadsTable, PoseInBody, pieces)       /* poses of fragments in their bodies */              \
+    X(23, tyres, QuadsTable, Tyre, tyres)                                                                     \
+    X(23, immersions, QuadsTable, Immersion, immersions) /* by id, if there is air or water: fields.h */      \
+    X(23, surfaces, QuadsTable, Surface, surfaces)       /* of rows with one: material.h */                   \
+    X(23, way_points, QuadsTable, WayPoint, way_points)  /* of the vehicles' routes */                        \
+    X(23, filters, QuadsTable, uvec4, filters)           /* of all rows, if any body has one: filter.h */     \
+    X(23, exclusions, QuadsTable, uvec4, exclusions)     /* pairs of bodies that never collide: filter.h */   \
+    X(23, gravities, QuadsTable, uvec4, gravities)       /* of each copy, if they differ, m/s^2: copies.h */
 
 #define SCREE_TABLES(X)                                \
     X(0, parameters, ParametersTable, Parameters, one) \
@@ -80,8 +81,8 @@
 // All but the parameters, which no stage writes.
 #define SCREE_STORAGE_BUFFERS(X)           \
     SCREE_WIDE_TABLES(X)                   \
-    X(21, words, WordsTable, uint, shared) \
-    X(22, quads, QuadsTable, uvec4, shared)
+    X(22, words, WordsTable, uint, shared) \
+    X(23, quads, QuadsTable, uvec4, shared)
 
 // ---- views: table, name of its earlier content
 #define SCREE_VIEWS(X)          \

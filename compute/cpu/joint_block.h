@@ -1,0 +1,148 @@
+// A block of joints in a pass of the reference runner: one sparse linear system, solved directly; in plain loops
+// (joint_block.cpp), or with those of compute/cpu/simd/simd_joints.h, in the same bits.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "compute/cpu/simd/simd_joints.h"
+#include "compute/step/state.h"
+#include "shaders/physics/solve/contact_solver.h"
+#include "shaders/physics/solve/joint_block.h"
+
+namespace scree::reference {
+
+// Room for the equations of blocks, reused by one thread.
+struct JointRoom {
+    const WideJointStages* wide = nullptr;  // null: plain loops
+    std::vector<WideJoint> joints;          // of several blocks
+    std::vector<JointColumns> tiles;        // of one block
+    std::vector<physics::JointEquations> equations;
+};
+
+class JointBlock {
+public:
+    using Joint = physics::Joint;
+    using JointRow = physics::JointRow;
+
+    JointBlock(State& state, std::size_t index)
+        : state_(state), p_(state.fixed()), all_(state.joints), first_(all_[index].first_of_block) {
+        joints_ = std::span(all_).subspan(first_, all_[first_].block_joints);
+        members_ = std::span(all_).subspan(first_, all_[first_].block_bodies);
+    }
+
+    std::span<Joint> joints() const { return joints_; }
+    std::span<Joint> block_bodies() const { return members_; }
+    bool moves() const {
+        return std::any_of(members_.begin(), members_.end(), [](const Joint& record) { return record.slot != physics::NONE; });
+    }
+    template <class Visit>
+    void for_each_whole(const Visit& visit) {
+        for (Joint& joint : joints_)
+            if (!joint.broken) visit(joint);
+    }
+    // Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
+    bool struck() const {
+        return std::any_of(members_.begin(), members_.end(),
+                           [&](const Joint& record) { return state_.forces[record.block_body].impacts != 0; });
+    }
+
+    // ---- a pass: begin() for several blocks, place_rows() once for all, then solve() or gather() of each
+    // Masses and velocities of the block's bodies, in the relax pass of a block that is not struck before the contacts.
+    void begin(JointRoom& room, bool lend_after_contacts, bool take_after_contacts);
+    static void place_rows(JointRoom& room, std::span<JointBlock> blocks);
+    void solve(bool biased);
+    // The whole bodies' velocity changes by the impulses handed out.
+    void gather(bool warms) {
+        gather_by([&](const JointRow& row) { return physics::handed_impulse(row, warms); });
+    }
+    void gather_warm_start() { gather_by(physics::row_impulse); }
+    // Writes them to the bodies' slots.
+    template <class Payload>
+    void hand_out(float active, const Payload& payload) {
+        for (const Joint& record : members_)
+            if (record.slot != physics::NONE)
+                state_.slots[record.slot] = physics::velocity_delta(record.velocity, active, payload(record));
+    }
+
+    static vec3 impulse_of(const Joint& joint, physics::uint from);
+    void note_pressing();
+    static void commit(Joint& joint) {
+        for (JointRow& row : joint.rows) row = physics::committed(row);
+    }
+
+private:
+    static bool unknown(const Joint& joint, physics::uint k) { return (joint.solved_axes >> k & 1) != 0; }
+    static const vec3& arm(const JointRow& row, bool is_b) { return is_b ? row.angular_b : row.angular_a; }
+    // The axes that constrain.
+    template <class Visit>
+    static void for_each_axis(Joint& joint, const Visit& visit) {
+        for (physics::uint k = 0; k < 6; ++k)
+            if (physics::row_acts(joint.axes[k], joint.rows[k])) visit(k, joint.axes[k], joint.rows[k]);
+    }
+    template <class Visit>
+    static void for_each_unknown(const Joint& joint, const Visit& visit) {
+        for (physics::uint k = 0; k < 6; ++k)
+            if (unknown(joint, k)) visit(k);
+    }
+
+    physics::Pose pose(physics::uint body) const;
+    physics::Velocity speed(physics::uint body, physics::uint block_body) const;
+    physics::Mass mass(physics::uint block_body) const;
+    physics::VelocityPair speeds(const Joint& joint) const {
+        return {speed(joint.a, joint.block_body_a), speed(joint.b, joint.block_body_b)};
+    }
+    WideJoint* wide(const Joint& joint) const {
+        return room_->wide ? &room_->joints[first_wide_ + static_cast<std::size_t>(&joint - joints_.data())] : nullptr;
+    }
+    physics::JointEquations& equations(const Joint& joint) const {
+        return room_->equations[static_cast<std::size_t>(&joint - joints_.data())];
+    }
+
+    void take_velocities(bool after_contacts);
+    void describe(JointRoom& room);
+    void place(Joint& joint);
+    void push(const Joint& joint, physics::uint axes, const JointLanes& impulses);
+    template <class Impulse>
+    void gather_by(const Impulse& impulse) {
+        for (Joint& record : members_) {
+            record.velocity = {};
+            record.mass.split = 1;
+        }
+        for_each_whole([&](Joint& joint) {
+            JointLanes impulses{};
+            physics::uint axes = 0;
+            for_each_axis(joint, [&](physics::uint k, const physics::JointAxis&, const JointRow& row) {
+                impulses[k] = impulse(row);
+                if (impulses[k] != 0) axes |= 1u << k;
+            });
+            if (axes != 0) push(joint, axes, impulses);
+        });
+    }
+
+    // ---- a round
+    void speeds_of_rows(const Joint& joint, JointLanes& found) const;
+    void apply_given(Joint& joint, bool biased);
+    void demand(Joint& joint, bool biased);
+    void solve_equations();
+    bool other_bounds(Joint& joint, bool biased, bool settling);
+
+    // ---- equations in plain loops
+    static float entry(const Joint& left, physics::uint n, const Joint& right, const physics::RowResponse& to);
+    void set_up(const Joint& joint);
+    float* coupling(const Joint& joint, physics::uint with) const;
+    void eliminate(const Joint& joint, physics::uint k);
+    void substitute(const Joint& joint, physics::uint k);
+
+    State& state_;
+    const physics::Parameters& p_;
+    std::vector<Joint>& all_;
+    std::size_t first_;
+    std::span<Joint> joints_, members_;
+    JointRoom* room_ = nullptr;
+    std::size_t first_wide_ = 0;  // its joints in the room
+};
+
+}  // namespace scree::reference

@@ -1,0 +1,16 @@
+// Scenes whose joints are of every kind, or are entangled.
+#pragma once
+
+#include "compute/scene.h"
+
+namespace scree::tests {
+
+// Rows of capsules that hang from the world, fall to the ground and fall asleep; each row has different joint kinds.
+Scene all_kinds();
+// A wheel on a motor with six spokes, the last of them with two joints and driven by a distant body at maximum force:
+// seven joints that share the hub, whose active set takes several rounds.
+Scene spokes();
+// As many joints as a block holds, with the maximum fill-in: four between consecutive plates of a row.
+Scene entangled();
+
+}  // namespace scree::tests
