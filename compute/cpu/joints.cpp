@@ -308,7 +308,8 @@ void for_each_block(State& state, const Threads& threads, const Work& work) {
     const std::size_t blocks = state.fixed().joint_blocks;
     const std::size_t parts = threads.count() == 1 ? 1 : 128;
     threads.for_each(parts, [&](std::size_t part) {
-        for (std::size_t i = part * blocks / parts; i < (part + 1) * blocks / parts; ++i) work(Block(state, i));
+        for (std::size_t i = part * blocks / parts; i < (part + 1) * blocks / parts; ++i)
+            if (Block block(state, i); state.is_owned(block.block_bodies()[0].block_body)) work(block);
     });
 }
 
