@@ -78,6 +78,7 @@ bool DistributedRunner::step() {
     State& state = *state_;
     if (!state.fixed().redo) state.turn_over();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
+        if (!ownership_.knows(state)) ownership_.adapt(state, *exchange_);  // new bodies in spare rows
         ownership_.follow_joints(state, *exchange_);
         if (begun_++ % steps_between_balances == 0) ownership_.balance(state, *exchange_);
         ownership_.place(state, *exchange_);

@@ -63,3 +63,15 @@ TEST_CASE("stacks on several ranks stand as on one", "[ranks]") {
 TEST_CASE("a mix of shapes on several ranks moves as on one", "[ranks]") {
     agrees("mix", 300, 200, {2, 4, 8});
 }
+
+TEST_CASE("every demo on ranks", "[.]") {
+    for (const demos::Demo& demo : demos::all_demos()) {
+        if (demo.trial || (std::getenv("DEMO") && std::string(std::getenv("DEMO")) != demo.name)) continue;
+        WARN(demo.name);
+        try {
+            agrees(demo.name, demo.takes_bodies ? 150 : 0, 120, {2, 3});
+        } catch (const std::exception& e) {
+            FAIL_CHECK(e.what());
+        }
+    }
+}
