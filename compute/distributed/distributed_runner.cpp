@@ -76,6 +76,7 @@ void DistributedRunner::adapt() {
 
 bool DistributedRunner::step() {
     State& state = *state_;
+    gathered_.assign(table_count, false);
     if (!state.fixed().redo) state.turn_over();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
         if (!ownership_.knows(state)) ownership_.adapt(state, *exchange_);  // new bodies in spare rows
@@ -209,7 +210,18 @@ void DistributedRunner::tell_broken() {
 void DistributedRunner::send(const std::vector<TableRange>&) {}
 
 void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
-    gather_ranges(*state_, *exchange_, ranges);
+    TableRanges missing;
+    for (const TableRange& range : ranges)
+        if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);
+    gather_ranges(*state_, *exchange_, missing);
+    using enum Table;
+    for (const TableRange& range : missing) {
+        const bool whole =
+            range.first == 0 && range.count >= state_->live(table_infos()[static_cast<std::size_t>(range.table)].length);
+        if (whole) gathered_[static_cast<std::size_t>(range.table)] = true;
+        for (const Table table : {contacts, impulses, constraints, first_contacts, carried})  // all together
+            if (range.table == contacts) gathered_[static_cast<std::size_t>(table)] = true;
+    }
 }
 
 std::unique_ptr<Runner> make_distributed_runner(std::shared_ptr<Exchange> exchange, int threads) {

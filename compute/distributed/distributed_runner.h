@@ -66,6 +66,7 @@ private:
     int planned_substeps_ = 0;
     SceneFeatures planned_features_;
     StageClock clock_;
+    std::vector<bool> gathered_ = std::vector<bool>(table_count);  // tables that are whole on every rank since the last step
     Ownership ownership_;
     Halo halo_;
     std::uint64_t begun_ = 0;                    // steps, without repetitions

@@ -1,5 +1,5 @@
 // What ranks that share a world say to each other: an interface, with ranks as threads of one process
-// (compute/distributed/in_process.h) or as processes of MPI (demos/program/mpi).
+// (compute/distributed/in_process.h) or as processes of MPI (demos/program/mpi; a module of the program).
 #pragma once
 
 #include <cstddef>
@@ -22,6 +22,8 @@ public:
 class Exchange {
 public:
     virtual ~Exchange() = default;
+    // Ends all ranks at once, where one cannot go on.
+    [[noreturn]] virtual void end_all(int status) = 0;
     virtual int rank() const = 0;   // of this one, from 0
     virtual int ranks() const = 0;  // in all
     // Sends to[r] to each rank r; returns by rank what was sent here.
@@ -31,7 +33,7 @@ public:
     virtual void unite(std::span<std::uint32_t> bits) = 0;   // bitwise or over all ranks
     virtual void add(std::span<std::uint32_t> numbers) = 0;  // sums over all ranks
     // What each rank says, by rank.
-    std::vector<Bytes> gather(const Bytes& said);
+    std::vector<Bytes> gather(const Bytes& said) { return swap(std::vector<Bytes>(static_cast<std::size_t>(ranks()), said)); }
 
     std::uint64_t bytes_sent() const { return bytes_sent_; }  // so far, to other ranks
     std::uint64_t messages_sent() const { return messages_sent_; }

@@ -9,10 +9,6 @@
 
 namespace scree {
 
-std::vector<Bytes> Exchange::gather(const Bytes& said) {
-    return swap(std::vector<Bytes>(static_cast<std::size_t>(ranks()), said));
-}
-
 namespace {
 
 // Where the ranks of a process meet.
@@ -57,6 +53,7 @@ private:
 class InProcessExchange : public Exchange {
 public:
     InProcessExchange(MeetingPoint& point, int rank) : point_(point), rank_(rank) {}
+    [[noreturn]] void end_all(int) override { throw RankLost("a rank ends all"); }
     int rank() const override { return rank_; }
     int ranks() const override { return static_cast<int>(point_.mail.size()); }
     std::vector<Bytes> swap(const std::vector<Bytes>& to) override {
