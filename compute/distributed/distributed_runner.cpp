@@ -215,12 +215,23 @@ void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
         if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);
     gather_ranges(*state_, *exchange_, missing);
     using enum Table;
+    const auto note = [&](Table table) { gathered_[static_cast<std::size_t>(table)] = true; };
     for (const TableRange& range : missing) {
-        const bool whole =
-            range.first == 0 && range.count >= state_->live(table_infos()[static_cast<std::size_t>(range.table)].length);
-        if (whole) gathered_[static_cast<std::size_t>(range.table)] = true;
-        for (const Table table : {contacts, impulses, constraints, first_contacts, carried})  // all together
-            if (range.table == contacts) gathered_[static_cast<std::size_t>(table)] = true;
+        switch (range.table) {
+            case contacts:  // always all together and whole: their numbers differ by rank
+            case impulses:
+            case constraints:
+            case first_contacts:
+            case carried:
+                for (const Table table : {contacts, impulses, constraints, first_contacts, carried}) note(table);
+                break;
+            case joints:
+            case vehicles:
+                note(range.table);
+                break;
+            default:
+                if (range.first == 0 && range.count >= state_->fixed().bodies) note(range.table);
+        }
     }
 }
 
