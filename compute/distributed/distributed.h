@@ -3,11 +3,12 @@
 //     scree::run_in_process(4, [&](const std::shared_ptr<scree::Exchange>& exchange) {
 //         scree::World world(scene, settings, scree::make_distributed_runner(exchange, 1));
 //         world.step(600);
-//         if (exchange->rank() == 0) print(world.state_hash());   // wrong: the others wait for ever; see below
+//         const std::uint64_t hash = world.state_hash();
+//         if (exchange->rank() == 0) print(hash);
 //     });
 //
 // Every rank makes the same world and calls the same functions of it in the same order: what reads the world gathers from
-// all ranks, so `const auto hash = world.state_hash(); if (exchange->rank() == 0) print(hash);` is right.
+// all ranks, and one that reads alone would wait for ever.
 #pragma once
 
 #include <memory>
