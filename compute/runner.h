@@ -25,6 +25,10 @@ public:
 
     virtual const Threads& threads() const = 0;  // of the host, for work between steps
 
+    // Processors with a copy of the world each, which share its bodies and take every decision alike
+    // (compute/distributed); all of them call the same functions in the same order.
+    virtual int ranks() const { return 1; }
+
     virtual bool in_place() const = 0;  // works on the state's own tables, which then need memory for all of them
 
     // Takes over sizes and contents of the tables. Called once. The state outlives the runner.

@@ -44,7 +44,8 @@ bool asleep(const State& state, std::size_t body) {
     return physics::is_asleep(state.sleep_states[body], state.fixed().sleep_steps);
 }
 bool moved_by_contacts(const State& state, std::size_t body) {
-    return physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
+    return physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps) &&
+           state.is_stepped(body);
 }
 
 // Bodies that contacts move.
@@ -124,7 +125,7 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
     for (std::size_t i = 0; i < state.fixed().actions; ++i) {
         const physics::Action& action = state.actions[i];
         const std::size_t body = action.body;
-        if (physics::is_absent(state.properties[body].motion)) continue;
+        if (physics::is_absent(state.properties[body].motion) || !state.is_stepped(body)) continue;
         const physics::Mass mass = physics::mass_in_world(state.properties[body], state.poses[body].orientation, 1);
         if (!state.fixed().redo)
             state.velocities[body] = physics::apply_impulses(state.velocities[body], action, mass, state.fixed());
@@ -153,7 +154,7 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
         // Copies: else the compiler assumes that the writes below alias them, and computes twice.
         const physics::BodyProperties properties = state.properties[i];
         const physics::Pose pose = state.poses[i];
-        if (physics::is_absent(properties.motion)) {
+        if (physics::is_absent(properties.motion) || !state.is_here(i)) {
             state.bounds[i] = physics::no_bounds(pose);
             return;
         }
@@ -219,7 +220,7 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const physics::uint motion = state.properties[i].motion;
         if (motion == physics::MOTION_FIXED || physics::is_part(state.properties[i]) || physics::is_absent(motion) ||
-            asleep(state, i))
+            asleep(state, i) || !state.is_stepped(i))
             return;
         if (!wide || !moved_by_contacts(state, i)) move(state, i);
     });

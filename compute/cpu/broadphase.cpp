@@ -101,7 +101,9 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
     const physics::BodyProperties& own = state.properties[body];
     const std::uint32_t id = state.id_of(body);
     const bool joined = state.has_joints(), filtered = !state.filters.empty();
+    const bool is_shared = !state.presence.empty(), is_own = state.is_owned(body);
     const auto found = [&](std::uint32_t other) {
+        if (is_shared && !is_own && !state.is_owned(other)) return;
         if (filtered && !may_collide(state, body, other)) return;
         if (!joined || !kept_apart(state, state.body_of(body), state.body_of(other))) list(other);
     };

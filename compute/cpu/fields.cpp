@@ -13,7 +13,7 @@ void apply_fields(State& state, const Threads& threads, std::uint32_t) {
     const bool wet = p.air_density + p.water_density > 0;
     threads.for_each(p.first_part, [&](std::size_t i) {
         const physics::BodyProperties& body = state.properties[i];
-        if (!physics::is_movable(body.motion, state.sleep_states[i], p.sleep_steps)) return;
+        if (!physics::is_movable(body.motion, state.sleep_states[i], p.sleep_steps) || !state.is_owned(i)) return;
         const physics::Immersion immersion =
             wet ? state.immersions[state.id_of(static_cast<std::uint32_t>(i))] : physics::no_immersion();
         state.forces[i] = physics::with_fields(state.forces[i], body, immersion, state.poses[i], state.velocities[i],

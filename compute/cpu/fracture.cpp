@@ -37,7 +37,7 @@ void find_broken(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const physics::BodyProperties& body = state.properties[i];
-        if (!physics::may_break(body)) return;
+        if (!physics::may_break(body) || !state.is_owned(i)) return;
         float blow = 0;
         for_each_slot(state, i,
                       [&](std::size_t contact, physics::uint) { blow = std::max(blow, integrate_position(state, contact)); });
@@ -55,7 +55,9 @@ void find_broken(State& state, const Threads& threads, std::uint32_t) {
 void return_excess_impulse(State& state, const Threads& threads, std::uint32_t) {
     if (!some_broken(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (!physics::is_movable(state.properties[i].motion, state.sleep_states[i], state.fixed().sleep_steps)) return;
+        if (!physics::is_movable(state.properties[i].motion, state.sleep_states[i], state.fixed().sleep_steps) ||
+            !state.is_owned(i))
+            return;
         if (state.has_copies() && (state.copy_states[state.copy_of(static_cast<std::uint32_t>(i))] & physics::COPY_BREAKS) == 0)
             return;
         physics::Velocity velocity = state.velocities[i];

@@ -28,6 +28,8 @@ std::uint64_t spread_out(std::uint64_t x) {
     return (x | x << 2) & 0x1249249249249249;
 }
 
+}  // namespace
+
 // Morton code (1966): interleaved bits of three coordinates. Cells beyond two million from the origin are clamped.
 std::uint64_t place_on_curve(vec3 position, float inverse_cell) {
     constexpr double middle = 1 << 20;
@@ -39,8 +41,6 @@ std::uint64_t place_on_curve(vec3 position, float inverse_cell) {
     }
     return place;
 }
-
-}  // namespace
 
 std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state, const Threads& threads) {
     const std::size_t n = scene.bodies.size();

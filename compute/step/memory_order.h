@@ -19,6 +19,9 @@ namespace scree {
 // ids. Needs the poses.
 std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state, const Threads& threads);
 
+// A position's place on the curve: interleaved bits of the cells of three coordinates (Morton 1966).
+std::uint64_t place_on_curve(vec3 position, float inverse_cell);
+
 // Mean distance of each dynamic body from the next one in memory, m, each at most 64 cells; with `rows` instead of the
 // state's, if given.
 double stride_in_space(const Scene& scene, const State& state, const std::vector<std::uint32_t>& rows = {});

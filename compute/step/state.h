@@ -130,6 +130,14 @@ struct ShapePlaces {
     std::map<std::shared_ptr<const Cut>, physics::uint> cuts;        // in the table of pieces
 };
 
+// Where a row is, if ranks share the world (compute/distributed).
+enum class Presence : std::uint8_t {
+    elsewhere,   // on other ranks: its records here are out of date
+    ghost,       // of another rank, near a body of this one: its records are sent before they are read
+    everywhere,  // not dynamic: every rank has it and moves it alike
+    owned
+};
+
 struct State {
 #define SCREE_VECTOR(buffer, name, block, record, length) std::vector<physics::records::name> name;
     SCREE_TABLES(SCREE_VECTOR)
@@ -201,6 +209,17 @@ struct State {
     // The pose of a part in its body.
     const physics::PoseInBody& part_in(std::size_t row) const {
         return parts[row - fixed().first_part];
+    }
+    // By row, if ranks share the world; else empty: all is here.
+    std::vector<Presence> presence;
+    bool is_here(std::size_t row) const {
+        return presence.empty() || presence[row] != Presence::elsewhere;
+    }
+    bool is_stepped(std::size_t row) const {  // here, and not as a ghost
+        return presence.empty() || presence[row] >= Presence::everywhere;
+    }
+    bool is_owned(std::size_t row) const {
+        return presence.empty() || presence[row] == Presence::owned;
     }
     std::size_t bytes() const;                 // of all tables, as on a device
     std::size_t raw_bytes(Table table) const;  // of an allocated table

@@ -15,6 +15,7 @@ struct CheckpointOptions {
     std::optional<double> every;       // s of simulated time
     std::string resume;                // file to go on from; may be empty
     std::optional<std::string> input;  // of a resumed run: its recorded input
+    bool writes = true;                // false: takes part in gathering the state alone (ranks.h)
 };
 void add_options(CLI::App& command, CheckpointOptions& options);
 // Throws UsageError for an option that means nothing, and for a file that cannot be written.
@@ -44,6 +45,7 @@ public:
 
 private:
     std::string file_, note_;
+    bool writes_ = true;
     std::uint64_t steps_between_ = 0;
 };
 

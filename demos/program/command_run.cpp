@@ -5,9 +5,12 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <memory>
+#include <thread>
 
+#include "compute/distributed/distributed.h"
 #include "demos/film/pictures.h"
 #include "demos/play/replay.h"
 #include "demos/program/adviser.h"
@@ -22,6 +25,7 @@
 #include "demos/program/loaded_scene.h"
 #include "demos/program/output_check.h"
 #include "demos/program/progress.h"
+#include "demos/program/ranks.h"
 #include "demos/program/report.h"
 #include "demos/program/trajectory.h"
 #include "demos/scenes/demos.h"
@@ -47,7 +51,25 @@ struct RunOptions {
     std::optional<ResumedRun> resumed;
     bool quiet = false;
     std::string command_line;
+    bool distributed = false;
+    std::shared_ptr<Exchange> exchange = nullptr;  // with the other ranks; null: the run is not distributed
+    // What all ranks do alike, though the first alone has outputs: see silent().
+    bool advises = false, is_watched = false;
+    bool speaks() const { return !exchange || exchange->rank() == 0; }
 };
+
+// Whether any rank has been interrupted.
+bool is_interrupted(const RunOptions& options) {
+    if (!options.exchange) return demos::is_interrupted();
+    std::uint32_t any[1] = {demos::is_interrupted() ? 1u : 0u};
+    options.exchange->unite(any);
+    return any[0] != 0;
+}
+
+// Reads the world on all ranks, so that the outputs of the first find it there.
+void gather(const RunOptions& options, const World& world) {
+    if (options.exchange && options.is_watched) (void)world.state();
+}
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -143,7 +165,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
     records.after_step(world);
     const bool reports = !options.report.empty();
     for (int done = static_cast<int>(world.steps()); done < steps;) {
-        if (is_interrupted()) {
+        if (is_interrupted(options)) {
             checkpoints.write(world);
             return false;
         }
@@ -160,6 +182,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
         done += count;
         hold_to_promise(subject, world, recorder, report);
+        gather(options, world);
         if (pictures) pictures->after_step();
         records.after_step(world);
         if (done < steps) checkpoints.after_step(world);
@@ -169,7 +192,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
     checkpoints.write(world);
     // Commands after the last recorded step belong to the recording's final state.
     if (options.played && options.played->steps == world.steps()) subject.before_step(world);
-    return !is_interrupted();
+    return !is_interrupted(options);
 }
 
 // Judges soundness of runs without or beyond a promise. In replays bodies may be below the ground, thrown by the
@@ -207,7 +230,7 @@ void conclude(const RunOptions& options, const LoadedScene& subject, const RunRe
             fmt::print("{}", printable(text));
         }
     }
-    if (all_pass(report.rows) || !options.quiet) return;
+    if (all_pass(report.rows) || !options.quiet || !options.speaks()) return;
     for (const Row& row : report.rows) {
         if (!row.pass) say("scree: {}: {}: promised {}, measured {}\n", subject.name, row.what, row.promised, row.measured);
     }
@@ -245,11 +268,22 @@ void finish_pictures(Pictures* pictures, RunReport& report) {
     report.seconds_waiting = pictures->times().encode_wait;
 }
 
+std::vector<RunReport::RankCost> costs_of(Exchange& exchange, const RunReport& report) {
+    const double steps = static_cast<double>(std::max<std::uint64_t>(1, report.steps - report.resumed_at));
+    const RunReport::RankCost own{static_cast<double>(exchange.bytes_sent()) / steps,
+                                  static_cast<double>(exchange.messages_sent()) / steps, report.peak_memory_bytes};
+    Bytes said(sizeof own);
+    std::memcpy(said.data(), &own, sizeof own);
+    std::vector<RunReport::RankCost> all;
+    for (const Bytes& told : exchange.gather(said)) std::memcpy(&all.emplace_back(), told.data(), sizeof own);
+    return all;
+}
+
 int work(const RunOptions& options, const LoadedScene& subject, const Backend& machine, World& world, Pictures* pictures,
          RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
     std::optional<Adviser> adviser;
-    if (!options.quiet || !options.report.empty()) adviser.emplace(world);
+    if (options.advises) adviser.emplace(world);
     Records records(options, world);
     report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
     finish_pictures(pictures, report);
@@ -264,12 +298,16 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();
+    if (options.exchange) report.ranks = costs_of(*options.exchange, report);
     if (!report.interrupted) machine.require_valid();
     conclude(options, subject, report);
+    if (options.exchange) (void)world.state();  // for the first rank to save
     if (!options.save.empty())
         host::write_atomically(options.save, scene_to_json(document_of(subject, world, options.copies.copy)));
     if (!report.interrupted) return all_pass(report.rows) ? done : promise_missed;
-    say("scree: interrupted after {} steps{}\n", world.steps(), report.frames ? fmt::format(", {} pictures", report.frames) : "");
+    if (options.speaks())
+        say("scree: interrupted after {} steps{}\n", world.steps(),
+            report.frames ? fmt::format(", {} pictures", report.frames) : "");
     return interrupted;
 }
 
@@ -313,7 +351,9 @@ int run(const RunOptions& options) {
     const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
-    World world = world_of(subject.scene, subject.settings(options.scene), machine.make_runner(), options.copies, vary);
+    std::unique_ptr<Runner> runner =
+        options.exchange ? make_distributed_runner(options.exchange, options.machine.threads) : machine.make_runner();
+    World world = world_of(subject.scene, subject.settings(options.scene), std::move(runner), options.copies, vary);
     report.copies = options.copies.copies;
     report.varied = options.copies.vary;
     if (options.resumed) {
@@ -383,6 +423,23 @@ void take_resumed(const CLI::App& command, RunOptions& options) {
                                  resumed.info.steps, steps));
 }
 
+// What does not work on several ranks.
+void require_sense_on_ranks(const CLI::App& command, const RunOptions& options) {
+    if (options.machine.backend == "vulkan") throw UsageError("--distributed: runs on CPUs so far, not with --backend vulkan");
+    for (const char* option : {"--copies", "--device", "--validate"})
+        if (command.count(option) != 0) throw UsageError(fmt::format("--distributed: not together with {}", option));
+}
+
+// Every rank does the same, and the first alone writes and speaks.
+void make_silent(RunOptions& options) {
+    options.quiet = true;
+    options.checkpoints.writes = false;
+    for (std::string* file :
+         {&options.report, &options.save, &options.trajectory.file, &options.animation.file, &options.pictures.frames,
+          &options.pictures.video, &options.pictures.preview, &options.pictures.raw})
+        file->clear();
+}
+
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command, options.report);
     require_sense(command, options.copies);
@@ -396,7 +453,18 @@ int run(const CLI::App& command, RunOptions options) {
         throw UsageError(
             "run: name a demo (scree list) or a scene file, or give a recording with --input or a checkpoint with --resume");
     }
-    return run(options);
+    options.advises = !options.quiet || !options.report.empty();
+    if (!options.distributed) return run(options);
+    require_sense_on_ranks(command, options);
+    int neighbours = 1;
+    options.exchange = join_ranks(neighbours);
+    if (options.machine.threads == 0)
+        options.machine.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / neighbours);
+    options.machine.backend = "cpu";
+    options.is_watched = options.pictures.wanted() || !options.trajectory.file.empty() || !options.animation.file.empty();
+    if (!options.speaks()) make_silent(options);
+    const std::shared_ptr<Exchange> exchange = options.exchange;  // until the world is gone
+    return on_a_rank(*exchange, [&] { return run(options); });
 }
 
 }  // namespace
@@ -416,6 +484,11 @@ void add_run(CLI::App& program, int& status) {
     command->add_option(
         "--input", options->input,
         "Replay a recording of `scree view --record`: its scene, settings, steps and commands, to the same bits.");
+    command
+        ->add_flag("--distributed", options->distributed,
+                   "One world on all processes that mpirun started, to the same bits; each moves a share of the bodies. Every "
+                   "process reads the whole scene; the first one writes.")
+        ->group("Backend");
     command->get_option("scene")->required(false);
     command->add_flag("--quiet,-q", options->quiet, "Print no progress and no summary.");
     command->footer(
@@ -434,7 +507,8 @@ void add_run(CLI::App& program, int& status) {
         "  scree run dominoes --trajectory run.npz\n"
         "  scree run wrecking --export wrecking.glb\n"
         "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2\n"
-        "  scree run bins --copies 1k --vary seed,friction=0.2:0.8 --video bins.mp4");
+        "  scree run bins --copies 1k --vary seed,friction=0.2:0.8 --video bins.mp4\n"
+        "  mpirun -n 4 scree run pile --bodies 100k --distributed");
     command->callback([command, options, &status] {
         options->command_line = words_of_this_program();
         status = run(*command, *options);

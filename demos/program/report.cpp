@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <numeric>
@@ -69,6 +70,18 @@ double per_body(const RunReport& r, std::size_t bytes) {
 double pace_of(const RunReport& r) {
     const double mean = spread_of(r.step_ms).mean;
     return mean > 0 ? static_cast<double>(r.copies) * 1e3 / (mean * static_cast<double>(r.rate)) : 0;
+}
+
+nlohmann::ordered_json ranks_of(const RunReport& r) {
+    if (r.ranks.empty()) return {};
+    nlohmann::ordered_json sent, messages, memory;
+    for (const RunReport::RankCost& one : r.ranks) {
+        sent.push_back(std::llround(one.sent_bytes));
+        messages.push_back(one.messages);
+        memory.push_back(one.peak_memory_bytes);
+    }
+    return {
+        {"count", r.ranks.size()}, {"sent_bytes_per_step", sent}, {"messages_per_step", messages}, {"peak_memory_bytes", memory}};
 }
 
 nlohmann::ordered_json copies_of(const RunReport& r) {
@@ -150,6 +163,7 @@ std::string json_of(const RunReport& r) {
           {"encode_wait", r.seconds_waiting}}},
         {"state_hash", hash_text(r.state_hash)},
         {"copies", copies_of(r)},
+        {"ranks", ranks_of(r)},
         {"advice", advice},
         {"promise",
          {{"judged", r.judged || !r.promised}, {"pass", (r.judged || !r.promised) && all_pass(r.rows)}, {"rows", promise}}},
@@ -180,6 +194,15 @@ std::string summary_of(const RunReport& r) {
     line("buffers", fmt::format("{:.1f} MB, {:.0f} bytes per body, grown {} times", static_cast<double>(r.buffer_bytes) / 1e6,
                                 per_body(r, r.buffer_bytes), r.buffer_growths));
     line("state hash", hash_text(r.state_hash));
+    if (!r.ranks.empty()) {
+        double most = 0, messages = 0;
+        for (const RunReport::RankCost& one : r.ranks) {
+            most = std::max(most, one.sent_bytes);
+            messages = std::max(messages, one.messages);
+        }
+        line("ranks",
+             fmt::format("{}; at most {:.3g} kB in {:.0f} messages sent by one in a step", r.ranks.size(), most / 1e3, messages));
+    }
     if (r.copies > 0)
         line("copies",
              r.distinct == 1

@@ -46,6 +46,12 @@ struct RunReport {
     std::size_t distinct = 0;                                                 // different hashes of copies
     std::uint64_t copy_hash = 0;                                              // of every copy, if they are equal
     std::vector<std::string> varied;                                          // --vary
+    // Of each rank of a distributed run; empty: it was not distributed.
+    struct RankCost {
+        double sent_bytes = 0, messages = 0;  // per step, to other ranks
+        std::uint64_t peak_memory_bytes = 0;
+    };
+    std::vector<RankCost> ranks;
     std::vector<Row> rows;
 };
 

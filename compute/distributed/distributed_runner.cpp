@@ -1,0 +1,242 @@
+// A rank's part of a step.
+#include "compute/distributed/distributed_runner.h"
+
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+
+#include "compute/distributed/distributed.h"
+#include "compute/distributed/gathering.h"
+#include "compute/distributed/packing.h"
+#include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/extra/sleep.h"
+
+namespace scree {
+
+namespace {
+
+// Steps between two looks at who owns what. Bodies may be anywhere meanwhile: ghosts follow them.
+constexpr std::uint64_t steps_between_balances = 32;
+
+bool starts_with(const std::string& text, const char* begin) {
+    return text.rfind(begin, 0) == 0;
+}
+
+struct BrokenBody {
+    std::uint32_t row = 0;
+    physics::Pose pose;
+    physics::Velocity velocity;
+};
+
+}  // namespace
+
+std::string DistributedRunner::device() const {
+    const auto counted = [](int n, const std::string& what) { return std::to_string(n) + " " + what + (n == 1 ? "" : "s"); };
+    return counted(exchange_->ranks(), "rank") + " of " + counted(threads_.count(), "thread");
+}
+
+void DistributedRunner::attach(State& state) {
+    if (state.has_copies()) throw std::invalid_argument("a world of several copies runs on one rank");
+    state_ = &state;
+    adapt();
+}
+
+void DistributedRunner::adapt() {
+    ownership_.adapt(*state_, *exchange_);
+    halo_.adapt(*state_);
+    // New rows are the same on all ranks until the next step.
+    if (!state_->presence.empty()) state_->presence.resize(state_->fixed().bodies, Presence::everywhere);
+    if (planned_substeps_ == state_->substeps && planned_features_ == state_->features()) return;
+    planned_substeps_ = state_->substeps;
+    planned_features_ = state_->features();
+    plan_ = plan(planned_substeps_, planned_features_);
+    clock_ = StageClock(plan_);
+    before_.assign(plan_.size(), Talk::none);
+    after_ = before_;
+    bool met = false;  // the ghosts of this step
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+        const std::string& name = plan_[i].name;
+        if (!met && (name == "pose_parts" || name == "compute_bounds")) {
+            before_[i] = Talk::ghosts;
+            met = true;
+        }
+        if (name == "compute_bounds") after_[i] = Talk::flags;
+        if (name == "scan_pairs_spine" || name == "scan_contacts_spine") after_[i] = Talk::room;
+        if (starts_with(name, "predict_impacts")) after_[i] = Talk::struck;
+        if (name == "propagate_wake") before_[i] = Talk::wake;
+        if (name == "propagate_wake" && plan_[i].pass == 2) after_[i] = Talk::wake;
+        if (name == "begin_substep") after_[i] = Talk::velocities;
+        if (name == "move_bodies") after_[i] = Talk::motion;
+        if (name == "end_step") after_[i] = Talk::ends;
+        if (starts_with(name, "find_impacts")) after_[i] = Talk::stops;
+        if (name == "find_broken") after_[i] = Talk::kept;
+        if (name == "break_bodies") before_[i] = Talk::broken;
+    }
+}
+
+bool DistributedRunner::step() {
+    State& state = *state_;
+    gathered_.assign(table_count, false);
+    if (!state.fixed().redo) state.turn_over();
+    if (!state.fixed().redo && exchange_->ranks() > 1) {
+        if (!ownership_.knows(state)) ownership_.adapt(state, *exchange_);  // new bodies in spare rows
+        ownership_.follow_joints(state, *exchange_);
+        if (begun_++ % steps_between_balances == 0) ownership_.balance(state, *exchange_);
+        ownership_.place(state, *exchange_);
+    }
+    wakes_ = knows_waking_ = false;
+    spin_limited_ = state.counted().spin_limited;
+    clock_.begin_step();
+    for (std::size_t i = 0; i < plan_.size(); ++i) {
+        const auto begin = std::chrono::steady_clock::now();
+        if (before_[i] != Talk::none && !talk(before_[i])) return false;
+        plan_[i].reference(state, threads_, plan_[i].pass);
+        if (after_[i] != Talk::none && !talk(after_[i])) return false;
+        clock_.add(i, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+    }
+    clock_.end_step();
+    return true;
+}
+
+bool DistributedRunner::talk(Talk what) {
+    if (exchange_->ranks() == 1) return what != Talk::room || state_->counted().overflow == 0;
+    const bool fast = state_->counted().fast != 0, some_break = state_->counted().broken != 0;
+    switch (what) {
+        case Talk::none:
+            break;
+        case Talk::ghosts:
+            halo_.find(*state_, ownership_, *exchange_);
+            break;
+        case Talk::flags:
+            agree_on_flags();
+            break;
+        case Talk::room:
+            return agree_on_room();
+        case Talk::struck:
+            if (fast) halo_.send_struck(*state_, *exchange_);
+            break;
+        case Talk::wake:
+            tell_wake();
+            break;
+        case Talk::velocities:
+            halo_.send_velocities(*state_, *exchange_);
+            break;
+        case Talk::motion:
+            halo_.send_motion(*state_, *exchange_);
+            break;
+        case Talk::ends:
+            tell_ends();
+            break;
+        case Talk::stops:
+            if (fast) halo_.send_stops(*state_, *exchange_);
+            break;
+        case Talk::kept: {
+            std::uint32_t broken[1] = {state_->counted().broken};
+            exchange_->add(broken);
+            state_->counted().broken = broken[0];
+            if (broken[0] != 0) halo_.send_kept(*state_, *exchange_);
+            break;
+        }
+        case Talk::broken:
+            if (some_break) tell_broken();
+            break;
+    }
+    return true;
+}
+
+void DistributedRunner::agree_on_flags() {
+    physics::Counts& counts = state_->counted();
+    std::uint32_t flags[5] = {counts.levels, counts.levels_stirring, counts.large_stirring, counts.sleepers, counts.fast};
+    exchange_->unite(flags);
+    counts.levels = flags[0];
+    counts.levels_stirring = flags[1];
+    counts.large_stirring = flags[2];
+    counts.sleepers = flags[3];
+    counts.fast = flags[4];
+}
+
+bool DistributedRunner::agree_on_room() {
+    std::uint32_t overflow[1] = {state_->counted().overflow};
+    exchange_->unite(overflow);
+    return overflow[0] == 0;
+}
+
+// What is awake by then is known to all; without shaking bodies one round is enough.
+void DistributedRunner::tell_wake() {
+    physics::Counts& counts = state_->counted();
+    if (!counts.sleepers || !physics::any_stirs(counts)) return;
+    if (!knows_waking_) {
+        physics::uint& work = counts.arguments[physics::WORK_WAKE].x;
+        std::uint32_t some[1] = {work};
+        exchange_->unite(some);
+        knows_waking_ = true;
+        wakes_ = some[0] != 0;
+        if (wakes_) work = std::max(1u, work);
+    } else if (!wakes_) {
+        return;
+    }
+    halo_.send_sleep_states(*state_, *exchange_);
+}
+
+void DistributedRunner::tell_ends() {
+    physics::Counts& counts = state_->counted();
+    std::uint32_t sums[2] = {counts.fast, counts.spin_limited - spin_limited_};
+    exchange_->add(sums);
+    counts.spin_limited = spin_limited_ + sums[1];
+    if (sums[0] == 0) return;
+    counts.fast = 1;
+    counts.arguments[physics::WORK_CCD_PAIRS] = counts.arguments[physics::WORK_PAIRS];
+    halo_.send_ends(*state_, *exchange_);
+}
+
+void DistributedRunner::tell_broken() {
+    State& state = *state_;
+    Bytes said;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        if (state.is_owned(row) && state.forces[row].kept < 1)
+            put(said, BrokenBody{row, state.poses[row], state.velocities[row]});
+        if (!state.is_owned(row)) state.forces[row].kept = 1;
+    }
+    for (const Bytes& told : exchange_->gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto body = from.take<BrokenBody>();
+            state.poses[body.row] = body.pose;
+            state.velocities[body.row] = body.velocity;
+            state.forces[body.row].kept = 0;
+            ownership_.inherit(state, body.row);
+        }
+}
+
+void DistributedRunner::send(const std::vector<TableRange>&) {}
+
+void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
+    TableRanges missing;
+    for (const TableRange& range : ranges)
+        if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);
+    gather_ranges(*state_, *exchange_, missing);
+    using enum Table;
+    const auto note = [&](Table table) { gathered_[static_cast<std::size_t>(table)] = true; };
+    for (const TableRange& range : missing) {
+        switch (range.table) {
+            case contacts:  // always all together and whole: their numbers differ by rank
+            case impulses:
+            case constraints:
+            case first_contacts:
+            case carried:
+                for (const Table table : {contacts, impulses, constraints, first_contacts, carried}) note(table);
+                break;
+            case joints:
+            case vehicles:
+                note(range.table);
+                break;
+            default:
+                if (range.first == 0 && range.count >= state_->fixed().bodies) note(range.table);
+        }
+    }
+}
+
+std::unique_ptr<Runner> make_distributed_runner(std::shared_ptr<Exchange> exchange, int threads) {
+    return std::make_unique<DistributedRunner>(std::move(exchange), threads);
+}
+
+}  // namespace scree

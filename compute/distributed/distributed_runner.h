@@ -1,0 +1,77 @@
+// The distributed runner: a rank's part of a step of a world that several ranks share, with the bits of one world.
+//
+// Every rank has the tables of the whole scene and moves the bodies that it owns (ownership.h). A contact at a border is
+// solved on both sides from the same inputs: a pair is listed where one end is owned, bodies of other ranks near a border
+// are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, the plan's stages are
+// told between them: here is the list of these places.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "compute/distributed/exchange.h"
+#include "compute/distributed/halo.h"
+#include "compute/distributed/ownership.h"
+#include "compute/runner.h"
+#include "compute/step/plan.h"
+#include "compute/step/stage_clock.h"
+
+namespace scree {
+
+class DistributedRunner : public Runner {
+public:
+    DistributedRunner(std::shared_ptr<Exchange> exchange, int threads) : exchange_(std::move(exchange)), threads_(threads) {}
+    std::string backend() const override { return "cpu"; }
+    std::string device() const override;
+    std::uint32_t group_size() const override { return 64; }
+    const Threads& threads() const override { return threads_; }
+    bool in_place() const override { return true; }
+    int ranks() const override { return exchange_->ranks(); }
+    void attach(State& state) override;
+    void adapt() override;
+    bool step() override;
+    StageTimes stage_times() const override { return clock_.means(); }
+    StageTimes last_stage_times() const override { return clock_.last(); }
+
+private:
+    // What ranks tell each other before or after a stage.
+    enum class Talk {
+        none,
+        ghosts,      // before the first stage that reads bounds: ghosts, with poses, velocities, forces
+        flags,       // after compute_bounds: levels in use, who stirs, sleeps, is fast
+        room,        // after the totals of pairs and contacts: overflows
+        struck,      // after predict_impacts, if some body is fast
+        wake,        // before each round of propagate_wake, and after the last: sleep states, if some body sleeps
+        velocities,  // after begin_substep
+        motion,      // after move_bodies
+        ends,        // after end_step: whether some body is fast, and then poses and sweeps
+        stops,       // after each round of find_impacts, if some body is fast
+        kept,        // after find_broken, if some body breaks
+        broken       // before break_bodies: every rank breaks the bodies of all
+    };
+    bool talk(Talk what);  // false: the step is to be repeated with longer lists
+    void agree_on_flags();
+    bool agree_on_room();
+    void tell_wake();
+    void tell_ends();
+    void tell_broken();
+    void send(const std::vector<TableRange>& ranges) override;
+    void receive(const std::vector<TableRange>& ranges) override;
+
+    std::shared_ptr<Exchange> exchange_;
+    Threads threads_;
+    State* state_ = nullptr;
+    std::vector<Stage> plan_;
+    std::vector<Talk> before_, after_;  // by stage
+    int planned_substeps_ = 0;
+    SceneFeatures planned_features_;
+    StageClock clock_;
+    std::vector<bool> gathered_ = std::vector<bool>(table_count);  // tables that are whole on every rank since the last step
+    Ownership ownership_;
+    Halo halo_;
+    std::uint64_t begun_ = 0;                    // steps, without repetitions
+    bool wakes_ = false, knows_waking_ = false;  // some contact shakes bodies behind it in this step
+    std::uint32_t spin_limited_ = 0;
+};
+
+}  // namespace scree

@@ -1,0 +1,51 @@
+// What ranks that share a world say to each other: an interface, with ranks as threads of one process
+// (compute/distributed/in_process.h) or as processes of MPI (demos/program/mpi; a module of the program).
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+namespace scree {
+
+using Bytes = std::vector<std::byte>;
+
+// Another rank has ended: nothing more can be exchanged.
+class RankLost : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+// Every function is collective: all ranks call the same ones in the same order. Each throws RankLost.
+class Exchange {
+public:
+    virtual ~Exchange() = default;
+    // Ends all ranks at once, where one cannot go on.
+    [[noreturn]] virtual void end_all(int status) = 0;
+    virtual int rank() const = 0;   // of this one, from 0
+    virtual int ranks() const = 0;  // in all
+    // Sends to[r] to each rank r; returns by rank what was sent here.
+    virtual std::vector<Bytes> swap(const std::vector<Bytes>& to) = 0;
+    // The same where both sides know the lengths: from[r] has that of what rank r sends. Empty messages are not sent.
+    virtual void swap(const std::vector<Bytes>& to, std::vector<Bytes>& from) = 0;
+    virtual void unite(std::span<std::uint32_t> bits) = 0;   // bitwise or over all ranks
+    virtual void add(std::span<std::uint32_t> numbers) = 0;  // sums over all ranks
+    // What each rank says, by rank.
+    std::vector<Bytes> gather(const Bytes& said) { return swap(std::vector<Bytes>(static_cast<std::size_t>(ranks()), said)); }
+
+    std::uint64_t bytes_sent() const { return bytes_sent_; }  // so far, to other ranks
+    std::uint64_t messages_sent() const { return messages_sent_; }
+
+protected:
+    void note_sent(std::size_t bytes) {
+        bytes_sent_ += bytes;
+        ++messages_sent_;
+    }
+
+private:
+    std::uint64_t bytes_sent_ = 0, messages_sent_ = 0;
+};
+
+}  // namespace scree

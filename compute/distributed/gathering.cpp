@@ -1,0 +1,142 @@
+// Gathering the tables of all ranks.
+#include "compute/distributed/gathering.h"
+
+#include <algorithm>
+#include <array>
+
+#include "compute/distributed/ownership.h"
+#include "compute/distributed/packing.h"
+
+namespace scree {
+
+namespace {
+
+struct TracedContact {
+    OwnedContact contact;
+    float slide_limit = 0, carried = 0;
+};
+
+// The records of owned rows in a range of a table of bodies.
+void gather_rows(State& state, Exchange& exchange, const TableRange& range) {
+    const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+    const std::span<std::byte> table = state.raw(range.table);
+    const std::size_t last = std::min(range.first + range.count, table.size() / bytes);
+    Bytes said;
+    for (std::size_t row = range.first; row < last; ++row) {
+        if (!state.is_owned(row)) continue;
+        put(said, static_cast<std::uint32_t>(row));
+        said.insert(said.end(), table.begin() + static_cast<std::ptrdiff_t>(row * bytes),
+                    table.begin() + static_cast<std::ptrdiff_t>((row + 1) * bytes));
+    }
+    for (const Bytes& told : exchange.gather(said))
+        for (std::size_t at = 0; at < told.size(); at += sizeof(std::uint32_t) + bytes) {
+            std::uint32_t row = 0;
+            std::memcpy(&row, &told[at], sizeof row);
+            std::memcpy(&table[row * bytes], &told[at + sizeof row], bytes);
+        }
+}
+
+void gather_contacts(State& state, Exchange& exchange) {
+    const auto is_told_here = [&](std::uint32_t owner, const physics::Contact& contact) {
+        const std::uint32_t body = state.body_of(owner), other = state.body_of(contact.a == owner ? contact.b : contact.a);
+        return state.is_owned(body) || (state.presence[body] == Presence::everywhere && state.is_owned(other));
+    };
+    Bytes said;
+    for (std::uint32_t row = 0; row < state.fixed().bodies; ++row)
+        for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
+            if (is_told_here(row, state.contacts[k]))
+                put(said, TracedContact{{row, state.contacts[k], state.impulses[k]},
+                                        state.constraints[k].slide_limit,
+                                        k < state.carried.size() ? state.carried[k] : 0.0f});
+    std::vector<TracedContact> all;
+    for (const Bytes& told : exchange.gather(said))
+        for (Unpacker from(told); from.has_more();) all.push_back(from.take<TracedContact>());
+    const auto key = [&](const TracedContact& one) {
+        const OwnedContact& c = one.contact;
+        return std::pair(c.owner, state.id_of(c.contact.a == c.owner ? c.contact.b : c.contact.a));
+    };
+    std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    std::vector<OwnedContact> contacts;
+    contacts.reserve(all.size());
+    for (const TracedContact& one : all) contacts.push_back(one.contact);
+    merge_contacts(state, contacts, [](const physics::Contact&) { return false; });
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        physics::Constraint& constraint = state.constraints[k];
+        constraint.a = state.body_of(state.contacts[k].a);
+        constraint.b = state.body_of(state.contacts[k].b);
+        constraint.slide_limit = all[k].slide_limit;
+        constraint.pair = 0;
+        if (k < state.carried.size()) state.carried[k] = all[k].carried;
+    }
+}
+
+void gather_joints(State& state, Exchange& exchange) {
+    Bytes said;
+    for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
+        const std::uint32_t first = state.joints[i].first_of_block;
+        if (!state.is_owned(state.joints[first].block_body)) continue;
+        const std::uint32_t count = std::max(state.joints[first].block_joints, state.joints[first].block_bodies);
+        for (std::uint32_t k = first; k < first + count; ++k) {
+            put(said, k);
+            put(said, state.joints[k]);
+        }
+    }
+    for (const Bytes& told : exchange.gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto k = from.take<std::uint32_t>();
+            from.take(state.joints[k]);
+        }
+}
+
+void gather_vehicles(State& state, Exchange& exchange) {
+    Bytes said;
+    for (std::uint32_t i = 0; i < state.fixed().vehicles; ++i) {
+        if (!state.is_owned(state.vehicles[i].dynamics.chassis)) continue;
+        put(said, i);
+        put(said, state.vehicles[i]);
+    }
+    for (const Bytes& told : exchange.gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto i = from.take<std::uint32_t>();
+            from.take(state.vehicles[i]);
+        }
+}
+
+}  // namespace
+
+void gather_ranges(State& state, Exchange& exchange, const TableRanges& ranges) {
+    if (exchange.ranks() == 1 || state.presence.empty()) return;
+    using enum Table;
+    bool any_contacts = false, any_joints = false, any_vehicles = false;
+    for (const TableRange& range : ranges) {
+        switch (range.table) {
+            case poses:
+            case velocities:
+            case masses:
+            case sleep_states:
+            case strains:
+                gather_rows(state, exchange, range);
+                break;
+            case contacts:
+            case impulses:
+            case constraints:
+            case first_contacts:
+            case carried:
+                any_contacts = true;
+                break;
+            case joints:
+                any_joints = true;
+                break;
+            case vehicles:
+                any_vehicles = true;
+                break;
+            default:  // the same on all ranks, or of no use between steps
+                break;
+        }
+    }
+    if (any_contacts) gather_contacts(state, exchange);
+    if (any_joints) gather_joints(state, exchange);
+    if (any_vehicles) gather_vehicles(state, exchange);
+}
+
+}  // namespace scree

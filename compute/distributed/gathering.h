@@ -1,0 +1,13 @@
+// What every rank is told when the world is read: the bodies, contacts, joints and vehicles of all ranks.
+#pragma once
+
+#include "compute/distributed/exchange.h"
+#include "compute/step/state.h"
+#include "compute/step/table_ranges.h"
+
+namespace scree {
+
+// Collective. Between steps; ranges of tables that are the same on all ranks cost nothing.
+void gather_ranges(State& state, Exchange& exchange, const TableRanges& ranges);
+
+}  // namespace scree

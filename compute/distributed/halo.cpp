@@ -1,0 +1,273 @@
+// Finding ghosts, and keeping them up to date.
+#include "compute/distributed/halo.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compute/distributed/cell_set.h"
+#include "compute/distributed/packing.h"
+#include "shaders/physics/collide/compound.h"
+#include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/motion.h"
+
+namespace scree {
+
+namespace {
+
+struct GhostAtStart {
+    std::uint32_t row = 0, rest = 0;
+    physics::Pose pose;
+    physics::Velocity velocity;
+    physics::BodyForces forces;
+    float split = 0;
+};
+struct GhostVelocity {
+    physics::Velocity velocity;
+    float split = 0;
+};
+struct GhostMotion {
+    physics::Velocity velocity;
+    physics::vec4 orientation;
+    float impacts = 0;
+};
+struct GhostEnd {
+    physics::Pose pose;
+    physics::Sweep sweep;
+};
+struct GhostStops {
+    std::uint32_t stops[2] = {0, 0};
+};
+
+bool overlap(const physics::vec3& lower_a, const physics::vec3& upper_a, const physics::vec3& lower_b,
+             const physics::vec3& upper_b) {
+    return physics::boxes_overlap(lower_a, upper_a, lower_b, upper_b);
+}
+
+}  // namespace
+
+void Halo::adapt(const State& state) {
+    reach_.assign(state.fixed().first_part, 0.0f);
+    for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row) {
+        const physics::BodyProperties& part = state.properties[row];
+        if (!physics::is_part(part) || physics::motion_of(part) == physics::MOTION_FIXED) continue;
+        float& reach = reach_[part.owner];
+        reach = std::max(reach, physics::length3(state.part_in(row).position) + physics::bounding_radius(part));
+    }
+}
+
+// Not smaller than the bounds of the body and its parts in this step.
+Halo::Box Halo::box_of(const State& state, std::uint32_t row) const {
+    const physics::Parameters& p = state.fixed();
+    const physics::BodyProperties& body = state.properties[row];
+    const physics::Pose& pose = state.poses[row];
+    const physics::Velocity& velocity = state.velocities[row];
+    if (physics::is_apart(body)) return {};
+    if (reach_[row] == 0) {
+        if (body.shape == physics::SHAPE_NONE) return {};
+        const physics::Bounds bounds = physics::bounds_of(body, 0, pose, velocity, state.forces[row], p);
+        return {bounds.lower, bounds.upper};
+    }
+    const float spin = glm::length(velocity.angular) * p.dt;
+    const float way = glm::length(velocity.linear) * p.dt + reach_[row] * spin * (1 + spin) +
+                      glm::length(state.forces[row].acceleration) * p.dt * p.dt;
+    const physics::vec3 half(1.01f * (reach_[row] + way + p.speculative));
+    return {pose.position - half, pose.position + half};
+}
+
+void Halo::find_near(const State& state, Exchange& exchange) {
+    std::vector<std::uint32_t> rows;
+    std::vector<Box> boxes;
+    Box all;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        if (!state.is_owned(row)) continue;
+        const Box box = box_of(state, row);
+        if (!(box.lower.x <= box.upper.x && box.lower.y <= box.upper.y && box.lower.z <= box.upper.z)) continue;  // nor NaN
+        rows.push_back(row);
+        boxes.push_back(box);
+        all = {glm::min(all.lower, box.lower), glm::max(all.upper, box.upper)};
+    }
+    Bytes said;
+    put(said, all);
+    const auto ranks = static_cast<std::size_t>(exchange.ranks()), own = static_cast<std::size_t>(exchange.rank());
+    std::vector<Box> theirs(ranks);
+    const std::vector<Bytes> told = exchange.gather(said);
+    for (std::size_t r = 0; r < ranks; ++r) Unpacker(told[r]).take(theirs[r]);
+    // To each neighbour: the cells that bodies near it are in.
+    std::vector<Bytes> cells(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) {
+        if (r == own || !overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper)) continue;
+        CellSet set(state.fixed().inverse_cell);
+        for (const Box& box : boxes)
+            if (overlap(box.lower, box.upper, theirs[r].lower, theirs[r].upper)) set.add(box.lower, box.upper);
+        cells[r] = set.bytes();
+    }
+    const std::vector<Bytes> sets = exchange.swap(cells);
+    for (std::size_t r = 0; r < ranks; ++r) {
+        if (r == own || sets[r].empty()) continue;
+        const CellSet set(state.fixed().inverse_cell, sets[r]);
+        for (std::size_t k = 0; k < rows.size(); ++k)
+            if (overlap(boxes[k].lower, boxes[k].upper, theirs[r].lower, theirs[r].upper) &&
+                set.meets(boxes[k].lower, boxes[k].upper))
+                to_[r].push_back(rows[k]);
+    }
+}
+
+// Two bodies asleep keep their contact, wherever their bounds are.
+void Halo::find_touched(const State& state, const Ownership& ownership, const Exchange& exchange) {
+    const std::uint32_t count = state.first_contacts[state.fixed().bodies];
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const std::uint32_t a = state.body_of(state.contacts_before[k].a), b = state.body_of(state.contacts_before[k].b);
+        const auto tell = [&](std::uint32_t row, std::uint32_t other) {
+            if (!state.is_owned(row) || state.properties[other].motion != physics::MOTION_DYNAMIC) return;
+            const int owner = ownership.owner_of(state, other);
+            if (owner != exchange.rank()) to_[static_cast<std::size_t>(owner)].push_back(row);
+        };
+        tell(a, b);
+        tell(b, a);
+    }
+}
+
+void Halo::find(State& state, const Ownership& ownership, Exchange& exchange) {
+    const auto ranks = static_cast<std::size_t>(exchange.ranks());
+    for (const std::vector<std::uint32_t>& rows : from_)
+        for (const std::uint32_t row : rows)
+            if (state.presence[row] == Presence::ghost) state.presence[row] = Presence::elsewhere;
+    to_.assign(ranks, {});
+    from_.assign(ranks, {});
+    if (ranks == 1) return;
+    find_near(state, exchange);
+    find_touched(state, ownership, exchange);
+    std::vector<Bytes> ghosts(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) {
+        std::sort(to_[r].begin(), to_[r].end());
+        to_[r].erase(std::unique(to_[r].begin(), to_[r].end()), to_[r].end());
+        for (const std::uint32_t row : to_[r])
+            put(ghosts[r], GhostAtStart{row, state.sleep_states[row], state.poses[row], state.velocities[row], state.forces[row],
+                                        state.masses[row].split});
+    }
+    const std::vector<Bytes> sent = exchange.swap(ghosts);
+    for (std::size_t r = 0; r < ranks; ++r)
+        for (Unpacker from(sent[r]); from.has_more();) {
+            const auto ghost = from.take<GhostAtStart>();
+            from_[r].push_back(ghost.row);
+            state.presence[ghost.row] = Presence::ghost;
+            state.sleep_states[ghost.row] = ghost.rest;
+            state.poses[ghost.row] = ghost.pose;
+            state.velocities[ghost.row] = ghost.velocity;
+            state.forces[ghost.row] = ghost.forces;
+            state.masses[ghost.row].split = ghost.split;
+        }
+    for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
+        state.presence[row] = state.presence[state.properties[row].owner];
+}
+
+std::size_t Halo::ghosts() const {
+    std::size_t count = 0;
+    for (const std::vector<std::uint32_t>& rows : from_) count += rows.size();
+    return count;
+}
+
+template <class Record>
+void Halo::send(State& state, Exchange& exchange, const std::function<Record(const State&, std::uint32_t)>& of,
+                const std::function<void(State&, std::uint32_t, const Record&)>& take) {
+    const std::size_t ranks = to_.size();
+    outgoing_.resize(ranks);
+    incoming_.resize(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) {
+        outgoing_[r].resize(to_[r].size() * sizeof(Record));
+        incoming_[r].resize(from_[r].size() * sizeof(Record));
+        for (std::size_t k = 0; k < to_[r].size(); ++k) {
+            const Record record = of(state, to_[r][k]);
+            std::memcpy(&outgoing_[r][k * sizeof(Record)], &record, sizeof(Record));
+        }
+    }
+    exchange.swap(outgoing_, incoming_);
+    for (std::size_t r = 0; r < ranks; ++r)
+        for (std::size_t k = 0; k < from_[r].size(); ++k) {
+            Record record;
+            std::memcpy(&record, &incoming_[r][k * sizeof(Record)], sizeof(Record));
+            take(state, from_[r][k], record);
+        }
+}
+
+void Halo::send_sleep_states(State& state, Exchange& exchange) {
+    send<std::uint32_t>(
+        state, exchange, [](const State& s, std::uint32_t row) { return s.sleep_states[row]; },
+        [](State& s, std::uint32_t row, const std::uint32_t& rest) { s.sleep_states[row] = rest; });
+}
+
+void Halo::send_struck(State& state, Exchange& exchange) {
+    send<std::uint32_t>(
+        state, exchange, [](const State& s, std::uint32_t row) { return s.bounds[row].sweep.struck; },
+        [](State& s, std::uint32_t row, const std::uint32_t& struck) { s.bounds[row].sweep.struck = struck; });
+    Bytes said;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        if (state.presence[row] != Presence::everywhere || state.bounds[row].sweep.struck == 0) continue;
+        put(said, row);
+        put(said, state.bounds[row].sweep.struck);
+    }
+    for (const Bytes& told : exchange.gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto row = from.take<std::uint32_t>();
+            state.bounds[row].sweep.struck |= from.take<std::uint32_t>();
+        }
+}
+
+void Halo::send_velocities(State& state, Exchange& exchange) {
+    send<GhostVelocity>(
+        state, exchange,
+        [](const State& s, std::uint32_t row) {
+            return GhostVelocity{s.velocities[row], s.masses[row].split};
+        },
+        [](State& s, std::uint32_t row, const GhostVelocity& ghost) {
+            s.velocities[row] = ghost.velocity;
+            s.masses[row].split = ghost.split;
+        });
+}
+
+void Halo::send_motion(State& state, Exchange& exchange) {
+    send<GhostMotion>(
+        state, exchange,
+        [](const State& s, std::uint32_t row) {
+            return GhostMotion{s.velocities[row], s.poses[row].orientation, s.forces[row].impacts};
+        },
+        [](State& s, std::uint32_t row, const GhostMotion& ghost) {
+            s.velocities[row] = ghost.velocity;
+            s.poses[row].orientation = ghost.orientation;
+            s.forces[row].impacts = ghost.impacts;
+            if (!physics::has_isotropic_inertia(s.properties[row]))
+                s.masses[row] = physics::mass_in_world(s.properties[row], ghost.orientation, s.masses[row].split);
+        });
+}
+
+void Halo::send_ends(State& state, Exchange& exchange) {
+    send<GhostEnd>(
+        state, exchange,
+        [](const State& s, std::uint32_t row) {
+            return GhostEnd{s.poses[row], s.bounds[row].sweep};
+        },
+        [](State& s, std::uint32_t row, const GhostEnd& ghost) {
+            s.poses[row] = ghost.pose;
+            s.bounds[row].sweep = ghost.sweep;
+        });
+}
+
+void Halo::send_stops(State& state, Exchange& exchange) {
+    send<GhostStops>(
+        state, exchange,
+        [](const State& s, std::uint32_t row) {
+            return GhostStops{{s.bounds[row].sweep.stops[0], s.bounds[row].sweep.stops[1]}};
+        },
+        [](State& s, std::uint32_t row, const GhostStops& ghost) {
+            s.bounds[row].sweep.stops[0] = ghost.stops[0];
+            s.bounds[row].sweep.stops[1] = ghost.stops[1];
+        });
+}
+
+void Halo::send_kept(State& state, Exchange& exchange) {
+    send<float>(
+        state, exchange, [](const State& s, std::uint32_t row) { return s.forces[row].kept; },
+        [](State& s, std::uint32_t row, const float& kept) { s.forces[row].kept = kept; });
+}
+
+}  // namespace scree

@@ -1,0 +1,49 @@
+// The bodies of other ranks next to those of this one, and the exchange of what their owners compute.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "compute/distributed/exchange.h"
+#include "compute/distributed/ownership.h"
+#include "compute/step/state.h"
+
+namespace scree {
+
+class Halo {
+public:
+    // Notes how far the parts of moving compounds reach.
+    void adapt(const State& state);
+    // Finds the ghosts of this step, those whose bounds overlap a body of another rank or that touched one in the last step, and
+    // sends what the broadphase and narrowphase read of them.
+    void find(State& state, const Ownership& ownership, Exchange& exchange);
+
+    // Of every ghost, from its owner.
+    void send_sleep_states(State& state, Exchange& exchange);
+    void send_struck(State& state, Exchange& exchange);  // and of what all ranks have, united
+    void send_velocities(State& state, Exchange& exchange);
+    void send_motion(State& state, Exchange& exchange);
+    void send_ends(State& state, Exchange& exchange);  // poses and sweeps, as continuous collision reads them
+    void send_stops(State& state, Exchange& exchange);
+    void send_kept(State& state, Exchange& exchange);  // of bodies that break
+
+    std::size_t ghosts() const;
+
+private:
+    struct Box {
+        physics::vec3 lower{1e30f}, upper{-1e30f};
+    };
+    Box box_of(const State& state, std::uint32_t row) const;
+    void find_near(const State& state, Exchange& exchange);
+    void find_touched(const State& state, const Ownership& ownership, const Exchange& exchange);
+    template <class Record>
+    void send(State& state, Exchange& exchange, const std::function<Record(const State&, std::uint32_t)>& of,
+              const std::function<void(State&, std::uint32_t, const Record&)>& take);
+
+    std::vector<float> reach_;                           // of the parts of a row, m; 0: none
+    std::vector<std::vector<std::uint32_t>> to_, from_;  // rows by rank
+    std::vector<Bytes> outgoing_, incoming_;
+};
+
+}  // namespace scree

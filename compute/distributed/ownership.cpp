@@ -1,0 +1,318 @@
+// Owners of bodies, and bodies that change ranks.
+#include "compute/distributed/ownership.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "compute/distributed/packing.h"
+#include "compute/step/memory_order.h"
+
+namespace scree {
+
+namespace {
+
+// With more samples borders are better; with all ranks told, 1,000 ranks send 4 MB each time.
+constexpr int samples_of_rank = 256;
+// Borders stay while no rank has more than this much of the mean cost.
+constexpr double uneven = 1.05;
+
+struct Sample {
+    std::uint64_t place = 0;
+    double cost = 0;
+};
+
+struct MovedBody {
+    std::uint32_t row = 0, rest = 0;
+    physics::Pose pose;
+    physics::Velocity velocity;
+    float split = 0, strain = 0;
+};
+
+std::uint32_t records_of_block(const physics::Joint& first) {
+    return std::max(first.block_joints, first.block_bodies);
+}
+
+MovedBody moved_body(const State& state, std::uint32_t row) {
+    return {row, state.sleep_states[row], state.poses[row], state.velocities[row], state.masses[row].split, state.strains[row]};
+}
+void take_body(State& state, const MovedBody& body) {
+    state.sleep_states[body.row] = body.rest;
+    state.poses[body.row] = body.pose;
+    state.velocities[body.row] = body.velocity;
+    state.masses[body.row].split = body.split;
+    state.strains[body.row] = body.strain;
+}
+
+template <class Records>
+void put_list(Bytes& bytes, const Records& records) {
+    put(bytes, static_cast<std::uint64_t>(records.size()));
+    for (const auto& record : records) put(bytes, record);
+}
+template <class Record>
+std::vector<Record> take_list(Unpacker& from) {
+    std::vector<Record> records(from.take<std::uint64_t>());
+    for (Record& record : records) from.take(record);
+    return records;
+}
+
+bool is_dynamic(const State& state, std::uint32_t row) {
+    return state.properties[row].motion == physics::MOTION_DYNAMIC;
+}
+
+}  // namespace
+
+std::uint64_t Ownership::place_of(const State& state, std::uint32_t id) const {
+    return place_on_curve(state.poses[state.row_of(group_[id])].position, state.fixed().inverse_cell);
+}
+
+void Ownership::group(const State& state) {
+    const auto n = static_cast<std::uint32_t>(owner_.size());
+    std::vector<std::uint32_t> parent(n);
+    std::iota(parent.begin(), parent.end(), 0u);
+    const auto root = [&](std::uint32_t id) {
+        while (parent[id] != id) id = parent[id] = parent[parent[id]];
+        return id;
+    };
+    const std::uint32_t blocks = state.fixed().joint_blocks;
+    const auto moves = [&](std::uint32_t row) {
+        return row != physics::NONE && state.properties[row].motion != physics::MOTION_FIXED &&
+               state.properties[row].motion != physics::MOTION_KINEMATIC;
+    };
+    for (std::uint32_t i = 0; i < blocks; ++i) {
+        const std::uint32_t first = state.joints[i].first_of_block;
+        for (std::uint32_t k = first; k < first + state.joints[first].block_joints; ++k) {
+            const physics::Joint& joint = state.joints[k];
+            if (!moves(joint.a) || !moves(joint.b)) continue;
+            const std::uint32_t a = root(state.id_of(joint.a)), b = root(state.id_of(joint.b));
+            parent[std::max(a, b)] = std::min(a, b);
+        }
+    }
+    for (std::uint32_t id = 0; id < n; ++id) parent[id] = root(id);
+    group_ = std::move(parent);
+}
+
+void Ownership::adapt(const State& state, const Exchange& exchange) {
+    const auto known = static_cast<std::uint32_t>(owner_.size());
+    const std::uint32_t n = state.body_count;
+    owner_.resize(n);
+    was_dynamic_.resize(n);
+    group(state);
+    if (known == 0) {  // as many bodies to each rank
+        std::vector<std::uint64_t> places;
+        for (std::uint32_t id = 0; id < n; ++id)
+            if (is_dynamic(state, state.row_of(id))) places.push_back(place_of(state, id));
+        std::sort(places.begin(), places.end());
+        borders_.clear();
+        for (std::size_t r = 1; r < static_cast<std::size_t>(exchange.ranks()); ++r)
+            borders_.push_back(places.empty() ? 0 : places[r * places.size() / static_cast<std::size_t>(exchange.ranks())]);
+    }
+    for (std::uint32_t id = known; id < n; ++id)
+        owner_[id] = static_cast<int>(std::upper_bound(borders_.begin(), borders_.end(), place_of(state, id)) - borders_.begin());
+    for (std::uint32_t id = 0; id < n; ++id) regrouped_ |= owner_[id] != owner_[group_[id]];
+    if (known == 0) {
+        for (std::uint32_t id = 0; id < n; ++id) owner_[id] = owner_[group_[id]];
+        regrouped_ = false;
+    }
+}
+
+void Ownership::place(State& state, Exchange& exchange) {
+    const std::uint32_t rows = state.fixed().bodies, first_part = state.fixed().first_part;
+    state.presence.assign(rows, Presence::elsewhere);
+    Bytes no_longer_dynamic;
+    bool any_stopped = false;
+    for (std::uint32_t id = 0; id < owner_.size(); ++id) {
+        const std::uint32_t row = state.row_of(id);
+        const bool own = owner_[id] == exchange.rank(), dynamic = is_dynamic(state, row);
+        const physics::uint motion = state.properties[row].motion;
+        if (dynamic)
+            state.presence[row] = own ? Presence::owned : Presence::elsewhere;
+        else if (!physics::is_absent(motion))
+            state.presence[row] = Presence::everywhere;
+        if (was_dynamic_[id] && !dynamic) {
+            any_stopped = true;
+            if (own) put(no_longer_dynamic, moved_body(state, row));
+        }
+        was_dynamic_[id] = dynamic;
+    }
+    for (std::uint32_t row = first_part; row < rows; ++row) state.presence[row] = state.presence[state.properties[row].owner];
+    if (!any_stopped) return;
+    for (const Bytes& told : exchange.gather(no_longer_dynamic))
+        for (Unpacker from(told); from.has_more();) take_body(state, from.take<MovedBody>());
+}
+
+void Ownership::balance(State& state, Exchange& exchange) {
+    std::vector<Sample> own;
+    double total = 0;
+    std::vector<std::uint32_t> ids;
+    for (std::uint32_t id = 0; id < owner_.size(); ++id) {
+        const std::uint32_t row = state.row_of(id);
+        if (owner_[id] != exchange.rank() || !is_dynamic(state, row)) continue;
+        const std::uint32_t slots = state.slot_ends[row] - (row == 0 ? 0 : state.slot_ends[row - 1]);
+        own.push_back({place_of(state, id), 1.0 + slots});
+        ids.push_back(id);
+        total += own.back().cost;
+    }
+    const std::vector<Sample> unsorted = own;
+    std::sort(own.begin(), own.end(), [](const Sample& a, const Sample& b) { return a.place < b.place; });
+    Bytes said;
+    put(said, total);
+    double passed = 0;
+    int taken = 0;
+    for (const Sample& body : own) {
+        passed += body.cost;
+        for (; taken < samples_of_rank && passed >= (taken + 0.5) * total / samples_of_rank; ++taken)
+            put(said, Sample{body.place, total / samples_of_rank});
+    }
+    std::vector<Sample> all;
+    double most = 0, sum = 0;
+    for (const Bytes& told : exchange.gather(said)) {
+        Unpacker from(told);
+        const auto cost = from.take<double>();
+        most = std::max(most, cost);
+        sum += cost;
+        while (from.has_more()) all.push_back(from.take<Sample>());
+    }
+    const auto ranks = static_cast<std::size_t>(exchange.ranks());
+    if (most * static_cast<double>(ranks) > uneven * sum) {
+        std::sort(all.begin(), all.end(), [](const Sample& a, const Sample& b) { return a.place < b.place; });
+        double before = 0;
+        std::size_t border = 0;
+        for (const Sample& sample : all) {
+            before += sample.cost;
+            while (border < borders_.size() && before >= sum * static_cast<double>(border + 1) / static_cast<double>(ranks))
+                borders_[border++] = sample.place;
+        }
+    }
+    Moves moves;
+    for (std::size_t k = 0; k < ids.size(); ++k) {
+        const auto target =
+            static_cast<int>(std::upper_bound(borders_.begin(), borders_.end(), unsorted[k].place) - borders_.begin());
+        if (target != exchange.rank()) moves.push_back({ids[k], target});
+    }
+    move(state, exchange, moves);
+}
+
+void Ownership::follow_joints(State& state, Exchange& exchange) {
+    if (!regrouped_) return;
+    regrouped_ = false;
+    Moves moves;
+    for (std::uint32_t id = 0; id < owner_.size(); ++id)
+        if (owner_[id] == exchange.rank() && owner_[group_[id]] != exchange.rank()) moves.push_back({id, owner_[group_[id]]});
+    move(state, exchange, moves);
+}
+
+void Ownership::move(State& state, Exchange& exchange, const Moves& own_moves) {
+    Bytes said;
+    for (const auto& [id, target] : own_moves) {
+        put(said, id);
+        put(said, target);
+    }
+    std::vector<int> before;
+    const std::vector<Bytes> told = exchange.gather(said);
+    if (std::all_of(told.begin(), told.end(), [](const Bytes& one) { return one.empty(); })) return;
+    before = owner_;
+    for (const Bytes& one : told)
+        for (Unpacker from(one); from.has_more(); ++migrations_) {
+            const auto id = from.take<std::uint32_t>();
+            owner_[id] = from.take<int>();
+        }
+    const auto ranks = static_cast<std::size_t>(exchange.ranks());
+    const int own = exchange.rank();
+    const auto leaves_for = [&](std::uint32_t row) {  // -1: it stays, or was not here
+        if (row >= state.fixed().first_part) row = state.properties[row].owner;
+        const std::uint32_t id = state.id_of(row);
+        return before[id] == own && owner_[id] != own && is_dynamic(state, row) ? owner_[id] : -1;
+    };
+    std::vector<std::vector<MovedBody>> bodies(ranks);
+    for (const auto& [id, target] : own_moves)
+        bodies[static_cast<std::size_t>(target)].push_back(moved_body(state, state.row_of(id)));
+    std::vector<std::vector<OwnedContact>> contacts(ranks);
+    for (std::uint32_t row = 0; row < state.fixed().bodies; ++row)
+        for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k) {
+            const physics::Contact& contact = state.contacts_before[k];
+            const int to_a = leaves_for(contact.a), to_b = leaves_for(contact.b);
+            if (to_a >= 0) contacts[static_cast<std::size_t>(to_a)].push_back({row, contact, state.impulses_before[k]});
+            if (to_b >= 0 && to_b != to_a)
+                contacts[static_cast<std::size_t>(to_b)].push_back({row, contact, state.impulses_before[k]});
+        }
+    std::vector<Bytes> joints(ranks), vehicles(ranks);
+    for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
+        const std::uint32_t first = state.joints[i].first_of_block;
+        const int target = leaves_for(state.joints[first].block_body);
+        for (std::uint32_t k = first; target >= 0 && k < first + records_of_block(state.joints[first]); ++k) {
+            put(joints[static_cast<std::size_t>(target)], k);
+            put(joints[static_cast<std::size_t>(target)], state.joints[k]);
+        }
+    }
+    for (std::uint32_t i = 0; i < state.fixed().vehicles; ++i) {
+        const int target = leaves_for(state.vehicles[i].dynamics.chassis);
+        if (target < 0) continue;
+        put(vehicles[static_cast<std::size_t>(target)], i);
+        put(vehicles[static_cast<std::size_t>(target)], state.vehicles[i]);
+    }
+    std::vector<Bytes> to(ranks);
+    for (std::size_t r = 0; r < ranks; ++r) {
+        put_list(to[r], bodies[r]);
+        put_list(to[r], contacts[r]);
+        put_list(to[r], joints[r]);
+        put_list(to[r], vehicles[r]);
+    }
+    std::vector<OwnedContact> more;
+    for (const Bytes& one : exchange.swap(to)) {
+        Unpacker from(one);
+        for (const MovedBody& body : take_list<MovedBody>(from)) take_body(state, body);
+        const auto some = take_list<OwnedContact>(from);
+        more.insert(more.end(), some.begin(), some.end());
+        const auto joint_bytes = take_list<std::byte>(from), vehicle_bytes = take_list<std::byte>(from);
+        for (Unpacker records(joint_bytes); records.has_more();) {
+            const auto k = records.take<std::uint32_t>();
+            records.take(state.joints[k]);
+        }
+        for (Unpacker records(vehicle_bytes); records.has_more();) {
+            const auto k = records.take<std::uint32_t>();
+            records.take(state.vehicles[k]);
+        }
+    }
+    state.turn_over();
+    merge_contacts(state, more, [&](const physics::Contact& contact) {
+        const auto is_own = [&](std::uint32_t row) {
+            const std::uint32_t body = state.body_of(row);
+            return is_dynamic(state, body) && owner_[state.id_of(body)] == own;
+        };
+        return is_own(contact.a) || is_own(contact.b);
+    });
+    state.turn_over();
+}
+
+void Ownership::inherit(const State& state, std::uint32_t row) {
+    const physics::Fracturing& fracturing = state.fractures[state.properties[row].fracture];
+    for (std::uint32_t k = 0; k < fracturing.count; ++k) owner_[state.id_of(fracturing.first_row + k)] = owner_[state.id_of(row)];
+}
+
+void merge_contacts(State& state, const std::vector<OwnedContact>& more,
+                    const std::function<bool(const physics::Contact&)>& keeps) {
+    const std::uint32_t rows = state.fixed().bodies;
+    std::vector<OwnedContact> all = more;
+    for (std::uint32_t row = 0; row < rows; ++row)
+        for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
+            if (keeps(state.contacts[k])) all.push_back({row, state.contacts[k], state.impulses[k]});
+    const auto key = [&](const OwnedContact& one) {
+        return std::pair(one.owner, state.id_of(one.contact.a == one.owner ? one.contact.b : one.contact.a));
+    };
+    std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
+    all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }), all.end());
+    if (all.size() > state.fixed().contact_capacity) {
+        state.fixed().contact_capacity = static_cast<std::uint32_t>(all.size() + all.size() / 4);
+        state.allocate();
+    }
+    std::fill(state.first_contacts.begin(), state.first_contacts.end(), 0u);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        ++state.first_contacts[all[k].owner + 1];
+        state.contacts[k] = all[k].contact;
+        state.impulses[k] = all[k].impulse;
+    }
+    std::partial_sum(state.first_contacts.begin(), state.first_contacts.end(), state.first_contacts.begin());
+    state.counted().contacts = static_cast<std::uint32_t>(all.size());
+}
+
+}  // namespace scree

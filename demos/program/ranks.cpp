@@ -1,0 +1,67 @@
+// Loading the module of MPI, and ending together.
+#include "demos/program/ranks.h"
+
+#include <dlfcn.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "demos/program/console.h"
+#include "demos/program/exit_status.h"
+#include "demos/program/mpi/module.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr const char* module_name = "libscree_mpi.so";
+
+void* load_module() {
+    std::error_code failed;
+    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+    for (const char* at : {".", "../lib/scree", "../lib/x86_64-linux-gnu/scree", "../lib/aarch64-linux-gnu/scree"}) {
+        const std::filesystem::path file = folder / at / module_name;
+        if (!std::filesystem::exists(file, failed)) continue;
+        // Global: Open MPI loads modules of its own, which need its symbols.
+        if (void* module = ::dlopen(file.c_str(), RTLD_NOW | RTLD_GLOBAL)) return module;
+        throw UsageError(fmt::format("--distributed: {}", ::dlerror()));
+    }
+    throw UsageError(fmt::format(
+        "--distributed: there is no {} beside this scree; build it where MPI is (package libopenmpi-dev, -DSCREE_MPI=ON)",
+        module_name));
+}
+
+}  // namespace
+
+std::shared_ptr<Exchange> join_ranks(int& neighbours) {
+    void* const join = ::dlsym(load_module(), module_function);
+    if (!join) throw UsageError(fmt::format("--distributed: {} is of another scree", module_name));
+    return std::shared_ptr<Exchange>(reinterpret_cast<JoinRanks*>(join)(&neighbours));
+}
+
+int on_a_rank(Exchange& exchange, const std::function<int()>& work) {
+    const auto end = [&](const std::string& reason, int status) {
+        // What every rank finds wrong the first one tells, and ends the others.
+        if (exchange.rank() > 0 && status == wrong_usage) std::this_thread::sleep_for(std::chrono::seconds(3));
+        if (exchange.rank() > 0)
+            say("scree: rank {}: {}\n", exchange.rank(), printable(reason));
+        else
+            say("scree: {}\n", printable(reason));
+        exchange.end_all(status);
+    };
+    try {
+        return work();
+    } catch (const UsageError& error) {
+        end(error.what(), wrong_usage);
+    } catch (const WorkFailed& error) {
+        end(error.what(), promise_missed);
+    } catch (const std::bad_alloc&) {
+        end("beyond memory: the scene does not fit; ask for fewer --bodies", promise_missed);
+    } catch (const std::exception& error) {
+        end(error.what(), wrong_usage);
+    }
+    return promise_missed;
+}
+
+}  // namespace scree::demos

@@ -1,0 +1,133 @@
+// One world on several ranks: the same bits as on one.
+#include <algorithm>
+#include <catch2/catch.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "compute/distributed/distributed.h"
+#include "compute/distributed/in_process.h"
+#include "compute/world.h"
+#include "demos/scenes/demos.h"
+
+using namespace scree;
+
+namespace {
+
+std::vector<std::uint64_t> hashes_of(World& world, int steps, int every, const demos::Script& act) {
+    std::vector<std::uint64_t> hashes;
+    for (int step = 1; step <= steps; ++step) {
+        if (act) act(world);
+        world.step();
+        if (step % every == 0) hashes.push_back(world.state_hash());
+    }
+    return hashes;
+}
+
+void agrees(const std::string& demo, std::size_t bodies, int steps, std::initializer_list<int> ranks) {
+    constexpr int every = 10;
+    const demos::Demo* found = demos::find_demo(demo);
+    REQUIRE(found);
+    const demos::DemoScene built = demos::build(*found, {.bodies = bodies});
+    const Scene& scene = built.scene;
+    World alone(scene, {}, make_reference_runner(1));
+    const std::vector<std::uint64_t> expected = hashes_of(alone, steps, every, built.before_step);
+    for (const int n : ranks) {
+        std::vector<std::vector<std::uint64_t>> seen(static_cast<std::size_t>(n));
+        std::vector<Statistics> statistics(seen.size());
+        run_in_process(n, [&](const std::shared_ptr<Exchange>& exchange) {
+            World world(scene, {}, make_distributed_runner(exchange));
+            const auto rank = static_cast<std::size_t>(exchange->rank());
+            seen[rank] = hashes_of(world, steps, every, built.before_step);
+            statistics[rank] = world.statistics();
+        });
+        INFO(demo << " of " << bodies << " bodies on " << n << " ranks");
+        for (const auto& hashes : seen) {
+            const auto differs = std::mismatch(hashes.begin(), hashes.end(), expected.begin(), expected.end()).first;
+            INFO("first differs by step " << (differs - hashes.begin() + 1) * every);
+            REQUIRE(hashes == expected);
+        }
+        REQUIRE(statistics[0].points == alone.statistics().points);
+        REQUIRE(statistics[0].penetration_max == alone.statistics().penetration_max);
+    }
+}
+
+}  // namespace
+
+TEST_CASE("a pile on several ranks moves as on one", "[ranks]") {
+    agrees("pile", 300, 200, {1, 2, 3, 4, 8});
+}
+
+TEST_CASE("stacks, mixed shapes, compounds and meshes on several ranks move as on one", "[ranks]") {
+    agrees("stack", 0, 60, {2});
+    agrees("mix", 150, 150, {3});
+    agrees("assortment", 100, 90, {2});
+    agrees("mesh", 60, 60, {3});
+    agrees("dominoes", 30, 90, {2});
+    agrees("cradle", 0, 60, {2});
+}
+
+TEST_CASE("joints, vehicles, what breaks, and what comes and goes on several ranks move as on one", "[ranks]") {
+    agrees("ragdolls", 40, 60, {3});
+    agrees("wrecking", 60, 90, {2});
+    agrees("cars", 10, 40, {2});
+    agrees("shatter", 40, 60, {3});
+    agrees("fountain", 80, 90, {2});
+}
+
+// One rank pushes, all are told: edits between steps, and what is read of the world.
+TEST_CASE("a world on ranks is edited, read, saved and restored like one", "[ranks]") {
+    const demos::DemoScene built = demos::build(*demos::find_demo("pile"), {.bodies = 60});
+    const auto live = [&](World& world, std::vector<std::byte>& mark) {
+        std::vector<std::uint64_t> hashes;
+        const std::size_t body = built.scene.bodies.size() - 1;
+        world.set_events({.contacts = true});
+        std::size_t told = 0;
+        for (int step = 0; step < 80; ++step) {
+            if (step == 20) world.apply_impulse(body, {50, 400, 30});
+            if (step == 30) world.set_motion(body, Motion::kinematic);
+            if (step == 40) world.set_motion(body, Motion::dynamic);
+            if (step == 45) world.add_bodies(std::vector<Body>(3, built.scene.bodies[body]));
+            if (step == 50) mark = world.save();
+            if (step == 60) world.remove_bodies(std::vector{world.handle_of(body - 1)});
+            world.step();
+            told += world.take_events().size();
+            hashes.push_back(world.state_hash());
+        }
+        world.restore(mark);
+        world.step(10);
+        hashes.push_back(world.state_hash());
+        hashes.push_back(told);
+        return hashes;
+    };
+    std::vector<std::byte> mark_alone;
+    World alone(built.scene, {}, make_reference_runner(1));
+    const auto expected = live(alone, mark_alone);
+    run_in_process(3, [&](const std::shared_ptr<Exchange>& exchange) {
+        World world(built.scene, {}, make_distributed_runner(exchange));
+        std::vector<std::byte> mark;
+        const auto seen = live(world, mark);
+        if (exchange->rank() != 0) return;
+        CHECK(seen == expected);
+        World one(built.scene, {}, make_reference_runner(1));  // what three have saved, one goes on with
+        one.restore(mark);
+        one.step(10);
+        CHECK(one.state_hash() == expected[80]);
+    });
+}
+
+TEST_CASE("a rank that fails ends the others", "[ranks]") {
+    REQUIRE_THROWS_WITH(run_in_process(3,
+                                       [](const std::shared_ptr<Exchange>& exchange) {
+                                           if (exchange->rank() == 1) throw std::runtime_error("no more");
+                                           std::uint32_t word[1] = {1};
+                                           for (;;) exchange->unite(word);
+                                       }),
+                        "no more");
+    REQUIRE_THROWS_AS(run_in_process(2,
+                                     [](const std::shared_ptr<Exchange>& exchange) {
+                                         World world(demos::build(*demos::find_demo("stack"), {}).scene, {},
+                                                     make_distributed_runner(exchange), 2);
+                                     }),
+                      std::invalid_argument);
+}
