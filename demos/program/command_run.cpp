@@ -59,7 +59,7 @@ struct RunOptions {
 };
 
 // Whether any rank has been interrupted.
-bool is_interrupted(const RunOptions& options) {
+bool is_run_interrupted(const RunOptions& options) {
     if (!options.exchange) return demos::is_interrupted();
     std::uint32_t any[1] = {demos::is_interrupted() ? 1u : 0u};
     options.exchange->unite(any);
@@ -165,7 +165,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
     records.after_step(world);
     const bool reports = !options.report.empty();
     for (int done = static_cast<int>(world.steps()); done < steps;) {
-        if (is_interrupted(options)) {
+        if (is_run_interrupted(options)) {
             checkpoints.write(world);
             return false;
         }
@@ -192,7 +192,7 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
     checkpoints.write(world);
     // Commands after the last recorded step belong to the recording's final state.
     if (options.played && options.played->steps == world.steps()) subject.before_step(world);
-    return !is_interrupted(options);
+    return !is_run_interrupted(options);
 }
 
 // Judges soundness of runs without or beyond a promise. In replays bodies may be below the ground, thrown by the

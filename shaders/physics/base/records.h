@@ -207,7 +207,7 @@ struct Contact {
     uint count;          // points, 1 to 4
     uint features;       // as in Manifold
     vec3 normal;         // unit, world, from A to B, when the contact was made
-    float unrest;        // time for which its points have not been calm, s (contact_momentum.h)
+    float unrest;        // time for which its points have not been calm, s (unrest.h)
     vec3 center_offset;  // centre of B minus centre of A when made, m
     float load;          // normal impulse in a substep when both bodies were last awake, N s
     vec4 points[4];      // as in Manifold, when made
@@ -236,7 +236,7 @@ CONSTANT uint CONSTRAINT_POINTS = 7u;  // mask of the number of points
 CONSTANT uint CONSTRAINT_ON_B = 8u;
 CONSTANT uint CONSTRAINT_ROUND = 16u;       // neither: the single point of two round bodies follows both
 CONSTANT uint CONSTRAINT_ROLLS_ONLY = 32u;  // the rolling resistance does not resist spinning
-CONSTANT uint CONSTRAINT_RESTLESS = 64u;    // no smaller leak (contact_momentum.h)
+CONSTANT uint CONSTRAINT_RESTLESS = 64u;    // the leak of its impulses is not smaller (unrest.h)
 
 struct Constraint {
     uint a, b;            // rows of bodies, never of parts

@@ -20,12 +20,6 @@
 // pillars 20 never came to rest, moving at up to 0.12 m/s (4 without momentum). So a point's momentum is scaled by its
 // lever ratio, the part that rotation has in the point's inverse effective mass relative to that of translation: 3 at the
 // corner of a cube, 0.03 under such a pillar. With that, as many come to rest as without momentum.
-//
-// With the smaller leak a mechanism of bodies that touch at a corner or an edge may rock for ever: in one of five piles of
-// 10,000 boxes of 1 m two boxes under the load of ten did, at 25 to 70 mm/s, and were at rest 20 steps after the full leak
-// was back. So a contact whose points have not been calm for PATIENCE has the full leak until it has been calm for long.
-// Switched more often than a body rocks (by the points that bear, or by their speed) the leak itself feeds the motion, and
-// the pile never rests. Of the five piles all rest then, at 0.04 to 0.06 mm/s; stacks are the same to the last bit.
 #ifndef SCREE_PHYSICS_CONTACT_MOMENTUM_H
 #define SCREE_PHYSICS_CONTACT_MOMENTUM_H
 
@@ -39,12 +33,6 @@ LAWS_BEGIN
 CONSTANT float MOMENTUM = 0.5f;        // with 0.6 a column of 40 sways at 56 mm/s
 CONSTANT float MOMENTUM_SPLIT = 4.0f;  // bodies split into more parts, as under a heap, get less
 CONSTANT float LEAK_CUT = 0.8f;        // part of the momentum by which the leak is smaller
-
-CONSTANT float PATIENCE = 4.0f;        // s; with 1 s a pile takes 2 s longer to rest after a blow
-CONSTANT float LONGEST_UNREST = 9.0f;  // s; with 5 s some contacts are restless again and again
-CONSTANT float CALMING = 0.25f;        // of the time in which a contact is calm, by which its unrest falls
-CONSTANT float CALM_SPEED = 0.25f;     // of what gravity adds to a speed in a substep
-CONSTANT float CALM_STRETCH = 0.05f;   // of the smaller half width, per second: limit of small bodies
 
 // (r x n) . I^-1 (r x n) m of one body; 1 for a body that does not move.
 LAW float lever_ratio(float inverse_effective_mass, float inverse_mass) {
@@ -60,25 +48,6 @@ LAW float contact_momentum(JacobianRow row, uint points, Mass a, Mass b, Paramet
     float rocking = choose(points > 1u, smaller(1.0f, lever), 1.0f);
     rocking = choose(has_weight(parameters), rocking, 0.0f);
     return MOMENTUM * rocking * smaller(1.0f, MOMENTUM_SPLIT * reciprocal(split));
-}
-
-// Greatest speed of a calm contact's points along the normal, m/s. `half_width`: the smaller one of both bodies, m.
-LAW float calm_speed(float half_width, Parameters parameters) {
-    return smaller(CALM_SPEED * length3(parameters.gravity) * parameters.h, CALM_STRETCH * half_width);
-}
-// A contact's unrest at the start of a step, s. `before`: in the last step; `v`: of both bodies.
-LAW float unrest_after(float before, Constraint c, vec3 center_offset, VelocityPair v, float calm, Parameters parameters) {
-    float fastest = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= point_count(c)) break;
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, int(k)), center_offset), v));
-        fastest = larger(fastest, abs(speed));
-    }
-    if (fastest < calm) return positive(before - CALMING * parameters.dt);
-    return before + parameters.dt < PATIENCE ? before + parameters.dt : LONGEST_UNREST;
-}
-LAW bool is_restless_contact(float unrest) {
-    return unrest >= PATIENCE;
 }
 
 // After the relax pass: the impulses with which the next substep begins, by the momentum of each point. Impacts, new points

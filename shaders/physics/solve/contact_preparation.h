@@ -8,6 +8,7 @@
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/material.h"
 #include "shaders/physics/solve/persistence.h"
+#include "shaders/physics/solve/unrest.h"
 
 LAWS_BEGIN
 
