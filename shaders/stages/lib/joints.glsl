@@ -93,8 +93,8 @@ void place_rows(uint j) {
     Mass mass_a = mass_of(side_a), mass_b = mass_of(side_b);
     for (uint k = 0u; k < 6u; ++k) {
         if (joints.at[j].axes[k].mode == 0u) continue;
-        joints.at[j].rows[k] = placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE,
-                                          side_b != NONE, PARAMETERS.h);
+        joints.at[j].rows[k] =
+            placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE, side_b != NONE, PARAMETERS.h);
     }
 }
 
@@ -162,8 +162,9 @@ void set_up_equation(uint j, uint k, VelocityPair v, bool biased) {
     uint fill_in = joints.at[j].fill_in;
     for (uint l = 0u; l < fill_in; ++l) {
         uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
-#define SET_UP_LINK(n) \
-    if (has(theirs, n)) joint_equations.at[j].coupling[36u * l + 6u * n + k] = entry_of(i, n, response, block_body_a, block_body_b);
+#define SET_UP_LINK(n)  \
+    if (has(theirs, n)) \
+        joint_equations.at[j].coupling[36u * l + 6u * n + k] = entry_of(i, n, response, block_body_a, block_body_b);
         EACH_OF_SIX(SET_UP_LINK)
     }
 }
@@ -204,12 +205,14 @@ Column column_of_link(uint j, uint l, uint k) {
 // Subtracts a multiple of a column from a row, in the unknowns `of`.
 void lessen_diagonal(uint j, uint row, uint of, float multiplier, Column by) {
 #define LESSEN_DIAGONAL(c) \
-    if (has(of, c)) joint_equations.at[j].diagonal[row + c] = less_multiple(joint_equations.at[j].diagonal[row + c], multiplier, by.at[c]);
+    if (has(of, c))        \
+        joint_equations.at[j].diagonal[row + c] = less_multiple(joint_equations.at[j].diagonal[row + c], multiplier, by.at[c]);
     EACH_OF_SIX(LESSEN_DIAGONAL)
 }
 void lessen_coupling(uint j, uint row, uint of, float multiplier, Column by) {
 #define LESSEN_COUPLING(c) \
-    if (has(of, c)) joint_equations.at[j].coupling[row + c] = less_multiple(joint_equations.at[j].coupling[row + c], multiplier, by.at[c]);
+    if (has(of, c))        \
+        joint_equations.at[j].coupling[row + c] = less_multiple(joint_equations.at[j].coupling[row + c], multiplier, by.at[c]);
     EACH_OF_SIX(LESSEN_COUPLING)
 }
 
@@ -220,23 +223,23 @@ void eliminate(uint j, uint k) {
     float known = joint_equations.at[j].solution[k];
     joint_equations.at[j].diagonal[7u * k] = inverse;
     uint behind = joints.at[j].solved_axes >> (k + 1u) << (k + 1u);
-#define ELIMINATE_OWN(n)                                                                       \
-    if (has(behind, n)) {                                                                      \
-        float multiplier = multiplier_of(own.at[n], inverse);                                  \
+#define ELIMINATE_OWN(n)                                                                                         \
+    if (has(behind, n)) {                                                                                        \
+        float multiplier = multiplier_of(own.at[n], inverse);                                                    \
         joint_equations.at[j].solution[n] = less_multiple(joint_equations.at[j].solution[n], multiplier, known); \
-        lessen_diagonal(j, 6u * n, behind & UP_TO(n), multiplier, own);                        \
+        lessen_diagonal(j, 6u * n, behind & UP_TO(n), multiplier, own);                                          \
     }
     EACH_OF_SIX(ELIMINATE_OWN)
     uint fill_in = joints.at[j].fill_in;
     for (uint l = 0u; l < fill_in; ++l) {
         uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
         Column pushed = column_of_link(j, l, k);
-#define ELIMINATE_LINK(n)                                                                      \
-    if (has(theirs, n)) {                                                                      \
-        float multiplier = multiplier_of(pushed.at[n], inverse);                               \
+#define ELIMINATE_LINK(n)                                                                                        \
+    if (has(theirs, n)) {                                                                                        \
+        float multiplier = multiplier_of(pushed.at[n], inverse);                                                 \
         joint_equations.at[i].solution[n] = less_multiple(joint_equations.at[i].solution[n], multiplier, known); \
-        lessen_coupling(j, 36u * l + 6u * n, behind, multiplier, own);                         \
-        lessen_diagonal(i, 6u * n, theirs & UP_TO(n), multiplier, pushed);                     \
+        lessen_coupling(j, 36u * l + 6u * n, behind, multiplier, own);                                           \
+        lessen_diagonal(i, 6u * n, theirs & UP_TO(n), multiplier, pushed);                                       \
     }
         EACH_OF_SIX(ELIMINATE_LINK)
         for (uint e = 0u; e < l; ++e) {
@@ -252,13 +255,15 @@ void eliminate(uint j, uint k) {
 void substitute(uint j, uint k) {
     float sum = joint_equations.at[j].solution[k];
     uint own = joints.at[j].solved_axes, fill_in = joints.at[j].fill_in;
-#define SUBSTITUTE_OWN(n) \
-    if (n > k && has(own, n)) sum = less_multiple(sum, joint_equations.at[j].diagonal[6u * n + k], joint_equations.at[j].solution[n]);
+#define SUBSTITUTE_OWN(n)     \
+    if (n > k && has(own, n)) \
+        sum = less_multiple(sum, joint_equations.at[j].diagonal[6u * n + k], joint_equations.at[j].solution[n]);
     EACH_OF_SIX(SUBSTITUTE_OWN)
     for (uint l = 0u; l < fill_in; ++l) {
         uint i = joints.at[j].fill_in_of[l], theirs = joints.at[i].solved_axes;
 #define SUBSTITUTE_LINK(n) \
-    if (has(theirs, n)) sum = less_multiple(sum, joint_equations.at[j].coupling[36u * l + 6u * n + k], joint_equations.at[i].solution[n]);
+    if (has(theirs, n))    \
+        sum = less_multiple(sum, joint_equations.at[j].coupling[36u * l + 6u * n + k], joint_equations.at[i].solution[n]);
         EACH_OF_SIX(SUBSTITUTE_LINK)
     }
     joint_equations.at[j].solution[k] = substituted(sum, joint_equations.at[j].diagonal[7u * k]);
@@ -289,8 +294,8 @@ bool look_at_bounds(uint j, bool biased, bool settling) {
         uint active_flags = active_set_of(joints.at[j].active_set, k);
         bool solved = unknown(j, k);
         float solution = solved ? joint_equations.at[j].solution[k] : 0.0f;
-        RowAfter after = row_after_round(axis, row, k, active_flags, solved, solution,
-                                         row_speed(row, is_linear(k), v), biased, settling, PARAMETERS);
+        RowAfter after = row_after_round(axis, row, k, active_flags, solved, solution, row_speed(row, is_linear(k), v), biased,
+                                         settling, PARAMETERS);
         joints.at[j].rows[k] = after.row;
         if (after.active_flags == active_flags) continue;
         joints.at[j].active_set = with_active_set(joints.at[j].active_set, k, after.active_flags);
