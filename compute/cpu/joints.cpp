@@ -21,11 +21,6 @@ bool may_move(const State& state, std::uint32_t body) {
            physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
 }
 
-// Bodies of a block have one owner among ranks (compute/distributed).
-bool is_solved_here(const State& state, const JointBlock& block) {
-    return state.is_owned(block.block_bodies()[0].block_body);
-}
-
 // Calls range(first, last) for a partition of the blocks.
 template <class Range>
 void for_ranges_of_blocks(State& state, const Threads& threads, const Range& range) {
@@ -39,7 +34,7 @@ template <class Work>
 void for_each_block(State& state, const Threads& threads, const Work& work) {
     for_ranges_of_blocks(state, threads, [&](std::size_t first, std::size_t last) {
         for (; first < last; ++first)
-            if (JointBlock block(state, first); is_solved_here(state, block)) work(block);
+            if (state.owns_block(state.joints[first].first_of_block)) work(JointBlock(state, first));
     });
 }
 
@@ -57,7 +52,7 @@ void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, 
             room.joints.clear();
             for (std::size_t joints = 0; first < last && joints < together; ++first) {
                 JointBlock block(state, first);
-                if (!is_solved_here(state, block) || !block.moves()) continue;
+                if (!state.owns_block(state.joints[first].first_of_block) || !block.moves()) continue;
                 joints += block.joints().size();
                 begin(block, room);
                 blocks.push_back(block);

@@ -74,7 +74,7 @@ void gather_joints(State& state, Exchange& exchange) {
     Bytes said;
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
         const std::uint32_t first = state.joints[i].first_of_block;
-        if (!state.is_owned(state.joints[first].block_body)) continue;
+        if (!state.owns_block(first)) continue;
         const std::uint32_t count = std::max(state.joints[first].block_joints, state.joints[first].block_bodies);
         for (std::uint32_t k = first; k < first + count; ++k) {
             put(said, k);

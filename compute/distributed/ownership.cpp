@@ -238,7 +238,9 @@ void Ownership::move(State& state, Exchange& exchange, const Moves& own_moves) {
     std::vector<Bytes> joints(ranks), vehicles(ranks);
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
         const std::uint32_t first = state.joints[i].first_of_block;
-        const int target = leaves_for(state.joints[first].block_body);
+        int target = -1;  // of the bodies that did not break
+        for (std::uint32_t k = first; target < 0 && k < first + state.joints[first].block_bodies; ++k)
+            target = leaves_for(state.joints[k].block_body);
         for (std::uint32_t k = first; target >= 0 && k < first + records_of_block(state.joints[first]); ++k) {
             put(joints[static_cast<std::size_t>(target)], k);
             put(joints[static_cast<std::size_t>(target)], state.joints[k]);

@@ -1,6 +1,7 @@
 // State: every table of a step on the host, which the reference runner works on and which mirrors a device's.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -220,6 +221,14 @@ struct State {
     }
     bool is_owned(std::size_t row) const {
         return presence.empty() || presence[row] == Presence::owned;
+    }
+    // Whether this rank solves a block of joints, by its first record. Bodies of a block have one owner; those that broke
+    // are nobody's.
+    bool owns_block(std::size_t first) const {
+        if (presence.empty()) return true;
+        const auto from = joints.begin() + static_cast<std::ptrdiff_t>(first);
+        return std::any_of(from, from + from->block_bodies,
+                           [&](const physics::Joint& record) { return is_owned(record.block_body); });
     }
     std::size_t bytes() const;                 // of all tables, as on a device
     std::size_t raw_bytes(Table table) const;  // of an allocated table

@@ -1,4 +1,5 @@
 // One world on several ranks: the same bits as on one.
+#include <fmt/format.h>
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <memory>
@@ -7,6 +8,7 @@
 
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/in_process.h"
+#include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
 
@@ -24,24 +26,20 @@ std::vector<std::uint64_t> hashes_of(World& world, int steps, int every, const d
     return hashes;
 }
 
-void agrees(const std::string& demo, std::size_t bodies, int steps, std::initializer_list<int> ranks) {
+void agrees(const std::string& name, const Scene& scene, const demos::Script& act, int steps, std::initializer_list<int> ranks) {
     constexpr int every = 10;
-    const demos::Demo* found = demos::find_demo(demo);
-    REQUIRE(found);
-    const demos::DemoScene built = demos::build(*found, {.bodies = bodies});
-    const Scene& scene = built.scene;
     World alone(scene, {}, make_reference_runner(1));
-    const std::vector<std::uint64_t> expected = hashes_of(alone, steps, every, built.before_step);
+    const std::vector<std::uint64_t> expected = hashes_of(alone, steps, every, act);
     for (const int n : ranks) {
         std::vector<std::vector<std::uint64_t>> seen(static_cast<std::size_t>(n));
         std::vector<Statistics> statistics(seen.size());
         run_in_process(n, [&](const std::shared_ptr<Exchange>& exchange) {
             World world(scene, {}, make_distributed_runner(exchange));
             const auto rank = static_cast<std::size_t>(exchange->rank());
-            seen[rank] = hashes_of(world, steps, every, built.before_step);
+            seen[rank] = hashes_of(world, steps, every, act);
             statistics[rank] = world.statistics();
         });
-        INFO(demo << " of " << bodies << " bodies on " << n << " ranks");
+        INFO(name << " on " << n << " ranks");
         for (const auto& hashes : seen) {
             const auto differs = std::mismatch(hashes.begin(), hashes.end(), expected.begin(), expected.end()).first;
             INFO("first differs by step " << (differs - hashes.begin() + 1) * every);
@@ -50,6 +48,12 @@ void agrees(const std::string& demo, std::size_t bodies, int steps, std::initial
         REQUIRE(statistics[0].points == alone.statistics().points);
         REQUIRE(statistics[0].penetration_max == alone.statistics().penetration_max);
     }
+}
+void agrees(const std::string& demo, std::size_t bodies, int steps, std::initializer_list<int> ranks) {
+    const demos::Demo* found = demos::find_demo(demo);
+    REQUIRE(found);
+    const demos::DemoScene built = demos::build(*found, {.bodies = bodies});
+    agrees(demo + " of " + std::to_string(bodies) + " bodies", built.scene, built.before_step, steps, ranks);
 }
 
 }  // namespace
@@ -73,6 +77,27 @@ TEST_CASE("joints, vehicles, what breaks, and what comes and goes on several ran
     agrees("cars", 10, 40, {2});
     agrees("shatter", 40, 60, {3});
     agrees("fountain", 80, 90, {2});
+}
+
+// A block whose first body breaks is nobody's by that body: the others are still solved, and once.
+TEST_CASE("chains whose first body breaks move on several ranks as on one", "[ranks]") {
+    std::string bodies = R"({"shape": {"plane": {}}, "motion": "fixed"})", joints;
+    for (int chain = 0; chain < 6; ++chain) {
+        for (int k = 0; k < 3; ++k)
+            bodies += fmt::format(R"(, {{"shape": {{"box": {{"half_extents": [0.25, 0.25, 0.25]}}}}, "density": 800,
+                                       "position": [{}, {}, {}]{}}})",
+                                  4 * chain - 10 + 0.6 * k, 2 + 0.1 * chain, 0.3 * chain,
+                                  k > 0 ? "" : R"(, "fracture": {"impulse": 100, "cutting": "boxes", "pieces": 4})");
+        for (int k = 0; k < 2; ++k)
+            joints += fmt::format(
+                R"({}{{"kind": {{"ball": {{}}}}, "a": {}, "b": {}, "anchor_a": [0.3, 0, 0], "anchor_b": [-0.3, 0, 0]}})",
+                joints.empty() ? "" : ", ", 1 + 3 * chain + k, 2 + 3 * chain + k);
+    }
+    const Scene scene = scene_from_json(fmt::format(R"({{"bodies": [{}], "joints": [{}]}})", bodies, joints)).scene;
+    World alone(scene, {}, make_reference_runner(1));
+    alone.step(120);
+    REQUIRE(alone.statistics().broken >= 3);
+    agrees("six chains", scene, {}, 120, {2, 3});
 }
 
 // One rank pushes, all are told: edits between steps, and what is read of the world.
