@@ -21,23 +21,32 @@ namespace {
 
 struct Sum {
     physics::Velocity change{};
-    float carrying = 0;
-    float least_payload = physics::FOREVER;
-    float payload_sum = 0;
+    float weight = 0;
+    float normal_impulse = 0;
 };
+
+std::size_t first_slot_of(const State& state, std::size_t body) {
+    return body == 0 ? 0 : state.slot_ends[body - 1];
+}
 
 Sum sum_of_slots(const State& state, std::size_t body) {
     Sum sum;
-    const auto first = state.slots.begin() + (body == 0 ? 0 : state.slot_ends[body - 1]);
-    const auto last = state.slots.begin() + state.slot_ends[body];
-    std::for_each(first, last, [&](const physics::VelocityDelta& slot) {
+    for (std::size_t k = first_slot_of(state, body); k < state.slot_ends[body]; ++k) {
+        const physics::VelocityDelta& slot = state.slots[k];
         sum.change.linear += slot.linear;
         sum.change.angular += slot.angular;
-        sum.carrying += slot.is_active;
-        if (slot.is_active > 0) sum.least_payload = std::min(sum.least_payload, slot.payload);
-        sum.payload_sum += slot.payload;
-    });
+        sum.weight += slot.weight;
+        sum.normal_impulse += slot.normal_impulse;
+    }
     return sum;
+}
+
+// Of the active contacts' and joints' other bodies, the least quiet steps.
+float least_quiet_beside(const State& state, std::size_t body) {
+    float quiet = physics::FOREVER;
+    for (std::size_t k = first_slot_of(state, body); k < state.slot_ends[body]; ++k)
+        if (state.slots[k].weight > 0) quiet = std::min(quiet, state.neighbours_quiet[k]);
+    return quiet;
 }
 
 bool asleep(const State& state, std::size_t body) {
@@ -75,9 +84,9 @@ void begin_substep_of(State& state, std::size_t i, bool first) {
     const Sum sum = sum_of_slots(state, i);
     state.velocities[i] =
         physics::integrate_velocity(state.velocities[i], sum.change, state.forces[i], state.properties[i], state.fixed());
-    float& split_state = state.masses[i].split;
-    if (first) split_state = physics::update_hysteresis(split_state, sum.carrying, age_of(state, i));
-    split_state = physics::split_state_after(split_state, sum.carrying, sum.payload_sum);
+    float& split_state = state.masses[i].split_state;
+    if (first) split_state = physics::update_hysteresis(split_state, sum.weight, age_of(state, i));
+    split_state = physics::split_state_after(split_state, sum.weight, sum.normal_impulse);
 }
 
 void move(State& state, std::size_t i) {
@@ -87,13 +96,14 @@ void move(State& state, std::size_t i) {
         const Sum sum = sum_of_slots(state, i);
         velocity.linear += sum.change.linear;
         velocity.angular += sum.change.angular;
-        state.forces[i].impacts = physics::impacts_of(sum.carrying, sum.payload_sum);
+        state.forces[i].impacts = physics::impacts_of(sum.weight, properties);
     }
     const physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
     state.poses[i] = after.pose;
     state.velocities[i] = after.velocity;
     if (!physics::has_isotropic_inertia(properties))
-        state.masses[i] = physics::mass_in_world(properties, after.pose.orientation, state.masses[i].split);
+        state.masses[i] =
+            physics::body_mass(physics::mass_in_world(properties, after.pose.orientation), state.masses[i].split_state);
 }
 
 }  // namespace
@@ -126,7 +136,7 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         const physics::Action& action = state.actions[i];
         const std::size_t body = action.body;
         if (physics::is_absent(state.properties[body].motion) || !state.is_stepped(body)) continue;
-        const physics::Mass mass = physics::mass_in_world(state.properties[body], state.poses[body].orientation, 1);
+        const physics::Mass mass = physics::mass_in_world(state.properties[body], state.poses[body].orientation);
         if (!state.fixed().redo)
             state.velocities[body] = physics::apply_impulses(state.velocities[body], action, mass, state.fixed());
         state.sleep_states[body] = 0;
@@ -166,7 +176,8 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
                                      : physics::bounds_of(properties, bend, pose, velocity, state.forces[owner], state.fixed());
         if (physics::will_sweep(properties, velocity, state.fixed())) note(counts.fast, 1u);
         state.masses[i] =
-            owner == i ? physics::mass_in_world(properties, pose.orientation, state.masses[i].split) : physics::Mass{};
+            owner == i ? physics::body_mass(physics::mass_in_world(properties, pose.orientation), state.masses[i].split_state)
+                       : physics::BodyMass{};
         const bool stirs =
             physics::stirs(physics::motion_of(properties), state.velocities[owner], state.sleep_states[owner], sleep_steps);
         const bool large = physics::is_large(properties);
@@ -210,7 +221,8 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
     for (const physics::Grip& grip : grips) {
         if (!moved_by_contacts(state, grip.body)) continue;
         physics::Velocity& velocity = state.velocities[grip.body];
-        velocity = physics::pulled(velocity, state.poses[grip.body], state.masses[grip.body], grip, state.fixed());
+        velocity =
+            physics::pulled(velocity, state.poses[grip.body], physics::whole_mass(state.masses[grip.body]), grip, state.fixed());
     }
 }
 
@@ -244,8 +256,8 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         const physics::BodyProperties& properties = state.properties[i];
         if (physics::is_spin_limited(velocity, state.fixed())) spin_limited.fetch_add(1, std::memory_order_relaxed);
         const float pace = physics::pace_of(properties, velocity, state.fixed());
-        state.sleep_states[i] =
-            physics::sleep_state_after(state.sleep_states[i], pace, sum.carrying, sum.least_payload, state.fixed().sleep_steps);
+        state.sleep_states[i] = physics::sleep_state_after(state.sleep_states[i], pace, sum.weight, least_quiet_beside(state, i),
+                                                           state.fixed().sleep_steps);
         if (asleep(state, i)) velocity.linear = velocity.angular = physics::vec3(0);
         physics::Sweep& sweep = state.bounds[i].sweep;
         if (!physics::was_fast(properties, sweep, state.poses[i])) return;

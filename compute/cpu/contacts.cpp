@@ -35,11 +35,21 @@ physics::Surface surface_on(const State& state, const physics::BodyProperties& r
     return surface == 0 ? physics::plain_surface(row) : state.surfaces[surface - 1];
 }
 
-// `payload`: normal impulse, or quiet steps, for A and B (VelocityDelta).
-void hand_out(State& state, const physics::Constraint& c, const physics::VelocityPair& share, float carrying,
-              std::array<float, 2> payload = {0, 0}) {
-    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(share.a, carrying, payload[1]);
-    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(share.b, carrying, payload[0]);
+void hand_out(State& state, const physics::Constraint& c, const physics::VelocityPair& share, float weight,
+              float normal_impulse) {
+    if (c.slot_a != physics::NONE) state.slots[c.slot_a] = physics::velocity_delta(share.a, weight, normal_impulse);
+    if (c.slot_b != physics::NONE) state.slots[c.slot_b] = physics::velocity_delta(share.b, weight, normal_impulse);
+}
+
+// Each body's quiet steps, for the other's sleep.
+void show_quiet_steps(State& state, const physics::Constraint& c) {
+    const auto shown_by = [&](std::uint32_t body) {
+        return physics::is_driven(c)
+                   ? physics::BESIDE_MOVING
+                   : physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body], state.sleep_states[body]);
+    };
+    if (c.slot_a != physics::NONE) state.neighbours_quiet[c.slot_a] = shown_by(c.b);
+    if (c.slot_b != physics::NONE) state.neighbours_quiet[c.slot_b] = shown_by(c.a);
 }
 
 // Where the gravity of copies differs, the SIMD stages take the contacts of one after those of the other.
@@ -136,7 +146,7 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
         for (std::uint32_t slot = first; slot < last; ++slot) {
             const std::uint32_t side = state.slot_sides[slot];
             if (side & physics::OF_JOINT) {
-                state.joints[side & ~physics::OF_JOINT].slot = slot;
+                state.block_bodies[side & ~physics::OF_JOINT].slot = slot;
                 continue;
             }
             physics::Constraint& c = state.constraints[side / 2];
@@ -192,8 +202,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         if (wide) return;
         const physics::ContactShare share =
             physics::first_share(c, prepared.impulse, now, state.masses[a], state.masses[b], felt_by(state, a));
-        const float normal_sum = prepared.impulse.normal_sum;
-        hand_out(state, c, share.change, share.carrying, {normal_sum, normal_sum});
+        hand_out(state, c, share.change, share.weight, prepared.impulse.normal_sum);
     });
     if (!wide) return;
     for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), wide->hand_out);
@@ -213,22 +222,21 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::SolveResult after =
             physics::solve_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), felt_by(state, c.a));
         state.impulses[i] = after.impulse;
-        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), physics::impact_weight(after.impulse));
+        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), physics::impact_weight(after.impulse),
+                 0);
     });
 }
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
-    const auto quiet_steps = [&](std::uint32_t body) {
-        return physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body], state.sleep_states[body]);
-    };
+    if (last)
+        threads.for_each(state.counted().solver_contacts,
+                         [&](std::size_t k) { show_quiet_steps(state, state.constraints[state.contacts_to_solve[k]]); });
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
-        std::vector<float> shown(last ? state.fixed().bodies : 0);
-        threads.for_each(shown.size(), [&](std::size_t i) { shown[i] = quiet_steps(static_cast<std::uint32_t>(i)); });
         if (felt) tables.carried = state.carried.data();
         tables.first = first;
-        if (last) tables.quiet_steps = reinterpret_cast<const std::uint32_t*>(shown.data());
+        tables.last = last;
         for_each_group(state, threads, tables, wide->relax);
         return;
     }
@@ -248,15 +256,9 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         impulse = physics::clear_impacts(after.impulse, physics::point_count(c));
         impulse.normal_sum = physics::normal_impulse(impulse);
         physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
-        const float carrying = physics::is_active(c, impulse, after.pair_velocity, felt_by(state, c.a));
-        if (last) {
-            std::array<float, 2> shown{quiet_steps(c.a), quiet_steps(c.b)};
-            if (physics::is_driven(c)) shown.fill(physics::BESIDE_MOVING);
-            hand_out(state, c, share, carrying, shown);
-        } else {
-            hand_out(state, c, physics::warm_start(c, impulse, share, ma, mb), carrying,
-                     {impulse.normal_sum, impulse.normal_sum});
-        }
+        const float weight = physics::is_active(c, impulse, after.pair_velocity, felt_by(state, c.a));
+        if (!last) share = physics::warm_start(c, impulse, share, ma, mb);
+        hand_out(state, c, share, weight, impulse.normal_sum);
     });
 }
 

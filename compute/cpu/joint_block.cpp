@@ -5,6 +5,7 @@
 
 namespace scree::reference {
 
+using physics::BlockBody;
 using physics::Joint;
 using physics::JointRow;
 using physics::NONE;
@@ -37,33 +38,33 @@ physics::Pose JointBlock::pose(physics::uint body) const {
     return body == NONE ? pose_of_world : state_.poses[body];
 }
 physics::Velocity JointBlock::speed(physics::uint body, physics::uint block_body) const {
-    if (block_body != NONE) return all_[block_body].velocity;
+    if (block_body != NONE) return all_bodies_[block_body].velocity;
     return body == NONE ? at_rest : state_.velocities[body];
 }
 physics::Mass JointBlock::mass(physics::uint block_body) const {
-    return block_body == NONE ? immovable : all_[block_body].mass;
+    return block_body == NONE ? immovable : all_bodies_[block_body].mass;
 }
 
 // After the contacts with this pass's changes by them, whose slots come before those of joints.
 void JointBlock::take_velocities(bool after_contacts) {
-    for (Joint& record : members_) {
-        const physics::uint body = record.block_body;
+    for (BlockBody& member : members_) {
+        const physics::uint body = member.body;
         physics::Velocity velocity = state_.velocities[body];
-        if (after_contacts && record.slot != NONE) {
+        if (after_contacts && member.slot != NONE) {
             const std::size_t first = body == 0 ? 0 : state_.slot_ends[body - 1];
-            for (std::size_t k = first; k < state_.slot_ends[body] - record.blocks; ++k)
+            for (std::size_t k = first; k < state_.slot_ends[body] - member.blocks; ++k)
                 velocity = physics::changed_by(velocity, state_.slots[k]);
         }
-        record.velocity = record.velocity_before = velocity;
+        member.velocity = member.velocity_before = velocity;
     }
 }
 
 // ---- rows
 void JointBlock::begin(JointRoom& room, bool lend_after_contacts, bool take_after_contacts) {
     room_ = &room;
-    for (Joint& record : members_)
-        record.mass = physics::mass_of_member(state_.masses[record.block_body], record.slot != NONE, record.blocks,
-                                              record.normal_sum, lend_after_contacts, p_);
+    for (BlockBody& member : members_)
+        member.mass = physics::mass_of_member(state_.masses[member.body], member.slot != NONE, member.blocks, member.normal_sum,
+                                              lend_after_contacts, p_);
     take_velocities(take_after_contacts);
     if (room.wide) describe(room);
 }
@@ -81,12 +82,12 @@ void JointBlock::describe(JointRoom& room) {
         wide.pose_b = words_of(joint.b == NONE ? pose_of_world : state_.poses[joint.b]);
         wide.velocity_before_a = velocity_of(joint.a);
         wide.velocity_before_b = velocity_of(joint.b);
-        wide.velocity_a = has_a ? words_of(all_[joint.block_body_a].velocity) : wide.velocity_before_a;
-        wide.velocity_b = has_b ? words_of(all_[joint.block_body_b].velocity) : wide.velocity_before_b;
-        wide.mass_a = words_of(has_a ? all_[joint.block_body_a].mass : immovable);
-        wide.mass_b = words_of(has_b ? all_[joint.block_body_b].mass : immovable);
-        wide.pushed_a = has_a ? words_of(all_[joint.block_body_a].velocity) : nullptr;
-        wide.pushed_b = has_b ? words_of(all_[joint.block_body_b].velocity) : nullptr;
+        wide.velocity_a = has_a ? words_of(all_bodies_[joint.block_body_a].velocity) : wide.velocity_before_a;
+        wide.velocity_b = has_b ? words_of(all_bodies_[joint.block_body_b].velocity) : wide.velocity_before_b;
+        wide.mass_a = words_of(has_a ? all_bodies_[joint.block_body_a].mass : immovable);
+        wide.mass_b = words_of(has_b ? all_bodies_[joint.block_body_b].mass : immovable);
+        wide.pushed_a = has_a ? words_of(all_bodies_[joint.block_body_a].velocity) : nullptr;
+        wide.pushed_b = has_b ? words_of(all_bodies_[joint.block_body_b].velocity) : nullptr;
         wide.unknowns = 0;
         wide.links = joint.fill_in;
         wide.first_tile = tiles;
@@ -96,7 +97,7 @@ void JointBlock::describe(JointRoom& room) {
         };
         wide.own_ends = ends(joint);
         for (physics::uint l = 0; l < joint.fill_in; ++l) {
-            wide.link[l] = joint.fill_in_of[l] - static_cast<physics::uint>(first_);
+            wide.link[l] = joint.fill_in_of[l] - block_.first_joint;
             wide.ends[l] = ends(all_[joint.fill_in_of[l]]);
         }
     }
@@ -135,9 +136,9 @@ void JointBlock::push(const Joint& joint, physics::uint axes, const JointLanes& 
         const JointRow& row = joint.rows[k];
         for (const End end : {End{joint.block_body_a, false}, End{joint.block_body_b, true}}) {
             if (end.block_body == NONE) continue;
-            Joint& record = all_[end.block_body];
-            record.velocity = physics::row_pushed(record.velocity, row.direction, arm(row, end.is_b),
-                                                  end.is_b ? impulses[k] : -impulses[k], physics::is_linear(k), record.mass);
+            BlockBody& pushed = all_bodies_[end.block_body];
+            pushed.velocity = physics::row_pushed(pushed.velocity, row.direction, arm(row, end.is_b),
+                                                  end.is_b ? impulses[k] : -impulses[k], physics::is_linear(k), pushed.mass);
         }
     }
 }
@@ -149,11 +150,11 @@ vec3 JointBlock::impulse_of(const Joint& joint, physics::uint from) {
     return sum;
 }
 void JointBlock::note_pressing() {
-    for (Joint& record : members_) record.normal_sum = 0;
+    for (BlockBody& member : members_) member.normal_sum = 0;
     for_each_whole([&](Joint& joint) {
         const float normal_impulse = physics::length3(impulse_of(joint, 0));
         for (const physics::uint block_body : {joint.block_body_a, joint.block_body_b})
-            if (block_body != NONE) all_[block_body].normal_sum += normal_impulse;
+            if (block_body != NONE) all_bodies_[block_body].normal_sum += normal_impulse;
     });
 }
 
@@ -162,14 +163,14 @@ void JointBlock::solve(bool biased) {
     for (Joint& joint : joints_) joint.solved_axes = 0;
     bool others = true;
     for (physics::uint round = 0; round < physics::JOINT_ROUNDS && others; ++round) {
-        for (Joint& record : members_) record.velocity = record.velocity_before;
+        for (BlockBody& member : members_) member.velocity = member.velocity_before;
         for_each_whole([&](Joint& joint) { apply_given(joint, biased); });
         for_each_whole([&](Joint& joint) { demand(joint, biased); });
         solve_equations();
         others = false;
         for_each_whole([&](Joint& joint) { others |= other_bounds(joint, biased, round >= physics::SETTLING_ROUND); });
     }
-    joints_[0].unsettled = others;
+    block_.unsettled = others;
 }
 
 void JointBlock::speeds_of_rows(const Joint& joint, JointLanes& found) const {

@@ -26,17 +26,23 @@ class JointBlock {
 public:
     using Joint = physics::Joint;
     using JointRow = physics::JointRow;
+    using BlockBody = physics::BlockBody;
 
     JointBlock(State& state, std::size_t index)
-        : state_(state), p_(state.fixed()), all_(state.joints), first_(all_[index].first_of_block) {
-        joints_ = std::span(all_).subspan(first_, all_[first_].block_joints);
-        members_ = std::span(all_).subspan(first_, all_[first_].block_bodies);
+        : state_(state),
+          p_(state.fixed()),
+          all_(state.joints),
+          all_bodies_(state.block_bodies),
+          block_(state.joint_blocks[index]) {
+        joints_ = std::span(all_).subspan(block_.first_joint, block_.joints);
+        members_ = std::span(all_bodies_).subspan(block_.first_body, block_.bodies);
     }
 
     std::span<Joint> joints() const { return joints_; }
-    std::span<Joint> block_bodies() const { return members_; }
+    std::span<BlockBody> bodies() const { return members_; }
+    physics::uint& restless() const { return block_.restless; }
     bool moves() const {
-        return std::any_of(members_.begin(), members_.end(), [](const Joint& record) { return record.slot != physics::NONE; });
+        return std::any_of(members_.begin(), members_.end(), [](const BlockBody& body) { return body.slot != physics::NONE; });
     }
     template <class Visit>
     void for_each_whole(const Visit& visit) {
@@ -46,7 +52,7 @@ public:
     // Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
     bool struck() const {
         return std::any_of(members_.begin(), members_.end(),
-                           [&](const Joint& record) { return state_.forces[record.block_body].impacts != 0; });
+                           [&](const BlockBody& body) { return state_.forces[body.body].impacts != 0; });
     }
 
     // ---- a pass: begin() for several blocks, place_rows() once for all, then solve() or gather() of each
@@ -60,11 +66,11 @@ public:
     }
     void gather_warm_start() { gather_by(physics::row_impulse); }
     // Writes them to the bodies' slots.
-    template <class Payload>
-    void hand_out(float active, const Payload& payload) {
-        for (const Joint& record : members_)
-            if (record.slot != physics::NONE)
-                state_.slots[record.slot] = physics::velocity_delta(record.velocity, active, payload(record));
+    void hand_out(float weight, bool with_normal_impulse) {
+        for (const BlockBody& body : members_)
+            if (body.slot != physics::NONE)
+                state_.slots[body.slot] =
+                    physics::velocity_delta(body.velocity, weight, with_normal_impulse ? body.normal_sum : 0);
     }
 
     static vec3 impulse_of(const Joint& joint, physics::uint from);
@@ -107,9 +113,9 @@ private:
     void push(const Joint& joint, physics::uint axes, const JointLanes& impulses);
     template <class Impulse>
     void gather_by(const Impulse& impulse) {
-        for (Joint& record : members_) {
-            record.velocity = {};
-            record.mass.split = 1;
+        for (BlockBody& body : members_) {
+            body.velocity = {};
+            body.mass.split = 1;
         }
         for_each_whole([&](Joint& joint) {
             JointLanes impulses{};
@@ -139,8 +145,10 @@ private:
     State& state_;
     const physics::Parameters& p_;
     std::vector<Joint>& all_;
-    std::size_t first_;
-    std::span<Joint> joints_, members_;
+    std::vector<BlockBody>& all_bodies_;
+    physics::JointBlock& block_;
+    std::span<Joint> joints_;
+    std::span<BlockBody> members_;
     JointRoom* room_ = nullptr;
     std::size_t first_wide_ = 0;  // its joints in the room
 };

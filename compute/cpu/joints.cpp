@@ -12,6 +12,7 @@ namespace scree::reference {
 
 namespace {
 
+using physics::BlockBody;
 using physics::Joint;
 using physics::JointRow;
 using physics::NONE;
@@ -34,7 +35,7 @@ template <class Work>
 void for_each_block(State& state, const Threads& threads, const Work& work) {
     for_ranges_of_blocks(state, threads, [&](std::size_t first, std::size_t last) {
         for (; first < last; ++first)
-            if (state.owns_block(state.joints[first].first_of_block)) work(JointBlock(state, first));
+            if (state.owns_block(state.joint_blocks[first])) work(JointBlock(state, first));
     });
 }
 
@@ -52,7 +53,7 @@ void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, 
             room.joints.clear();
             for (std::size_t joints = 0; first < last && joints < together; ++first) {
                 JointBlock block(state, first);
-                if (!state.owns_block(state.joints[first].first_of_block) || !block.moves()) continue;
+                if (!state.owns_block(state.joint_blocks[first]) || !block.moves()) continue;
                 joints += block.joints().size();
                 begin(block, room);
                 blocks.push_back(block);
@@ -76,6 +77,17 @@ void take_stock(Joint& joint, const State& state) {
     for (JointRow& row : joint.rows) row = physics::torn(row);
 }
 
+float least_quiet_in(JointBlock& block, const State& state) {
+    float quiet = physics::FOREVER;
+    block.for_each_whole([&](const Joint& joint) {
+        for (const physics::uint body : {joint.a, joint.b})
+            if (body != NONE)
+                quiet = std::min(quiet, physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body],
+                                                                   state.sleep_states[body]));
+    });
+    return quiet;
+}
+
 }  // namespace
 
 void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
@@ -86,13 +98,13 @@ void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
     };
     for_each_block(state, threads, [&](JointBlock block) {
         if (!wakes) {
-            block.joints()[0].restless = 0;
+            block.restless() = 0;
             block.for_each_whole([&](const Joint& joint) {
-                if (restless(joint.a) || restless(joint.b)) block.joints()[0].restless = 1;
+                if (restless(joint.a) || restless(joint.b)) block.restless() = 1;
             });
-        } else if (block.joints()[0].restless) {
-            for (const Joint& record : block.block_bodies()) {
-                const std::atomic_ref rest(state.sleep_states[record.block_body]);
+        } else if (block.restless()) {
+            for (const BlockBody& member : block.bodies()) {
+                const std::atomic_ref rest(state.sleep_states[member.body]);
                 if (physics::has_slept(rest.load(std::memory_order_relaxed), state.fixed().sleep_steps))
                     rest.fetch_or(physics::WOKEN, std::memory_order_relaxed);
             }
@@ -105,19 +117,19 @@ void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
     for_each_block(state, threads, [&](const JointBlock& block) {
         for (Joint& joint : block.joints())
             if (gone(joint.a) || gone(joint.b)) joint.broken = 1;
-        for (Joint& record : block.block_bodies()) {
-            record.slot = NONE;
-            if (may_move(state, record.block_body)) std::atomic_ref(state.slot_ends[record.block_body]).fetch_add(1);
+        for (BlockBody& member : block.bodies()) {
+            member.slot = NONE;
+            if (may_move(state, member.body)) std::atomic_ref(state.slot_ends[member.body]).fetch_add(1);
         }
     });
 }
 
 void fill_joint_slots(State& state, const Threads& threads, std::uint32_t) {
     for_each_block(state, threads, [&](const JointBlock& block) {
-        for (const Joint& record : block.block_bodies()) {
-            if (!may_move(state, record.block_body)) continue;
-            const std::uint32_t slot = std::atomic_ref(state.slot_ends[record.block_body]).fetch_add(1);
-            state.slot_sides[slot] = physics::OF_JOINT | static_cast<std::uint32_t>(&record - state.joints.data());
+        for (const BlockBody& member : block.bodies()) {
+            if (!may_move(state, member.body)) continue;
+            const std::uint32_t slot = std::atomic_ref(state.slot_ends[member.body]).fetch_add(1);
+            state.slot_sides[slot] = physics::OF_JOINT | static_cast<std::uint32_t>(&member - state.block_bodies.data());
         }
     });
 }
@@ -130,7 +142,7 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
     pass_over_blocks(state, threads, begin, [](JointBlock& block) {
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
         block.gather_warm_start();
-        block.hand_out(1, [](const Joint& record) { return record.normal_sum; });
+        block.hand_out(1, true);
     });
 }
 
@@ -140,7 +152,7 @@ void solve_joints(State& state, const Threads& threads, std::uint32_t) {
         block.solve(true);
         block.gather(/* warms */ false);
         block.for_each_whole(JointBlock::commit);
-        block.hand_out(0, [](const Joint&) { return 1.0f; });  // marks the body as joined (restitution.h)
+        block.hand_out(0, false);
     });
 }
 
@@ -153,7 +165,6 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
         block.solve(false);
         const bool struck = block.struck();  // the impulses of an impact must not warm start the next substep
         block.gather(/* warms */ !last && !struck);
-        float quiet = physics::FOREVER;
         block.for_each_whole([&](Joint& joint) {
             JointBlock::commit(joint);
             joint.force += JointBlock::impulse_of(joint, 0);
@@ -162,14 +173,12 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
             if (struck)
                 for (JointRow& row : joint.rows) row = physics::torn(row);
         });
-        block.for_each_whole([&](const Joint& joint) {
-            for (const physics::uint body : {joint.a, joint.b})
-                if (last && body != NONE)
-                    quiet = std::min(quiet, physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body],
-                                                                       state.sleep_states[body]));
-        });
         block.note_pressing();
-        block.hand_out(1, [&](const Joint& record) { return last ? quiet : record.normal_sum; });
+        block.hand_out(1, true);
+        if (!last) return;
+        const float quiet = least_quiet_in(block, state);
+        for (const BlockBody& member : block.bodies())
+            if (member.slot != NONE) state.neighbours_quiet[member.slot] = quiet;
     });
 }
 

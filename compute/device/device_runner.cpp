@@ -149,7 +149,7 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
 // A grown world may no longer be small.
 void DeviceRunner::fuse() {
     std::vector<Stage> recorded;
-    joint_rounds_ = joint_rounds_at_once(state_->joints, state_->fixed().joint_blocks);
+    joint_rounds_ = joint_rounds_at_once(state_->joints, std::span(state_->joint_blocks).first(state_->fixed().joint_blocks));
     for (const Stage& stage : fused(plan_, state_->fixed(), fused_group_size()))
         for (Stage& dispatch : dispatches_of(stage, joint_rounds_)) recorded.push_back(std::move(dispatch));
     const bool as_before = std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),

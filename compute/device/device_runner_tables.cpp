@@ -69,10 +69,12 @@ std::size_t room_behind(const State& state, BufferLength length) {
         case BufferLength::filters:
         case BufferLength::exclusions:
         case BufferLength::joints:
+        case BufferLength::joint_blocks:
+        case BufferLength::block_bodies:
         case BufferLength::vehicles:
             return 16 + state.allocated(length) / 2;
         case BufferLength::slots:
-            return 16 + state.joints.size() / 2;
+            return 16 + state.block_bodies.size() / 2;
         default:
             return 0;
     }

@@ -78,6 +78,7 @@ DeviceRunner& Lockstep::device() {
 void Lockstep::change(const std::function<void(State&)>& make) {
     interior_->there.download({{Table::counts, 0, 1}});
     interior_->there.download(lasting_ranges(interior_->image));
+    interior_->there.download(joint_structure_ranges(interior_->image));
     make(interior_->image);
     make(interior_->state);
     interior_->attach();
@@ -88,6 +89,7 @@ void Lockstep::edit(const std::function<TableRanges(const StateEditor&)>& needed
     StateEditor of_image(interior_->image), of_state(interior_->state);
     interior_->there.download({{Table::counts, 0, 1}});
     interior_->there.download(needed(of_image));
+    interior_->there.download(joint_structure_ranges(interior_->image));
     const TableRanges changed = make(of_image);
     make(of_state);
     interior_->there.adapt();

@@ -73,10 +73,9 @@ void gather_contacts(State& state, Exchange& exchange) {
 void gather_joints(State& state, Exchange& exchange) {
     Bytes said;
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
-        const std::uint32_t first = state.joints[i].first_of_block;
-        if (!state.owns_block(first)) continue;
-        const std::uint32_t count = std::max(state.joints[first].block_joints, state.joints[first].block_bodies);
-        for (std::uint32_t k = first; k < first + count; ++k) {
+        const physics::JointBlock& block = state.joint_blocks[i];
+        if (!state.owns_block(block)) continue;
+        for (std::uint32_t k = block.first_joint; k < block.first_joint + block.joints; ++k) {
             put(said, k);
             put(said, state.joints[k]);
         }

@@ -19,11 +19,11 @@ struct GhostAtStart {
     physics::Pose pose;
     physics::Velocity velocity;
     physics::BodyForces forces;
-    float split = 0;
+    float split_state = 0;
 };
 struct GhostVelocity {
     physics::Velocity velocity;
-    float split = 0;
+    float split_state = 0;
 };
 struct GhostMotion {
     physics::Velocity velocity;
@@ -143,7 +143,7 @@ void Halo::find(State& state, const Ownership& ownership, Exchange& exchange) {
         to_[r].erase(std::unique(to_[r].begin(), to_[r].end()), to_[r].end());
         for (const std::uint32_t row : to_[r])
             put(ghosts[r], GhostAtStart{row, state.sleep_states[row], state.poses[row], state.velocities[row], state.forces[row],
-                                        state.masses[row].split});
+                                        state.masses[row].split_state});
     }
     const std::vector<Bytes> sent = exchange.swap(ghosts);
     for (std::size_t r = 0; r < ranks; ++r)
@@ -155,7 +155,7 @@ void Halo::find(State& state, const Ownership& ownership, Exchange& exchange) {
             state.poses[ghost.row] = ghost.pose;
             state.velocities[ghost.row] = ghost.velocity;
             state.forces[ghost.row] = ghost.forces;
-            state.masses[ghost.row].split = ghost.split;
+            state.masses[ghost.row].split_state = ghost.split_state;
         }
     for (std::uint32_t row = state.fixed().first_part; row < state.fixed().bodies; ++row)
         state.presence[row] = state.presence[state.properties[row].owner];
@@ -217,11 +217,11 @@ void Halo::send_velocities(State& state, Exchange& exchange) {
     send<GhostVelocity>(
         state, exchange,
         [](const State& s, std::uint32_t row) {
-            return GhostVelocity{s.velocities[row], s.masses[row].split};
+            return GhostVelocity{s.velocities[row], s.masses[row].split_state};
         },
         [](State& s, std::uint32_t row, const GhostVelocity& ghost) {
             s.velocities[row] = ghost.velocity;
-            s.masses[row].split = ghost.split;
+            s.masses[row].split_state = ghost.split_state;
         });
 }
 
@@ -236,7 +236,8 @@ void Halo::send_motion(State& state, Exchange& exchange) {
             s.poses[row].orientation = ghost.orientation;
             s.forces[row].impacts = ghost.impacts;
             if (!physics::has_isotropic_inertia(s.properties[row]))
-                s.masses[row] = physics::mass_in_world(s.properties[row], ghost.orientation, s.masses[row].split);
+                s.masses[row] =
+                    physics::body_mass(physics::mass_in_world(s.properties[row], ghost.orientation), s.masses[row].split_state);
         });
 }
 

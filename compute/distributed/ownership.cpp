@@ -25,21 +25,18 @@ struct MovedBody {
     std::uint32_t row = 0, rest = 0;
     physics::Pose pose;
     physics::Velocity velocity;
-    float split = 0, strain = 0;
+    float split_state = 0, strain = 0;
 };
 
-std::uint32_t records_of_block(const physics::Joint& first) {
-    return std::max(first.block_joints, first.block_bodies);
-}
-
 MovedBody moved_body(const State& state, std::uint32_t row) {
-    return {row, state.sleep_states[row], state.poses[row], state.velocities[row], state.masses[row].split, state.strains[row]};
+    return {
+        row, state.sleep_states[row], state.poses[row], state.velocities[row], state.masses[row].split_state, state.strains[row]};
 }
 void take_body(State& state, const MovedBody& body) {
     state.sleep_states[body.row] = body.rest;
     state.poses[body.row] = body.pose;
     state.velocities[body.row] = body.velocity;
-    state.masses[body.row].split = body.split;
+    state.masses[body.row].split_state = body.split_state;
     state.strains[body.row] = body.strain;
 }
 
@@ -79,8 +76,8 @@ void Ownership::group(const State& state) {
                state.properties[row].motion != physics::MOTION_KINEMATIC;
     };
     for (std::uint32_t i = 0; i < blocks; ++i) {
-        const std::uint32_t first = state.joints[i].first_of_block;
-        for (std::uint32_t k = first; k < first + state.joints[first].block_joints; ++k) {
+        const physics::JointBlock& block = state.joint_blocks[i];
+        for (std::uint32_t k = block.first_joint; k < block.first_joint + block.joints; ++k) {
             const physics::Joint& joint = state.joints[k];
             if (!moves(joint.a) || !moves(joint.b)) continue;
             const std::uint32_t a = root(state.id_of(joint.a)), b = root(state.id_of(joint.b));
@@ -237,11 +234,11 @@ void Ownership::move(State& state, Exchange& exchange, const Moves& own_moves) {
         }
     std::vector<Bytes> joints(ranks), vehicles(ranks);
     for (std::uint32_t i = 0; i < state.fixed().joint_blocks; ++i) {
-        const std::uint32_t first = state.joints[i].first_of_block;
+        const physics::JointBlock& block = state.joint_blocks[i];
         int target = -1;  // of the bodies that did not break
-        for (std::uint32_t k = first; target < 0 && k < first + state.joints[first].block_bodies; ++k)
-            target = leaves_for(state.joints[k].block_body);
-        for (std::uint32_t k = first; target >= 0 && k < first + records_of_block(state.joints[first]); ++k) {
+        for (std::uint32_t k = block.first_body; target < 0 && k < block.first_body + block.bodies; ++k)
+            target = leaves_for(state.block_bodies[k].body);
+        for (std::uint32_t k = block.first_joint; target >= 0 && k < block.first_joint + block.joints; ++k) {
             put(joints[static_cast<std::size_t>(target)], k);
             put(joints[static_cast<std::size_t>(target)], state.joints[k]);
         }

@@ -5,6 +5,8 @@
 #include <map>
 #include <set>
 
+#include "compute/step/state.h"
+
 namespace scree {
 
 namespace {
@@ -130,37 +132,35 @@ physics::Joint record_of(const Joint& joint) {
     return record;
 }
 
-// Appends the records of one block.
-void append(const Scene& scene, const Graph& graph, const std::vector<Eliminated>& block, JointTables& tables) {
-    const auto first = static_cast<std::uint32_t>(tables.records.size());
-    std::map<std::size_t, std::uint32_t> block_bodies;
-    std::vector<std::size_t> bodies;
-    for (std::uint32_t k = 0; k < block.size(); ++k) {
-        const Joint& joint = scene.joints[block[k].joint];
-        tables.record_of[block[k].joint] = first + k;
+// Appends one block: its bodies, then its joints.
+void append(const Scene& scene, const Graph& graph, const std::vector<Eliminated>& order, JointTables& tables) {
+    physics::JointBlock block{};
+    block.first_joint = static_cast<physics::uint>(tables.joints.size());
+    block.first_body = static_cast<physics::uint>(tables.bodies.size());
+    std::map<std::size_t, physics::uint> member_of;
+    for (const Eliminated& eliminated : order) {
+        const Joint& joint = scene.joints[eliminated.joint];
+        tables.record_of[eliminated.joint] = block.first_joint + block.joints++;
         for (const std::size_t body : {joint.a, joint.b}) {
-            if (!graph.moves(body) || !block_bodies.try_emplace(body, first + static_cast<std::uint32_t>(bodies.size())).second)
-                continue;
-            bodies.push_back(body);
+            if (!graph.moves(body) || !member_of.try_emplace(body, block.first_body + block.bodies).second) continue;
+            physics::BlockBody member{};
+            member.body = static_cast<physics::uint>(body);
+            member.slot = physics::NONE;
+            tables.bodies.push_back(member);
+            ++block.bodies;
         }
     }
-    tables.records.resize(first + std::max(block.size(), bodies.size()));
-    const auto block_body = [&](std::size_t body) { return graph.moves(body) ? block_bodies.at(body) : physics::NONE; };
-    for (std::uint32_t k = 0; k < block.size(); ++k) {
-        const Joint& joint = scene.joints[block[k].joint];
-        physics::Joint& record = tables.records[first + k] = record_of(joint);
+    const auto block_body = [&](std::size_t body) { return graph.moves(body) ? member_of.at(body) : physics::NONE; };
+    for (const Eliminated& eliminated : order) {
+        const Joint& joint = scene.joints[eliminated.joint];
+        physics::Joint record = record_of(joint);
         record.block_body_a = block_body(joint.a);
         record.block_body_b = block_body(joint.b);
-        for (const std::uint32_t other : block[k].fill_in) record.fill_in_of[record.fill_in++] = tables.record_of[other];
+        for (const std::uint32_t other : eliminated.fill_in) record.fill_in_of[record.fill_in++] = tables.record_of[other];
         std::sort(record.fill_in_of, record.fill_in_of + record.fill_in);
+        tables.joints.push_back(record);
     }
-    tables.records[first].block_joints = static_cast<physics::uint>(block.size());
-    tables.records[first].block_bodies = static_cast<physics::uint>(bodies.size());
-    tables.records[tables.blocks++].first_of_block = first;
-    for (std::uint32_t k = 0; first + k < tables.records.size(); ++k) {
-        tables.records[first + k].block_body = k < bodies.size() ? static_cast<physics::uint>(bodies[k]) : physics::NONE;
-        tables.records[first + k].slot = physics::NONE;
-    }
+    tables.blocks.push_back(block);
 }
 
 }  // namespace
@@ -239,13 +239,11 @@ JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties
     const Graph graph(scene, properties);
     for (const std::vector<Eliminated>& block : blocks_of(scene, graph)) append(scene, graph, block, tables);
     std::vector<physics::uint> blocks(scene.bodies.size());
-    for (const physics::Joint& record : tables.records)
-        if (record.block_body != physics::NONE) ++blocks[record.block_body];
-    for (physics::Joint& record : tables.records)
-        if (record.block_body != physics::NONE) record.blocks = blocks[record.block_body];
+    for (const physics::BlockBody& member : tables.bodies) ++blocks[member.body];
+    for (physics::BlockBody& member : tables.bodies) member.blocks = blocks[member.body];
     // Each body's joint list, in the order of the scene.
     for (std::size_t j = scene.joints.size(); j-- > 0;) {
-        physics::Joint& record = tables.records[tables.record_of[j]];
+        physics::Joint& record = tables.joints[tables.record_of[j]];
         const auto list = [&](physics::uint body, physics::uint& next) {
             next = physics::NONE;
             if (body == physics::NONE || properties[body].motion != physics::MOTION_DYNAMIC) return;
@@ -256,6 +254,14 @@ JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties
         list(record.b, record.next_b);
     }
     return tables;
+}
+
+void take_joint_tables(State& state, JointTables tables) {
+    state.fixed().joint_blocks = static_cast<physics::uint>(tables.blocks.size());
+    state.joints = std::move(tables.joints);
+    state.joint_blocks = std::move(tables.blocks);
+    state.block_bodies = std::move(tables.bodies);
+    state.joint_records = std::move(tables.record_of);
 }
 
 }  // namespace scree

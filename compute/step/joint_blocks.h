@@ -16,12 +16,15 @@ namespace scree {
 constexpr std::size_t most_joints_of_block = 128;
 
 struct JointTables {
-    std::vector<physics::Joint> records;
-    std::vector<std::uint32_t> record_of;  // record index by joint of the scene
-    physics::uint blocks = 0;
+    std::vector<physics::Joint> joints;
+    std::vector<physics::JointBlock> blocks;
+    std::vector<physics::BlockBody> bodies;
+    std::vector<std::uint32_t> record_of;  // index in `joints` by joint of the scene
 };
-// The records of a checked scene; sets the head of each body's joint list in `properties`.
+// The tables of a checked scene; sets the head of each body's joint list in `properties`.
 JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties);
+struct State;
+void take_joint_tables(State& state, JointTables tables);
 
 // The six axes of a joint kind: x, y, z, twist, swing_y, swing_z.
 struct JointAxes {

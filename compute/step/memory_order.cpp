@@ -180,7 +180,8 @@ void State::reorder(const std::vector<std::uint32_t>& rows, const Threads& threa
     take(filters);
     for (physics::BodyProperties& row : properties) follow(row.owner);
     for (physics::Joint& joint : joints)
-        for (physics::uint* row : {&joint.a, &joint.b, &joint.block_body}) follow(*row);
+        for (physics::uint* row : {&joint.a, &joint.b}) follow(*row);
+    for (physics::BlockBody& member : block_bodies) follow(member.body);
     for (physics::Vehicle& vehicle : vehicles) {
         follow(vehicle.dynamics.chassis);
         for (physics::VehicleWheel& wheel : vehicle.wheel) follow(wheel.body);

@@ -133,10 +133,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     p.copies = std::max(1u, copies);
     p.bodies_of_copy = copies ? n / copies : 0;
     lay_out_grid(properties, p, n);
-    JointTables joined = joint_tables(scene, properties);
-    state_.joints = std::move(joined.records);
-    state_.joint_records = std::move(joined.record_of);
-    p.joint_blocks = joined.blocks;
+    take_joint_tables(state_, joint_tables(scene, properties));
     state_.vehicles = vehicle_records(scene, state_.joint_records, state_.way_points);
     p.vehicles = static_cast<std::uint32_t>(state_.vehicles.size());
     p.bodies = rows;

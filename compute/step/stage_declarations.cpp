@@ -147,8 +147,8 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
          {pair_starts}, {point_counts}, {properties}, {ids}, by_atomics({sleep_states}), {gravities}},
         {by_atomics({sleep_states})}, felt});
     all.push_back({"wake_joined", DispatchDomain::joint_blocks, wake_joined,
-        {{counts}, {joints, A::joints, 2}, {sleep_states, A::joints}, {properties}, {velocities}},
-        {{joints}, {sleep_states}}});
+        {{counts}, {joint_blocks, A::joints}, {joints, A::joints, 2}, {block_bodies, A::joints, 1}, {sleep_states, A::joints}, {properties}, {velocities}},
+        {{joint_blocks}, {sleep_states}}});
     all.push_back({"propagate_wake", DispatchDomain::wake_contacts, propagate_wake,
         {{counts}, {constraints, A::stirred, 1}, {pairs, A::stirred}, {properties}, {sleep_states, A::stirred_bodies}},
         {{sleep_states}}});
@@ -156,18 +156,18 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
         {by_atomics({slot_ends, A::bodies})}});
     all.push_back({"count_joint_slots", DispatchDomain::joint_blocks, count_joint_slots,
-        {{counts}, {joints, A::joints, 2}, {properties}, {sleep_states, A::joints}},
-        {{joints, A::joints, 1}, by_atomics({slot_ends, A::joints})}});
+        {{counts}, {joint_blocks, A::joints}, {joints, A::joints, 2}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}},
+        {{joints, A::joints, 1}, {block_bodies, A::joints, 1}, by_atomics({slot_ends, A::joints})}});
     declare_scan(all, {"slots", DispatchDomain::body_scan_blocks, slot_ends, slot_ends, A::bodies, scan_nothing, scan_slots_offsets});
     all.push_back({"fill_slots", DispatchDomain::contacts, fill_slots,
         {in_parts({counts}), {constraints, A::contacts, 1}, {pairs, A::contacts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
         {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({contacts_to_solve, A::solver_contacts}), in_parts({counts})}});
     all.push_back({"fill_joint_slots", DispatchDomain::joint_blocks, fill_joint_slots,
-        {in_parts({counts}), {joints, A::joints, 2}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
+        {in_parts({counts}), {joint_blocks, A::joints}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
     all.push_back({"sort_slots", DispatchDomain::bodies, sort_slots,
         {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints}},
-        {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {joints}}, physics::FEATURE_REORDERED});
+        {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {block_bodies}}, physics::FEATURE_REORDERED});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {gravities}, {ids}},
@@ -179,8 +179,8 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
                                        physics::FEATURE_SURFACES | felt;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}},
-        {{joints, A::joints}, in_parts({slots, A::joints})}});
+        {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}},
+        {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}, {births}, {ids}},
         {{velocities, A::movers}, {masses, A::movers, 1}}, physics::FEATURE_REORDERED | physics::FEATURE_COPIES});
@@ -188,20 +188,22 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {masses, A::movers}, {velocities, A::movers}, {forces}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, in_parts({slots, A::slots})}, features});
     all.push_back({"solve_joints", DispatchDomain::joint_blocks, solve_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots}, {joint_equations, A::joints}},
-        {{joints, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
+        {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {slot_ends}, {slots},
+         {joint_equations, A::joints}},
+        {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
     all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
         {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}}});
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
          {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
-        {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots})}, features | physics::FEATURE_SUMS});
+        {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots}), unfinished({neighbours_quiet})}, features | physics::FEATURE_SUMS});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
-        {{counts}, {joints, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends}, {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},
-        {{joints, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
+        {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends},
+         {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},
+        {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints}), unfinished({neighbours_quiet})}});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
-        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {neighbours_quiet, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
         {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}}});
 }
 

@@ -122,27 +122,26 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
     return stages;
 }
 
-std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std::uint32_t blocks) {
+std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks) {
     // Greatest fill-in at each position in a block, from its first and from its last joint: one vector of threads steps
     // through several blocks in parallel.
     std::vector<std::uint32_t> from_first, from_last;
     std::uint32_t members = 0;
-    for (std::uint32_t b = 0; b < blocks; ++b) {
-        const physics::Joint& first = records[records[b].first_of_block];
-        const auto block = records.subspan(records[b].first_of_block, first.block_joints);
-        members = std::max(members, first.block_bodies);
-        from_first.resize(std::max(from_first.size(), block.size()));
+    for (const physics::JointBlock& block : blocks) {
+        const auto order = joints.subspan(block.first_joint, block.joints);
+        members = std::max(members, block.bodies);
+        from_first.resize(std::max(from_first.size(), order.size()));
         from_last.resize(from_first.size());
-        for (std::size_t j = 0; j < block.size(); ++j) {
-            from_first[j] = std::max(from_first[j], block[j].fill_in);
-            from_last[j] = std::max(from_last[j], block[block.size() - 1 - j].fill_in);
+        for (std::size_t j = 0; j < order.size(); ++j) {
+            from_first[j] = std::max(from_first[j], order[j].fill_in);
+            from_last[j] = std::max(from_last[j], order[order.size() - 1 - j].fill_in);
         }
     }
-    const auto joints = static_cast<std::uint32_t>(from_first.size());
-    std::uint32_t each = members + 6 * axis_rounds * joints;                              // six loops over the axes of each joint
+    const auto longest = static_cast<std::uint32_t>(from_first.size());
+    std::uint32_t each = members + 6 * axis_rounds * longest;                             // six loops over the axes of each joint
     for (const std::uint32_t links : from_first) each += 12 * links + 3 * links * links;  // equations, elimination
     for (const std::uint32_t links : from_last) each += 6 * links;                        // substitution
-    const std::uint32_t once = 6 * members + 7 * axis_rounds * joints;
+    const std::uint32_t once = 6 * members + 7 * axis_rounds * longest;
     return std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, each), 1u, physics::JOINT_ROUNDS);
 }
 

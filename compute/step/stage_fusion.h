@@ -17,7 +17,7 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
 
 // Rounds of a joint block (1 to JOINT_ROUNDS) that one dispatch may run: all, unless hundreds of joints are connected.
 // lavapipe silently ends a shader's loops after 65,535 rounds in all.
-std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> records, std::uint32_t blocks);
+std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks);
 // The dispatches of a stage: several for solve_joints and relax_joints if rounds are limited, one for others.
 std::vector<Stage> dispatches_of(const Stage& stage, std::uint32_t joint_rounds);
 

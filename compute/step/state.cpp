@@ -62,9 +62,13 @@ std::size_t State::allocated(BufferLength length) const {
         case BufferLength::contacts:
             return p.contact_capacity;
         case BufferLength::slots:
-            return 2 * std::size_t{p.contact_capacity} + joints.size();
+            return 2 * std::size_t{p.contact_capacity} + block_bodies.size();
         case BufferLength::joints:
             return std::max<std::size_t>(1, joints.size());
+        case BufferLength::joint_blocks:
+            return std::max<std::size_t>(1, joint_blocks.size());
+        case BufferLength::block_bodies:
+            return std::max<std::size_t>(1, block_bodies.size());
         case BufferLength::vehicles:
             return std::max<std::size_t>(1, vehicles.size());
         case BufferLength::hulls:
@@ -180,7 +184,7 @@ void State::allocate() {
     const std::size_t numbered = ids.size();  // number of rows
     using enum Table;
     for (const Table table : {parameters, counts, properties, poses, velocities, sleep_states, strains, actions, hulls, joints,
-                              vehicles, ids, births})
+                              joint_blocks, block_bodies, vehicles, ids, births})
         make(table);
     if (!this->filters.empty()) this->filters.resize(fixed().bodies, no_filter);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);

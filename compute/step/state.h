@@ -47,6 +47,8 @@ enum class BufferLength {
     filters,
     exclusions,
     joints,
+    joint_blocks,
+    block_bodies,
     vehicles,
     copies,
     gravities,
@@ -222,13 +224,11 @@ struct State {
     bool is_owned(std::size_t row) const {
         return presence.empty() || presence[row] == Presence::owned;
     }
-    // Whether this rank solves a block of joints, by its first record. Bodies of a block have one owner; those that broke
-    // are nobody's.
-    bool owns_block(std::size_t first) const {
-        if (presence.empty()) return true;
-        const auto from = joints.begin() + static_cast<std::ptrdiff_t>(first);
-        return std::any_of(from, from + from->block_bodies,
-                           [&](const physics::Joint& record) { return is_owned(record.block_body); });
+    // Whether this rank solves a block of joints. Bodies of a block have one owner; those that broke are nobody's.
+    bool owns_block(const physics::JointBlock& block) const {
+        const std::span members = std::span(block_bodies).subspan(block.first_body, block.bodies);
+        return presence.empty() || std::any_of(members.begin(), members.end(),
+                                               [&](const physics::BlockBody& member) { return is_owned(member.body); });
     }
     std::size_t bytes() const;                 // of all tables, as on a device
     std::size_t raw_bytes(Table table) const;  // of an allocated table

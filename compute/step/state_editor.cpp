@@ -132,7 +132,7 @@ TableRanges StateEditor::make_room(std::uint32_t bodies, bool with_parts) {
     insert(state_.velocities, physics::Velocity{});
     insert(state_.sleep_states, 0u);
     insert(state_.strains, 0.0f);
-    insert(state_.masses, physics::Mass{});
+    insert(state_.masses, physics::BodyMass{});
     // Spare rows have no contacts: an empty range.
     insert(state_.first_contacts, physics::uint{state_.first_contacts[first]});
     TableRanges changed;
@@ -337,6 +337,8 @@ TableRanges StateEditor::needed_to_rejoin() const {
 
 TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> without, std::span<const std::size_t> fresh) {
     const std::vector<physics::Joint> joints_before = state_.joints;
+    const std::vector<physics::JointBlock> blocks_before = state_.joint_blocks;
+    const std::vector<physics::BlockBody> bodies_before = state_.block_bodies;
     const std::vector<physics::Vehicle> vehicles_before = state_.vehicles;
     TableRanges changed;
     std::vector<physics::Joint> before;
@@ -354,12 +356,11 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
         first = by_id[id].joints;
         changed.push_back({Table::properties, state_.row_of(id), 1});
     }
-    for (physics::Joint& record : made.records)
-        for (physics::uint* body : {&record.a, &record.b, &record.block_body})
+    for (physics::Joint& record : made.joints)
+        for (physics::uint* body : {&record.a, &record.b})
             if (*body != physics::NONE) *body = state_.row_of(*body);
-    state_.joints = std::move(made.records);
-    state_.joint_records = std::move(made.record_of);
-    state_.fixed().joint_blocks = made.blocks;
+    for (physics::BlockBody& member : made.bodies) member.body = state_.row_of(member.body);
+    take_joint_tables(state_, std::move(made));
     for (std::size_t j = 0; j < std::min(before.size(), state_.joint_records.size()); ++j) {
         if (std::find(fresh.begin(), fresh.end(), j) != fresh.end()) continue;
         physics::Joint& now = state_.joints[state_.joint_records[j]];
@@ -378,6 +379,8 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
     }
     state_.allocate();
     append(changed, differing(Table::joints, joints_before, state_.joints));
+    append(changed, differing(Table::joint_blocks, blocks_before, state_.joint_blocks));
+    append(changed, differing(Table::block_bodies, bodies_before, state_.block_bodies));
     append(changed, differing(Table::vehicles, vehicles_before, state_.vehicles));
     return changed;
 }

@@ -55,6 +55,11 @@ TableRanges joint_ranges(const State& state) {
     return {{Table::joints, 0, state.joints.size()}};
 }
 
+TableRanges joint_structure_ranges(const State& state) {
+    if (!state.has_joints()) return {};
+    return {{Table::joint_blocks, 0, state.joint_blocks.size()}, {Table::block_bodies, 0, state.block_bodies.size()}};
+}
+
 TableRanges vehicle_ranges(const State& state) {
     return {{Table::vehicles, 0, state.fixed().vehicles}};
 }

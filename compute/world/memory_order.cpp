@@ -45,7 +45,9 @@ void World::Impl::keep_order() {
         bring(lasting_ranges);
         state.reorder(rows, runner->threads());
         runner->adapt();
-        runner->upload(lasting_ranges(state));
+        TableRanges moved = lasting_ranges(state);
+        append(moved, joint_structure_ranges(state));
+        runner->upload(moved);
         runner->upload({{Table::ids, 0, state.fixed().bodies}, {Table::filters, 0, state.filters.size()}});
         ++reorderings;
         ++arrangements;

@@ -58,6 +58,16 @@ physics::Counts portable(const physics::Counts& counts) {
     return kept;
 }
 
+// Without what each step writes before it reads.
+std::vector<physics::JointBlock> portable(std::vector<physics::JointBlock> blocks) {
+    for (physics::JointBlock& block : blocks) block.restless = block.unsettled = 0;
+    return blocks;
+}
+std::vector<physics::BlockBody> portable(std::vector<physics::BlockBody> members) {
+    for (physics::BlockBody& member : members) member = {.body = member.body, .slot = physics::NONE, .blocks = member.blocks};
+    return members;
+}
+
 [[noreturn]] void refuse() {
     throw CheckpointError("the checkpoint is damaged: its tables do not fit together");
 }
@@ -108,6 +118,8 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put_bytes(records_of(state, Table::first_contacts, rows + 1));
     for (const Table table : contact_tables) out.put_bytes(records_of(state, table, contacts));
     out.put_list(std::span(state.joints));
+    out.put_list(std::span<const physics::JointBlock>(portable(state.joint_blocks)));
+    out.put_list(std::span<const physics::BlockBody>(portable(state.block_bodies)));
     out.put_list(std::span(state.vehicles));
     out.put_list(behind(state.hulls, at_start.hulls));
     out.put_list(std::span(state.parts));  // those of removed bodies are used again
@@ -138,6 +150,8 @@ StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
     take(Table::first_contacts, rows + 1);
     for (const Table table : contact_tables) take(table, contacts);
     joints_ = in.take_records(sizeof(physics::Joint));
+    joint_blocks_ = in.take_records(sizeof(physics::JointBlock));
+    block_bodies_ = in.take_records(sizeof(physics::BlockBody));
     vehicles_ = in.take_records(sizeof(physics::Vehicle));
     constexpr std::array sizes{sizeof(physics::uvec4),      sizeof(physics::PoseInBody), sizeof(physics::Fracturing),
                                sizeof(physics::PoseInBody), sizeof(physics::Tyre),       sizeof(physics::uvec4),
@@ -152,6 +166,7 @@ StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
         (shapes_[5].size() != 0 && shapes_[5].size() != rows * sizeof(physics::uvec4)) ||
         (!rows_.empty() && rows_.size() != body_count_) || !in_range(rows_, parameters_.first_part) ||
         !in_range(joint_records_, joints_.size() / sizeof(physics::Joint)) ||
+        parameters_.joint_blocks > joint_blocks_.size() / sizeof(physics::JointBlock) ||
         parameters_.vehicles > vehicles_.size() / sizeof(physics::Vehicle) || substeps_ < 1 ||
         shapes_[9].size() != (physics::has_copies(parameters_) ? parameters_.copies * sizeof(physics::uint) : 0) ||
         (shapes_[10].size() != 0 && shapes_[10].size() != parameters_.copies * sizeof(physics::uvec4)))
@@ -172,6 +187,8 @@ TableRanges StateBytes::restore(State& state) const {
     state.body_count = body_count_;
     state.joint_records = joint_records_;
     assign(state.joints, joints_);
+    assign(state.joint_blocks, joint_blocks_);
+    assign(state.block_bodies, block_bodies_);
     assign(state.vehicles, vehicles_);
     assign(state.hulls, shapes_[0], at_start_.hulls);
     assign(state.parts, shapes_[1]);
@@ -193,6 +210,7 @@ TableRanges StateBytes::restore(State& state) const {
     TableRanges changed = ranges_to_save(state);
     changed.push_back({Table::counts, 0, 1});
     changed.push_back({Table::ids, 0, p.bodies});
+    append(changed, joint_structure_ranges(state));
     const auto add = [&](Table table, std::size_t first, std::size_t size) {
         if (size > first) changed.push_back({table, first, size - first});
     };

@@ -45,7 +45,7 @@ private:
     std::uint32_t body_count_;
     std::vector<std::uint32_t> rows_, joint_records_;
     std::vector<std::pair<Table, std::span<const std::byte>>> tables_;
-    std::span<const std::byte> joints_, vehicles_;
+    std::span<const std::byte> joints_, joint_blocks_, block_bodies_, vehicles_;
     std::array<std::span<const std::byte>, 11> shapes_;  // those of StartLengths: behind `at_start`
     StartLengths at_start_;
 };

@@ -20,7 +20,7 @@ class SharedPipelines;
 struct TablesOfAStep {
     std::uint32_t storage, texels, changing_texels;
 };
-inline constexpr TablesOfAStep tables_of_a_step{23, 24, 6};
+inline constexpr TablesOfAStep tables_of_a_step{25, 26, 6};
 
 // Properties of a physical device, as `scree devices` shows them.
 struct DeviceReport {

@@ -11,7 +11,7 @@ void main() {
     if (i >= PARAMETERS.actions || COUNTED.overflow != 0u) return;
     Action action = actions.at[i];
     if (is_absent(READ(properties, action.body).motion)) return;
-    Mass mass = mass_in_world(READ(properties, action.body), READ(poses, action.body).orientation, 1.0f);
+    Mass mass = mass_in_world(READ(properties, action.body), READ(poses, action.body).orientation);
     if (PARAMETERS.redo == 0u) velocities.at[action.body] = apply_impulses(velocities.at[action.body], action, mass, PARAMETERS);
     WORD(sleep_states, action.body) = 0u;
     forces.at[action.body] = apply_forces(forces.at[action.body], action, mass);

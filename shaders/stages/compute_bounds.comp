@@ -28,9 +28,9 @@ void main() {
     if (!is_apart(body)) around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);
     if (will_sweep(body, READ(velocities, i), PARAMETERS)) note(COUNTS.fast, 1u);
     if (owner == i) {
-        masses.at[i] = mass_in_world(body, pose.orientation, masses.at[i].split);
+        masses.at[i] = body_mass(mass_in_world(body, pose.orientation), masses.at[i].split_state);
     } else {
-        masses.at[i] = Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+        masses.at[i] = BodyMass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
     }
     bool listed = !is_large(body) && (around.level & NOT_IN_GRID) == 0u;
     if (listed) note(COUNTS.levels, 1u << around.level);

@@ -13,13 +13,12 @@ bool is_gone(uint body) {
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.joint_blocks || COUNTED.overflow != 0u) return;
-    uint first = joints.at[i].first_of_block;
-    for (uint j = first; j < first + joints.at[first].block_joints; ++j)
+    JointBlock block = joint_blocks.at[i];
+    for (uint j = block.first_joint; j < block.first_joint + block.joints; ++j)
         if (is_gone(joints.at[j].a) || is_gone(joints.at[j].b)) joints.at[j].broken = 1u;
-    uint last = first + joints.at[first].block_bodies;
-    for (uint m = first; m < last; ++m) {
-        uint body = joints.at[m].block_body;
-        joints.at[m].slot = NONE;
+    for (uint m = block.first_body; m < block.first_body + block.bodies; ++m) {
+        uint body = block_bodies.at[m].body;
+        block_bodies.at[m].slot = NONE;
         if (any_stirs(COUNTED) &&
             is_movable(READ(properties, body).motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps))
             atomicAdd(WORD(slot_counts, body), 1u);

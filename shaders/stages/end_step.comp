@@ -11,6 +11,15 @@
 // after the declarations of the tables
 #include "shaders/stages/lib/gather.glsl"
 
+// Of the active contacts' and joints' other bodies, the least quiet steps.
+float least_quiet_beside(uint body) {
+    float quiet = FOREVER;
+    uint last = READ_WORD(slot_ends, body);
+    for (uint k = first_slot_of(body); k < last; ++k)
+        if (slots.at[k].weight > 0.0f) quiet = smaller(quiet, uintBitsToFloat(READ_WORD(neighbours_quiet, k)));
+    return quiet;
+}
+
 void main() {
     uint i = thread();
     if (COUNTED.overflow != 0u) return;
@@ -25,7 +34,7 @@ void main() {
     if (is_spin_limited(velocity, PARAMETERS)) atomicAdd(COUNTS.spin_limited, 1u);
     float pace = pace_of(body, velocity, PARAMETERS);
     WORD(sleep_states, i) =
-        sleep_state_after(WORD(sleep_states, i), pace, sum.carrying, sum.least_payload, PARAMETERS.sleep_steps);
+        sleep_state_after(WORD(sleep_states, i), pace, sum.weight, least_quiet_beside(i), PARAMETERS.sleep_steps);
     if (is_asleep(WORD(sleep_states, i), PARAMETERS.sleep_steps)) {
         velocity.linear = vec3(0.0f);
         velocity.angular = vec3(0.0f);

@@ -9,10 +9,9 @@
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.joint_blocks || COUNTED.overflow != 0u || !any_stirs(COUNTED)) return;
-    uint first = joints.at[i].first_of_block;
-    uint last = first + joints.at[first].block_bodies;
-    for (uint m = first; m < last; ++m) {
-        uint body = joints.at[m].block_body;
+    JointBlock block = joint_blocks.at[i];
+    for (uint m = block.first_body; m < block.first_body + block.bodies; ++m) {
+        uint body = block_bodies.at[m].body;
         if (is_movable(READ(properties, body).motion, READ_WORD(sleep_states, body), PARAMETERS.sleep_steps))
             WORD(slot_sides, atomicAdd(WORD(slot_starts, body), 1u)) = OF_JOINT | m;
     }

@@ -67,6 +67,6 @@ void main() {
 
     ContactShare share = first_share(constraint, prepared.impulse, now, READ(masses, of_a), READ(masses, of_b), felt);
     float normal_sum = prepared.impulse.normal_sum;
-    if (slot_a != NONE) slots.at[slot_a] = velocity_delta(share.change.a, share.carrying, normal_sum);
-    if (slot_b != NONE) slots.at[slot_b] = velocity_delta(share.change.b, share.carrying, normal_sum);
+    if (slot_a != NONE) slots.at[slot_a] = velocity_delta(share.change.a, share.weight, normal_sum);
+    if (slot_b != NONE) slots.at[slot_b] = velocity_delta(share.change.b, share.weight, normal_sum);
 }

@@ -13,16 +13,14 @@ void main() {
     note_pressing();
     lend(true);
     take_velocities(false);
-    for (uint j = block_first; j < block_joints; ++j) {
+    for (uint j = block_first_joint; j < block_joints_end; ++j) {
         if (!holds(j)) continue;
         joints.at[j].force = vec3(0.0f);
         joints.at[j].torque = vec3(0.0f);
         place_rows(j);
     }
     begin_shares();
-    for (uint j = block_first; j < block_joints; ++j)
+    for (uint j = block_first_joint; j < block_joints_end; ++j)
         if (holds(j)) share_out_warm_start(j);
-    for (uint m = block_first; m < block_bodies; ++m)
-        if (joints.at[m].slot != NONE)
-            slots.at[joints.at[m].slot] = velocity_delta(joints.at[m].velocity, 1.0f, joints.at[m].normal_sum);
+    hand_out(1.0f, true);
 }

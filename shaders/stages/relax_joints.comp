@@ -31,7 +31,7 @@ void take_stock(uint j) {
 // The least quiet steps of all bodies of the block.
 float least_quiet_in_block() {
     float quiet = FOREVER;
-    for (uint j = block_first; j < block_joints; ++j) {
+    for (uint j = block_first_joint; j < block_joints_end; ++j) {
         if (!holds(j)) continue;
         for (uint side = 0u; side < 2u; ++side) {
             uint body = side == 0u ? joints.at[j].a : joints.at[j].b;
@@ -46,7 +46,7 @@ float least_quiet_in_block() {
 void end_pass() {
     begin_shares();
     bool struck = is_struck();  // the impulses of an impact must not warm start the next substep
-    for (uint j = block_first; j < block_joints; ++j) {
+    for (uint j = block_first_joint; j < block_joints_end; ++j) {
         if (!holds(j)) continue;
         share_out(j, !is_last_substep() && !struck);
         commit(j);
@@ -54,13 +54,12 @@ void end_pass() {
         if (struck)
             for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
     }
-    float quiet = FOREVER;
-    if (is_last_substep()) quiet = least_quiet_in_block();
     note_pressing();
-    for (uint m = block_first; m < block_bodies; ++m)
-        if (joints.at[m].slot != NONE)
-            slots.at[joints.at[m].slot] =
-                velocity_delta(joints.at[m].velocity, 1.0f, is_last_substep() ? quiet : joints.at[m].normal_sum);
+    hand_out(1.0f, true);
+    if (!is_last_substep()) return;
+    float quiet = least_quiet_in_block();
+    for (uint m = block_first_body; m < block_bodies_end; ++m)
+        if (block_bodies.at[m].slot != NONE) SET_FLOAT(neighbours_quiet, block_bodies.at[m].slot, quiet);
 }
 
 void main() {

@@ -11,16 +11,13 @@
 // Commits the impulses and writes the bodies' velocity changes.
 void end_pass() {
     begin_shares();
-    for (uint j = block_first; j < block_joints; ++j) {
+    for (uint j = block_first_joint; j < block_joints_end; ++j) {
         if (holds(j)) {
             share_out(j, false);
             commit(j);
         }
     }
-    for (uint m = block_first; m < block_bodies; ++m)
-        if (joints.at[m].slot != NONE)
-            slots.at[joints.at[m].slot] =
-                velocity_delta(joints.at[m].velocity, 0.0f, 1.0f);  // marks the body as joined (restitution.h)
+    hand_out(0.0f, false);
 }
 
 void main() {

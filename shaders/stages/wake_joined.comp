@@ -14,19 +14,17 @@ bool is_restless_body(uint body) {
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.joint_blocks || COUNTED.overflow != 0u || COUNTED.sleepers == 0u || !any_stirs(COUNTED)) return;
-    uint first = joints.at[i].first_of_block;
-    uint joints_end = first + joints.at[first].block_joints;
+    JointBlock block = joint_blocks.at[i];
     if (push.pass == 0u) {
         bool restless = false;
-        for (uint j = first; j < joints_end; ++j)
+        for (uint j = block.first_joint; j < block.first_joint + block.joints; ++j)
             if (joints.at[j].broken == 0u)
                 restless = restless || is_restless_body(joints.at[j].a) || is_restless_body(joints.at[j].b);
-        joints.at[first].restless = restless ? 1u : 0u;
+        joint_blocks.at[i].restless = restless ? 1u : 0u;
         return;
     }
-    if (joints.at[first].restless == 0u) return;
-    uint last = first + joints.at[first].block_bodies;
-    for (uint m = first; m < last; ++m)
-        if (has_slept(WORD(sleep_states, joints.at[m].block_body), PARAMETERS.sleep_steps))
-            atomicOr(WORD(sleep_states, joints.at[m].block_body), WOKEN);
+    if (block.restless == 0u) return;
+    for (uint m = block.first_body; m < block.first_body + block.bodies; ++m)
+        if (has_slept(WORD(sleep_states, block_bodies.at[m].body), PARAMETERS.sleep_steps))
+            atomicOr(WORD(sleep_states, block_bodies.at[m].body), WOKEN);
 }

@@ -61,15 +61,9 @@ struct Group {
         return choose(c.restitution > 0.0f,
                       impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)), vec4(0.0f));
     }
-    SCREE_INLINE void hand_out(const WideTables& tables, const Impulse& after, const VelocityPair& share, Float carrying,
-                               Float payload_a, Float payload_b) const {
-        scatter(tables.impulses, contacts.only(live), after);
-        hand_out(tables, share, carrying, payload_a, payload_b);
-    }
-    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float carrying, Float payload_a,
-                               Float payload_b) const {
-        scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, carrying, payload_b));
-        scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, carrying, payload_a));
+    SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float weight, Float normal_impulse) const {
+        scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, weight, normal_impulse));
+        scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, normal_impulse));
     }
 };
 
@@ -78,12 +72,11 @@ void hand_out(const WideTables& tables, std::size_t first, std::size_t last) {
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Group group(tables, first, last);
-        const Mass ma = split_mass(gather<Mass>(tables.masses, group.a), group.impulse, p);
-        const Mass mb = split_mass(gather<Mass>(tables.masses, group.b), group.impulse, p);
-        const Float carrying = is_active(group.c, group.impulse, group.before, p);
+        const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
+        const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
+        const Float weight = is_active(group.c, group.impulse, group.before, p);
         const VelocityPair share = to_body_deltas(group.before, group.before, ma, mb);
-        group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), carrying, group.impulse.normal_sum,
-                       group.impulse.normal_sum);
+        group.hand_out(tables, warm_start(group.c, group.impulse, share, ma, mb), weight, group.impulse.normal_sum);
     }
 }
 
@@ -92,23 +85,18 @@ void solve(const WideTables& tables, std::size_t first, std::size_t last) {
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Group group(tables, first, last);
-        const Mass ma = split_mass(gather<Mass>(tables.masses, group.a), group.impulse, p);
-        const Mass mb = split_mass(gather<Mass>(tables.masses, group.b), group.impulse, p);
+        const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
+        const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
         const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
-        group.hand_out(tables, after.impulse, share, impact_weight(after.impulse), 0.0f, 0.0f);
+        scatter(tables.impulses, group.contacts.only(group.live), after.impulse);
+        group.hand_out(tables, share, impact_weight(after.impulse), 0.0f);
     }
-}
-
-SCREE_INLINE Float gather_quiet_steps(const std::uint32_t* quiet_steps, const Indices& bodies) {
-    Words words;
-    for (int lane = 0; lane < lanes; ++lane) words[lane] = quiet_steps[bodies.of[lane]];
-    return uintBitsToFloat(words);
 }
 
 // physics::impact_mass, reading forces only if a lane has an impact.
 SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const Indices& bodies, const Parameters& p) {
-    const Mass mass = gather<Mass>(tables.masses, bodies);
+    const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
     if (none(is_impact(impulse) > 0.0f)) return split_mass(mass, impulse, p);
     return impact_mass(impulse, mass, gather<BodyForces>(tables.forces, bodies), p);
 }
@@ -134,18 +122,10 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
         VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
-        const Float carrying = is_active(group.c, impulse, after.pair_velocity, p);
-        Float payload_a = impulse.normal_sum, payload_b = impulse.normal_sum;
-        if (tables.quiet_steps == nullptr) {
-            share = warm_start(group.c, impulse, share, ma, mb);
-        } else {
-            payload_a = gather_quiet_steps(tables.quiet_steps, group.a);
-            payload_b = gather_quiet_steps(tables.quiet_steps, group.b);
-            const Bool driven = is_driven(group.c);
-            payload_a = choose(driven, Float(BESIDE_MOVING), payload_a);
-            payload_b = choose(driven, Float(BESIDE_MOVING), payload_b);
-        }
-        group.hand_out(tables, impulse, share, carrying, payload_a, payload_b);
+        const Float weight = is_active(group.c, impulse, after.pair_velocity, p);
+        if (!tables.last) share = warm_start(group.c, impulse, share, ma, mb);
+        scatter(tables.impulses, group.contacts.only(group.live), impulse);
+        group.hand_out(tables, share, weight, impulse.normal_sum);
     }
 }
 
@@ -185,9 +165,10 @@ void begin(const WideTables& tables, std::size_t first, std::size_t last) {
         change.linear = sum.linear;
         change.angular = sum.angular;
         velocity = integrate_velocity(velocity, change, load, properties, p);
-        Mass mass = gather<Mass>(tables.masses, bodies);
-        if (tables.first) mass.split = update_hysteresis(mass.split, sum.is_active, steps_of(tables, bodies));
-        mass.split = split_state_after(mass.split, sum.is_active, sum.payload);
+        BodyMass mass = gather<BodyMass>(tables.masses, bodies);
+        Float& state = mass.split_state;
+        if (tables.first) state = update_hysteresis(state, sum.weight, steps_of(tables, bodies));
+        state = split_state_after(state, sum.weight, sum.normal_impulse);
         const Indices live = bodies.only(living(first, last));
         scatter(tables.velocities, live, velocity);
         scatter(tables.masses, live, mass);
@@ -205,16 +186,16 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         Velocity velocity = gather<Velocity>(tables.velocities, bodies);
         velocity.linear = velocity.linear + sum.linear;
         velocity.angular = velocity.angular + sum.angular;
-        load.impacts = impacts_of(sum.is_active, sum.payload);
+        load.impacts = impacts_of(sum.weight, properties);
         const RigidState after = integrate(gather<Pose>(tables.poses, bodies), velocity, properties, p.h);
         const Indices live = bodies.only(living(first, last));
         scatter(tables.forces, live, load);
         scatter(tables.poses, live, after.pose);
         scatter(tables.velocities, live, after.velocity);
         if (none(!has_isotropic_inertia(properties))) continue;
-        const Mass mass = gather<Mass>(tables.masses, bodies);
+        const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
         scatter(tables.masses, bodies.only(living(first, last) && !has_isotropic_inertia(properties)),
-                mass_in_world(properties, after.pose.orientation, mass.split));
+                body_mass(mass_in_world(properties, after.pose.orientation), mass.split_state));
     }
 }
 

@@ -19,11 +19,11 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
-    const std::uint32_t* quiet_steps = nullptr;  // quiet steps of each body, as floats; null but in the last pass
-    float* carried = nullptr;                    // normal impulse of each contact in the step, N s; null if no body may break
-    std::uint32_t steps = 0;                     // Counts::steps in the first substep, for the hysteresis of mass splitting
-    const std::uint32_t* ages = nullptr;         // of each body, in place of `steps`, if there are several copies of the scene
-    bool first = false;
+    float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
+    std::uint32_t steps = 0;              // Counts::steps in the first substep, for the hysteresis of mass splitting
+    const std::uint32_t* ages = nullptr;  // of each body, in place of `steps`, if there are several copies of the scene
+    bool first = false;                   // the first substep of a step
+    bool last = false;                    // the last one
 };
 
 // The stages for items [first, last), bit-identical to the plain loops in contacts.cpp and bodies.cpp.

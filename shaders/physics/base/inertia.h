@@ -27,6 +27,32 @@ LAW vec3 turned_by(Mass tensor, vec3 v) {
                 (tensor.xz * v.x + tensor.yz * v.y) + tensor.zz * v.z);
 }
 
+// The mass of a body that is not split, and the table's record of a mass.
+LAW Mass whole_mass(BodyMass body) {
+    Mass mass;
+    mass.xx = body.xx;
+    mass.xy = body.xy;
+    mass.xz = body.xz;
+    mass.yy = body.yy;
+    mass.yz = body.yz;
+    mass.zz = body.zz;
+    mass.inverse_mass = body.inverse_mass;
+    mass.split = 1.0f;
+    return mass;
+}
+LAW BodyMass body_mass(Mass mass, float split_state) {
+    BodyMass body;
+    body.xx = mass.xx;
+    body.xy = mass.xy;
+    body.xz = mass.xz;
+    body.yy = mass.yy;
+    body.yz = mass.yz;
+    body.zz = mass.zz;
+    body.inverse_mass = mass.inverse_mass;
+    body.split_state = split_state;
+    return body;
+}
+
 LAWS_END
 
 #endif

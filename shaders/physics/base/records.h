@@ -107,12 +107,19 @@ struct Velocity {
     float low_z;   // of the position, m
 };
 
-// World inverse inertia at the present orientation, and the accelerations of this step.
-struct Mass {
+// Inverse mass and world inverse inertia at the present orientation.
+struct BodyMass {
     float xx, xy, xz, yy;  // world inverse inertia tensor, symmetric, 1/(kg m^2)
     float yz, zz;
     float inverse_mass;  // 1/kg
-    float split;         // split factor s: a contact solves with 1/s; in the table packed (mass_splitting.h)
+    float split_state;   // number of active contacts and sum of their normal impulses, packed (mass_splitting.h)
+};
+// The mass of a split body: 1/s of the body's.
+struct Mass {
+    float xx, xy, xz, yy;  // of the whole body, as in BodyMass
+    float yz, zz;
+    float inverse_mass;  // of the whole body, 1/kg
+    float split;         // split factor s, at least 1
 };
 struct BodyForces {
     vec3 acceleration;          // gravity and forces, m/s^2, constant over the step
@@ -259,13 +266,11 @@ struct Constraint {
     uint pair;                    // index of the pair
     float slide_limit;            // slide after which the points have left the body they slide over, m
 };
-struct VelocityDelta {  // velocity change of one body by one contact; summed in the order of slots
-    vec3 linear;        // m/s
-    float is_active;    // 1: active in this substep or the next, counts in mass splitting
-    vec3 angular;       // rad/s
-    // By the pass that writes the record: a contact's normal impulse, N s; in the solve pass 1 from a joint, 0 from a
-    // contact (impacts_of); in the step's last pass the other body's quiet steps (sleep.h).
-    float payload;
+struct VelocityDelta {     // velocity change of one body by one contact; summed in the order of slots
+    vec3 linear;           // m/s
+    float weight;          // in the mass splitting that follows: 1 if active; after the biased pass, that of an impact
+    vec3 angular;          // rad/s
+    float normal_impulse;  // that the contact bears, N s; after the biased pass 0
 };
 
 // ---- joints
@@ -308,11 +313,10 @@ CONSTANT uint MOTOR_AT_MAX = 2u;  // positive
 CONSTANT uint LIMIT_LOWER = 4u;   // the lower limit is active
 CONSTANT uint LIMIT_UPPER = 8u;
 
-// Record i of a block holds its i-th joint and its i-th body; there are as many records as the larger number. Joints
-// are in elimination order (compute/step/joint_blocks.h).
+// The joints of a block are contiguous, in elimination order (compute/step/joint_blocks.h).
 struct Joint {
     uint a, b;                        // bodies; NONE: the world
-    uint block_body_a, block_body_b;  // records of the block that hold them; NONE: not dynamic
+    uint block_body_a, block_body_b;  // their BlockBody; NONE: not dynamic
     vec3 anchor_a;                    // in A's frame, m
     uint flags;                       // JOINT_*
     vec3 anchor_b;
@@ -324,38 +328,43 @@ struct Joint {
     uint next_b;
     uint fill_in;        // number of entries in fill_in_of
     uint fill_in_of[8];  // later joints of the block whose equations its elimination changes, ascending
-    // ---- of the block, in its first record
-    uint block_joints, block_bodies;
-    uint first_of_block;  // in record i: first record of the i-th block
-    uint restless;        // 1: one of its bodies is restless in this step
     // ---- state
     uint active_set;   // per axis
     uint broken;       // 1: the joint has broken
     uint solved_axes;  // bit per axis that is an unknown of the pass's equations
-    uint unsettled;    // of the block, in its first record. 1: the active set changed in the last round
-    vec3 force;        // on B: sum of impulses in a step, N s; then the mean, N
+    uint pad0;
+    vec3 force;  // on B: sum of impulses in a step, N s; then the mean, N
     float max_force;
     vec3 torque;  // as force, N m
     float max_torque;
-    // ---- the body of this record
-    uint block_body;  // NONE: none
-    uint slot;
-    float normal_sum;          // N s
-    uint blocks;               // number of blocks that share the body
-    Mass mass;                 // split
-    Velocity velocity;         // of the split body
-    Velocity velocity_before;  // as a round of the pass begins
-    // ---- of the pass
     JointRow rows[6];
 };
+// Joints that one thread solves together, and their dynamic bodies.
+struct JointBlock {
+    uint first_joint, joints;  // in the table of joints
+    uint first_body, bodies;   // in the table of block bodies
+    uint restless;             // 1: one of its bodies is restless in this step
+    uint unsettled;            // 1: an active set changed in the last round of the pass
+    uint pad0, pad1;
+};
+// A dynamic body in a block; one of several if blocks share the body.
+struct BlockBody {
+    uint body;
+    uint slot;                 // of its VelocityDelta; NONE: it does not move in this step
+    uint blocks;               // number of blocks that share the body
+    float normal_sum;          // impulses of the block's joints on it in the last pass, N s
+    Mass mass;                 // split in this pass
+    Velocity velocity;         // of the split body; at the end of a pass, the whole body's change
+    Velocity velocity_before;  // as a round of the pass begins
+};
 CONSTANT uint MAX_FILL_IN = 8u;
-// The equations of the joint in this record, within a pass.
+// The equations of a joint within a pass.
 struct JointEquations {
     float solution[8];    // right-hand sides, then solutions; 6 in use
     float diagonal[40];   // 6 x 6
     float coupling[288];  // per fill-in entry, 6 rows of the later joint x 6 of this one
 };
-CONSTANT uint OF_JOINT = 0x80000000u;  // in the list of slot sides: the side is the block's body in this record
+CONSTANT uint OF_JOINT = 0x80000000u;  // flag in slot_sides: the rest is the index of a BlockBody
 
 // ---- vehicles (vehicle.h)
 struct VehicleWheel {
@@ -454,6 +463,7 @@ struct Parameters {  // uniform over a step
     uint contact_starts_offset;
     uint carried_offset;
     uint slot_sides_offset;
+    uint neighbours_quiet_offset;
     uint scan_sums_offset;
     uint hulls_offset;
     uint parts_offset;
@@ -470,6 +480,7 @@ struct Parameters {  // uniform over a step
     uint copy_states_offset;
     uint gravities_offset;
     uint copies;  // of the scene, at least 1 (copies.h)
+    uint pad0, pad1, pad2;
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air

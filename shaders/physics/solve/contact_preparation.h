@@ -95,15 +95,15 @@ LAW Constraint with_unrest(Constraint c, float unrest) {
 // splitting).
 struct ContactShare {
     VelocityPair change;
-    float carrying;
+    float weight;
     float pad0;
     float pad1;
     float pad2;
 };
-LAW ContactShare first_share(Constraint c, Impulse impulse, VelocityPair now, Mass a, Mass b, Parameters parameters) {
+LAW ContactShare first_share(Constraint c, Impulse impulse, VelocityPair now, BodyMass a, BodyMass b, Parameters parameters) {
     Mass lent_a = split_mass(a, impulse, parameters), lent_b = split_mass(b, impulse, parameters);
     ContactShare share;
-    share.carrying = is_active(c, impulse, now, parameters);
+    share.weight = is_active(c, impulse, now, parameters);
     share.change = warm_start(c, impulse, to_body_deltas(now, now, lent_a, lent_b), lent_a, lent_b);
     share.pad0 = 0.0f;
     share.pad1 = 0.0f;

@@ -230,12 +230,12 @@ LAW VelocityPair to_body_deltas(VelocityPair before, VelocityPair after, Mass a,
     share.b.angular = (after.b.angular - before.b.angular) * share_b;
     return share;
 }
-LAW VelocityDelta velocity_delta(Velocity share, float carrying, float payload) {
+LAW VelocityDelta velocity_delta(Velocity share, float weight, float normal_impulse) {
     VelocityDelta slot;
     slot.linear = flush_tiny(share.linear);
-    slot.is_active = carrying;
+    slot.weight = weight;
     slot.angular = flush_tiny(share.angular);
-    slot.payload = payload;
+    slot.normal_impulse = normal_impulse;
     return slot;
 }
 LAWS_END

@@ -20,9 +20,10 @@ CONSTANT uint SETTLING_ROUND = 2u;  // then bounds are only released: else some 
 // ---- split bodies
 // The split mass of a body of the block. In the biased pass, and in the relax pass of a block that is struck, joints are
 // solved after the contacts, and only blocks share the body; else contacts share it as well.
-LAW Mass mass_of_member(Mass mass, bool moves, uint blocks, float normal_sum, bool after_contacts, Parameters parameters) {
+LAW Mass mass_of_member(BodyMass body, bool moves, uint blocks, float normal_sum, bool after_contacts, Parameters parameters) {
+    Mass mass = whole_mass(body);
     mass.split = after_contacts ? larger(1.0f, float(blocks) * parameters.inverse_relaxation)
-                                : split_factor(mass.split, normal_sum, parameters);
+                                : split_factor(body.split_state, normal_sum, parameters);
     if (moves) return mass;
     mass.xx = 0.0f;
     mass.xy = 0.0f;

@@ -14,7 +14,7 @@
 #define SCREE_PHYSICS_MASS_SPLITTING_H
 
 #include "shaders/physics/base/arithmetic.h"
-#include "shaders/physics/base/records.h"
+#include "shaders/physics/base/inertia.h"
 
 LAWS_BEGIN
 
@@ -67,8 +67,9 @@ LAW float normal_impulse(Impulse impulse) {
 LAW float solved_impulse(Impulse impulse) {
     return (impulse.solved_normal.x + impulse.solved_normal.y) + (impulse.solved_normal.z + impulse.solved_normal.w);
 }
-LAW Mass split_mass(Mass mass, Impulse impulse, Parameters parameters) {
-    mass.split = split_factor(mass.split, impulse.normal_sum, parameters);
+LAW Mass split_mass(BodyMass body, Impulse impulse, Parameters parameters) {
+    Mass mass = whole_mass(body);
+    mass.split = split_factor(body.split_state, impulse.normal_sum, parameters);
     return mass;
 }
 

@@ -31,7 +31,7 @@ LAW bool has_isotropic_inertia(BodyProperties properties) {
 }
 
 // The inverse mass and world inverse inertia tensor, R diag(i) R^T.
-LAW Mass mass_in_world(BodyProperties properties, vec4 orientation, float split) {
+LAW Mass mass_in_world(BodyProperties properties, vec4 orientation) {
     Mass mass;
     mass.xx = properties.inverse_inertia.x;
     mass.yy = properties.inverse_inertia.x;
@@ -50,7 +50,7 @@ LAW Mass mass_in_world(BodyProperties properties, vec4 orientation, float split)
         mass.yz = choose(evenly, mass.yz, flush_least(tensor.yz));
     }
     mass.inverse_mass = properties.inverse_mass;
-    mass.split = split;
+    mass.split = 1.0f;
     return mass;
 }
 

@@ -28,8 +28,8 @@ CONSTANT int IMPACT_SWEEPS = 8;
 CONSTANT float IMPACT_DISTANCE = 0.01f;
 
 // What BodyForces.impacts holds: the number of impacts, negative for a body on joints.
-LAW float impacts_of(float struck, float joined) {
-    return choose(joined > 0.0f, -struck, struck);
+LAW float impacts_of(float struck, BodyProperties body) {
+    return choose(body.joints != NONE, -struck, struck);
 }
 
 // xyz: relative acceleration (B minus A), m/s^2; w: impacts of the body that has more of them, negative if one of the two
@@ -170,8 +170,8 @@ LAW Impulse rebounding(Constraint c, Impulse impulse, vec4 rebound, vec4 state, 
 }
 
 // The split mass in the relax pass: a struck body is split among its impacts by their weights.
-LAW Mass impact_mass(Impulse impulse, Mass mass, BodyForces load, Parameters parameters) {
-    mass = split_mass(mass, impulse, parameters);
+LAW Mass impact_mass(Impulse impulse, BodyMass body, BodyForces load, Parameters parameters) {
+    Mass mass = split_mass(body, impulse, parameters);
     float weight = impact_weight(impulse);
     float split = abs(load.impacts) * reciprocal(larger(weight, 1.0e-3f));
     mass.split = choose(weight > 0.0f, larger(1.0f, split), mass.split);

@@ -11,16 +11,18 @@
 
 #define EACH_OF_SIX(DO) DO(0u) DO(1u) DO(2u) DO(3u) DO(4u) DO(5u)
 
-uint block_first, block_joints, block_bodies;
+uint block, block_first_joint, block_joints_end, block_first_body, block_bodies_end;
 
 // False if there is no such block, or no body of it can move.
 bool enter_block(uint index) {
     if (index >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u) return false;
-    block_first = joints.at[index].first_of_block;
-    block_joints = block_first + joints.at[block_first].block_joints;
-    block_bodies = block_first + joints.at[block_first].block_bodies;
+    block = index;
+    block_first_joint = joint_blocks.at[block].first_joint;
+    block_joints_end = block_first_joint + joint_blocks.at[block].joints;
+    block_first_body = joint_blocks.at[block].first_body;
+    block_bodies_end = block_first_body + joint_blocks.at[block].bodies;
     bool moves = false;
-    for (uint m = block_first; m < block_bodies && !moves; ++m) moves = joints.at[m].slot != NONE;
+    for (uint m = block_first_body; m < block_bodies_end && !moves; ++m) moves = block_bodies.at[m].slot != NONE;
     return moves;
 }
 
@@ -33,7 +35,7 @@ Pose pose_of(uint body) {
     return Pose(vec3(0.0f), 0.0f, vec4(0.0f, 0.0f, 0.0f, 1.0f));
 }
 Velocity velocity_of(uint body, uint block_body) {
-    if (block_body != NONE) return joints.at[block_body].velocity;
+    if (block_body != NONE) return block_bodies.at[block_body].velocity;
     if (body != NONE) return velocities.at[body];
     return Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
 }
@@ -45,41 +47,42 @@ VelocityPair couple_of(uint j) {
 }
 
 Mass mass_of(uint block_body) {
-    if (block_body != NONE) return joints.at[block_body].mass;
+    if (block_body != NONE) return block_bodies.at[block_body].mass;
     return Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
 }
 
 // Split masses of the block's bodies.
 void lend(bool after_contacts) {
-    for (uint m = block_first; m < block_bodies; ++m)
-        joints.at[m].mass = mass_of_member(masses.at[joints.at[m].block_body], joints.at[m].slot != NONE, joints.at[m].blocks,
-                                           joints.at[m].normal_sum, after_contacts, PARAMETERS);
+    for (uint m = block_first_body; m < block_bodies_end; ++m)
+        block_bodies.at[m].mass =
+            mass_of_member(masses.at[block_bodies.at[m].body], block_bodies.at[m].slot != NONE, block_bodies.at[m].blocks,
+                           block_bodies.at[m].normal_sum, after_contacts, PARAMETERS);
 }
 // Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
 bool is_struck() {
     bool struck = false;
-    for (uint m = block_first; m < block_bodies; ++m)
-        if (forces.at[joints.at[m].block_body].impacts != 0.0f) struck = true;
+    for (uint m = block_first_body; m < block_bodies_end; ++m)
+        if (forces.at[block_bodies.at[m].body].impacts != 0.0f) struck = true;
     return struck;
 }
 
 // Velocities of the block's bodies; after the contacts with this pass's changes by them, in the slots before those of
 // joints.
 void take_velocities(bool after_contacts) {
-    for (uint m = block_first; m < block_bodies; ++m) {
-        uint body = joints.at[m].block_body;
+    for (uint m = block_first_body; m < block_bodies_end; ++m) {
+        uint body = block_bodies.at[m].body;
         Velocity velocity = velocities.at[body];
-        if (after_contacts && joints.at[m].slot != NONE) {
-            uint last = WORD(slot_ends, body) - joints.at[m].blocks;
+        if (after_contacts && block_bodies.at[m].slot != NONE) {
+            uint last = WORD(slot_ends, body) - block_bodies.at[m].blocks;
             for (uint k = body == 0u ? 0u : WORD(slot_ends, body - 1u); k < last; ++k)
                 velocity = changed_by(velocity, slots.at[k]);
         }
-        joints.at[m].velocity_before = velocity;
-        joints.at[m].velocity = velocity;
+        block_bodies.at[m].velocity_before = velocity;
+        block_bodies.at[m].velocity = velocity;
     }
 }
 void restore_velocities() {
-    for (uint m = block_first; m < block_bodies; ++m) joints.at[m].velocity = joints.at[m].velocity_before;
+    for (uint m = block_first_body; m < block_bodies_end; ++m) block_bodies.at[m].velocity = block_bodies.at[m].velocity_before;
 }
 
 // Jacobian rows of a joint at the present poses.
@@ -103,11 +106,11 @@ void push_row(uint j, uint k, float impulse) {
     uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b;
     bool linear = is_linear(k);
     if (side_a != NONE)
-        joints.at[side_a].velocity =
-            row_pushed(joints.at[side_a].velocity, row.direction, row.angular_a, -impulse, linear, joints.at[side_a].mass);
+        block_bodies.at[side_a].velocity = row_pushed(block_bodies.at[side_a].velocity, row.direction, row.angular_a, -impulse,
+                                                      linear, block_bodies.at[side_a].mass);
     if (side_b != NONE)
-        joints.at[side_b].velocity =
-            row_pushed(joints.at[side_b].velocity, row.direction, row.angular_b, impulse, linear, joints.at[side_b].mass);
+        block_bodies.at[side_b].velocity = row_pushed(block_bodies.at[side_b].velocity, row.direction, row.angular_b, impulse,
+                                                      linear, block_bodies.at[side_b].mass);
 }
 
 // Chooses the axes that are unknowns; the impulses of the others are given and applied at once.
@@ -270,15 +273,15 @@ void substitute(uint j, uint k) {
 }
 
 void solve_equations(bool biased) {
-    for (uint j = block_first; j < block_joints; ++j)
+    for (uint j = block_first_joint; j < block_joints_end; ++j)
         if (holds(j)) set_up_equations(j, biased);
-    for (uint j = block_first; j < block_joints; ++j)
+    for (uint j = block_first_joint; j < block_joints_end; ++j)
         for (uint k = 0u; k < 6u; ++k)
             if (holds(j) && unknown(j, k)) eliminate(j, k);
-    for (uint j = block_joints; j-- > block_first;)
+    for (uint j = block_joints_end; j-- > block_first_joint;)
         for (uint k = 6u; k-- > 0u;)
             if (holds(j) && unknown(j, k)) substitute(j, k);
-    for (uint j = block_first; j < block_joints; ++j)
+    for (uint j = block_first_joint; j < block_joints_end; ++j)
         for (uint k = 0u; k < 6u; ++k)
             if (holds(j) && unknown(j, k)) push_row(j, k, joint_equations.at[j].solution[k]);
 }
@@ -324,31 +327,39 @@ void solve_block(bool biased) {
         bool after_contacts = biased || is_struck();
         lend(after_contacts);
         take_velocities(after_contacts);
-        for (uint j = block_first; j < block_joints; ++j) {
+        for (uint j = block_first_joint; j < block_joints_end; ++j) {
             joints.at[j].solved_axes = 0u;
             if (holds(j)) place_rows(j);
         }
-        joints.at[block_first].unsettled = 1u;
+        joint_blocks.at[block].unsettled = 1u;
     }
-    bool others = joints.at[block_first].unsettled != 0u;
+    bool others = joint_blocks.at[block].unsettled != 0u;
     for (uint round = first_round(); round < rounds_end() && others; ++round) {
         restore_velocities();
-        for (uint j = block_first; j < block_joints; ++j)
+        for (uint j = block_first_joint; j < block_joints_end; ++j)
             if (holds(j)) choose_unknowns(j, biased);
         solve_equations(biased);
         others = false;
-        for (uint j = block_first; j < block_joints; ++j)
+        for (uint j = block_first_joint; j < block_joints_end; ++j)
             if (holds(j) && look_at_bounds(j, biased, round >= SETTLING_ROUND)) others = true;
     }
-    joints.at[block_first].unsettled = others ? 1u : 0u;
+    joint_blocks.at[block].unsettled = others ? 1u : 0u;
 }
 
 // Clears the velocity changes, for whole bodies.
 void begin_shares() {
-    for (uint m = block_first; m < block_bodies; ++m) {
-        joints.at[m].velocity = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
-        joints.at[m].mass.split = 1.0f;
+    for (uint m = block_first_body; m < block_bodies_end; ++m) {
+        block_bodies.at[m].velocity = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+        block_bodies.at[m].mass.split = 1.0f;
     }
+}
+
+// Writes the velocity changes to the bodies' slots.
+void hand_out(float weight, bool with_normal_impulse) {
+    for (uint m = block_first_body; m < block_bodies_end; ++m)
+        if (block_bodies.at[m].slot != NONE)
+            slots.at[block_bodies.at[m].slot] =
+                velocity_delta(block_bodies.at[m].velocity, weight, with_normal_impulse ? block_bodies.at[m].normal_sum : 0.0f);
 }
 
 // Velocity changes by this pass, and by the next warm start if it `warms`, of whole bodies.
@@ -389,14 +400,16 @@ vec3 torque_impulse(uint j) {
 
 // Sums the impulses of the block's joints on each body: their weight in mass splitting.
 void note_pressing() {
-    for (uint m = block_first; m < block_bodies; ++m) joints.at[m].normal_sum = 0.0f;
-    for (uint j = block_first; j < block_joints; ++j) {
+    for (uint m = block_first_body; m < block_bodies_end; ++m) block_bodies.at[m].normal_sum = 0.0f;
+    for (uint j = block_first_joint; j < block_joints_end; ++j) {
         if (!holds(j)) continue;
         float normal_impulse = length3(force_impulse(j));
         if (joints.at[j].block_body_a != NONE)
-            joints.at[joints.at[j].block_body_a].normal_sum = joints.at[joints.at[j].block_body_a].normal_sum + normal_impulse;
+            block_bodies.at[joints.at[j].block_body_a].normal_sum =
+                block_bodies.at[joints.at[j].block_body_a].normal_sum + normal_impulse;
         if (joints.at[j].block_body_b != NONE)
-            joints.at[joints.at[j].block_body_b].normal_sum = joints.at[joints.at[j].block_body_b].normal_sum + normal_impulse;
+            block_bodies.at[joints.at[j].block_body_b].normal_sum =
+                block_bodies.at[joints.at[j].block_body_b].normal_sum + normal_impulse;
     }
 }
 

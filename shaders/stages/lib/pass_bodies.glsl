@@ -21,14 +21,14 @@ void begin_body(uint i, bool first) {
     Velocity velocity = integrate_velocity(READ(velocities, i), sum.change, READ(forces, i), body, PARAMETERS);
     for (uint k = 0u; k < PARAMETERS.held; ++k) {
         if (PARAMETERS.grips[k].body == i)
-            velocity = pulled(velocity, READ(poses, i), READ(masses, i), PARAMETERS.grips[k], PARAMETERS);
+            velocity = pulled(velocity, READ(poses, i), whole_mass(READ(masses, i)), PARAMETERS.grips[k], PARAMETERS);
     }
     velocities.at[i] = velocity;
-    float split_state = READ(masses, i).split;
+    float split_state = READ(masses, i).split_state;
     uint age = COUNTED.steps;
     if (COPIES && first) age = age_of_copy(age, READ_WORD(births, copy_of(i)));
-    if (first) split_state = update_hysteresis(split_state, sum.carrying, age);
-    masses.at[i].split = split_state_after(split_state, sum.carrying, sum.payload_sum);
+    if (first) split_state = update_hysteresis(split_state, sum.weight, age);
+    masses.at[i].split_state = split_state_after(split_state, sum.weight, sum.normal_impulse);
 }
 
 // Applies the biased pass and integrates the pose by a substep.
@@ -41,12 +41,13 @@ void move_body(uint i) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
-        forces.at[i].impacts = impacts_of(sum.carrying, sum.payload_sum);
+        forces.at[i].impacts = impacts_of(sum.weight, body);
     }
     RigidState after = integrate(READ(poses, i), velocity, body, PARAMETERS.h);
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
-    if (!has_isotropic_inertia(body)) masses.at[i] = mass_in_world(body, after.pose.orientation, READ(masses, i).split);
+    if (!has_isotropic_inertia(body))
+        masses.at[i] = body_mass(mass_in_world(body, after.pose.orientation), READ(masses, i).split_state);
 }
 
 #endif

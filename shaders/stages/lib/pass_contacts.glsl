@@ -36,6 +36,15 @@ void solve_contact(uint place) {
     if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, blow, 0.0f);
 }
 
+// Each body's quiet steps, for the other's sleep.
+void show_quiet_steps(Constraint c, VelocityPair before) {
+    float quiet_a = quiet_steps_shown(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
+    float quiet_b = quiet_steps_shown(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
+    if (is_driven(c)) quiet_a = quiet_b = BESIDE_MOVING;
+    if (c.slot_a != NONE) SET_FLOAT(neighbours_quiet, c.slot_a, quiet_b);
+    if (c.slot_b != NONE) SET_FLOAT(neighbours_quiet, c.slot_b, quiet_a);
+}
+
 const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
 
 // The relax pass. It also writes the next substep's warm start, or in the last substep the quiet steps of either body
@@ -75,17 +84,13 @@ void relax_contact(uint place, uint pass) {
     impulses.at[i].center_offset = impulse.center_offset;
     impulses.at[i].normal_sum = impulse.normal_sum;
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
-    float payload_a = impulse.normal_sum, payload_b = impulse.normal_sum;
-    if ((pass & LAST_SUBSTEP) == 0u) {
+    if ((pass & LAST_SUBSTEP) == 0u)
         share = warm_start(c, impulse, share, ma, mb);
-    } else {
-        payload_a = quiet_steps_shown(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
-        payload_b = quiet_steps_shown(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
-        if (is_driven(c)) payload_a = payload_b = BESIDE_MOVING;
-    }
-    float carrying = is_active(c, impulse, after.pair_velocity, felt_by(c.a));
-    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, carrying, payload_b);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, carrying, payload_a);
+    else
+        show_quiet_steps(c, before);
+    float weight = is_active(c, impulse, after.pair_velocity, felt_by(c.a));
+    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, weight, impulse.normal_sum);
+    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, weight, impulse.normal_sum);
 }
 
 #endif

@@ -52,7 +52,7 @@ bool comes_before(uint side, uint other) {
 void assign_slot(uint slot) {
     uint side = WORD(slot_sides, slot);
     if ((side & OF_JOINT) != 0u)
-        joints.at[side & ~OF_JOINT].slot = slot;
+        block_bodies.at[side & ~OF_JOINT].slot = slot;
     else if ((side & 1u) == 0u)
         constraints.at[side >> 1].slot_a = slot;
     else
