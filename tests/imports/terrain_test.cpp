@@ -43,7 +43,7 @@ TEST_CASE("imports: a height field of MJCF has its heights where MuJoCo has them
             const ImportOptions options{.axes = turned ? ImportedAxes::y_up : ImportedAxes::file};
             const Scene scene = file.load("a.xml", field(is_square ? square : oblong), options).scene;
             INFO(turned << is_square);
-            CHECK(file.notes.empty());
+            CHECK((file.notes.empty() || !is_square));  // a mesh is noted to have open edges
             const float reach = is_square ? 0.999f : 2.997f;
             CHECK(height_at(scene, 10, 20 + reach, turned) == Approx(1 + 4 * 0.5).margin(0.02));       // 30, of 10 to 50
             CHECK(height_at(scene, 8.001f, 20 - reach, turned) == Approx(1 + 4 * 0.25).margin(0.02));  // 20
@@ -97,7 +97,7 @@ TEST_CASE("imports: meshes of a scene file lie in its folder, unless others are 
     const auto scene = [](const std::string& mesh) {
         return R"({"bodies": [{"motion": "fixed", "shape": {"mesh": {"file": ")" + mesh + R"("}}}]})";
     };
-    for (const std::string& inside : {"meshes/cube.obj", "./meshes/../meshes/cube.obj"})
+    for (const std::string inside : {"meshes/cube.obj", "./meshes/../meshes/cube.obj"})
         CHECK(file.load("scenes/a.json", scene(inside)).scene.bodies.size() == 1);
     const std::string absolute = file.write("cube.obj", cube).string();
     for (const std::string& outside : {std::string("../cube.obj"), absolute, std::string("meshes/../../cube.obj")}) {
