@@ -13,6 +13,7 @@ namespace scree {
 struct State;       // compute/step/state.h
 class Threads;      // compute/step/threads.h
 struct TableRange;  // compute/step/table_ranges.h
+class Timeline;     // compute/timeline.h
 
 using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
 
@@ -58,11 +59,18 @@ public:
     virtual StageTimes stage_times() const = 0;       // means over the timed steps since the plan last changed
     virtual StageTimes last_stage_times() const = 0;  // of the last timed step
 
+    // Tells it of stages and transfers from the next step on, on a device of the timed steps; null: nothing.
+    void set_timeline(std::shared_ptr<Timeline> timeline) { timeline_ = std::move(timeline); }
+
+protected:
+    Timeline* timeline() const;  // null unless it wants stages
+
 private:
     virtual void send(const std::vector<TableRange>& ranges) = 0;
     virtual void receive(const std::vector<TableRange>& ranges) = 0;
 
     std::uint64_t uploaded_bytes_ = 0;
+    std::shared_ptr<Timeline> timeline_;
 };
 
 // The CPU runner with `threads` threads (0: one per core). No bit depends on their number.

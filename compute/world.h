@@ -22,6 +22,7 @@
 #include "compute/runner.h"
 #include "compute/scene.h"
 #include "compute/settings.h"
+#include "compute/timeline.h"
 
 namespace scree {
 
@@ -378,6 +379,10 @@ public:
     [[deprecated("use set_profiling")]] void time_stages(bool on) { set_profiling(on); }
     StageTimes stage_times() const;       // milliseconds per step, mean over the timed steps
     StageTimes last_stage_times() const;  // of the last timed step
+    // Tells it from now on when steps, and stages, loops of threads and transfers (if it wants them) ran, the numbers of pairs
+    // and contacts after each step, and when buffers grew, bodies were reordered in memory, or broke; null: nothing. Stages
+    // of a device need set_profiling.
+    void set_timeline(std::shared_ptr<Timeline> timeline);
 
 private:
     struct Impl;

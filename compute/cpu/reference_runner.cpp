@@ -3,6 +3,8 @@
 
 #include <chrono>
 
+#include "compute/step/stage_slices.h"
+
 namespace scree {
 
 std::string ReferenceRunner::device() const {
@@ -29,10 +31,15 @@ bool ReferenceRunner::step() {
 bool ReferenceRunner::step(const std::function<bool(const Stage&, std::size_t)>& look) {
     if (!state_->fixed().redo) state_->turn_over();
     clock_.begin_step();
+    Timeline* const told = timeline();
+    const Watch watch(threads_);
     for (std::size_t i = 0; i < plan_.size(); ++i) {
+        if (told) threads_.watch(told, plan_[i].name);
         const auto begin = std::chrono::steady_clock::now();
         plan_[i].reference(*state_, threads_, plan_[i].pass);
-        clock_.add(i, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        const auto end = std::chrono::steady_clock::now();
+        clock_.add(i, std::chrono::duration<double>(end - begin).count());
+        if (told) tell(*told, Timeline::caller, plan_[i], *state_, begin, end);
         if (!look(plan_[i], i)) return false;
     }
     clock_.end_step();

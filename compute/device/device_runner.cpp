@@ -8,6 +8,7 @@
 #include <cstring>
 
 #include "compute/step/stage_fusion.h"
+#include "compute/step/stage_slices.h"
 #include "shaders/embedded.h"
 #include "shaders/physics/base/work_counts.h"
 
@@ -257,6 +258,8 @@ void DeviceRunner::begin_step() {
 
 bool DeviceRunner::step() {
     begin_step();
+    const TimedSlice wait(timeline(), "wait for the device");
+    submitted_[parity_] = Timeline::Clock::now();
     device_->submit_and_wait({whole_step().handle()});
     return finished(parity_);
 }
@@ -268,8 +271,17 @@ bool DeviceRunner::finished(std::size_t parity) {
         const std::vector<double> seconds = steps_[parity][1]->timestamp_seconds();
         for (std::size_t i = 0; i < seconds.size(); ++i) clock_.add(i, seconds[i]);
         clock_.end_step();
+        if (Timeline* told = timeline()) tell_stages(*told, parity);
     }
     return state_->counted().overflow == 0;
+}
+
+void DeviceRunner::tell_stages(Timeline& told, std::size_t parity) {
+    const std::vector<Timeline::Time> times =
+        queue_clock_.place(steps_[parity][1]->timestamps(), submitted_[parity], Timeline::Clock::now());
+    if (times.empty()) return;
+    told.slice(Timeline::queue, "step", times.front(), times.back());
+    for (std::size_t i = 0; i + 1 < times.size(); ++i) tell(told, Timeline::queue, recorded_[i], *state_, times[i], times[i + 1]);
 }
 
 bool DeviceRunner::steps(int count, std::uint64_t& done) {
@@ -278,11 +290,15 @@ bool DeviceRunner::steps(int count, std::uint64_t& done) {
     for (int waited = 0; waited < count; ++waited, ++done) {
         while (submitted < count && submitted < waited + 2) {
             begin_step();
+            submitted_[parity_] = Timeline::Clock::now();
             under_way[parity_].emplace(*device_, std::vector{whole_step().handle()});
             ++submitted;
         }
         const std::size_t parity = submitted == waited + 2 ? parity_ ^ 1 : parity_;
-        under_way[parity]->wait();
+        {
+            const TimedSlice wait(timeline(), "wait for the device");
+            under_way[parity]->wait();
+        }
         if (finished(parity)) continue;
         // The next step has seen the overflow and changed nothing.
         for (std::optional<host::Submission>& step : under_way) step.reset();

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "compute/device/queue_clock.h"
 #include "compute/runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
@@ -79,6 +80,7 @@ private:
     void bind_tables();
     const host::CommandBuffer& whole_step();
     bool finished(std::size_t parity);  // of a step: false if a list overflowed
+    void tell_stages(Timeline& told, std::size_t parity);
     void record_stage(host::CommandBuffer& commands, const Stage& stage) const;
     void send_inputs();
     void send(const std::vector<TableRange>& ranges) override;
@@ -104,6 +106,8 @@ private:
     std::array<std::vector<std::unique_ptr<host::CommandBuffer>>, 2> alone_;
     std::size_t parity_ = 0;
     bool timed_ = false;
+    QueueClock queue_clock_;
+    std::array<Timeline::Time, 2> submitted_{};  // per parity
     physics::Parameters sent_{};
 };
 

@@ -8,6 +8,7 @@
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/gathering.h"
 #include "compute/distributed/packing.h"
+#include "compute/step/stage_slices.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/sleep.h"
 
@@ -87,12 +88,22 @@ bool DistributedRunner::step() {
     wakes_ = knows_waking_ = false;
     spin_limited_ = state.counted().spin_limited;
     clock_.begin_step();
+    Timeline* const told = timeline();
+    const Watch watch(threads_);
+    const auto exchanged = [&](Talk what) {
+        if (what == Talk::none) return true;
+        const TimedSlice slice(told, "exchange");
+        return talk(what);
+    };
     for (std::size_t i = 0; i < plan_.size(); ++i) {
+        if (told) threads_.watch(told, plan_[i].name);
         const auto begin = std::chrono::steady_clock::now();
-        if (before_[i] != Talk::none && !talk(before_[i])) return false;
+        if (!exchanged(before_[i])) return false;
         plan_[i].reference(state, threads_, plan_[i].pass);
-        if (after_[i] != Talk::none && !talk(after_[i])) return false;
-        clock_.add(i, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
+        if (!exchanged(after_[i])) return false;
+        const auto end = std::chrono::steady_clock::now();
+        clock_.add(i, std::chrono::duration<double>(end - begin).count());
+        if (told) tell(*told, Timeline::caller, plan_[i], state, begin, end);
     }
     clock_.end_step();
     return true;

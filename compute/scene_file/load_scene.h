@@ -15,12 +15,13 @@ namespace scree {
 // Whether load_scene() translates a file of another program (compute/scene_file/import), by its ending.
 bool is_scene_import(const std::filesystem::path& path);
 
-// Reads a scene file and the mesh files that it names, relative to it. Throws SceneError like scene_from_json, also for
-// a mesh that cannot be read, and std::runtime_error naming the file if the scene file cannot be read.
+// Reads a scene file and the mesh files that it names, relative to it and in its folder or below. Throws SceneError like
+// scene_from_json, also for a mesh that cannot be read or lies elsewhere, and std::runtime_error naming the file if the scene
+// file cannot be read.
 SceneDocument load_scene(const std::filesystem::path& path, std::size_t most_bodies = static_cast<std::size_t>(-1));
-// The same from a scene file's text; meshes are found relative to `folder`.
+// The same from a scene file's text; meshes are found relative to `folder`, with `allow_outside` anywhere.
 SceneDocument scene_from_text(std::string_view text, const std::filesystem::path& folder,
-                              std::size_t most_bodies = static_cast<std::size_t>(-1));
+                              std::size_t most_bodies = static_cast<std::size_t>(-1), bool allow_outside = false);
 // The same, and files of other programs: MJCF (.xml, .mjcf), URDF (.urdf, .xml), STL, OBJ, glTF physics. Appends to `notes`, if
 // given, what of those is not translated, as "FILE:LINE: reason". Throws ImportError (a std::runtime_error) for them.
 SceneDocument load_scene(const std::filesystem::path& path, const ImportOptions& options,

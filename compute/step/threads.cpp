@@ -8,6 +8,9 @@
 
 #include <algorithm>
 #include <thread>
+#include <vector>
+
+#include "compute/timeline.h"
 
 namespace scree {
 
@@ -27,7 +30,33 @@ Threads::Threads(int count, int lanes)
 }
 Threads::~Threads() = default;
 
+// One slice for each thread, from its first item to its last; a thread may have waited in between.
+void Threads::share_out_watched(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
+    struct Work {
+        Timeline::Time begin{}, end{};
+        std::chrono::duration<double> busy{0};
+        std::size_t items = 0;
+    };
+    std::vector<Work> works(static_cast<std::size_t>(arena_->arena.max_concurrency()));
+    arena_->arena.execute([&] {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const tbb::blocked_range<std::size_t>& part) {
+            Work& work = works[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+            const Timeline::Time begin = Timeline::Clock::now();
+            range(part.begin(), part.end());
+            work.end = Timeline::Clock::now();
+            if (work.items == 0) work.begin = begin;
+            work.busy += work.end - begin;
+            work.items += part.size();
+        });
+    });
+    for (std::size_t k = 0; k < works.size(); ++k)
+        if (works[k].items > 0)
+            timeline_->slice(static_cast<Timeline::Track>(k), name_, works[k].begin, works[k].end,
+                             {{"items", static_cast<double>(works[k].items)}, {"busy_us", 1e6 * works[k].busy.count()}});
+}
+
 void Threads::share_out(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
+    if (timeline_) return share_out_watched(n, range);
     arena_->arena.execute([&] {
         tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
                           [&](const tbb::blocked_range<std::size_t>& part) { range(part.begin(), part.end()); });

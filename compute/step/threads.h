@@ -4,8 +4,11 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <string>
 
 namespace scree {
+
+class Timeline;
 
 class Threads {
 public:
@@ -31,17 +34,25 @@ public:
         else
             share_out(n, range);
     }
+    // Tells the timeline what each thread does in later loops, by this name; null: nothing. Not while a loop runs.
+    void watch(Timeline* timeline, const std::string& name) {
+        timeline_ = timeline;
+        name_ = name;
+    }
     // Calls work() once; oneTBB algorithms in it run on these threads. Not for a count of 1, which has none.
     void run(const std::function<void()>& work) const;
 
 private:
     static constexpr std::size_t grain = 64;  // least items per task
     void share_out(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const;
+    void share_out_watched(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const;
 
     struct Arena;
     std::unique_ptr<Arena> arena_;
     int count_ = 1;
     int lanes_ = most_lanes;
+    Timeline* timeline_ = nullptr;
+    std::string name_;
 };
 
 }  // namespace scree

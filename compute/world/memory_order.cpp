@@ -51,9 +51,11 @@ void World::Impl::keep_order() {
         runner->upload({{Table::ids, 0, state.fixed().bodies}, {Table::filters, 0, state.filters.size()}});
         ++reorderings;
         ++arrangements;
+        if (timeline) timeline->instant("bodies were reordered in memory", begin);
     }
     looked = Clock::now();
     seconds_to_look = seconds_since(begin);
+    if (timeline) timeline->slice(Timeline::caller, "look after memory order", begin, Clock::now());
 }
 
 void World::reorder() {

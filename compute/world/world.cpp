@@ -87,16 +87,34 @@ void World::Impl::make_room_for_actions() {
 }
 
 void World::Impl::make_room_for_lists() {
+    const auto begin = Timeline::Clock::now();
     state.grow();
     ++growths;
     state.fixed().redo = 1;
     runner->adapt();
     runner->upload({{Table::counts, 0, 1}});  // clears the overflow
+    if (!timeline) return;
+    const auto bytes = static_cast<double>(state.bytes());
+    timeline->slice(Timeline::caller, "grow buffers", begin, Timeline::Clock::now(), {{"bytes", bytes}});
+    timeline->instant("buffers grew, step is redone", begin, {{"bytes", bytes}});
+}
+
+void World::Impl::tell_timeline(Timeline::Time begin, std::uint64_t steps_before) {
+    const Timeline::Time end = Timeline::Clock::now();
+    const physics::Counts& counts = state.counted();
+    timeline->slice(Timeline::caller, "step", begin, end,
+                    {{"first", static_cast<double>(steps_before + 1)}, {"steps", static_cast<double>(steps - steps_before)}});
+    timeline->counter("pairs", end, counts.pairs);
+    timeline->counter("contacts", end, counts.contacts);
+    if (state.has_fractures() && counts.broken > 0)
+        timeline->instant("bodies broke", end, {{"bodies", double{1} * counts.broken}});
 }
 
 void World::Impl::step() {
     if (broken) throw std::logic_error("a previous step ran out of memory; the world can be read but not stepped");
     broken = true;
+    const auto begin = Timeline::Clock::now();
+    const std::uint64_t steps_before = steps;
     keep_order();
     take_up_grips();
     stop_arrived();
@@ -120,6 +138,7 @@ void World::Impl::step() {
         runner->download(events.needed(scene, state));
         events.after_step(scene, state, generations, arrangements, steps, runner->threads());
     }
+    if (timeline) tell_timeline(begin, steps_before);
     broken = false;
 }
 
@@ -129,12 +148,14 @@ int World::Impl::steps_alone(int count) {
     state.fixed().actions = 0;
     state.fixed().redo = 0;
     const std::uint64_t before = steps;
+    const auto begin = Timeline::Clock::now();
     const bool all = runner->steps(count, steps);
     if (!all) {
         do make_room_for_lists();
         while (!runner->step());
         ++steps;
     }
+    if (timeline) tell_timeline(begin, before);
     broken = false;
     return static_cast<int>(steps - before);
 }
@@ -288,6 +309,10 @@ std::size_t World::buffer_bytes() const {
 }
 void World::set_profiling(bool on) {
     interior_->runner->set_profiling(on);
+}
+void World::set_timeline(std::shared_ptr<Timeline> timeline) {
+    interior_->runner->set_timeline(timeline);
+    interior_->timeline = std::move(timeline);
 }
 StageTimes World::stage_times() const {
     return interior_->runner->stage_times();

@@ -43,7 +43,8 @@ struct World::Impl {
     std::uint64_t reorderings = 0;
     double seconds_to_look = 0;  // duration of the last check of the memory order
     std::optional<std::chrono::steady_clock::time_point> looked;
-    bool broken = false;  // left true by a step that threw: tables may be half grown
+    std::shared_ptr<Timeline> timeline;  // may be null
+    bool broken = false;                 // left true by a step that threw: tables may be half grown
 
     // Bodies that came and went. By index, as far as one differs from the start: its generation, whether it is gone, and
     // where it is from.
@@ -102,7 +103,8 @@ struct World::Impl {
     int steps_alone(int count);  // up to `count` steps without actions; 0 while a grip is held. Returns their number
     bool keeps_order() const;    // whether bodies are reordered in memory
     void begin_in_order();
-    void keep_order();  // between steps
+    void keep_order();                                                     // between steps
+    void tell_timeline(Timeline::Time begin, std::uint64_t steps_before);  // of steps that have ended
     void make_room_for_actions();
     void make_room_for_lists();                 // and requests repetition of the step
     void require_body(std::size_t body) const;  // throws std::out_of_range for an index that none has, or a removed body

@@ -11,25 +11,22 @@
 
 namespace scree::demos {
 
-// As viewers interpolate: positions linearly, unit quaternions on the arc.
-inline glm::vec3 between(glm::vec3 a, glm::vec3 b, float part) {
-    return a + (b - a) * part;
-}
-inline glm::vec4 between(glm::vec4 a, glm::vec4 b, float part) {
-    double cosine = glm::dot(glm::dvec4(a), glm::dvec4(b));
-    const double sign = cosine < 0 ? -1 : 1;
-    cosine = std::min(std::abs(cosine), 1.0);
-    const double angle = std::acos(cosine), sine = std::sin(angle);
-    if (sine < 1e-6) return a + (b * static_cast<float>(sign) - a) * part;
-    return glm::vec4(glm::dvec4(a) * (std::sin((1 - part) * angle) / sine) +
-                     glm::dvec4(b) * (sign * std::sin(part * angle) / sine));
-}
-inline double error_of(glm::vec3 a, glm::vec3 b) {  // m
-    return glm::length(glm::dvec3(a) - glm::dvec3(b));
-}
-inline double error_of(glm::vec4 a, glm::vec4 b) {  // rad, for small ones: the chord of twice the half angle
-    const glm::dvec4 x(a), y(b);
+inline double error_of(glm::dvec4 x, glm::dvec4 y) {  // rad, for small ones: the chord of twice the half angle
     return 2 * std::min(glm::length(x - y), glm::length(x + y));
+}
+
+// Greatest error of viewers that interpolate from a to b, where `seen` was. Positions, m: linearly.
+inline double interpolation_error(glm::vec3 a, glm::vec3 b, float part, glm::vec3 seen) {
+    return glm::length(glm::dvec3(a) + glm::dvec3(b - a) * double{part} - glm::dvec3(seen));
+}
+// Orientations, rad: on the arc, as glTF says, or by component, as Blender does.
+inline double interpolation_error(glm::vec4 from, glm::vec4 to, float part, glm::vec4 seen) {
+    const glm::dvec4 a(from), b = glm::dot(glm::dvec4(from), glm::dvec4(to)) < 0 ? -glm::dvec4(to) : glm::dvec4(to);
+    const double t = double{part}, angle = std::acos(std::min(glm::dot(a, b), 1.0)), sine = std::sin(angle);
+    const glm::dvec4 straight = glm::normalize(a + (b - a) * t);
+    if (sine < 1e-6) return error_of(straight, glm::dvec4(seen));
+    const glm::dvec4 arc = a * (std::sin((1 - t) * angle) / sine) + b * (std::sin(t * angle) / sine);
+    return std::max(error_of(straight, glm::dvec4(seen)), error_of(arc, glm::dvec4(seen)));
 }
 
 template <class Value>
@@ -74,7 +71,7 @@ private:
     static constexpr std::size_t longest = 64;  // bounds memory and time
     bool fits(float time, const Value& value, double tolerance) const {
         for (const auto& [at, seen] : between_)
-            if (error_of(between(start_, value, (at - start_time_) / (time - start_time_)), seen) > tolerance) return false;
+            if (interpolation_error(start_, value, (at - start_time_) / (time - start_time_), seen) > tolerance) return false;
         return true;
     }
 

@@ -27,6 +27,7 @@
 #include "demos/program/progress.h"
 #include "demos/program/ranks.h"
 #include "demos/program/report.h"
+#include "demos/program/trace_file.h"
 #include "demos/program/trajectory.h"
 #include "demos/scenes/demos.h"
 #include "demos/suite/recorder.h"
@@ -44,6 +45,8 @@ struct RunOptions {
     CheckpointOptions checkpoints;
     TrajectoryOptions trajectory;
     ExportOptions animation;
+    TraceOptions trace;
+    std::shared_ptr<TraceFile> timeline = nullptr;  // what --trace asks for; may be null
     std::string report;
     std::string save;             // file for the final scene; may be empty
     std::string input;            // file of recorded input; may be empty
@@ -161,16 +164,28 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
     simulated.rate = world.settings().rate;
     simulated.substeps = world.settings().substeps;
     Checkpoints checkpoints(options.checkpoints, simulated, steps, options.input);
-    if (pictures) pictures->after_step();
-    records.after_step(world);
+    TraceFile* const timeline = options.timeline.get();
+    const auto record = [&] {
+        gather(options, world);
+        if (pictures) {
+            const TimedSlice slice(timeline, "draw");
+            pictures->after_step();
+        }
+        const TimedSlice slice(timeline, "record");
+        records.after_step(world);
+    };
+    record();
     const bool reports = !options.report.empty();
     for (int done = static_cast<int>(world.steps()); done < steps;) {
         if (is_run_interrupted(options)) {
             checkpoints.write(world);
             return false;
         }
-        const bool timed = reports && (done % steps_a_timed_one == steps_a_timed_one / 2 || done + 1 == steps);
-        world.set_profiling(timed);
+        const bool traced = timeline && done % options.trace.every == 0;
+        const bool timed = (reports && (done % steps_a_timed_one == steps_a_timed_one / 2 || done + 1 == steps)) ||
+                           (traced && options.trace.every > 1);
+        if (timeline) timeline->set_stages(traced);
+        world.set_profiling(timed || traced);
         const bool watched = timed || recorder || pictures || subject.before_step || world.steps() < report.resumed_at + 2;
         const bool waits =
             world.runner().backend() != "cpu" && !report.step_ms.empty() && report.step_ms.back() < longest_waiting_ms;
@@ -178,13 +193,17 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
         unwatched = std::min(unwatched, checkpoints.steps_until_due(world));
         if (adviser) unwatched = std::min(unwatched, adviser->steps_to_next(world));
         unwatched = std::min(unwatched, records.steps_until_due(world));
+        if (timeline && options.trace.every > 1)
+            unwatched = std::min(unwatched, options.trace.every - done % options.trace.every);
         const int count = watched || !waits ? 1 : unwatched;
-        steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
+        {
+            const TimedSlice slice(timeline, "advance");
+            steps_timed(subject, world, recorder ? &*recorder : nullptr, count, report);
+        }
         done += count;
         hold_to_promise(subject, world, recorder, report);
-        gather(options, world);
-        if (pictures) pictures->after_step();
-        records.after_step(world);
+        record();
+        const TimedSlice slice(timeline, "checkpoint, advice");
         if (done < steps) checkpoints.after_step(world);
         if (adviser) adviser->after_step(world);
         progress.done(done);
@@ -286,8 +305,12 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     if (options.advises) adviser.emplace(world);
     Records records(options, world);
     report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
+    std::optional<TimedSlice> finishing(std::in_place, options.timeline.get(), "finish outputs");
     finish_pictures(pictures, report);
     records.finish();  // an interrupted run has them, too
+    finishing.reset();
+    if (options.timeline) world.set_timeline(nullptr);
+    if (options.timeline) options.timeline->finish();
     report.seconds_running = seconds_since(start);
     report.name = subject.name;
     report.promised = subject.promise.has_value();
@@ -335,10 +358,13 @@ World world_of(const Scene& scene, const Settings& settings, std::unique_ptr<Run
     }
 }
 
-int run(const RunOptions& options) {
+int run(RunOptions options) {
     RunReport report;
     report.started_at = date_and_time();
     require_writable(options);
+    if (!options.trace.file.empty())
+        options.timeline = std::make_shared<TraceFile>(options.trace.file, "scree run " + options.scene.name);
+    std::optional<TimedSlice> preparing(std::in_place, options.timeline.get(), "load the scene");
     LoadedScene subject = load_subject(options.scene);
     require_steps_for_pictures(options, subject.settings(options.scene).rate);
     require_sense(options.copies, subject);
@@ -348,9 +374,11 @@ int run(const RunOptions& options) {
         subject.before_step = script_of(*options.played, options.input, std::move(subject.before_step));
         subject.promise.reset();
     }
+    preparing.emplace(options.timeline.get(), "choose the backend");
     const Backend machine = choose_machine(options.machine, Choice::fastest);
     if (!machine.remark.empty() && !options.quiet) say("scree: {}\n", machine.remark);
     if (!options.quiet) note_clamped_speeds(subject.scene, subject.settings(options.scene));
+    preparing.emplace(options.timeline.get(), "make the world");
     std::unique_ptr<Runner> runner =
         options.exchange ? make_distributed_runner(options.exchange, options.machine.threads) : machine.make_runner();
     World world = world_of(subject.scene, subject.settings(options.scene), std::move(runner), options.copies, vary);
@@ -362,6 +390,7 @@ int run(const RunOptions& options) {
         report.resumed_at = world.steps();
     }
     std::optional<Pictures> pictures;
+    preparing.emplace(options.timeline.get(), "make the canvas");
     if (options.pictures.wanted()) {
         const CopiesShown shown = shown_of(options.copies, subject);
         pictures.emplace(options.pictures, machine, subject, world, shown);
@@ -370,6 +399,11 @@ int run(const RunOptions& options) {
     report.driver = machine.driver();
     report.command_line = options.command_line;
     if (find_demo(options.scene.name)) report.seed = options.scene.seed;
+    preparing.reset();
+    if (options.timeline) {
+        options.timeline->name_queue(world.runner().device());
+        world.set_timeline(options.timeline);
+    }
     return at_work([&] { return work(options, subject, machine, world, pictures ? &*pictures : nullptr, report); });
 }
 
@@ -435,8 +469,8 @@ void make_silent(RunOptions& options) {
     options.quiet = true;
     options.checkpoints.writes = false;
     for (std::string* file :
-         {&options.report, &options.save, &options.trajectory.file, &options.animation.file, &options.pictures.frames,
-          &options.pictures.video, &options.pictures.preview, &options.pictures.raw})
+         {&options.report, &options.save, &options.trajectory.file, &options.animation.file, &options.trace.file,
+          &options.pictures.frames, &options.pictures.video, &options.pictures.preview, &options.pictures.raw})
         file->clear();
 }
 
@@ -445,6 +479,7 @@ int run(const CLI::App& command, RunOptions options) {
     require_sense(command, options.copies);
     require_sense(command, options.trajectory);
     require_sense(command, options.animation);
+    require_sense(command, options.trace);
     if (!options.checkpoints.resume.empty()) take_resumed(command, options);
     if (!options.input.empty()) {
         options.played = load_input(options.input);
@@ -479,6 +514,7 @@ void add_run(CLI::App& program, int& status) {
     add_options(*command, options->checkpoints);
     add_options(*command, options->trajectory);
     add_options(*command, options->animation);
+    add_options(*command, options->trace);
     command->add_option("--report", options->report, "JSON report file; - is the standard output.");
     command->add_option("--save", options->save, "Scene file of the final state, to continue from in scree or elsewhere.");
     command->add_option(
@@ -507,6 +543,7 @@ void add_run(CLI::App& program, int& status) {
         "  scree run dominoes --trajectory run.npz\n"
         "  scree run wrecking --export wrecking.glb\n"
         "  scree run avalanche --bodies 50k --export avalanche.usda --export-every 2\n"
+        "  scree run pile --bodies 10k --seconds 2 --trace trace.json\n"
         "  scree run bins --copies 1k --vary seed,friction=0.2:0.8 --video bins.mp4\n"
         "  mpirun -n 4 scree run pile --bodies 100k --distributed");
     command->callback([command, options, &status] {

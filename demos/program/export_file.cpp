@@ -7,6 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "demos/film/glb_writer.h"
+#include "demos/film/usd_writer.h"
 #include "demos/program/exit_status.h"
 #include "demos/program/output_check.h"
 
@@ -21,6 +23,12 @@ void add_options(CLI::App& command, ExportOptions& options) {
             "momentum, fragments from the moment of their breaking, keys only where poses would err by 0.1 mm or 0.05 "
             "degrees. Or FILE.usda (USD): a point instancer with poses and velocities of every moment, for any number of bodies.")
         ->group(group);
+    command
+        .add_option("--export-clips", options.clip,
+                    "Moments in each value clip of a .usda, files of their own in the folder FILE.clips, of which viewers read "
+                    "what they show. Default: 0, all in one file.")
+        ->check(CLI::Range(0, 1000000))
+        ->group(group);
     command.add_option("--export-every", options.every, "Steps from one recorded moment to the next. Default: 1.")
         ->check(CLI::Range(1, 1000000))
         ->group(group);
@@ -31,7 +39,7 @@ void add_options(CLI::App& command, ExportOptions& options) {
 }
 
 void require_sense(const CLI::App& command, const ExportOptions& options) {
-    for (const char* option : {"--export-every", "--export-any-number"})
+    for (const char* option : {"--export-every", "--export-clips", "--export-any-number"})
         if (options.file.empty() && command.count(option) != 0)
             throw UsageError(fmt::format("{}: no animation is asked for; add --export FILE.glb or FILE.usda", option));
     if (options.file.empty()) {
@@ -41,19 +49,22 @@ void require_sense(const CLI::App& command, const ExportOptions& options) {
     if (!options.file.ends_with(".glb") && !options.file.ends_with(".usda"))
         throw UsageError(
             fmt::format("--export {}: an animation is a .glb or a .usda; name a file such as run.glb", options.file));
+    if (options.clip > 0 && !options.file.ends_with(".usda"))
+        throw UsageError("--export-clips: value clips are of a .usda; name such a file, or leave the option out");
     require_writable_file("--export", options.file);
 }
 
 Animation::Animation(const ExportOptions& options, const World& world) {
     if (options.file.empty()) return;
+    std::unique_ptr<AnimationWriter> writer;
     if (options.file.ends_with(".usda")) {
-        usd_ = std::make_unique<UsdExport>(options.file, world, UsdOptions{options.every});
-        return;
+        writer = std::make_unique<UsdWriter>(options.file, UsdOptions{options.clip});
+    } else {
+        GlbOptions chosen;
+        if (options.any_number) chosen.most_moving = std::numeric_limits<std::size_t>::max();
+        writer = std::make_unique<GlbWriter>(options.file, chosen);
     }
-    GlbOptions chosen;
-    chosen.every = options.every;
-    if (options.any_number) chosen.most_moving = std::numeric_limits<std::size_t>::max();
-    glb_ = std::make_unique<GlbExport>(options.file, world, chosen);
+    recorder_.emplace(world, options.every, std::move(writer));
 }
 
 Animation make_animation(const ExportOptions& options, const World& world) {

@@ -1,12 +1,10 @@
 // Animations of scree run: --export FILE.glb|FILE.usda --export-every N.
 #pragma once
 
-#include <memory>
 #include <optional>
 #include <string>
 
-#include "demos/film/glb_export.h"
-#include "demos/film/usd_export.h"
+#include "demos/film/animation.h"
 
 namespace CLI {
 class App;
@@ -18,6 +16,7 @@ struct ExportOptions {
     std::string file;  // .glb or .usda; empty: none
     int every = 1;     // steps
     bool any_number = false;
+    int clip = 0;  // moments in each value clip of a .usda; 0: all are in the file
 };
 void add_options(CLI::App& command, ExportOptions& options);
 // Throws UsageError for an option that means nothing, and for a file of another kind or that cannot be written.
@@ -27,14 +26,13 @@ class Animation {
 public:
     // By the file's ending; none if it is empty. Throws std::invalid_argument for too many moving bodies of a .glb.
     Animation(const ExportOptions& options, const World& world);
-    explicit operator bool() const { return glb_ || usd_; }
-    int steps_until_due(const World& world) const { return glb_ ? glb_->steps_until_due(world) : usd_->steps_until_due(world); }
-    void after_step(const World& world) { glb_ ? glb_->after_step(world) : usd_->after_step(world); }
-    void write() { glb_ ? glb_->write() : usd_->write(); }
+    explicit operator bool() const { return recorder_.has_value(); }
+    int steps_until_due(const World& world) const { return recorder_->steps_until_due(world); }
+    void after_step(const World& world) { recorder_->after_step(world); }
+    void write() { recorder_->write(); }
 
 private:
-    std::unique_ptr<GlbExport> glb_;
-    std::unique_ptr<UsdExport> usd_;
+    std::optional<AnimationRecorder> recorder_;
 };
 // The same, and throws UsageError for too many.
 Animation make_animation(const ExportOptions& options, const World& world);

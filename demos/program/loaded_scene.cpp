@@ -109,6 +109,7 @@ void require_import(const SceneOptions& options) {
     if (is_scene_import(options.name)) return;
     ImportOptions plain = options.imported;
     plain.strict = false;
+    plain.allow_outside = false;
     if (!(plain == ImportOptions{}))
         throw UsageError("--axes, --base, --ground, --keyframe, --package: are for files of other programs; leave them out");
 }
@@ -121,7 +122,8 @@ SceneDocument document_of_file(const SceneOptions& options, std::vector<std::str
         const SceneDocument imported = load_scene(path, options.imported, &notes, most_bodies());
         return scene_from_json(edited(scene_to_json(imported), options.edits), most_bodies());
     }
-    return scene_from_text(edited(host::read_text(path), options.edits), path.parent_path(), most_bodies());
+    return scene_from_text(edited(host::read_text(path), options.edits), path.parent_path(), most_bodies(),
+                           options.imported.allow_outside);
 }
 
 LoadedScene from_file(const SceneOptions& options) {

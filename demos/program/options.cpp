@@ -144,6 +144,10 @@ void add_options(CLI::App& command, ImportOptions& options) {
             },
             "NAME=DIR: folder of package://NAME/..., whose files may be read. Others are looked for around the file.")
         ->group(group);
+    command
+        .add_flag("--allow-outside", options.allow_outside,
+                  "A scene file (.json) may name meshes outside of its folder, such as ../meshes/bowl.obj.")
+        ->group("Simulation");
 }
 
 void add_options(CLI::App& command, SceneOptions& options) {

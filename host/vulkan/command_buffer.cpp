@@ -158,18 +158,28 @@ void CommandBuffer::end() {
     check(device_->vk().vkEndCommandBuffer(commands_), "ending a command buffer");
 }
 
-std::vector<double> CommandBuffer::timestamp_seconds() const {
+std::vector<std::uint64_t> CommandBuffer::ticks() const {
     if (!queries_ || timestamps_written_ < 2) return {};
-    std::vector<std::uint64_t> ticks(timestamps_written_);
-    check(device_->vk().vkGetQueryPoolResults(device_->handle(), queries_, 0, timestamps_written_, ticks.size() * sizeof ticks[0],
-                                              ticks.data(), sizeof ticks[0], VK_QUERY_RESULT_64_BIT),
+    std::vector<std::uint64_t> read(timestamps_written_);
+    check(device_->vk().vkGetQueryPoolResults(device_->handle(), queries_, 0, timestamps_written_, read.size() * sizeof read[0],
+                                              read.data(), sizeof read[0], VK_QUERY_RESULT_64_BIT),
           "reading timestamps (the recording must have run)");
+    return read;
+}
+
+std::vector<double> CommandBuffer::timestamp_seconds() const {
+    const std::vector<std::uint64_t> read = ticks();
     const std::uint32_t bits = device_->timestamp_bits();
     const std::uint64_t mask = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
     std::vector<double> seconds;
-    for (std::size_t i = 1; i < ticks.size(); ++i) {
-        seconds.push_back(static_cast<double>((ticks[i] - ticks[i - 1]) & mask) * device_->timestamp_period_ns() * 1e-9);
-    }
+    for (std::size_t i = 1; i < read.size(); ++i)
+        seconds.push_back(static_cast<double>((read[i] - read[i - 1]) & mask) * device_->timestamp_period_ns() * 1e-9);
+    return seconds;
+}
+
+std::vector<double> CommandBuffer::timestamps() const {
+    std::vector<double> seconds;
+    for (const std::uint64_t tick : ticks()) seconds.push_back(static_cast<double>(tick) * device_->timestamp_period_ns() * 1e-9);
     return seconds;
 }
 

@@ -32,8 +32,11 @@ public:
     // Seconds between consecutive timestamps of the last submission, which must have completed; empty if the queue
     // has no timestamps.
     std::vector<double> timestamp_seconds() const;
+    // The timestamps themselves, s on the queue's clock, likewise; a clock of few bits may have begun anew before the last.
+    std::vector<double> timestamps() const;
 
 private:
+    std::vector<std::uint64_t> ticks() const;
     std::shared_ptr<Device> device_;
     VkCommandPool pool_ = VK_NULL_HANDLE;
     VkCommandBuffer commands_ = VK_NULL_HANDLE;

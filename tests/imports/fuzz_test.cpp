@@ -1,6 +1,7 @@
 // Mutated files of other programs: refused with file and place, or read; never a crash, a hang, or memory out of proportion.
 #include <chrono>
 #include <cstdlib>
+#include <cstring>
 #include <random>
 #include <sstream>
 
@@ -70,7 +71,48 @@ std::string cube_obj() {
            "1\nf 5 7 6\nf 5 6 8\nf 5 8 7\nf 6 7 8\n";
 }
 
+// The text of a .gltf as a .glb without a binary part.
+std::string glb_of(std::string json) {
+    json.append((4 - json.size() % 4) % 4, ' ');
+    std::string bytes(20, '\0');
+    const std::uint32_t words_of_it[5] = {0x46546C67, 2, static_cast<std::uint32_t>(20 + json.size()),
+                                          static_cast<std::uint32_t>(json.size()), 0x4E4F534A};
+    std::memcpy(bytes.data(), words_of_it, sizeof words_of_it);
+    return bytes + json;
+}
+
+const std::string scene_text = R"({"gravity": [0, -9.81, 0], "settings": {"substeps": 4}, "duration": 2,
+    "bodies": [{"name": "ground", "motion": "fixed", "shape": {"plane": {"normal": [0, 1, 0], "offset": 0}}},
+        {"name": "a", "shape": {"box": {"half_extents": [0.5, 0.25, 0.5]}}, "position": [0, 1, 0], "orientation": [0, 0, 0, 1], "fracture": {"impulse": 100, "pieces": 3}},
+        {"name": "b", "shape": {"compound": {"parts": [{"shape": {"sphere": {"radius": 0.3}}, "position": [0.5, 0, 0]}]}},
+         "position": [0, 3, 0]},
+        {"motion": "fixed", "shape": {"mesh": {"file": "cube.obj", "scale": 2}}, "position": [5, 0, 0]},
+        {"motion": "fixed", "shape": {"height_field": {"columns": 2, "rows": 2, "spacing": 5, "heights": [0, 1, 0, 2]}}}],
+    "joints": [{"kind": {"hinge": {"limits": {"lower": 0, "upper": 1.6}}}, "a": "a", "b": "ground", "anchor": [0, 1, 0], "axis": [0, 1, 0]}],
+    "events": [{"time": 1, "action": {"impulse": {"body": "a", "impulse": [9, 15, 0]}}}]})";
+
 }  // namespace
+
+TEST_CASE("imports: mutated scene files are read or refused with a place") {
+    const char* wanted = std::getenv("SCREE_FUZZ");
+    const int count = wanted ? std::atoi(wanted) : 400;
+    Case file;
+    file.write("cube.obj", cube_obj());
+    REQUIRE(checked(file.load("a.json", scene_text).scene).bodies.size() >= 5);
+    int refused = 0;
+    for (int seed = 1; seed <= count; ++seed) {
+        std::mt19937 random(static_cast<unsigned>(seed));
+        INFO("seed " << seed);
+        try {
+            (void)checked(file.load("a.json", mutated(scene_text, random)).scene);
+        } catch (const SceneError& error) {
+            ++refused;
+            if (std::string(error.what()).empty()) FAIL_CHECK("says nothing");
+        }
+    }
+    CHECK(refused > 0);
+    CHECK(refused < count);
+}
 
 // SCREE_FUZZ=10000 mutates each format so often.
 TEST_CASE("imports: mutated files are read or refused with file and place") {
@@ -92,6 +134,7 @@ TEST_CASE("imports: mutated files are read or refused with file and place") {
                                                            {"b.xml", text_of_file("everything.xml")},
                                                            {"a.urdf", text_of_file("arm.urdf")},
                                                            {"a.gltf", text_of_file("physics.gltf")},
+                                                           {"a.glb", glb_of(text_of_file("physics.gltf"))},
                                                            {"a.obj", cube_obj()},
                                                            {"a.stl", stl},
                                                            {"b.stl", ascii}};

@@ -1,37 +1,20 @@
 // Files of other programs, written to a folder for a test.
 #pragma once
 
-#include <unistd.h>
-
 #include <catch2/catch.hpp>
 #include <filesystem>
-#include <fstream>
 #include <string>
 #include <vector>
 
 #include "compute/scene_file/import/import_scene.h"
 #include "compute/scene_file/load_scene.h"
+#include "tests/temporary_folder.h"
 
 namespace scree::imported {
 
 class Case {
 public:
-    Case() {
-        std::string name = (std::filesystem::temp_directory_path() / "scree-import-XXXXXX").string();
-        folder_ = ::mkdtemp(name.data());
-    }
-    ~Case() {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    Case(const Case&) = delete;
-    Case& operator=(const Case&) = delete;
-
-    std::filesystem::path write(const std::string& name, const std::string& text) const {
-        std::filesystem::create_directories((folder_ / name).parent_path());
-        std::ofstream(folder_ / name, std::ios::binary) << text;
-        return folder_ / name;
-    }
+    std::filesystem::path write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
     SceneDocument load(const std::string& name, const std::string& text, const ImportOptions& options = {}) {
         notes.clear();
         return load_scene(write(name, text), options, &notes);
@@ -42,7 +25,7 @@ public:
             load(name, text, options);
             return "";
         } catch (const ImportError& error) {
-            const std::string what = error.what(), folder = folder_.string() + "/";
+            const std::string what = error.what(), folder = folder_.path().string() + "/";
             return what.starts_with(folder) ? what.substr(folder.size()) : what;
         }
     }
@@ -55,7 +38,7 @@ public:
     std::vector<std::string> notes;
 
 private:
-    std::filesystem::path folder_;
+    tests::TemporaryFolder folder_;
 };
 
 inline std::string mjcf(const std::string& inside) {

@@ -172,6 +172,18 @@ class Animations(unittest.TestCase):
         with self.assertRaises(OSError):
             scree.World(scree.demo("mix", 20), backend="cpu").export("/nowhere/run.glb")
 
+    def test_value_clips_are_files_of_their_own(self):
+        path = os.path.join(self.folder.name, "run.usda")
+        world = scree.World(scree.demo("mix", 20), backend="cpu")
+        with world.export(path, every=2, clips=5):
+            world.step(20)
+        self.assertEqual(sorted(os.listdir(path + ".clips")), ["clip.000000.usda", "clip.000001.usda", "clip.000002.usda", "manifest.usda"])
+        with open(path, encoding="utf-8") as file:
+            self.assertIn("double2[] active = [(0, 0), (10, 1), (20, 2)]", file.read())
+        for wrong in ({"path": self.path, "clips": 5}, {"path": path, "clips": -1}):
+            with self.assertRaises(ValueError):
+                world.export(**wrong)
+
     @unittest.skipUnless(PROGRAM, "SCREE_PROGRAM_PATH is not set")
     def test_the_program_writes_it_and_assimp_reads_it(self):
         run = subprocess.run([PROGRAM, "run", "wrecking", "--steps", "90", "--backend", "cpu", "--quiet", "--export", self.path, "--export-every", "2"],

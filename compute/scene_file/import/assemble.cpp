@@ -103,7 +103,9 @@ void add_fixed(Assembly& all, std::size_t index, const std::vector<std::optional
     const ModelBody& from = all.model.bodies[index];
     for (const Geometry& one : from.geometries) {
         const Placed placed = all.root * all.zero[index] * one.placed;
-        Body body{.name = one.name.empty() ? from.name : one.name, .motion = Motion::fixed, .shape = whole_shape(one.shape)};
+        Body body{.name = one.name.empty() ? from.name : one.name,
+                  .motion = Motion::fixed,
+                  .shape = one.terrain ? *one.terrain : whole_shape(one.shape)};
         place(body, placed);
         set_material(body, one.material);
         body.filter = filters[one.collides_as];
@@ -155,6 +157,7 @@ void add_all_bodies(Assembly& all) {
         const Placed within = inverse(all.zero[owner]) * all.zero[b];
         carried[owner].mass = sum_of(carried[owner].mass, placed_mass(body.mass, within));
         for (const Geometry& one : body.geometries) {
+            if (one.terrain) refuse(one.origin, "terrain stands still, and its body moves");
             carried[owner].shapes.geometries.push_back(&one);
             carried[owner].shapes.placed.push_back(owner == b ? one.placed : within * one.placed);
         }

@@ -16,17 +16,6 @@ namespace fs = std::filesystem;
 constexpr std::uintmax_t most_import_bytes = std::uintmax_t{1} << 30;  // of all files together
 constexpr std::size_t most_groups = 10000;
 
-bool is_inside(const fs::path& file, const fs::path& folder) {
-    const auto [end, at] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
-    return end == folder.end() && at != file.end();
-}
-
-fs::path canonical_or_itself(const fs::path& path) {
-    std::error_code failed;
-    const fs::path found = fs::weakly_canonical(path, failed);
-    return failed ? path.lexically_normal() : found;
-}
-
 std::vector<vec3> corners_of_group(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles, std::size_t first,
                                    std::size_t end) {
     std::vector<vec3> points;
@@ -39,6 +28,17 @@ std::vector<vec3> corners_of_group(const std::vector<vec3>& vertices, const std:
 }
 
 }  // namespace
+
+bool is_inside(const fs::path& file, const fs::path& folder) {
+    const auto [end, at] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+    return end == folder.end() && at != file.end();
+}
+
+fs::path canonical_or_itself(const fs::path& path) {
+    std::error_code failed;
+    const fs::path found = fs::weakly_canonical(path, failed);
+    return failed ? path.lexically_normal() : found;
+}
 
 MeshSolid mesh_solid(const std::vector<vec3>& vertices, const std::vector<glm::uvec3>& triangles,
                      const std::vector<std::size_t>& groups) {

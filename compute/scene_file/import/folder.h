@@ -21,6 +21,11 @@ struct MeshSolid {
     bool encloses = true;                  // whether the triangles do
 };
 
+// With symbolic links followed, as far as it exists.
+std::filesystem::path canonical_or_itself(const std::filesystem::path& path);
+// Whether a file lies in a folder or below, both canonical.
+bool is_inside(const std::filesystem::path& file, const std::filesystem::path& folder);
+
 class Folder {
 public:
     Folder(const std::filesystem::path& file, const ImportOptions& options);

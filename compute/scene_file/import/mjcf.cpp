@@ -182,7 +182,11 @@ void Mjcf::read_defaults(const host::XmlElement& tree, const std::string& parent
 void Mjcf::read_assets(const host::XmlElement& tree) {
     for (const host::XmlElement& child : tree.children) {
         if (child.name != "mesh") {
-            if (child.name != "hfield") Element(child, notes_).note("", "is not drawn");
+            if (child.name == "hfield") {
+                read_terrain(child);
+                continue;
+            }
+            Element(child, notes_).note("", "is not drawn");
             if (child.name == "model") Element(child, notes_).refuse("models in models are not read; include the file");
             continue;
         }

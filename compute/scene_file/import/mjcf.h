@@ -57,6 +57,7 @@ private:
     void read_flags(const host::XmlElement& tree);
     void read_defaults(const host::XmlElement& tree, const std::string& parent, int depth);
     void read_assets(const host::XmlElement& tree);
+    void read_terrain(const host::XmlElement& tree);
     void note_section(const host::XmlElement& tree);
     Element element(const host::XmlElement& tree, const Where& where);
     const OfTags& defaults_of(const Element& element, const std::string& name);
@@ -76,6 +77,7 @@ private:
     void read_geom(const host::XmlElement& tree, const Where& where);
     void give_size(Element& element, std::size_t type, Geometry& geometry);
     std::shared_ptr<const MeshSolid> mesh_of(Element& geom, Placed& placed);
+    std::shared_ptr<const Shape> terrain_of(Element& geom, Placed& placed);
     void give_surface(Element& element, Geometry& geometry);
     std::size_t class_of(Element& element, bool& solid);
     void relate_classes(const host::XmlElement& root);
@@ -100,6 +102,7 @@ private:
     Compiler compiler_;
     std::map<std::string, OfTags> defaults_{{"main", {}}};
     std::map<std::string, MeshAsset> meshes_;
+    std::map<std::string, const host::XmlElement*> terrains_;
     std::set<std::string> included_;
     std::size_t elements_ = 0, inherited_ = 0, geoms_ = 0;
     bool timestep_ = false;

@@ -163,7 +163,7 @@ void Mjcf::read_geom(const host::XmlElement& tree, const Where& where) {
     geometry.name = geom.text("name") + where.suffix;
     const std::size_t type = geom.word("type", geom_types, geom.has("mesh") ? mesh : sphere);
     ModelBody& body = model_.bodies[where.body];
-    if (type == hfield || type == sdf) geom.refuse("type", "\"" + geom_types[type] + "\" is not read");
+    if (type == sdf) geom.refuse("type", "\"sdf\" is not read");
     if (type == plane && (where.body != world_body || body.kinematic)) {
         std::size_t above = where.body;
         while (above != world_body && model_.bodies[above].joints.empty() && !model_.bodies[above].free &&
@@ -193,6 +193,11 @@ void Mjcf::read_geom(const host::XmlElement& tree, const Where& where) {
             if (!solid->encloses) geom.note("mesh", "is open, or faces inwards; its mass is that of its hull");
             if (!geometry.solid) geom.note("mesh", "is drawn as its convex hull");
         }
+    } else if (type == hfield) {
+        Placed inside;
+        geometry.terrain = terrain_of(geom, inside);
+        geometry.placed = geometry.placed * inside;
+        geom.pass({"size"});
     } else {
         give_size(geom, type, geometry);
         mass = primitive_mass(geometry.shape);
@@ -209,7 +214,7 @@ void Mjcf::read_geom(const host::XmlElement& tree, const Where& where) {
         body.mass = sum_of(body.mass, placed_mass(scaled_mass(mass, factor), geometry.placed));
     }
     geom.ignore({"material", "rgba"}, "is left out; colours show momentum, or what --color says");
-    geom.ignore({"user", "hfield", "fitscale"}, "is left out; no motion depends on it");
+    geom.ignore({"user", "fitscale"}, "is left out; no motion depends on it");
     geom.finish();
     const bool shown = geometry.solid || !compiler_.discard_visual;
     if (shown && (!solid || !solid->hulls.empty())) body.geometries.push_back(std::move(geometry));

@@ -1,6 +1,7 @@
 // A mechanism as files of robots say it: a tree of bodies with joints to their parents. assemble() makes a scene of it.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,9 +19,10 @@ struct Geometry {
     Origin origin;
     std::string name;
     SimpleShape shape = Box{};
-    Placed placed;        // the shape's own frame in the body
-    bool solid = true;    // else only drawn, or
-    bool sensor = false;  // a sensor
+    std::shared_ptr<const Shape> terrain{};  // instead of it, a height field or mesh that nothing moves; null: none
+    Placed placed;                           // the shape's own frame in the body
+    bool solid = true;                       // else only drawn, or
+    bool sensor = false;                     // a sensor
     Material material{};
     std::size_t collides_as = 0;  // class of Model::collides
 };

@@ -315,7 +315,7 @@ void bind_description(py::module_& module) {
 }
 
 Description loaded(const std::string& path, bool strict, const std::string& axes, const std::string& base, bool ground,
-                   const std::string& keyframe, const std::map<std::string, std::string>& packages) {
+                   const std::string& keyframe, const std::map<std::string, std::string>& packages, bool allow_outside) {
     if (axes != "y-up" && axes != "file") throw py::value_error("axes: is \"" + axes + "\"; known: y-up, file");
     if (!base.empty() && base != "fixed" && base != "free")
         throw py::value_error("base: is \"" + base + "\"; known: fixed, free");
@@ -326,6 +326,7 @@ Description loaded(const std::string& path, bool strict, const std::string& axes
     options.ground = ground;
     options.keyframe = keyframe;
     options.packages = packages;
+    options.allow_outside = allow_outside;
     Description made;
     try {
         made.document = load_scene(path, options, &made.notes);
@@ -344,7 +345,7 @@ void bind_scenes(py::module_& module) {
     bind_description(module);
     module.def("is_import", [](const std::string& path) { return is_scene_import(path); });
     module.def("load", &loaded, py::arg("path"), py::arg("strict"), py::arg("axes"), py::arg("base"), py::arg("ground"),
-               py::arg("keyframe"), py::arg("packages"));
+               py::arg("keyframe"), py::arg("packages"), py::arg("allow_outside"));
     module.def("from_json", [](const std::string& text) {
         Description made{scene_from_json(text), {}};
         return made;

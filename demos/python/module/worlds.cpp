@@ -157,10 +157,12 @@ struct Export {
     std::shared_ptr<demos::Animation> file;
 };
 
-std::unique_ptr<Export> start_export(const std::shared_ptr<WorldObject>& object, const std::string& path, int every) {
+std::unique_ptr<Export> start_export(const std::shared_ptr<WorldObject>& object, const std::string& path, int every, int clips) {
     if (every < 1) throw py::value_error("every: must be at least 1 step");
+    if (clips < 0) throw py::value_error("clips: must be at least 0 moments");
+    if (clips > 0 && !path.ends_with(".usda")) throw py::value_error("clips: are of a .usda");
     Use world(*object);
-    auto file = std::make_shared<demos::Animation>(demos::ExportOptions{path, every}, *world);
+    auto file = std::make_shared<demos::Animation>(demos::ExportOptions{path, every, false, clips}, *world);
     file->write();
     object->exports.push_back(file);
     return std::make_unique<Export>(Export{object, std::move(file)});

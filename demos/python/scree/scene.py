@@ -250,7 +250,8 @@ class Scene:
 
 
 def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: str = "y-up", base: str = "",
-         ground: bool = False, keyframe: Union[str, int] = "", packages: Optional[Dict[str, str]] = None) -> Scene:
+         ground: bool = False, keyframe: Union[str, int] = "", packages: Optional[Dict[str, str]] = None,
+         allow_outside: bool = False) -> Scene:
     """Reads a scene file and the meshes that it names, or a file of another program: MJCF (.xml, .mjcf), URDF (.urdf, .xml), glTF
     physics (.gltf, .glb), .stl, .obj. `notes` of the scene tells what of those was not translated, with file and line; strict
     makes that an error.
@@ -258,12 +259,13 @@ def load(path: Union[str, "os.PathLike[str]"], *, strict: bool = False, axes: st
     axes: "y-up" turns scenes whose z axis points up; "file" keeps their axes, with gravity along -z. base: the root link of a
     URDF, "fixed" or "free"; left out: fixed, with a note. ground: adds a plane that the lowest point touches. keyframe: of an
     MJCF file, by name or index: poses, speeds and controls. packages: folders of package://NAME/..., whose files may be read.
+    allow_outside: a scene file may name meshes outside of its folder.
 
     Raises OSError, and SceneError with the file and the JSON pointer, or the file and line.
     """
     name = os.fspath(path)
     try:
-        return Scene._of(_native.load(name, strict, axes, base, ground, str(keyframe), dict(packages or {})))
+        return Scene._of(_native.load(name, strict, axes, base, ground, str(keyframe), dict(packages or {}), allow_outside))
     except _native_error() as error:
         raise type(error)(str(error) if _native.is_import(name) else f"{name}: {error}", error.pointer) from None
 

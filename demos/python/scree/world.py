@@ -540,13 +540,14 @@ class World:
         return starts, parts.view(np.recarray)
 
     # ---- files
-    def export(self, path: Union[str, "os.PathLike[str]"], every: int = 1) -> "Export":
+    def export(self, path: Union[str, "os.PathLike[str]"], every: int = 1, clips: int = 0) -> "Export":
         """Writes an animation, .glb (glTF 2.0) for Blender and web viewers, or .usda (USD, a point instancer) for Houdini, Maya and
         Omniverse: the bodies as they are, and how they move from now on.
 
         The file is there at once; steps to come are recorded, one in `every`, and written by close() of what is returned, at the
         end of a with statement, or with the world's end. Bodies are those of now, coloured by their greatest momentum; fragments
-        appear as bodies break. Or .json: the scene as it is now. Raises OSError, and ValueError for more than 10,000 moving bodies in a .glb.
+        appear as bodies break. clips: moments in each value clip of a .usda, files of their own in the folder PATH.clips; 0: all in one file.
+        Or .json: the scene as it is now. Raises OSError, and ValueError for more than 10,000 moving bodies in a .glb.
         """
         name = os.fspath(path)
         if name.endswith(".json"):
@@ -554,7 +555,7 @@ class World:
             return Export(None)
         if not name.endswith((".glb", ".usda")):
             raise ValueError(f"export: {name}: is neither a .glb, a .usda nor a .json")
-        return Export(self._native.export_to(name, every))
+        return Export(self._native.export_to(name, every, clips))
 
     # ---- saving
     def save(self) -> bytes:
