@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/step/state.h"
@@ -16,7 +18,8 @@ namespace {
 // Bodies at rest that press into each other for two seconds by this part of a typical half width: contacts are too soft for the
 // load. Stacks that stand measure less than half of it; tall masonry buckles soon above it.
 constexpr double deep = 0.06;
-constexpr double restless_speed = 0.3;  // m/s, of a scene at rest but for jitter
+constexpr std::uint64_t early_looks[] = {1, 5};  // steps from the start, before what cannot stand has fallen
+constexpr double restless_speed = 0.3;           // m/s, of a scene at rest but for jitter
 
 double median_half_width(const World& world) {
     std::vector<double> widths;
@@ -38,6 +41,22 @@ std::string finer(const Settings& settings) {
     return fmt::format("--rate {:g}", 2 * settings.rate);
 }
 
+// "body 9 (\"roof\")"
+std::string told(const World& world, std::size_t body) {
+    const std::string& name = world.scene().bodies.at(body).name;
+    return name.empty() ? fmt::format("body {}", body) : fmt::format("body {} (\"{}\")", body, name);
+}
+
+Advice advice_on(const Burden& burden, const World& world) {
+    const Settings& settings = world.settings();
+    const std::string options = options_for(burden.substeps_a_second, static_cast<double>(settings.rate));
+    return {fmt::format("{} bears {:.3g} times its own weight, {} among it; with {} substeps at {:g} Hz it is crushed, or what "
+                        "stands on it falls",
+                        told(world, burden.body), burden.ratio, told(world, burden.heaviest), settings.substeps, settings.rate),
+            options.empty() ? "no setting holds that; make what bears heavier, or what lies on it lighter"
+                            : options + " should hold that"};
+}
+
 }  // namespace
 
 Adviser::Adviser(const World& world)
@@ -51,11 +70,27 @@ Adviser::Sample Adviser::sample_of(const World& world, const Statistics& statist
 }
 
 void Adviser::after_step(const World& world) {
-    if (world.steps() % steps_between_ == 0) samples_.push_back(sample_of(world, world.statistics()));
+    const bool second = world.steps() % steps_between_ == 0;
+    if (second) samples_.push_back(sample_of(world, world.statistics()));
+    if (second || std::ranges::find(early_looks, world.steps()) != std::end(early_looks)) look_at_burdens(world);
+}
+
+// What lasts from one look to the next: what falls and rolls bears much for a moment.
+void Adviser::look_at_burdens(const World& world) {
+    std::vector<Burden> now = overburdened(world);
+    for (const Burden& one : now) {
+        const auto before = std::ranges::find(burdens_, one.body, &Burden::body);
+        if (before == burdens_.end()) continue;
+        const Burden& greater = one.ratio < before->ratio ? *before : one;
+        if (!burden_ || greater.substeps_a_second > burden_->substeps_a_second) burden_ = greater;
+    }
+    burdens_ = std::move(now);
 }
 
 int Adviser::steps_to_next(const World& world) const {
-    return static_cast<int>(steps_between_ - world.steps() % steps_between_);
+    const std::uint64_t to_second = steps_between_ - world.steps() % steps_between_;
+    const auto* early = std::ranges::upper_bound(early_looks, world.steps());
+    return static_cast<int>(early == std::end(early_looks) ? to_second : std::min(*early - world.steps(), to_second));
 }
 
 std::vector<Advice> Adviser::advice(const World& world, const Statistics& last) const {
@@ -70,7 +105,8 @@ std::vector<Advice> Adviser::advice(const World& world, const Statistics& last) 
         const double both = std::min(samples[i - 1].penetration, samples[i].penetration);
         if (both > lasting) lasting = both, worst = &samples[i];
     }
-    if (worst && lasting > deep * half_width_) {
+    if (burden_) all.push_back(advice_on(*burden_, world));
+    if (!burden_ && worst && lasting > deep * half_width_) {
         all.push_back(
             {fmt::format("contacts give way: {:.3g} mm of penetration at {:.3g} s, {:.0f}% of a typical body's half width; "
                          "tall stacks may buckle",

@@ -1,10 +1,12 @@
 // The adviser: says when a run shows that its settings do not suffice, and which option helps.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compute/world.h"
+#include "demos/program/burden.h"
 
 namespace scree::demos {
 
@@ -13,7 +15,7 @@ struct Advice {
     std::string remedy;   // the options that help
 };
 
-// Looks at a world once a simulated second.
+// Looks at a world once a simulated second, and early in a run, before what cannot stand has fallen.
 class Adviser {
 public:
     explicit Adviser(const World& world);
@@ -30,12 +32,15 @@ private:
         double speed = 0;        // m/s, greatest
         std::size_t asleep = 0;
     };
+    void look_at_burdens(const World& world);
     Sample sample_of(const World& world, const Statistics& statistics) const;
 
     double half_width_ = 0;  // m, median of the dynamic bodies' least half widths
     std::size_t dynamic_ = 0;
     std::uint64_t steps_between_ = 60;
     std::vector<Sample> samples_;
+    std::vector<Burden> burdens_;   // at the last look
+    std::optional<Burden> burden_;  // the greatest that lasted
 };
 
 }  // namespace scree::demos

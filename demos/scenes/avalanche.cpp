@@ -115,14 +115,14 @@ DemoScene avalanche(const DemoOptions& options) {
     }
     const float seconds = 12 * std::sqrt(std::max(1.0f, v.length / 16.6f));  // fall times grow with the square root of lengths
     const float far = 20 * v.length;
-    return {
-        std::move(scene),
-        view_of(seen, 66, 24),
-        low,
-        high,
-        seconds,
-        Promise(comes_down(0.4), all_within({-far, 0, -far}, {far, far, far}), penetration_below(0.1), energy_never_rises(0.01))
-            .watching_energy()};
+    return {std::move(scene),
+            view_of(seen, 66, 24),
+            low,
+            high,
+            seconds,
+            Promise(because(comes_down(0.4), any_number), all_within({-far, 0, -far}, {far, far, far}),
+                    because(penetration_below(0.1), any_number), energy_never_rises(0.001))
+                .watching_energy()};
 }
 
 }  // namespace scree::demos

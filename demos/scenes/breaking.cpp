@@ -134,8 +134,8 @@ DemoScene wrecking(const DemoOptions& options) {
             low,
             high,
             10,
-            Promise(broken_at_least(0.1, bricks), mass_stays(), whole_and_in_place(0.4, bricks),
-                    at_least("how far the ball came", 1.5, "m", "beyond the wall's middle, at its farthest",
+            Promise(broken_at_least(0.13, bricks), mass_stays(), whole_and_in_place(0.4, bricks),
+                    at_least("how far the ball came", 2.5, "m", "beyond the wall's middle, at its farthest",
                              [wrecker](const Trace& trace) {
                                  double farthest = no_number;
                                  for (const Trace::Moment& moment : trace.moments) {
@@ -144,7 +144,7 @@ DemoScene wrecking(const DemoOptions& options) {
                                  }
                                  return farthest;
                              }),
-                    gaps_below("of the chain", 0.02), none_torn())
+                    gaps_below("of the chain", 0.00039), none_torn())
                 .watching(all)};
 }
 
@@ -243,9 +243,10 @@ DemoScene shatter(const DemoOptions& options) {
             low,
             high,
             7,
-            Promise(broken_at_least(0.5, all), mass_stays(), end_speed_below(3),
-                    at_most("mean penetration", 0.005, "m", "over the points that penetrate, at the end",
-                            [](const Trace& trace) { return trace.statistics.penetration_mean; }))};
+            Promise(broken_at_least(0.5, all), mass_stays(), because(end_speed_below(3), any_number),
+                    because(at_most("mean penetration", 0.005, "m", "over the points that penetrate, at the end",
+                                    [](const Trace& trace) { return trace.statistics.penetration_mean; }),
+                            any_number))};
 }
 
 }  // namespace scree::demos

@@ -116,7 +116,7 @@ DemoScene chain(const DemoOptions&) {
     const Indices all = every_body(scene);
     const vec3 low(-11, 0, -3), high(11, 11.5f, 3);
     return awake({std::move(scene), view_of(low, high, 35, 8), low, high, 20,
-                  Promise(gaps_below("of two chains, one with a load of a hundred links", 0.02 * link)).watching(all)});
+                  Promise(gaps_below("of two chains, one with a load of a hundred links", 0.0008 * link)).watching(all)});
 }
 
 DemoScene bridge(const DemoOptions& options) {
@@ -165,7 +165,7 @@ DemoScene bridge(const DemoOptions& options) {
             low,
             high,
             15,
-            Promise(gaps_below("between planks", 0.02 * 0.5), carried, none_torn()).watching(all)};
+            Promise(gaps_below("between planks", 0.0006), carried, none_torn()).watching(all)};
 }
 
 DemoScene ragdolls(const DemoOptions& options) {
@@ -199,8 +199,9 @@ DemoScene ragdolls(const DemoOptions& options) {
             low,
             high,
             10,
-            Promise(gaps_below("in any figure", 0.02), none_torn(), all_within({-far, -0.5f, -far}, {far, top + 2, far}),
-                    end_speed_below(2), penetration_below(0.03))
+            Promise(because(gaps_below("in any figure", 0.02), any_number), none_torn(),
+                    all_within({-far, -0.5f, -far}, {far, top + 2, far}), end_speed_below(2),
+                    because(penetration_below(0.03), any_number))
                 .watching(all, Span(4, 1))};
 }
 
@@ -239,9 +240,9 @@ DemoScene pendulums(const DemoOptions&) {
     add(ball, 1.2f, 10 * degrees, 3, Hinge{}, false);
     const vec3 low(-3, 0, -3.6f), high(3, 5, 3.6f);
     const Indices watched = every_body(scene);
-    return awake(
-        {std::move(scene), view_of(low, high, 40, 12), low, high, 60,
-         Promise(periods_as_theory(all, 1), swings_keep_energy(all, 0.02), gaps_below("", 0.001)).watching(watched, every_step)});
+    return awake({std::move(scene), view_of(low, high, 40, 12), low, high, 60,
+                  Promise(periods_as_theory(all, 0.0035), swings_keep_energy(all, 0.006), gaps_below("", 9e-6))
+                      .watching(watched, every_step)});
 }
 
 }  // namespace scree::demos

@@ -40,13 +40,14 @@ DemoScene seesaw(const DemoOptions&) {
     scene.bodies.push_back(ground());
     const std::size_t level = add_seesaw(scene, -1.2f, 1000, 1000);
     const std::size_t tipped = add_seesaw(scene, 1.2f, 1000, 2500);
-    const Claim stays_level = at_most("slant with equal weights", 1, "degrees", "of the plank at the end",
-                                      [level](const Trace& trace) { return std::abs(slant(trace.end[level])); });
-    const Claim heavier_down = between("slant toward the heavier weight", 5, 25, "degrees", "of the plank at the end",
+    const Claim stays_level = because(at_most("slant with equal weights", 0.001, "degrees", "of the plank at the end",
+                                              [level](const Trace& trace) { return std::abs(slant(trace.end[level])); }),
+                                      rounding);
+    const Claim heavier_down = between("slant toward the heavier weight", 15, 18, "degrees", "of the plank at the end",
                                        [tipped](const Trace& trace) { return slant(trace.end[tipped]); });
     const vec3 low(-2.6f, 0, -1.9f), high(2.6f, 1.7f, 1.9f);
     return awake({std::move(scene), view_of(low, high, 22, 20), low, high, 6,
-                  Promise(stays_level, heavier_down, penetration_below(0.01))});
+                  Promise(stays_level, heavier_down, penetration_below(0.0008))});
 }
 
 namespace {
@@ -115,7 +116,7 @@ DemoScene dominoes(const DemoOptions& options) {
             for (std::size_t i = 1; i < trace.end.size(); ++i) standing += !(tilt(trace.end[i], {0, 1, 0}) > 45);
             return static_cast<double>(standing);
         });
-    return {std::move(scene), view_of(low, high, 25, 28), low, high, 14, Promise(all_fall, penetration_below(0.02))};
+    return {std::move(scene), view_of(low, high, 25, 28), low, high, 14, Promise(all_fall, penetration_below(0.0018))};
 }
 
 }  // namespace scree::demos

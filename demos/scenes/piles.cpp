@@ -37,14 +37,15 @@ DemoScene heap(const DemoOptions& options, Body (*make)(float reach, Random&), f
     const float outside = half + 0.5f;
     const vec3 low(-outside, 0, -outside), high(outside, top, outside);
     const float seconds = 8 + 0.2f * static_cast<float>(side);  // higher lattices fall and settle longer
-    return {std::move(scene),
-            view_of(low, high, 35, 38),
-            low,
-            high,
-            seconds,
-            Promise(all_within({-half, -0.01f, -half}, {half, 2 * wall, half}), penetration_below(0.05), energy_never_rises(0.01),
-                    end_speed_below(0.005), end_spin_below(0.01))
-                .watching_energy()};
+    return {
+        std::move(scene),
+        view_of(low, high, 35, 38),
+        low,
+        high,
+        seconds,
+        Promise(all_within({-half, -0.01f, -half}, {half, 2 * wall, half}), because(penetration_below(0.05), any_number),
+                energy_never_rises(0.001), because(end_speed_below(0.005), any_number), because(end_spin_below(0.01), any_number))
+            .watching_energy()};
 }
 
 }  // namespace
@@ -82,8 +83,8 @@ DemoScene bins(const DemoOptions& options) {
             low,
             high,
             5,
-            Promise(all_within({-half, 0, -half}, {half, 2 * height, half}), penetration_below(0.005), energy_never_rises(0.01),
-                    end_speed_below(0.005), end_spin_below(0.01))
+            Promise(all_within({-half, 0, -half}, {half, 2 * height, half}), penetration_below(0.0006), energy_never_rises(0.001),
+                    end_speed_below(), end_spin_below())
                 .watching_energy()};
 }
 

@@ -45,9 +45,17 @@ DemoScene pyramid_of(int base, std::uint64_t seed, const Promise& promise) {
     return awake(standing(std::move(scene), {1.02f * size + 0.4f, size + 0.2f, 6}, 14, 20, promise));
 }
 
-// What is promised of what stands awake: limits of drift (m), speed (m/s), penetration and sway (m).
-Promise stands(double drift, double speed, double penetration, double sway = 0.001) {
-    return Promise(drift_below(drift), end_speed_below(speed), end_spin_below(0.01), sway_below(sway),
+// Limits of how what stands moves at the end: m/s, rad/s, m.
+struct Shaking {
+    double speed = rest_speed, spin = rest_spin, sway = rest_sway;
+    std::string reason;  // why they are more than twice what is measured
+};
+constexpr const char* by_seed = "its last sway differs by three times between seeds";
+
+// What is promised of what stands awake: limits of drift and penetration, m.
+Promise stands(double drift, double penetration, const Shaking& shaking = {}) {
+    return Promise(drift_below(drift), because(end_speed_below(shaking.speed), shaking.reason),
+                   because(end_spin_below(shaking.spin), shaking.reason), because(sway_below(shaking.sway), shaking.reason),
                    penetration_below(penetration));
 }
 
@@ -85,19 +93,22 @@ DemoScene rest(const DemoOptions&) {
             low,
             high,
             5,
-            Promise(drift_below(0.05), end_speed_below(0.005), end_spin_below(0.01), penetration_below(0.002))};
+            Promise(drift_below(0.015), end_speed_below(), end_spin_below(), penetration_below(0.0001))};
 }
 
 DemoScene stack(const DemoOptions& options) {
-    return awake(standing(column(10, options.seed), {4, 10.2f, 4}, 14, 20, stands(0.012, 0.005, 0.005)));
+    return awake(standing(column(10, options.seed), {4, 10.2f, 4}, 14, 20, stands(0.007, 0.0012)));
 }
 
 DemoScene stack20(const DemoOptions& options) {
-    return awake(standing(column(20, options.seed), {6, 20.2f, 6}, 12, 20, stands(0.045, 0.005, 0.01, 0.0024)));
+    return awake(
+        standing(column(20, options.seed), {6, 20.2f, 6}, 12, 20,
+                 stands(0.028, 0.0026,
+                        {0.0012, rest_spin, 0.0013, "positions 10 km from the origin, where tests run it too, are 1 mm apart"})));
 }
 
 DemoScene tower(const DemoOptions& options) {
-    return awake(standing(column(40, options.seed), {8, 40.5f, 8}, 10, 20, stands(0.16, 0.005, 0.01, 0.008)));
+    return awake(standing(column(40, options.seed), {8, 40.5f, 8}, 10, 20, stands(0.11, 0.0055, {0.0025, rest_spin, 0.0025})));
 }
 
 // Taller than the solver can hold awake indefinitely: the column stands because it falls asleep.
@@ -105,7 +116,7 @@ DemoScene stack80(const DemoOptions& options) {
     constexpr std::size_t count = 80;
     // Contact compliance shortens the column by more than half a metre under its weight, so sideways drift is the
     // criterion.
-    const Claim top_stays = at_most("sideways drift of the topmost", 0.5, "m", "from its start to the end, half a box",
+    const Claim top_stays = at_most("sideways drift of the topmost", 0.008, "m", "from its start to the end",
                                     [](const Trace& trace) { return sideways_of(trace, count); });
     const Claim none_fell = at_most("boxes that fell", 0, "", "no longer above the one below", [](const Trace& trace) {
         double fallen = 0;
@@ -119,11 +130,11 @@ DemoScene stack80(const DemoOptions& options) {
 }
 
 DemoScene smallstack(const DemoOptions& options) {
-    return awake(standing(column(10, options.seed, 0.1f), {0.8f, 2.05f, 0.8f}, 14, 20, stands(0.01, 0.005, 0.002)));
+    return awake(standing(column(10, options.seed, 0.1f), {0.8f, 2.05f, 0.8f}, 14, 20, stands(0.007, 0.0013)));
 }
 
 DemoScene ministack(const DemoOptions& options) {
-    return awake(standing(column(10, options.seed, 0.01f, 0.0002f), {0.08f, 0.205f, 0.08f}, 14, 20, stands(0.01, 0.005, 0.002)));
+    return awake(standing(column(10, options.seed, 0.01f, 0.0002f), {0.08f, 0.205f, 0.08f}, 14, 20, stands(0.007, 0.0013)));
 }
 
 namespace {
@@ -138,11 +149,11 @@ DemoScene heavy_on_light(const DemoOptions& options, float ratio, const Promise&
 }  // namespace
 
 DemoScene heavytop(const DemoOptions& options) {
-    return heavy_on_light(options, 100, stands(0.18, 0.05, 0.05, 0.013));
+    return heavy_on_light(options, 100, stands(0.13, 0.015, {0.003, rest_spin, 0.0018, by_seed}));
 }
 
 DemoScene heaviertop(const DemoOptions& options) {
-    return heavy_on_light(options, 300, stands(0.5, 0.05, 0.05, 0.07));
+    return heavy_on_light(options, 300, stands(0.38, 0.043, {0.008, 0.0012, 0.008, by_seed}));
 }
 
 DemoScene wall(const DemoOptions& options) {
@@ -163,15 +174,15 @@ DemoScene wall(const DemoOptions& options) {
             scene.bodies.push_back(box_at({x, y, random.between(-0.002f, 0.002f)}, size - vec3(0.0005f, 0, 0)));
         }
     }
-    return awake(standing(std::move(scene), {32, 8.2f, 4}, 16, 20, stands(0.04, 0.01, 0.005)));
+    return awake(standing(std::move(scene), {32, 8.2f, 4}, 16, 20, stands(0.017, 0.0018)));
 }
 
 DemoScene pyramid(const DemoOptions& options) {
-    return pyramid_of(30, options.seed, stands(0.06, 0.01, 0.01));
+    return pyramid_of(30, options.seed, stands(0.038, 0.0023));
 }
 
 DemoScene pyramid100(const DemoOptions& options) {
-    return pyramid_of(100, options.seed, Promise(drift_below(0.6), end_speed_below(0.1), sway_below(0.1)));
+    return pyramid_of(100, options.seed, Promise(drift_below(0.4), end_speed_below(0.003), sway_below(0.0024)));
 }
 
 }  // namespace scree::demos

@@ -111,8 +111,9 @@ DemoScene terrain(const DemoOptions& options) {
             {-far, -3, -far},
             {far, 25, far},
             16,
-            Promise(all_within({-far, -5, -far}, {far, 200, far}), none_falls_through("the hills", height_at),
-                    penetration_below(0.1), energy_never_rises(0.01))
+            Promise(all_within({-far, -5, -far}, {far, 200, far}),
+                    because(none_falls_through("the hills", height_at), "0 is the surface itself"),
+                    because(penetration_below(0.1), any_number), energy_never_rises(0.001))
                 .watching_energy()};
 }
 
@@ -133,8 +134,9 @@ DemoScene mesh(const DemoOptions& options) {
             low,
             {4, 12, 4},
             14,
-            Promise(all_within({-14, 0, -4.2f}, {4.2f, 60, 4.2f}), none_falls_through("the bowl", bowl_at),
-                    come_into_the_bowl(0.6), penetration_below(0.05))};
+            Promise(all_within({-14, 0, -4.2f}, {4.2f, 60, 4.2f}),
+                    because(none_falls_through("the bowl", bowl_at), "0 is the surface itself"), come_into_the_bowl(0.6),
+                    because(penetration_below(0.05), any_number))};
 }
 
 }  // namespace scree::demos

@@ -153,8 +153,10 @@ Promise promise_of(const Course& c, std::size_t car, const Indices& loose, const
                 return glm::distance(trace.start[body].position, trace.end[body].position) > 0.5f;
             }));
         });
-    const Claim parks = at_most("speed of the car at the end", 0.01, "m/s", "it parks by itself",
-                                [car](const Trace& trace) { return static_cast<double>(glm::length(trace.end[car].velocity)); });
+    const Claim parks =
+        because(at_most("speed of the car at the end", rest_speed, "m/s", "it parks by itself",
+                        [car](const Trace& trace) { return static_cast<double>(glm::length(trace.end[car].velocity)); }),
+                at_rest);
     return Promise(all_gates, in_time, upright, pushed, parks).watching({car}, every_step);
 }
 
@@ -237,7 +239,7 @@ DemoScene cars(const DemoOptions& options) {
             -high,
             high,
             15,
-            Promise(all_upright("all cars", chassis), in_lane, at_speed)};
+            Promise(all_upright("all cars", chassis), because(in_lane, any_number), at_speed)};
 }
 
 }  // namespace scree::demos

@@ -55,16 +55,19 @@ Claim drift_below(double limit) {
 }
 
 Claim end_speed_below(double limit, double seconds) {
-    return greatest_at_the_end("greatest speed at the end", limit, "m/s", seconds, &Statistics::max_speed);
+    return because(greatest_at_the_end("greatest speed at the end", limit, "m/s", seconds, &Statistics::max_speed),
+                   limit <= rest_speed ? at_rest : "");
 }
 
 Claim end_spin_below(double limit, double seconds) {
-    return greatest_at_the_end("greatest spin at the end", limit, "rad/s", seconds, &Statistics::max_spin);
+    return because(greatest_at_the_end("greatest spin at the end", limit, "rad/s", seconds, &Statistics::max_spin),
+                   limit <= rest_spin ? at_rest : "");
 }
 
 Claim sway_below(double limit) {
-    return over_last_second(
-        at_most("greatest sway at the end", limit, "m", "of any centre in the last second, from where it ends", sway));
+    return because(over_last_second(at_most("greatest sway at the end", limit, "m",
+                                            "of any centre in the last second, from where it ends", sway)),
+                   limit <= rest_sway ? at_rest : "");
 }
 
 Claim penetration_below(double limit) {
@@ -73,21 +76,23 @@ Claim penetration_below(double limit) {
 }
 
 Claim energy_never_rises(double part) {
-    return at_most("greatest rise of energy, of what the run lost", part, "",
-                   "kinetic and potential energy above the least before, every half second", [](const Trace& trace) {
-                       if (trace.samples.empty()) return no_number;
-                       const auto energy = [](const Trace::Sample& sample) {
-                           return sample.statistics.kinetic_energy + sample.statistics.potential_energy;
-                       };
-                       double least = energy(trace.samples.front()), rise = 0;
-                       const double lost = least - energy(trace.samples.back());
-                       for (const Trace::Sample& sample : trace.samples) {
-                           if (!std::isfinite(energy(sample))) return no_number;
-                           rise = std::max(rise, energy(sample) - least);
-                           least = std::min(least, energy(sample));
-                       }
-                       return lost > 0 ? rise / lost : rise;
-                   });
+    return because(at_most("greatest rise of energy, of what the run lost", part, "",
+                           "kinetic and potential energy above the least before, every half second",
+                           [](const Trace& trace) {
+                               if (trace.samples.empty()) return no_number;
+                               const auto energy = [](const Trace::Sample& sample) {
+                                   return sample.statistics.kinetic_energy + sample.statistics.potential_energy;
+                               };
+                               double least = energy(trace.samples.front()), rise = 0;
+                               const double lost = least - energy(trace.samples.back());
+                               for (const Trace::Sample& sample : trace.samples) {
+                                   if (!std::isfinite(energy(sample))) return no_number;
+                                   rise = std::max(rise, energy(sample) - least);
+                                   least = std::min(least, energy(sample));
+                               }
+                               return lost > 0 ? rise / lost : rise;
+                           }),
+                   rounding);
 }
 
 Claim all_within(vec3 low, vec3 high) {

@@ -124,7 +124,7 @@ Claim energy_left_below(Indices watched, double part) {
 }
 
 Claim last_take_the_speed(const std::string& what, Indices row, std::size_t raised, double speed) {
-    return between("speed of the last, " + what + ", of the first's", 0.97, 1.03, "",
+    return between("speed of the last, " + what + ", of the first's", 0.999, 1.001, "",
                    "of the one that is further off, at the end", [row, raised, speed](const Trace& trace) {
                        double furthest = 1;
                        for (std::size_t i = row.size() - raised; i < row.size(); ++i) {
@@ -136,15 +136,16 @@ Claim last_take_the_speed(const std::string& what, Indices row, std::size_t rais
 }
 
 Claim others_stay(const std::string& what, Indices row, std::size_t raised, double speed) {
-    return at_most("speed of the others, " + what + ", of the first's", 0.03, "", "of the fastest at the end",
-                   [row, raised, speed](const Trace& trace) {
-                       double fastest = 0;
-                       for (std::size_t i = 0; i + raised < row.size(); ++i) {
-                           const double one = static_cast<double>(glm::length(trace.end.at(row[i]).velocity)) / speed;
-                           if (!(one <= fastest)) fastest = one;
-                       }
-                       return fastest;
-                   });
+    return because(at_most("speed of the others, " + what + ", of the first's", 1e-5, "", "of the fastest at the end",
+                           [row, raised, speed](const Trace& trace) {
+                               double fastest = 0;
+                               for (std::size_t i = 0; i + raised < row.size(); ++i) {
+                                   const double one = static_cast<double>(glm::length(trace.end.at(row[i]).velocity)) / speed;
+                                   if (!(one <= fastest)) fastest = one;
+                               }
+                               return fastest;
+                           }),
+                   rounding);
 }
 
 }  // namespace scree::demos

@@ -20,11 +20,21 @@ std::string amount(double value, const std::string& unit) {
 
 Row Claim::operator()(const Trace& trace) const {
     const double value = measure(trace);
-    return {what, promised, amount(value, unit), low <= value && value <= high, value, low, high, unit, by_clock};
+    return {what, promised, amount(value, unit), low <= value && value <= high, value, low, high, unit, by_clock, reason};
+}
+
+bool Row::is_sharp() const {
+    if (std::isfinite(low) && std::isfinite(high)) return true;
+    return std::isfinite(high) ? high <= 2 * value : value <= 2 * low;
 }
 
 Claim by_clock(Claim claim) {
     claim.by_clock = true;
+    return claim;
+}
+
+Claim because(Claim claim, std::string reason) {
+    if (!reason.empty()) claim.reason = std::move(reason);
     return claim;
 }
 

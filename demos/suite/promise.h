@@ -44,6 +44,10 @@ struct Row {
     double low = 0, high = 0;
     std::string unit;
     bool by_clock = false;  // measured by wall clock, hence machine-dependent
+    std::string reason;     // the claim's
+
+    // Whether the limit is within twice what was measured; two limits are the claim's own tolerance.
+    bool is_sharp() const;
 };
 
 // A claim: that a measured value is within two inclusive limits.
@@ -57,6 +61,7 @@ struct Claim {
     bool by_clock = false;     // measured by wall clock; needs an otherwise idle machine
     double ending = 0;         // s before the end from which Trace::ending is recorded
     bool last_second = false;  // whether Trace::last_second is recorded
+    std::string reason;        // why the limit is more than twice what is measured; empty if it is not
 
     Row operator()(const Trace& trace) const;  // NaN fails
 };
@@ -66,6 +71,9 @@ Claim at_most(std::string what, double limit, std::string unit, std::string how,
 Claim at_least(std::string what, double limit, std::string unit, std::string how, Measure measure);
 Claim between(std::string what, double low, double high, std::string unit, std::string how, Measure measure);
 Claim by_clock(Claim claim);
+Claim because(Claim claim, std::string reason);  // states Claim::reason; an empty one leaves it
+// Reasons that many claims share.
+constexpr const char *rounding = "rounding of single precision", *any_number = "holds for any number of bodies";
 Claim over_ending(Claim claim, double seconds);  // records Trace::ending
 Claim over_last_second(Claim claim);             // records Trace::last_second
 Claim close_to(std::string what, double expected, double tolerance, std::string unit, std::string how, Measure measure);

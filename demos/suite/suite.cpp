@@ -22,7 +22,7 @@ constexpr std::size_t small = 500;  // bodies; with more, the gallery's demos wo
 nlohmann::ordered_json json_of(const Row& row) {
     const auto limit = [](double value) { return std::isfinite(value) ? nlohmann::ordered_json(value) : nullptr; };
     return {{"promise", row.what}, {"limit", row.promised},        {"low", limit(row.low)}, {"high", limit(row.high)},
-            {"unit", row.unit},    {"measured", limit(row.value)}, {"pass", row.pass}};
+            {"unit", row.unit},    {"measured", limit(row.value)}, {"pass", row.pass},      {"reason", row.reason}};
 }
 
 }  // namespace
@@ -101,12 +101,13 @@ std::string json_of(const std::vector<Outcome>& outcomes, const std::string& bac
 namespace {
 
 std::vector<Cells> promise_rows(const std::vector<const Demo*>& demos) {
-    std::vector<Cells> rows = {{"scene", "promise", "limit", "how it is measured"}};
+    std::vector<Cells> rows = {{"scene", "promise", "limit", "how it is measured", "why more than twice the measured"}};
     for (const Demo* demo : demos) {
         const DemoScene scene = build(*demo, suite_size(*demo));
-        for (const Claim& claim : scene.promise.claims()) rows.push_back({demo->name, claim.what, claim.promised, claim.how});
+        for (const Claim& claim : scene.promise.claims())
+            rows.push_back({demo->name, claim.what, claim.promised, claim.how, claim.reason});
     }
-    for (const Claim& claim : soundness()) rows.push_back({"(every)", claim.what, claim.promised, claim.how});
+    for (const Claim& claim : soundness()) rows.push_back({"(every)", claim.what, claim.promised, claim.how, claim.reason});
     return rows;
 }
 

@@ -116,9 +116,9 @@ DemoScene fragments(const DemoOptions& options) {
         scene.bodies.push_back(body);
     }
     const vec3 low(-5), high(5);
-    Promise promise(keeps("greatest change of momentum", &Statistics::momentum, 1e-5, momentum),
-                    keeps("greatest change of angular momentum", &Statistics::angular_momentum, 1e-5, angular),
-                    at_least("bodies that broke", 30, "", "pieces that did included",
+    Promise promise(because(keeps("greatest change of momentum", &Statistics::momentum, 2e-7, momentum), rounding),
+                    because(keeps("greatest change of angular momentum", &Statistics::angular_momentum, 3e-6, angular), rounding),
+                    at_least("bodies that broke", 70, "", "pieces that did included",
                              [](const Trace& trace) { return static_cast<double>(trace.statistics.broken); }));
     return {std::move(scene), view_of(low, high, 30, 20), low, high, 8, std::move(promise).sampling(30)};
 }

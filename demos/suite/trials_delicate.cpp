@@ -47,7 +47,7 @@ DemoScene cards(const DemoOptions& options) {
     }
     const vec3 low(-1.3f, 0, -0.6f), high(1.3f, 2.7f, 0.6f);
     return awake({std::move(scene), view_of(low, high, 25, 12), low, high, 20,
-                  Promise(drift_below(0.02), end_speed_below(0.005), end_spin_below(0.01), sway_below(0.001))});
+                  Promise(drift_below(0.009), end_speed_below(), end_spin_below(), sway_below())});
 }
 
 // Jenga blocks, scaled by ten.
@@ -72,7 +72,7 @@ DemoScene jenga(const DemoOptions& options) {
     // The drift limit includes the compression of the whole tower: a third of a layer.
     return awake(
         {std::move(scene), view_of(low, high, 30, 14), low, high, 20,
-         Promise(drift_below(0.05), end_speed_below(0.005), end_spin_below(0.01), sway_below(0.001), penetration_below(0.01))});
+         Promise(drift_below(0.025), end_speed_below(0.0003), end_spin_below(), sway_below(), penetration_below(0.0026))});
 }
 
 // A plate on a table smaller than itself, under a layer of boxes of 2.5 times its mass. On a plate of a tenth of
@@ -97,10 +97,11 @@ DemoScene tray(const DemoOptions& options) {
             scene.bodies.push_back(box_at(place, vec3(0.5f), turned({0, 1, 0}, random.between(-0.3f, 0.3f) * degrees)));
         }
     }
-    const Claim still = at_most("speed of the plate at the end", 0.005, "m/s", "of its centre",
-                                [plate](const Trace& trace) { return glm::length(trace.end[plate].velocity); });
+    const Claim still = because(at_most("speed of the plate at the end", rest_speed, "m/s", "of its centre",
+                                        [plate](const Trace& trace) { return glm::length(trace.end[plate].velocity); }),
+                                at_rest);
     const Claim calm =
-        at_most("mean speed of the plate", 0.005, "m/s", "over the last 5 s, at every step", [](const Trace& trace) {
+        at_most("mean speed of the plate", rest_speed, "m/s", "over the last 5 s, at every step", [](const Trace& trace) {
             double sum = 0, count = 0;
             for (const Trace::Moment& moment : trace.moments) {
                 sum += static_cast<double>(glm::length(moment.bodies[0].velocity));
@@ -108,12 +109,14 @@ DemoScene tray(const DemoOptions& options) {
             }
             return sum / count;
         });
-    const Claim level = at_most("tilt of the plate", 0.5, "degrees", "at the end", [plate](const Trace& trace) {
+    const Claim level = at_most("tilt of the plate", 0.05, "degrees", "at the end", [plate](const Trace& trace) {
         return tilt(trace.end[plate], {0, 1, 0});
     });
     const vec3 low(-half.x, 0, -half.z), high(half.x, 2.4f, half.z);
-    return awake({std::move(scene), view_of(low, high, 30, 24), low, high, 20,
-                  Promise(still, calm, level, drift_below(0.05)).watching({plate}, {every_step, 15})});
+    return awake(
+        {std::move(scene), view_of(low, high, 30, 24), low, high, 20,
+         Promise(still, because(calm, at_rest), because(level, "single precision resolves 0.02 degrees"), drift_below(0.0009))
+             .watching({plate}, {every_step, 15})});
 }
 
 }  // namespace scree::demos

@@ -32,11 +32,11 @@ DemoScene bounce(const DemoOptions&) {
         full.push_back(dropped(Sphere{radius}, radius, height, 1, 5));
     }
     const vec3 low(-9, 0, -0.5f), high(9, 5.7f, 0.5f);
-    Promise promise(all_bounce("bounces of spheres, e = 0, of the fall", dead, 2),
-                    all_bounce("bounces of flat boxes, e = 0, of the fall", dead_boxes, 2),
-                    all_bounce("bounces of spheres, e = 0.5", half, 2),
-                    all_bounce("bounces of flat boxes, e = 0.5", half_boxes, 2),
-                    all_bounce("five bounces of spheres, e = 1", full, 2));
+    Promise promise(all_bounce("bounces of spheres, e = 0, of the fall", dead, 0.006),
+                    all_bounce("bounces of flat boxes, e = 0, of the fall", dead_boxes, 0.009),
+                    all_bounce("bounces of spheres, e = 0.5", half, 0.0018),
+                    all_bounce("bounces of flat boxes, e = 0.5", half_boxes, 0.0018),
+                    all_bounce("five bounces of spheres, e = 1", full, 0.0035));
     // Five bounces from 5 m: 1 s down, four times 2 s, and 1 s up to the last apex.
     return {std::move(scene), view_of(low, high, 12, 10), low, high, 10.5f, std::move(promise).watching(watched, every_step)};
 }
@@ -56,8 +56,8 @@ DemoScene tumbling(const DemoOptions&) {
         x += 3;
     }
     const vec3 low(-4.2f, 0.3f, -1.2f), high(4.2f, 2.7f, 1.2f);
-    Promise promise(each_turns_over(watched, {0, 1, 0}, 120), each_keeps_angular_momentum(watched, 0.01),
-                    each_keeps_energy(watched, 0.01));
+    Promise promise(each_turns_over(watched, {0, 1, 0}, 120), each_keeps_angular_momentum(watched, 3e-5),
+                    each_keeps_energy(watched, 6e-5));
     return {std::move(scene), view_of(low, high, 20, 20), low, high, 30, std::move(promise).watching(watched)};
 }
 
@@ -83,8 +83,8 @@ DemoScene swarm(const DemoOptions& options) {
         scene.bodies.push_back(body);
     }
     const vec3 corner(4.5f);
-    Promise promise(together_keep_momentum(watched, 1e-5), together_keep_angular_momentum(watched, 1e-5),
-                    energy_left_below(watched, 0.8));
+    Promise promise(because(together_keep_momentum(watched, 1e-7), rounding),
+                    because(together_keep_angular_momentum(watched, 3e-7), rounding), energy_left_below(watched, 0.4));
     return {std::move(scene), view_of(-corner, corner, 35, 25),    -corner, corner,
             1000 / 60.0f,     std::move(promise).watching(watched)};
 }

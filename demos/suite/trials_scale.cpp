@@ -32,7 +32,7 @@ Claim none_fell(std::vector<Stacked> stacked) {
 }
 
 DemoScene resting(Scene scene, vec3 low, vec3 high, std::vector<Claim> more) {
-    Promise promise(end_speed_below(0.005, last_part), end_spin_below(0.01, last_part));
+    Promise promise(end_speed_below(rest_speed, last_part), end_spin_below(rest_spin, last_part));
     for (Claim& claim : more) promise.also(std::move(claim));
     return awake({std::move(scene), view_of(low, high, 25, 15), low, high, run_for, std::move(promise)});
 }

@@ -51,7 +51,7 @@ DemoScene arches(const DemoOptions&) {
     const vec3 low(-6, 0, -1), high(9, 6, 50);
     Promise promise(at_most("sinking of arches 0.125 of their radius thick", 0.05, "", "way of the keystone, of its thickness",
                             [standing](const Trace& trace) { return greatest_part(trace, standing, false); }),
-                    at_least("fall of arches 0.09 of their radius thick", 3, "", "way of the keystone, of its thickness",
+                    at_least("fall of arches 0.09 of their radius thick", 6, "", "way of the keystone, of its thickness",
                              [falling](const Trace& trace) { return greatest_part(trace, falling, true); }));
     return awake({std::move(scene), view_of(low, high, 30, 20), low, high, 20, std::move(promise)});
 }
@@ -74,9 +74,9 @@ DemoScene capstan(const DemoOptions&) {
     }
     const vec3 low(-1, -2, -2), high(1, 1, 2);
     Promise promise(
-        all_stay("weights of ropes at 0.8 of e^(mu pi)", holding, 0.005),
+        all_stay("weights of ropes at 0.8 of e^(mu pi)", holding, 0.0022),
         at_least(
-            "least rise of weights of ropes at 1.2 of e^(mu pi)", 0.05, "m", "from start to end", [running](const Trace& trace) {
+            "least rise of weights of ropes at 1.2 of e^(mu pi)", 0.3, "m", "from start to end", [running](const Trace& trace) {
                 double least = 1e9;
                 for (const std::size_t body : running)
                     least = std::min(least, static_cast<double>(trace.end.at(body).position.y - trace.start.at(body).position.y));

@@ -265,6 +265,39 @@ TEST_CASE("program: a run that needs more substeps is told so", "[program]") {
     for (const json& advice : fall["advice"]) REQUIRE_FALSE(says(advice["finding"].get<std::string>(), "penetration"));
 }
 
+TEST_CASE("program: what bears too much is named, with the substeps that hold it", "[program]") {
+    const Place place;
+    const auto column = [&](const char* name, int boxes, double half, double ratio) {
+        std::string bodies = R"({"name": "ground", "motion": "fixed", "shape": {"plane": {}}})";
+        for (int i = 0; i < boxes; ++i) {
+            const json body = {{"shape", {{"box", {{"half_extents", {half, half, half}}}}}},
+                               {"position", {0.002 * half * (i % 2), half * (2 * i + 1), 0}},
+                               {"density", i + 1 == boxes ? 50 * ratio : 50}};
+            bodies += ", " + body.dump();
+        }
+        return place.write(name, R"({"bodies": [)" + bodies + "]}");
+    };
+    const auto run = [](const std::string& file, const std::string& options) {
+        return json::parse(run_scree("run '" + file + "' --backend cpu --threads 1 --seconds 10 --report - " + options).output);
+    };
+    const std::string fits = column("300.json", 10, 0.5, 300);
+    REQUIRE(run(fits, "")["advice"].empty());
+    for (const auto& [boxes, half, ratio] : {std::tuple(10, 0.5, 1000.0), {10, 0.5, 3000.0}, {5, 0.05, 300.0}}) {
+        const std::string file = column("heavy.json", boxes, half, ratio);
+        const json falls = run(file, "");
+        INFO(falls.dump(1));
+        REQUIRE(falls["drift_max"] > 2 * half);
+        REQUIRE(falls["advice"].size() >= 1);
+        REQUIRE(says(falls["advice"][0]["finding"].get<std::string>(), "body 1 bears "));
+        const std::string remedy = falls["advice"][0]["remedy"].get<std::string>();
+        REQUIRE(says(remedy, "--substeps"));
+        const json stands = run(file, remedy.substr(0, remedy.find(" should")));
+        INFO(stands.dump(1));
+        REQUIRE(stands["drift_max"] < 0.5 * half);
+        REQUIRE(stands["advice"].empty());
+    }
+}
+
 TEST_CASE("program: the cameras of pictures are told so that a point is found at its pixel", "[program]") {
     const Place place;
     const std::string file = (place / "cameras.json").string();

@@ -256,7 +256,8 @@ TEST_CASE("program: check holds a demo to its promise, and a run that is too sho
 TEST_CASE("program: check takes patterns, lists what is promised, and reports as JSON", "[program]") {
     const Outcome list = run_scree("check --list 'sees*' rest");
     REQUIRE(list.status == 0);
-    for (const char* words : {"slant with equal weights", "at most 1 degrees", "how it is measured", "greatest drift"})
+    for (const char* words : {"slant with equal weights", "at most 0.001 degrees", "rounding of single precision",
+                              "how it is measured", "greatest drift"})
         REQUIRE(says(list.output, words));
     const Place place;
     const std::string file = (place / "check.json").string();

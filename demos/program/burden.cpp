@@ -1,0 +1,117 @@
+// Burdens: weights handed down from body to body through contacts.
+#include "demos/program/burden.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+#include <vector>
+
+#include "compute/scene/shape_geometry.h"
+#include "compute/step/state.h"
+
+namespace scree::demos {
+
+namespace {
+
+constexpr double least_ratio = 100;  // what bears less, as small bodies in a heap do, is judged by its penetration
+constexpr double upright = 0.5;      // cosine between a contact's normal and the vertical from which on it bears
+
+// Two laws, from columns of 2 to 20 boxes of 0.1 to 10 m that bear up to 10,000 times the weight of one, over 20 s:
+// - A contact under `ratio` weights of the lighter body gives way by 1.86 ratio g h^2 (contact_momentum.h, substep h). Beyond
+//   4% of the thickness columns of ten buckle (boxes of 0.1 m stand with 20, 36, 64 substeps at 60 Hz under 300, 1,000, 3,000),
+//   those of twenty beyond 3%.
+// - Whatever its size, a column of up to ten needs 0.84 ratio substeps a second: 14 and 36 under 1,000 and 3,000; of twenty 1.2.
+constexpr double compliance = 1.86, spare = 1.1;
+constexpr double crushed = 0.06, falling = 0.7;  // of the thickness, and substeps a second of the ratio, where columns fall
+
+double substeps_for(double ratio, double thickness, double gravity, double give) {
+    return std::sqrt(compliance * ratio * gravity / (give * thickness));
+}
+
+// Who rests on whom: `below` bears `above`.
+struct Resting {
+    std::size_t below, above;
+};
+
+std::vector<Resting> resting_pairs(const World& world, std::size_t count, const glm::dvec3& up) {
+    std::vector<Resting> pairs;
+    const double gravity = glm::length(glm::dvec3(world.scene().gravity)), dt = 1 / static_cast<double>(world.settings().rate);
+    const double within = gravity * dt * dt;  // m, what is nearer touches within a step
+    for (const ContactState& contact : world.contacts()) {
+        if (contact.a >= count || contact.b >= count) continue;
+        const auto touches = [&](const ContactState::Point& point) { return point.separation < within; };
+        if (!std::any_of(contact.points.begin(), contact.points.begin() + contact.count, touches)) continue;
+        const double rise = glm::dot(glm::dvec3(contact.normal), up);  // from a to b
+        if (rise > upright) pairs.push_back({contact.a, contact.b});
+        if (rise < -upright) pairs.push_back({contact.b, contact.a});
+    }
+    // Pairs in several contacts, as compounds have, bear once.
+    const auto order = [](const Resting& x, const Resting& y) { return std::tie(x.above, x.below) < std::tie(y.above, y.below); };
+    std::sort(pairs.begin(), pairs.end(), order);
+    const auto same = [](const Resting& x, const Resting& y) { return x.above == y.above && x.below == y.below; };
+    pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
+    return pairs;
+}
+
+}  // namespace
+
+double needed_substeps(double ratio, double thickness, double gravity) {
+    return spare * (falling * ratio + substeps_for(ratio, thickness, gravity, 0.5 * crushed));
+}
+
+std::vector<Burden> overburdened(const World& world) {
+    const Scene& scene = world.scene();
+    const double gravity = glm::length(glm::dvec3(scene.gravity));
+    if (gravity <= 0) return {};
+    const State& state = world.state();
+    const std::size_t count = world.copies() > 1 ? world.bodies_of_copy() : scene.bodies.size();
+    const glm::dvec3 up = glm::dvec3(scene.gravity) / -gravity;
+    const std::vector<Resting> pairs = resting_pairs(world, count, up);
+    if (pairs.empty()) return {};
+    std::vector<double> own(count, 0), height(count, 0);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (scene.bodies[i].motion != Motion::dynamic) continue;
+        own[i] = static_cast<double>(mass_properties(scene.bodies[i]).mass);
+        height[i] = glm::dot(glm::dvec3(state.poses[state.row_of(i)].position), up);
+    }
+    std::vector<double> on(count, 0);  // kg, handed down
+    std::vector<std::size_t> order(count), heaviest(count, no_body);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return height[a] > height[b]; });
+    for (const std::size_t above : order) {  // each when all that lies on it has handed down its weight
+        if (own[above] <= 0) continue;
+        const auto is_before = [](const Resting& pair, std::size_t body) { return pair.above < body; };
+        const auto first = std::lower_bound(pairs.begin(), pairs.end(), above, is_before);
+        auto last = first;
+        while (last != pairs.end() && last->above == above) ++last;
+        for (auto pair = first; pair != last; ++pair) {
+            on[pair->below] += (own[above] + on[above]) / static_cast<double>(last - first);
+            std::size_t& top = heaviest[pair->below];
+            if (top == no_body || own[top] < own[above]) top = above;
+        }
+    }
+    const double present = static_cast<double>(world.settings().rate) * static_cast<double>(world.settings().substeps);
+    std::vector<Burden> all;
+    for (std::size_t i = 0; i < count; ++i) {
+        if (own[i] <= 0 || on[i] < least_ratio * own[i]) continue;
+        const physics::BodyProperties& body = state.properties[state.row_of(i)];
+        const double thickness = 2 * static_cast<double>(physics::min_half_width(body.shape, body.size)), ratio = on[i] / own[i];
+        if (std::max(falling * ratio, substeps_for(ratio, thickness, gravity, crushed)) < present) continue;
+        all.push_back({i, heaviest[i], ratio, needed_substeps(ratio, thickness, gravity)});
+    }
+    return all;
+}
+
+std::string options_for(double substeps_a_second, double rate) {
+    constexpr double most_substeps = 64, most_rate = 1000;
+    double higher = rate;
+    while (substeps_a_second > most_substeps * higher) higher *= 2;
+    if (higher > most_rate) return "";
+    const std::string substeps = fmt::format("--substeps {}", std::max(1L, std::lround(std::ceil(substeps_a_second / higher))));
+    return higher == rate ? substeps : fmt::format("--rate {:g} {}", higher, substeps);
+}
+
+}  // namespace scree::demos
