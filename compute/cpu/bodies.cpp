@@ -281,6 +281,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
             return;
         }
         if (physics::is_spin_limited(velocity, state.fixed())) spin_limited.fetch_add(1, std::memory_order_relaxed);
+        velocity = physics::held_velocity(velocity, state.fixed());
         const float pace = physics::pace_of(properties, velocity, state.fixed());
         state.sleep_states[i] = physics::sleep_state_after(state.sleep_states[i], pace, sum.weight, least_quiet_beside(state, i),
                                                            state.fixed().sleep_steps);

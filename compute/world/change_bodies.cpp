@@ -215,6 +215,8 @@ void World::set_motion(std::size_t body, Motion motion) {
     in.change(
         body, [&](Body& b) { b.motion = motion; }, true);
     in.arrivals.erase(body);
+    for (auto& grip : in.grips)
+        if (grip && grip->body == body && motion != Motion::dynamic) grip.reset();
     if (motion == Motion::fixed) {
         const std::uint32_t row = in.state.row_of(body);
         const TableRanges still{{Table::velocities, row, 1}};

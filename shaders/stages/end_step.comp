@@ -43,6 +43,7 @@ void main() {
         return;
     }
     if (is_spin_limited(velocity, PARAMETERS)) atomicAdd(COUNTS.spin_limited, 1u);
+    velocity = held_velocity(velocity, PARAMETERS);
     float pace = pace_of(body, velocity, PARAMETERS);
     WORD(sleep_states, i) =
         sleep_state_after(WORD(sleep_states, i), pace, sum.weight, least_quiet_beside(i), PARAMETERS.sleep_steps);

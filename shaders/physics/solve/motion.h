@@ -64,6 +64,14 @@ LAW Velocity clamp_velocity(Velocity velocity, Parameters parameters) {
     return velocity;
 }
 
+// The velocity with which a step ends: beyond the limits as the last pass left it, but no further than twice, or the bounds of
+// the next step reach over more cells than a device's loops have rounds for.
+LAW Velocity held_velocity(Velocity velocity, Parameters parameters) {
+    velocity.linear = shortened(velocity.linear, 2.0f * parameters.max_speed);
+    velocity.angular = shortened(velocity.angular, 2.0f * parameters.max_spin);
+    return velocity;
+}
+
 CONSTANT float UNSOUND = -1.0f;  // for BodyForces.kept
 
 LAW bool is_within(vec3 v, float most) {
