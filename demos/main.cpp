@@ -4,6 +4,8 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <iostream>
 #include <new>
 #include <string_view>
@@ -14,6 +16,7 @@
 #include "demos/program/exit_status.h"
 #include "demos/program/help_formatter.h"
 #include "demos/program/interrupt.h"
+#include "host/files/partial_file.h"
 
 namespace {
 
@@ -57,6 +60,19 @@ int tell_no_memory() {
     constexpr std::string_view message = "scree: beyond memory: the scene does not fit; ask for fewer --bodies\n";
     (void)!::write(STDERR_FILENO, message.data(), message.size());
     return scree::demos::wrong_usage;
+}
+
+// Where an exception cannot leave, such as in the parser of the command line.
+[[noreturn]] void end_at_once() {
+    try {
+        if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        scree::host::remove_unfinished();
+        ::_exit(tell_no_memory());
+    } catch (...) {
+        std::abort();
+    }
+    std::abort();
 }
 
 int run(int argc, char** argv) {
@@ -103,6 +119,7 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+    std::set_terminate(end_at_once);
     occupy_closed_streams();
     scree::demos::listen_for_interrupt();
     try {

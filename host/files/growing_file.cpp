@@ -116,8 +116,9 @@ ScratchFile::ScratchFile(const std::filesystem::path& beside) : interior_(std::m
     const std::filesystem::path folder = beside.has_parent_path() ? beside.parent_path() : ".";
     std::string name = (folder / ".scree-XXXXXX").string();
     interior_->beside = beside;
-    interior_->file.emplace(beside, ::mkstemp(name.data()));
-    ::unlink(name.c_str());
+    const int made = ::mkstemp(name.data());
+    if (made >= 0) ::unlink(name.c_str());
+    interior_->file.emplace(beside, made);
 }
 
 ScratchFile::~ScratchFile() = default;
