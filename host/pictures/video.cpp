@@ -116,6 +116,8 @@ const char* example_of(Clip clip) {
 
 }  // namespace
 
+constexpr int output_number = 3;  // of the file descriptor in ffmpeg
+
 struct Video::Impl {
     std::filesystem::path path, target, partial;
     VideoShape shape;
@@ -140,7 +142,8 @@ void Video::Impl::start(const std::string& program) {
     if (::pipe2(ends, O_CLOEXEC) != 0) throw ImageError(std::string("ffmpeg: no pipe: ") + std::strerror(errno));
     pipe = ends[1];
     errors = ::memfd_create("ffmpeg", MFD_CLOEXEC);
-    Words words = command_of(program, shape, partial.string());
+    // By number: were this program killed, an ffmpeg that opens a name only later would make a file that nobody removes.
+    Words words = command_of(program, shape, "/proc/self/fd/" + std::to_string(output_number));
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
@@ -150,6 +153,7 @@ void Video::Impl::start(const std::string& program) {
     posix_spawn_file_actions_adddup2(&actions, ends[0], 0);
     posix_spawn_file_actions_addopen(&actions, 1, "/dev/null", O_WRONLY, 0);
     if (errors >= 0) posix_spawn_file_actions_adddup2(&actions, errors, 2);
+    posix_spawn_file_actions_addopen(&actions, output_number, partial.c_str(), O_RDWR, 0);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t none;

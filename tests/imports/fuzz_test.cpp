@@ -118,11 +118,19 @@ TEST_CASE("imports: a hundred thousand keys, and a key of twenty million letters
     Case file;
     std::string many = "{\"bodies\": []";
     for (int i = 0; i < 100000; ++i) many += ", \"k" + std::to_string(i) + "\": 1";
+    const auto why = [&](const std::string& text) {
+        try {
+            (void)file.load("a.json", text);
+            return std::string();
+        } catch (const SceneError& error) {
+            return std::string(error.what());
+        }
+    };
     const auto start = std::chrono::steady_clock::now();
-    CHECK(file.refusal("a.json", many + "}").find("more than 256 keys") != std::string::npos);
-    const std::string why = file.refusal("a.json", "{\"bodies\": [], \"" + std::string(20000000, 'x') + "\": 1}");
-    CHECK(why.find("unknown key of 20000000 letters") != std::string::npos);
-    CHECK(why.size() < 1000);
+    CHECK(why(many + "}").find("more than 256 keys") != std::string::npos);
+    const std::string long_key = why("{\"bodies\": [], \"" + std::string(20000000, 'x') + "\": 1}");
+    CHECK(long_key.find("unknown key of 20000000 letters") != std::string::npos);
+    CHECK(long_key.size() < 1000);
     CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(3));
 }
 

@@ -32,3 +32,12 @@ TEST_CASE("random programs give the same bits with any number of lanes and threa
         }
     }
 }
+
+TEST_CASE("a contact without torsional friction beside one with it: lanes keep to themselves", "[world]") {
+    // Program 481: a box and a tyre on a height field; eight lanes gave the tyre the twist of the box.
+    tests::RandomProgram program = tests::random_program(481);
+    const std::string parts = tests::difference(
+        program, [] { return std::make_unique<ReferenceRunner>(1, 1); }, [] { return std::make_unique<ReferenceRunner>(1, 8); });
+    INFO(parts);
+    CHECK(parts.empty());
+}

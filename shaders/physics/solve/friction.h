@@ -221,16 +221,17 @@ LAW SolveResult solve_friction(Constraint c, SolveResult s, float normal, Mass a
     float spin = 0.0f, spin_mass = 0.0f, stopping = 0.0f;
     vec3 response_a = c.normal, response_b = c.normal;
     if (!none(twists)) {
-        response_a = turned_by(a, c.normal) * a.split;
-        response_b = turned_by(b, c.normal) * b.split;
+        response_a = choose(twists, turned_by(a, c.normal) * a.split, c.normal);
+        response_b = choose(twists, turned_by(b, c.normal) * b.split, c.normal);
         spin = choose(twists, dot3(c.normal, v.b.angular - v.a.angular), 0.0f);
         spin_mass = dot3(c.normal, response_a) + dot3(c.normal, response_b);
         stopping = (spin + anchor.rate * s.impulse.turn) * reciprocal(spin_mass);
         stopping = choose(holds, -stopping - anchor.leak * before.twist, -before.twist);
+        stopping = choose(twists, stopping, 0.0f);  // in lanes beside ones that do
         spin_mass = choose(twists, spin_mass, 0.0f);
-        after.twist = flush_tiny(before.twist + stopping);
-        v.a.angular = v.a.angular - response_a * stopping;
-        v.b.angular = v.b.angular + response_b * stopping;
+        after.twist = choose(twists, flush_tiny(before.twist + stopping), before.twist);
+        v.a.angular = choose(twists, v.a.angular - response_a * stopping, v.a.angular);
+        v.b.angular = choose(twists, v.b.angular + response_b * stopping, v.b.angular);
     }
     FrictionBlock k = friction_block(lever_arms(c, c.centre, s.impulse.center_offset), c.normal, v, a, b, parameters);
     // The block's tangents are those of the drive.
