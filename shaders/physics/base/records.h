@@ -229,7 +229,7 @@ struct Impulse {
     float rebound_energy;  // that the impact has yet to return, less half the last pass's work so far as it is known, J
     float impact_energy;   // that the impact had to return as it began, J; 0: it does not last
     float impact_weight;   // of the contact among the impacts of its bodies: the impulse it will exchange, N s
-    float pad0;
+    float flight_energy;   // that gravity adds to the rebound of its bodies in this substep, J
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
     vec3 rolling;          // world, on B, N m s

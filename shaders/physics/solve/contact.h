@@ -54,7 +54,7 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.rebound_energy = 0.0f;
     impulse.impact_energy = 0.0f;
     impulse.impact_weight = 0.0f;
-    impulse.pad0 = 0.0f;
+    impulse.flight_energy = 0.0f;
     impulse.friction = vec3(0.0f);
     impulse.twist = 0.0f;
     impulse.rolling = vec3(0.0f);

@@ -112,7 +112,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     if (!none(strikes || is_impact(impulse)))
-        result.impulse = after_compression(c, impulse, striking, normal_before, before_impact, v, state, parameters);
+        result.impulse = after_compression(c, impulse, striking, normal_before, before_impact, v, a, b, state, parameters);
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, true, parameters);
 }

@@ -90,6 +90,7 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
     impulse.impact_energy = choose(lasts, impulse.impact_energy, 0.0f);
     impulse.impact_weight =
         choose(lasts, weight * ((impulse.impact.x + impulse.impact.y) + (impulse.impact.z + impulse.impact.w)), 0.0f);
+    impulse.flight_energy = 0.0f;
     return impulse;
 }
 
@@ -121,6 +122,7 @@ LAW Impulse with_impact(Impulse impulse, Impulse impact, bool condition) {
     impulse.rebound_energy = choose(condition, impact.rebound_energy, 0.0f);
     impulse.impact_energy = choose(condition, impact.impact_energy, 0.0f);
     impulse.impact_weight = choose(condition, impact.impact_weight, 0.0f);
+    impulse.flight_energy = choose(condition, impact.flight_energy, 0.0f);
     return impulse;
 }
 
@@ -130,11 +132,14 @@ LAW bool is_any(vec4 striking) {
 
 // After the biased pass: the points that struck, and of the energy to return what is known so far. The compression impulse
 // p does the work p (v + u) / 2 from velocity v to u; u is known when all contacts have been solved (with_restitution). With
-// the rebound w that a single point would have, p / (u - v) (w^2 - e^2 v^2) / 2 is what gravity adds.
+// the rebound w that a single point would have, and the mass m on which it acts, m (w^2 - e^2 v^2) / 2 is what gravity adds
+// in the part of the substep that is flight: to the body, so that several impacts share it.
 LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4 normal_before, VelocityPair before,
-                              VelocityPair after, vec4 state, Parameters parameters) {
+                              VelocityPair after, Mass a, Mass b, vec4 state, Parameters parameters) {
     float e2 = c.restitution * c.restitution;
     float pull = dot3(c.normal, xyz(state));
+    float whole = larger(a.split, b.split);
+    impulse.flight_energy = 0.0f;
     // What presses again without a new impact, and would not rebound faster than from the slowest one, comes to rest: only
     // what is no impact is warm started.
     bool rests = false;
@@ -153,8 +158,9 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
         // Clamped: a speculative impulse may change almost nothing, and then rounding decides.
         float rise = larger(larger(reached - speed, 1.0e-4f * abs(speed)), 1.0e-9f);
         float wanted = plain_rebound(c, strike, pull, parameters);
-        float specific = (wanted * wanted - e2 * (speed * speed)) * reciprocal(rise) - e2 * speed;
-        impulse.rebound_energy = choose(struck, impulse.rebound_energy + 0.5f * (pressed * specific), impulse.rebound_energy);
+        float flight = whole * (pressed * ((wanted * wanted - e2 * (speed * speed)) * reciprocal(rise)));
+        impulse.flight_energy = choose(struck, impulse.flight_energy + 0.5f * flight, impulse.flight_energy);
+        impulse.rebound_energy = choose(struck, impulse.rebound_energy - 0.5f * (pressed * (e2 * speed)), impulse.rebound_energy);
         impulse.impact_weight =
             choose(struck, impulse.impact_weight + pressed * (1.0f + wanted * reciprocal(rise)), impulse.impact_weight);
         impulse.impact[k] = choose(struck, impulse.impact[k] + pressed, impulse.impact[k]);
@@ -162,6 +168,7 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
     impulse.impact = flush_tiny(impulse.impact);
     impulse.impact_weight = flush_tiny(impulse.impact_weight);
     impulse.rebound_energy = flush_least(impulse.rebound_energy);
+    impulse.flight_energy = flush_least(impulse.flight_energy);
     return impulse;
 }
 
@@ -219,7 +226,8 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, Constraint c, Impu
     ImpactMode before = impact_mode(met, there, v, a, b);
     float rest = 0.5f * ((before.speed * before.speed) * reciprocal(before.inverse_effective_mass));
     bool compressed = pressed > 0.0f || before.speed < 0.0f;
-    float energy = impulse.rebound_energy - e2 * work - choose(compressed, (1.0f - e2) * rest, 0.0f);
+    float flight = impulse.flight_energy * reciprocal(larger(a.split, b.split));
+    float energy = impulse.rebound_energy + flight - e2 * work - choose(compressed, (1.0f - e2) * rest, 0.0f);
 
     ImpactMode mode = impact_mode(c, impulse, v, a, b);
     float squared = mode.speed * mode.speed + 2.0f * (energy * mode.inverse_effective_mass);

@@ -26,6 +26,7 @@ void solve_contact(uint place) {
         impulses.at[i].rebound_energy = after.impulse.rebound_energy;
         impulses.at[i].impact_energy = after.impulse.impact_energy;
         impulses.at[i].impact_weight = after.impulse.impact_weight;
+        impulses.at[i].flight_energy = after.impulse.flight_energy;
     }
     impulses.at[i].friction = after.impulse.friction;
     impulses.at[i].twist = after.impulse.twist;
@@ -78,6 +79,7 @@ void relax_contact(uint place, uint pass) {
         impulses.at[i].rebound_energy = impulse.rebound_energy;
         impulses.at[i].impact_energy = impulse.impact_energy;
         impulses.at[i].impact_weight = impulse.impact_weight;
+        impulses.at[i].flight_energy = impulse.flight_energy;
     }
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
