@@ -12,6 +12,7 @@
 #include <glm/gtc/quaternion.hpp>
 
 #include "compute/step/memory_order.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree {
@@ -111,7 +112,7 @@ Statistics statistics_of(const Scene& scene, const State& state, std::optional<s
         if (physics::is_absent(state.properties[row].motion)) continue;
         ++s.bodies;
         s.pieces += scene.bodies[i].piece_of != no_body;
-        if (!finite(state, row)) {
+        if (!finite(state, row) || physics::is_quarantined(state.properties[row].motion)) {
             ++s.not_finite;
             continue;
         }

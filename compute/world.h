@@ -33,6 +33,17 @@ struct BodyState {
     vec3 angular_velocity;  // rad/s
     bool asleep = false;
     bool exists = true;  // false: it has broken, or is a fragment of an unbroken body; it neither collides nor moves
+    bool quarantined = false;
+};
+
+// A body whose pose or velocity would not have been finite any more (or beyond 1e15 m, m/s, rad/s): it was stopped where it last
+// was, and since then collides with nothing and hangs on no joint, whose others go on. The same on every backend. Its scene
+// asks for more than single precision has: extreme masses, sizes, speeds, springs.
+struct Quarantine {
+    std::size_t body = 0;
+    std::uint64_t step = 0;  // the number of steps done after the one in which it happened
+    std::string stage;       // that found it: move_bodies within a substep, end_step after the last
+    std::size_t joints = 0;  // that it hung on
 };
 
 // Names one body for its whole life: an index is given to a new body once its body was removed, a handle never is.
@@ -133,7 +144,7 @@ struct Statistics {
     std::size_t spin_limited = 0;            // bodies at the limit Settings::max_turn as a step ended, over all steps so far
     double drift_max = 0;                    // m, greatest distance of a dynamic body from its start
     std::size_t asleep = 0;                  // bodies
-    std::size_t not_finite = 0;              // bodies
+    std::size_t not_finite = 0;              // bodies in quarantine
     std::size_t joints = 0;                  // of every kind
     std::size_t joints_broken = 0;
     double joint_force_max = 0;    // greatest force of any joint in any step so far (mean over a step), N
@@ -320,6 +331,7 @@ public:
 
     // Reading state; on a device each call downloads.
     BodyState body(std::size_t index) const;                       // throws std::out_of_range
+    std::vector<Quarantine> quarantines() const;                   // bodies that are in quarantine, in order
     std::vector<BodyContact> contacts_of(std::size_t body) const;  // throws the same; reads all contacts
     [[deprecated("use contacts_of")]] std::vector<BodyContact> touching(std::size_t body) const { return contacts_of(body); }
     std::vector<BodyState> bodies() const;
@@ -385,6 +397,7 @@ public:
     void set_timeline(std::shared_ptr<Timeline> timeline);
 
 private:
+    friend void restore_tables(State& state, std::span<const std::byte> saved);
     struct Impl;
     std::unique_ptr<Impl> interior_;
 };

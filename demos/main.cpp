@@ -1,9 +1,14 @@
 // The program scree: parses the command line, runs a command, and maps errors to a message and an exit status.
 #include <fcntl.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <iostream>
 #include <new>
+#include <string_view>
 #include <system_error>
 
 #include "demos/program/commands.h"
@@ -11,6 +16,7 @@
 #include "demos/program/exit_status.h"
 #include "demos/program/help_formatter.h"
 #include "demos/program/interrupt.h"
+#include "host/files/partial_file.h"
 
 namespace {
 
@@ -49,12 +55,28 @@ std::string cause_of(const CLI::App& program, const CLI::ParseError& error) {
     return fmt::format("unknown {} \"{}\"; the commands are {}", word.starts_with('-') ? "option" : "command", word, known);
 }
 
-}  // namespace
+// Without memory: a message may not need any.
+int tell_no_memory() {
+    constexpr std::string_view message = "scree: beyond memory: the scene does not fit; ask for fewer --bodies\n";
+    (void)!::write(STDERR_FILENO, message.data(), message.size());
+    return scree::demos::wrong_usage;
+}
 
-int main(int argc, char** argv) {
+// Where an exception cannot leave, such as in the parser of the command line.
+[[noreturn]] void end_at_once() {
+    try {
+        if (const std::exception_ptr error = std::current_exception()) std::rethrow_exception(error);
+    } catch (const std::bad_alloc&) {
+        scree::host::remove_unfinished();
+        ::_exit(tell_no_memory());
+    } catch (...) {
+        std::abort();
+    }
+    std::abort();
+}
+
+int run(int argc, char** argv) {
     namespace demos = scree::demos;
-    occupy_closed_streams();
-    demos::listen_for_interrupt();
     int status = demos::done;
     CLI::App program("scree simulates very large scenes of rigid bodies, with the same bits on every GPU and on the CPU.",
                      "scree");
@@ -76,11 +98,14 @@ int main(int argc, char** argv) {
         program.parse(argc, argv);
         if (std::fflush(stdout) != 0) return tell("the output cannot be written", demos::promise_missed);
     } catch (const CLI::Success& help) {
-        return program.exit(help);
+        const int shown = program.exit(help);
+        std::cout.flush();
+        if (!std::cout || std::fflush(stdout) != 0) return tell("the output cannot be written", demos::promise_missed);
+        return shown;
     } catch (const CLI::ParseError& error) {
         return tell(cause_of(program, error) + "\nscree --help and scree COMMAND --help say more");
     } catch (const std::bad_alloc&) {
-        return tell("beyond memory: the scene does not fit; ask for fewer --bodies");
+        throw;
     } catch (const demos::WorkFailed& error) {
         return tell(error.what(), demos::promise_missed);
     } catch (const std::system_error& error) {
@@ -89,4 +114,17 @@ int main(int argc, char** argv) {
         return tell(error.what());
     }
     return status;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    std::set_terminate(end_at_once);
+    occupy_closed_streams();
+    scree::demos::listen_for_interrupt();
+    try {
+        return run(argc, argv);
+    } catch (const std::bad_alloc&) {  // also from the command line, and from telling of another error
+        return tell_no_memory();
+    }
 }

@@ -11,6 +11,7 @@
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/grab_spring.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
@@ -98,12 +99,25 @@ void move(State& state, std::size_t i) {
         velocity.angular += sum.change.angular;
         state.forces[i].impacts = physics::impacts_of(sum.weight, properties);
     }
-    const physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
+    physics::RigidState after = physics::integrate(state.poses[i], velocity, properties, state.fixed().h);
+    const bool sound = physics::is_sound(after.pose) && physics::is_sound(after.velocity);
+    if (!sound) {
+        state.forces[i].kept = physics::UNSOUND;
+        after = physics::moved_soundly(sound, state.poses[i], after);
+    }
     state.poses[i] = after.pose;
     state.velocities[i] = after.velocity;
     if (!physics::has_isotropic_inertia(properties))
         state.masses[i] =
             physics::body_mass(physics::mass_in_world(properties, after.pose.orientation), state.masses[i].split_state);
+}
+
+void put_into_quarantine(State& state, std::size_t i, float mark) {
+    state.properties[i].motion = physics::MOTION_QUARANTINED;
+    state.masses[i].split_state = mark;
+    state.velocities[i] = {};
+    state.forces[i].kept = 1;
+    state.sleep_states[i] = 0;
 }
 
 }  // namespace
@@ -135,7 +149,7 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
     for (std::size_t i = 0; i < state.fixed().actions; ++i) {
         const physics::Action& action = state.actions[i];
         const std::size_t body = action.body;
-        if (physics::is_absent(state.properties[body].motion) || !state.is_stepped(body)) continue;
+        if (physics::is_out_of_play(state.properties[body].motion) || !state.is_stepped(body)) continue;
         const physics::Mass mass = physics::mass_in_world(state.properties[body], state.poses[body].orientation);
         if (!state.fixed().redo)
             state.velocities[body] = physics::apply_impulses(state.velocities[body], action, mass, state.fixed());
@@ -170,6 +184,12 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
         }
         const physics::Velocity velocity = state.velocities[i];
         const std::uint32_t owner = state.body_of(static_cast<std::uint32_t>(i));
+        if (physics::is_quarantined(state.properties[owner].motion)) {
+            state.bounds[i] = physics::no_bounds(pose);
+            float& mark = state.masses[i].split_state;
+            if (mark < 0) mark = physics::quarantine_code(mark, counts.steps);
+            return;
+        }
         const float bend = physics::is_part(properties) ? physics::bend_of_way(state.part_in(i), velocity, state.fixed()) : 0;
         physics::Bounds bounds = physics::is_apart(properties)
                                      ? physics::no_bounds(pose)
@@ -231,7 +251,7 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const physics::uint motion = state.properties[i].motion;
-        if (motion == physics::MOTION_FIXED || physics::is_part(state.properties[i]) || physics::is_absent(motion) ||
+        if (motion == physics::MOTION_FIXED || physics::is_part(state.properties[i]) || physics::is_out_of_play(motion) ||
             asleep(state, i) || !state.is_stepped(i))
             return;
         if (!wide || !moved_by_contacts(state, i)) move(state, i);
@@ -246,7 +266,7 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     ++state.counted().steps;
     std::atomic<bool> any_fast = false;
-    const std::atomic_ref spin_limited(state.counted().spin_limited);
+    const std::atomic_ref spin_limited(state.counted().spin_limited), quarantined(state.counted().quarantined);
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         if (!moved_by_contacts(state, i)) return;
         const Sum sum = sum_of_slots(state, i);
@@ -254,7 +274,14 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
         velocity.linear = physics::flush_tiny(velocity.linear + sum.change.linear);
         velocity.angular = physics::flush_tiny(velocity.angular + sum.change.angular);
         const physics::BodyProperties& properties = state.properties[i];
+        const bool moved = state.forces[i].kept != physics::UNSOUND;
+        if (!moved || !physics::is_sound(velocity)) {
+            put_into_quarantine(state, i, moved ? physics::AFTER_STEP : physics::AFTER_MOVE);
+            quarantined.fetch_add(1, std::memory_order_relaxed);
+            return;
+        }
         if (physics::is_spin_limited(velocity, state.fixed())) spin_limited.fetch_add(1, std::memory_order_relaxed);
+        velocity = physics::held_velocity(velocity, state.fixed());
         const float pace = physics::pace_of(properties, velocity, state.fixed());
         state.sleep_states[i] = physics::sleep_state_after(state.sleep_states[i], pace, sum.weight, least_quiet_beside(state, i),
                                                            state.fixed().sleep_steps);

@@ -6,6 +6,7 @@
 #include "compute/cpu/joint_block.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree::reference {
@@ -113,7 +114,7 @@ void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
 }
 
 void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
-    const auto gone = [&](physics::uint body) { return body != NONE && physics::is_absent(state.properties[body].motion); };
+    const auto gone = [&](physics::uint body) { return body != NONE && physics::is_out_of_play(state.properties[body].motion); };
     for_each_block(state, threads, [&](const JointBlock& block) {
         for (Joint& joint : block.joints())
             if (gone(joint.a) || gone(joint.b)) joint.broken = 1;

@@ -9,6 +9,7 @@
 #include "compute/scene/copies.h"
 #include "compute/statistics.h"
 #include "compute/step/scene_compiler.h"
+#include "compute/world/state_bytes.h"
 
 namespace scree {
 
@@ -84,6 +85,12 @@ void Lockstep::change(const std::function<void(State&)>& make) {
     interior_->attach();
 }
 
+void Lockstep::restore(std::span<const std::byte> saved) {
+    change([&](State& state) { restore_tables(state, saved); });
+    interior_->result.step = static_cast<int>(interior_->state.counted().steps);
+    interior_->result.hash = hash_of(interior_->state);
+}
+
 void Lockstep::edit(const std::function<TableRanges(const StateEditor&)>& needed,
                     const std::function<TableRanges(StateEditor&)>& make) {
     StateEditor of_image(interior_->image), of_state(interior_->state);
@@ -109,8 +116,10 @@ bool Lockstep::step() {
 }
 
 LockstepResult compare_in_lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device,
-                                   int threads, int steps, const std::function<bool(int)>& progress, std::size_t copies) {
+                                   int threads, int steps, const std::function<bool(int)>& progress, std::size_t copies,
+                                   std::span<const std::byte> from) {
     Lockstep lockstep(scene, settings, std::move(device), threads, copies);
+    if (!from.empty()) lockstep.restore(from);
     while (lockstep.result().step < steps) {
         if (progress && !progress(lockstep.result().step)) break;
         if (!lockstep.step()) break;

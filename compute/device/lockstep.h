@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "compute/scene.h"
@@ -29,6 +30,8 @@ public:
     bool step();  // false: a difference, described by result()
     // The same edit of both, between steps; the device receives the ranges that the editor returns.
     void edit(const std::function<TableRanges(const StateEditor&)>& needed, const std::function<TableRanges(StateEditor&)>& make);
+    // Brings both to a checkpoint of a world of the same scene (compute/checkpoint.h). Throws CheckpointError.
+    void restore(std::span<const std::byte> saved);
     // Any other change to both; the device downloads all lasting tables and is attached anew.
     void change(const std::function<void(State&)>& make);
     const LockstepResult& result() const;
@@ -39,8 +42,10 @@ private:
     std::unique_ptr<Impl> interior_;
 };
 
-// Runs `steps` steps, until a difference or until `progress` (argument: steps done) returns false. Throws like World.
+// Runs until `steps` steps are done, with those of the checkpoint `from` (empty: from the start), until a difference or until
+// `progress` (argument: steps done) returns false. Throws like World.
 LockstepResult compare_in_lockstep(const Scene& scene, const Settings& settings, std::shared_ptr<host::Device> device,
-                                   int threads, int steps, const std::function<bool(int)>& progress = {}, std::size_t copies = 0);
+                                   int threads, int steps, const std::function<bool(int)>& progress = {}, std::size_t copies = 0,
+                                   std::span<const std::byte> from = {});
 
 }  // namespace scree

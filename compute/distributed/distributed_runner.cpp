@@ -10,6 +10,7 @@
 #include "compute/distributed/packing.h"
 #include "compute/step/stage_slices.h"
 #include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree {
@@ -87,6 +88,7 @@ bool DistributedRunner::step() {
     }
     wakes_ = knows_waking_ = false;
     spin_limited_ = state.counted().spin_limited;
+    quarantined_ = state.counted().quarantined;
     clock_.begin_step();
     Timeline* const told = timeline();
     const Watch watch(threads_);
@@ -191,13 +193,34 @@ void DistributedRunner::tell_wake() {
 
 void DistributedRunner::tell_ends() {
     physics::Counts& counts = state_->counted();
-    std::uint32_t sums[2] = {counts.fast, counts.spin_limited - spin_limited_};
+    std::uint32_t sums[3] = {counts.fast, counts.spin_limited - spin_limited_, counts.quarantined - quarantined_};
     exchange_->add(sums);
     counts.spin_limited = spin_limited_ + sums[1];
+    counts.quarantined = quarantined_ + sums[2];
+    if (sums[2] != 0) tell_quarantined();
     if (sums[0] == 0) return;
     counts.fast = 1;
     counts.arguments[physics::WORK_CCD_PAIRS] = counts.arguments[physics::WORK_PAIRS];
     halo_.send_ends(*state_, *exchange_);
+}
+
+void DistributedRunner::tell_quarantined() {
+    State& state = *state_;
+    Bytes said;
+    for (std::uint32_t row = 0; row < state.fixed().first_part; ++row) {
+        if (!state.is_owned(row) || !physics::is_quarantined(state.properties[row].motion) || state.masses[row].split_state >= 0)
+            continue;
+        put(said, row);
+        put(said, state.masses[row].split_state);
+    }
+    for (const Bytes& told : exchange_->gather(said))
+        for (Unpacker from(told); from.has_more();) {
+            const auto row = from.take<std::uint32_t>();
+            state.properties[row].motion = physics::MOTION_QUARANTINED;
+            state.masses[row].split_state = from.take<float>();
+            state.velocities[row] = {};
+            state.sleep_states[row] = 0;
+        }
 }
 
 void DistributedRunner::tell_broken() {

@@ -54,6 +54,7 @@ private:
     bool agree_on_room();
     void tell_wake();
     void tell_ends();
+    void tell_quarantined();
     void tell_broken();
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
@@ -69,9 +70,9 @@ private:
     std::vector<bool> gathered_ = std::vector<bool>(table_count);  // tables that are whole on every rank since the last step
     Ownership ownership_;
     Halo halo_;
-    std::uint64_t begun_ = 0;                    // steps, without repetitions
-    bool wakes_ = false, knows_waking_ = false;  // some contact shakes bodies behind it in this step
-    std::uint32_t spin_limited_ = 0;
+    std::uint64_t begun_ = 0;                           // steps, without repetitions
+    bool wakes_ = false, knows_waking_ = false;         // some contact shakes bodies behind it in this step
+    std::uint32_t spin_limited_ = 0, quarantined_ = 0;  // as the step began
 };
 
 }  // namespace scree

@@ -24,6 +24,8 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return row.back();
 }
 
+constexpr std::size_t longest_name = 200;  // that a message repeats; comparing takes the product of two lengths
+
 std::string line_and_column(std::string_view text, std::size_t at) {
     const std::string_view before = text.substr(0, std::min(at, text.size()));
     const auto line = 1 + std::count(before.begin(), before.end(), '\n');
@@ -40,7 +42,13 @@ std::string listed(const Names& names) {
     return text;
 }
 
+std::string shortened_name(const std::string& name) {
+    return name.size() > longest_name ? escaped(name.substr(0, longest_name)) + "..." : escaped(name);
+}
+
 std::string unknown(const char* what, const std::string& name, const Names& known) {
+    if (name.size() > longest_name)
+        return std::string("unknown ") + what + " of " + std::to_string(name.size()) + " letters; known: " + listed(known);
     const auto nearest = std::min_element(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
         return distance(name, a) < distance(name, b);
     });
@@ -117,7 +125,7 @@ void only(const json& object, const Place& place, const Names& known) {
     if (!object.is_object()) refuse(place, "must be an object, is " + kind(object));
     for (const auto& [key, value] : object.items()) {
         if (std::find(known.begin(), known.end(), key) == known.end()) {
-            throw SceneError(place.pointer() + "/" + escaped(key), unknown("key", key, known));
+            throw SceneError(place.pointer() + "/" + shortened_name(key), unknown("key", key, known));
         }
     }
 }

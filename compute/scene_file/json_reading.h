@@ -60,6 +60,8 @@ void required(const json& object, const Place& place, const char* key, Value& ou
 // For messages.
 std::string kind(const json& value);  // "an array of 3"
 std::string listed(const Names& names);
+// For pointers in messages: escaped, and cut after 200 letters.
+std::string shortened_name(const std::string& name);
 std::string unknown(const char* what, const std::string& name, const Names& known);
 std::string escaped(std::string key);  // of a JSON pointer, RFC 6901
 

@@ -114,6 +114,8 @@ private:
     void note_key(const std::string& key) {
         if (keys_.size() == 1) top_key_ = key;
         Names& seen = keys_.back();
+        if (seen.size() >= most_keys)
+            throw SceneError("/" + shortened_name(top_key_), "an object has more than " + std::to_string(most_keys) + " keys");
         if (std::find(seen.begin(), seen.end(), key) != seen.end()) {
             const Place body = bodies_ / scene_.bodies.size();
             const bool inside = keys_.size() > 1 && top_key_ == "bodies";
@@ -121,6 +123,8 @@ private:
         }
         seen.push_back(key);
     }
+
+    static constexpr std::size_t most_keys = 256;  // several times those of any object; each is compared with all before it
 
     Scene& scene_;
     std::size_t most_bodies_;

@@ -203,8 +203,8 @@ void declare_solver(std::vector<StageDeclaration>& all) {
          {slots}, {properties}, {sleep_states}, {joint_equations, A::joints}},
         {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints}), unfinished({neighbours_quiet})}});
     all.push_back({"end_step", DispatchDomain::bodies, end_step,
-        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {neighbours_quiet, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}},
-        {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}}});
+        {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {neighbours_quiet, A::slots}, {velocities, A::movers}, {bounds, A::movers, 1}, {poses, A::movers}, {forces, A::movers, 1}},
+        {{velocities, A::movers}, {sleep_states, A::movers}, {bounds}, {counts}, some_only({forces}), some_only({masses}), some_only({properties})}});
 }
 
 std::vector<StageDeclaration> declare() {

@@ -191,6 +191,10 @@ struct State {
     SceneFeatures features() const;
     bool has_joints() const;
     // Whether some body is breakable.
+    // Whether steps change motions: bodies break, or are put into quarantine.
+    bool changes_motions() const {
+        return has_fractures() || counted().quarantined > 0;
+    }
     bool has_fractures() const {
         return row_content_.breaking;
     }

@@ -8,6 +8,7 @@
 #include "compute/step/joint_blocks.h"
 #include "compute/step/scene_compiler.h"
 #include "shaders/physics/collide/compound.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/solve/material.h"
 
 namespace scree {
@@ -289,14 +290,16 @@ TableRanges StateEditor::change(const Body& body, std::uint32_t id) {
     physics::BodyProperties& whole = state_.properties[row];
     SceneCompiler compiler(state_);
     const ShapeLengths before = shape_lengths(state_);
+    const bool quarantined = physics::is_quarantined(whole.motion) && body.motion == Motion::dynamic;
     SceneCompiler::set_mass(whole, body);
+    if (quarantined) whole.motion = physics::MOTION_QUARANTINED;
     compiler.set_material(whole, body);
     const auto* compound = std::get_if<Compound>(&body.shape);
     const Material own = material_of(body);
     TableRanges changed{{Table::properties, row, 1}};
     for (std::uint32_t part = first; part < first + count; ++part) {
         physics::BodyProperties& one = state_.properties[part];
-        one.motion = whole.motion | physics::MOTION_OF_PART;
+        one.motion = static_cast<physics::uint>(body.motion) | physics::MOTION_OF_PART;
         compiler.set_surface(one, compound ? compound->parts[part - first].material.value_or(own) : own);
     }
     state_.note_content(row, 1);
@@ -335,7 +338,7 @@ TableRanges StateEditor::filter(const Scene& scene) {
 TableRanges StateEditor::needed_to_rejoin() const {
     TableRanges needed = joint_ranges(state_);
     append(needed, vehicle_ranges(state_));
-    if (state_.has_fractures()) needed.push_back({Table::properties, 0, state_.fixed().bodies});  // which bodies exist
+    if (state_.changes_motions()) needed.push_back({Table::properties, 0, state_.fixed().bodies});  // which bodies exist
     return needed;
 }
 

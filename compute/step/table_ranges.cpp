@@ -32,13 +32,13 @@ void append(TableRanges& ranges, const TableRanges& more) {
 TableRanges body_ranges(const State& state) {
     TableRanges ranges;
     for (const Table table : {Table::poses, Table::velocities, Table::sleep_states}) ranges.push_back(live_range(state, table));
-    if (state.has_fractures()) ranges.push_back(live_range(state, Table::properties));
+    if (state.changes_motions()) ranges.push_back(live_range(state, Table::properties));
     return ranges;
 }
 
 TableRanges row_ranges(const State& state, std::uint32_t row) {
     TableRanges ranges{{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::sleep_states, row, 1}};
-    if (state.has_fractures()) ranges.push_back({Table::properties, row, 1});
+    if (state.changes_motions()) ranges.push_back({Table::properties, row, 1});
     return ranges;
 }
 

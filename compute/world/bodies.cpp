@@ -243,7 +243,7 @@ TableRanges World::Impl::free_families_of(const std::vector<std::size_t>& bodies
 void World::Impl::remove(std::vector<std::size_t> bodies) {
     if (bodies.empty()) return;
     std::sort(bodies.begin(), bodies.end());
-    if (state.has_fractures()) bring(body_ranges);
+    if (state.changes_motions()) bring(body_ranges);
     require_removable(bodies);
     count_bodies();
     TableRanges changed = break_joints_of(bodies);

@@ -11,6 +11,7 @@
 #include "compute/scene/validator.h"
 #include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
+#include "shaders/physics/extra/quarantine.h"
 
 namespace scree {
 
@@ -76,7 +77,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
     TableRanges changed = ranges_of(rows, {Table::poses, Table::velocities, Table::sleep_states});
     TableRanges needed = changed;
-    if (state.has_fractures()) append(needed, ranges_of(rows, {Table::properties}));
+    if (state.changes_motions()) append(needed, ranges_of(rows, {Table::properties}));
     runner->download(needed);
     for (const BodyChange& change : bodies) require_there(change.body);
     std::set<std::size_t> woken;  // copies
@@ -84,6 +85,13 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         const std::uint32_t row = state.row_of(change.body);
         physics::Pose& pose = state.poses[row];
         physics::Velocity& velocity = state.velocities[row];
+        if (change.position && physics::is_quarantined(state.properties[row].motion)) {  // it begins anew
+            state.properties[row].motion = static_cast<physics::uint>(scene.bodies[change.body].motion);
+            velocity = {};
+            state.masses[row] = {};
+            changed.push_back({Table::properties, row, 1});
+            changed.push_back({Table::masses, row, 1});
+        }
         if (change.position) {
             pose.position = physics::flush_tiny(*change.position);
             pose.low_x = velocity.low_y = velocity.low_z = 0;
@@ -115,7 +123,7 @@ void World::set_bodies(std::span<const BodyChange> changes) {
 // Changes a body of the scene, checks it, and tells the runner.
 void World::Impl::change(std::size_t index, const std::function<void(Body&)>& edit, bool wakes_all) {
     require_body(index);
-    if (state.has_fractures()) runner->download(row_ranges(state, state.row_of(index)));
+    if (state.changes_motions()) runner->download(row_ranges(state, state.row_of(index)));
     require_there(index);
     Body& body = scene.bodies[index];
     Shape shape = std::exchange(body.shape, Box{});
@@ -207,6 +215,8 @@ void World::set_motion(std::size_t body, Motion motion) {
     in.change(
         body, [&](Body& b) { b.motion = motion; }, true);
     in.arrivals.erase(body);
+    for (auto& grip : in.grips)
+        if (grip && grip->body == body && motion != Motion::dynamic) grip.reset();
     if (motion == Motion::fixed) {
         const std::uint32_t row = in.state.row_of(body);
         const TableRanges still{{Table::velocities, row, 1}};

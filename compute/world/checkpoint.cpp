@@ -351,4 +351,15 @@ void World::restore(std::span<const std::byte> saved) {
     in.broken = false;
 }
 
+void restore_tables(State& state, std::span<const std::byte> saved) {
+    const Head head = checked_head(saved);
+    if (const std::uint64_t here = fingerprint_of(state); head.scene != here)
+        refuse("the checkpoint is of another scene: its fingerprint is " + hash_text(head.scene) + ", this scene's " +
+               hash_text(here));
+    ByteReader reader(saved.subspan(sizeof head));
+    (void)reader.take_records(1);  // edits of the scene: their bodies are in the tables
+    (void)World::Impl::take_world(reader);
+    StateBytes(reader, StartLengths::of(state)).restore(state);
+}
+
 }  // namespace scree

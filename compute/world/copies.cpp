@@ -125,7 +125,7 @@ void World::Impl::reset(std::span<const std::size_t> which) {
     const std::size_t n = p.bodies_of_copy;
     TableRanges changed =
         rows_of_copies(which, {Table::poses, Table::velocities, Table::sleep_states, Table::strains, Table::masses});
-    if (state.has_fractures()) append(changed, rows_of_copies(which, {Table::properties}));
+    if (state.changes_motions()) append(changed, rows_of_copies(which, {Table::properties}));
     state.make(Table::masses);
     const auto put_back = [&](std::size_t row, std::size_t place) {
         state.poses[row] = start.poses[place];

@@ -59,7 +59,11 @@ void World::Impl::take_up_grips() {
     physics::Parameters& parameters = state.fixed();
     parameters.held = 0;
     for (physics::Grip& record : parameters.grips) record = {};
-    for (const std::optional<Held>& grip : grips) {
+    for (std::optional<Held>& grip : grips) {
+        // Bodies go with others: a fragment with its whole body, and in a state that is restored.
+        if (grip &&
+            (grip->body >= scene.bodies.size() || is_gone(grip->body) || scene.bodies[grip->body].motion != Motion::dynamic))
+            grip.reset();
         if (!grip) continue;
         action_on(grip->body, vec3(0), vec3(0));  // wakes the body
         parameters.grips[parameters.held++] =

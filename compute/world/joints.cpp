@@ -179,7 +179,7 @@ void World::Impl::count_joints() {
 
 // Messages name them by their place among these.
 void World::Impl::check_new_joints(std::span<const std::size_t> joints) {
-    if (state.has_fractures()) bring(body_ranges);
+    if (state.changes_motions()) bring(body_ranges);
     for (std::size_t i = 0; i < joints.size(); ++i) {
         Joint& joint = scene.joints[joints[i]];
         check_joint(scene, joint, i);

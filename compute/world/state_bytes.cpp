@@ -55,6 +55,7 @@ physics::Counts portable(const physics::Counts& counts) {
     kept.contacts = counts.contacts;
     kept.steps = counts.steps;
     kept.spin_limited = counts.spin_limited;
+    kept.quarantined = counts.quarantined;
     return kept;
 }
 

@@ -29,6 +29,10 @@ std::uint64_t layout_of_tables();
 TableRanges ranges_to_save(const State& state);
 void put_state(ByteWriter& out, const State& state, const StartLengths& at_start);
 
+// Brings a state, made from the scene with which the saved world was, to what a checkpoint says. Commands that were to come with
+// the next step, and grips, are left out. Throws CheckpointError for damaged bytes and those of another scene.
+void restore_tables(State& state, std::span<const std::byte> saved);
+
 // The tables in a checkpoint, not yet restored. Refers to the reader's bytes.
 class StateBytes {
 public:

@@ -13,6 +13,7 @@
 #include "compute/step/scene_compiler.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 
 namespace scree {
@@ -243,7 +244,27 @@ BodyState World::Impl::body_state(std::size_t i) const {
             state.velocities[row].linear,
             state.velocities[row].angular,
             physics::is_asleep(state.sleep_states[row], state.fixed().sleep_steps),
-            !physics::is_absent(state.properties[row].motion)};
+            !physics::is_absent(state.properties[row].motion),
+            physics::is_quarantined(state.properties[row].motion)};
+}
+
+std::vector<Quarantine> World::quarantines() const {
+    const Impl& in = *interior_;
+    if (in.state.counted().quarantined == 0) return {};
+    in.bring(body_ranges);
+    in.runner->download({{Table::masses, 0, in.state.fixed().bodies}});
+    std::vector<Quarantine> found;
+    for (std::size_t i = 0; i < in.scene.bodies.size(); ++i) {
+        const std::uint32_t row = in.state.row_of(i);
+        if (!physics::is_quarantined(in.state.properties[row].motion)) continue;
+        const float code = in.state.masses[row].split_state;  // quarantine.h
+        const auto steps_and_stage = static_cast<std::uint64_t>(std::max(code, 0.0f));
+        const bool ended = code < 0 ? code == physics::AFTER_STEP : (steps_and_stage & 1) != 0;
+        const auto hung = std::ranges::count_if(in.scene.joints, [&](const Joint& one) { return one.a == i || one.b == i; });
+        found.push_back(
+            {i, code < 0 ? in.steps : steps_and_stage / 2, ended ? "end_step" : "move_bodies", static_cast<std::size_t>(hung)});
+    }
+    return found;
 }
 
 std::vector<BodyState> World::bodies() const {

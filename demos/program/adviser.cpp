@@ -7,6 +7,7 @@
 #include <cmath>
 #include <iterator>
 #include <utility>
+#include <variant>
 
 #include "compute/scene/shape_geometry.h"
 #include "compute/step/state.h"
@@ -19,6 +20,7 @@ namespace {
 // load. Stacks that stand measure less than half of it; tall masonry buckles soon above it.
 constexpr double deep = 0.06;
 constexpr std::uint64_t early_looks[] = {1, 5};  // steps from the start, before what cannot stand has fallen
+constexpr double worth_telling = 0.2;            // of the greatest kinetic energy: elastic impacts gain less
 constexpr double restless_speed = 0.3;           // m/s, of a scene at rest but for jitter
 
 double median_half_width(const World& world) {
@@ -57,10 +59,40 @@ Advice advice_on(const Burden& burden, const World& world) {
                             : options + " should hold that"};
 }
 
+Advice advice_on(const std::vector<Quarantine>& stopped, const World& world) {
+    std::string which;
+    for (std::size_t i = 0; i < std::min<std::size_t>(stopped.size(), 3); ++i) {
+        const Quarantine& one = stopped[i];
+        which +=
+            fmt::format("{}{} in step {}, found by {}", which.empty() ? "" : "; ", told(world, one.body), one.step, one.stage);
+        if (one.joints > 0) which += fmt::format(", on {} joint{}", one.joints, one.joints == 1 ? "" : "s");
+    }
+    if (stopped.size() > 3) which += "; ...";
+    return {fmt::format("{} {} no longer finite and in quarantine, at rest where they last were: {}", stopped.size(),
+                        stopped.size() == 1 ? "body is" : "bodies are", which),
+            "give them masses, sizes, speeds, springs and distances that are less extreme, or " + finer(world.settings())};
+}
+
+// Whether something other than gravity may give energy to bodies.
+bool is_driven(const Scene& scene) {
+    const auto pushes = [](const Body& body) {
+        return body.motion == Motion::kinematic || glm::dot(body.surface_velocity, body.surface_velocity) > 0;
+    };
+    const auto gives = [](const Joint& joint) {
+        const auto by = [](const Axis& axis) { return axis.spring || axis.motor; };
+        if (const auto* hinge = std::get_if<Hinge>(&joint.kind)) return by(hinge->turn);
+        if (const auto* slider = std::get_if<Slider>(&joint.kind)) return by(slider->slide);
+        return std::holds_alternative<SixDof>(joint.kind) || std::holds_alternative<Distance>(joint.kind);
+    };
+    return scene.fields.any() || !scene.vehicles.empty() || std::ranges::any_of(scene.bodies, pushes) ||
+           std::ranges::any_of(scene.joints, gives);
+}
+
 }  // namespace
 
-Adviser::Adviser(const World& world)
-    : half_width_(median_half_width(world)),
+Adviser::Adviser(const World& world, bool commanded)
+    : closed_(!commanded && !is_driven(world.scene())),
+      half_width_(median_half_width(world)),
       dynamic_(static_cast<std::size_t>(std::count_if(world.scene().bodies.begin(), world.scene().bodies.end(),
                                                       [](const Body& body) { return body.motion == Motion::dynamic; }))),
       steps_between_(static_cast<std::uint64_t>(std::max(1L, std::lround(world.settings().rate)))) {}
@@ -71,8 +103,22 @@ Adviser::Sample Adviser::sample_of(const World& world, const Statistics& statist
 
 void Adviser::after_step(const World& world) {
     const bool second = world.steps() % steps_between_ == 0;
-    if (second) samples_.push_back(sample_of(world, world.statistics()));
+    if (second) {
+        const Statistics statistics = world.statistics();
+        samples_.push_back(sample_of(world, statistics));
+        if (closed_) look_at_energy(world, statistics);
+    }
     if (second || std::ranges::find(early_looks, world.steps()) != std::end(early_looks)) look_at_burdens(world);
+}
+
+// From the least so far: what falls, slides and breaks loses energy. Overlapping bodies are pushed apart at the start.
+void Adviser::look_at_energy(const World& world, const Statistics& statistics) {
+    const double energy = statistics.kinetic_energy + statistics.potential_energy;
+    const double rounding = 1e-5 * std::abs(statistics.potential_energy);
+    least_ = samples_.size() == 1 ? energy : std::min(least_, energy);
+    const double gain = energy - least_ - rounding;
+    if (samples_.size() > 1 && gain > worth_telling * moved_with_ && gain > gained_) gained_ = gain, gained_at_ = world.time();
+    if (gained_ == 0) moved_with_ = std::max(moved_with_, statistics.kinetic_energy);
 }
 
 // What lasts from one look to the next: what falls and rolls bears much for a moment.
@@ -112,6 +158,14 @@ std::vector<Advice> Adviser::advice(const World& world, const Statistics& last) 
                          "tall stacks may buckle",
                          lasting * 1e3, worst->time, 100 * lasting / half_width_),
              finer(settings) + " makes contacts four times as stiff"});
+    }
+    const std::vector<Quarantine> stopped = world.quarantines();
+    if (!stopped.empty()) all.push_back(advice_on(stopped, world));
+    if (gained_ > 0) {
+        all.push_back({fmt::format("energy grew without a cause, by {:.3g} J until {:.3g} s, where bodies had moved with at most "
+                                   "{:.3g} J: no motor, spring, vehicle, wind or command gave it",
+                                   gained_, gained_at_, moved_with_),
+                       finer(settings) + " keeps energy better"});
     }
     if (last.spin_limited > 0) {
         all.push_back(

@@ -18,7 +18,8 @@ struct Advice {
 // Looks at a world once a simulated second, and early in a run, before what cannot stand has fallen.
 class Adviser {
 public:
-    explicit Adviser(const World& world);
+    // `commanded`: a script, events or a recording act on the world.
+    Adviser(const World& world, bool commanded);
 
     void after_step(const World& world);
     int steps_to_next(const World& world) const;  // until the next look, at least 1
@@ -33,9 +34,13 @@ private:
         std::size_t asleep = 0;
     };
     void look_at_burdens(const World& world);
+    void look_at_energy(const World& world, const Statistics& statistics);
     Sample sample_of(const World& world, const Statistics& statistics) const;
 
-    double half_width_ = 0;  // m, median of the dynamic bodies' least half widths
+    bool closed_ = false;                // nothing but gravity gives energy
+    double least_ = 0, moved_with_ = 0;  // energy, greatest kinetic energy, J
+    double gained_ = 0, gained_at_ = 0;  // J, s
+    double half_width_ = 0;              // m, median of the dynamic bodies' least half widths
     std::size_t dynamic_ = 0;
     std::uint64_t steps_between_ = 60;
     std::vector<Sample> samples_;

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "compute/cpu/denormal_lockstep.h"
+#include "demos/program/checkpoints.h"
 #include "demos/program/commands.h"
 #include "demos/program/compare_device.h"
 #include "demos/program/console.h"
@@ -22,6 +23,8 @@ struct CompareOptions {
     SceneOptions scene;
     MachineOptions machine;
     std::size_t copies = 0;
+    std::string resume;  // checkpoint to begin with; may be empty
+    std::optional<ResumedRun> resumed;
     bool flush_denormals = false;
     bool quiet = false;
 };
@@ -29,10 +32,11 @@ struct CompareOptions {
 int compare(const CompareOptions& options) {
     const LoadedScene subject = load_subject(options.scene);
     const Settings settings = subject.settings(options.scene);
-    const int steps = options.scene.step_count(1, settings.rate);
+    const int before = options.resumed ? static_cast<int>(options.resumed->info.steps) : 0;
+    const int steps = before + options.scene.step_count(1, settings.rate);
     std::optional<Progress> progress;
     const auto step_done = [&](int done_steps) {
-        if (!progress) progress.emplace(subject.name, steps, "steps", options.quiet);
+        if (!progress) progress.emplace(subject.name, steps, "steps", options.quiet, before);
         progress->done(done_steps);
         return !is_interrupted();
     };
@@ -41,7 +45,9 @@ int compare(const CompareOptions& options) {
         found.device = "the same processor with denormals flushed";
         found.result = at_work([&] { return compare_flushing(subject.scene, settings, steps, step_done); });
     } else {
-        found = compare_with_device(subject.scene, settings, options.machine, steps, step_done, options.copies);
+        const std::span<const std::byte> from =
+            options.resumed ? std::span<const std::byte>(options.resumed->file.state) : std::span<const std::byte>();
+        found = compare_with_device(subject.scene, settings, options.machine, steps, step_done, options.copies, from);
     }
     progress.reset();
     if (is_interrupted()) {
@@ -50,13 +56,29 @@ int compare(const CompareOptions& options) {
     }
     const LockstepResult& result = found.result;
     if (result.equal) {
-        fmt::print("{}: processor and {} agree in every bit of every stage over {} steps; state hash {}\n", subject.name,
-                   found.device, steps, hash_text(result.hash));
+        fmt::print("{}: processor and {} agree in every bit of every stage over {} steps{}; state hash {}\n", subject.name,
+                   found.device, steps - before, before ? fmt::format(" after the first {}", before) : "",
+                   hash_text(result.hash));
         return done;
     }
     fmt::print("{}: processor and {} differ first in step {} (counted from 1), stage {}, buffer {}, element {}: {}\n",
                subject.name, found.device, result.step + 1, result.stage, result.buffer, result.element, result.detail);
     return promise_missed;
+}
+
+// The scene and settings of the run that wrote the checkpoint; steps are those after it.
+void take_resumed(const CLI::App& command, CompareOptions& options) {
+    options.resumed = load_resumed(options.resume);
+    SceneOptions recorded = options.resumed->scene;
+    recorded.steps = options.scene.steps;
+    recorded.seconds = options.scene.seconds;
+    recorded.imported = options.scene.imported;
+    recorded.edits = options.scene.edits;
+    for (const char* option : {"--rate", "--substeps", "--seed", "--no-sleep", "--bodies"})
+        if (command.count(option) != 0)
+            throw UsageError(fmt::format("--resume: {} is that of the checkpoint; leave it out", option));
+    if (!options.scene.name.empty()) recorded.name = options.scene.name;  // its file may lie elsewhere here
+    options.scene = recorded;
 }
 
 }  // namespace
@@ -67,24 +89,36 @@ void add_compare(CLI::App& program, int& status) {
     auto options = std::make_shared<CompareOptions>();
     options->machine.backend = "vulkan";
     add_options(*command, options->scene);
+    command->get_option("scene")->required(false);
     command->add_option("--device", options->machine.device, "Vulkan device, by index or part of its name (see scree devices).");
     command->add_option("--threads", options->machine.threads, "Worker threads of the CPU (0: one per core). Default: 0.")
         ->check(CLI::Range(0, 1024));
     CLI::Option* copies = command->add_option_function<std::string>(
         "--copies", [options](const std::string& word) { options->copies = count_of(word, "--copies"); },
         "Number of copies of the scene, such as 1k. Default: the scene itself.");
+    CLI::Option* resume = command->add_option(
+        "--resume", options->resume,
+        "Begin with a checkpoint of scree run --checkpoint: its scene and settings, and the steps after it. The scene's file may "
+        "be named, if it lies elsewhere.");
+    resume->excludes(copies);
     command
         ->add_flag("--flush-denormals", options->flush_denormals,
                    "Compare the CPU with itself while denormals are flushed to zero, which Vulkan leaves to the device. Needs no "
                    "GPU.")
         ->excludes("--device")
+        ->excludes(resume)
         ->excludes(copies);
     command->add_flag("--validate", options->machine.validate, "Check every Vulkan call with the validation layers (slow).");
     command->add_flag("--quiet,-q", options->quiet, "Print no progress.");
     command->footer(
         "Compares one simulated second unless --steps or --seconds says otherwise. Scripted events of a\n"
         "scene (an impulse, a change of settings) are left out. Exit status 1 if anything differs.");
-    command->callback([options, &status] { status = compare(*options); });
+    command->callback([command, options, &status] {
+        if (!options->resume.empty()) take_resumed(*command, *options);
+        if (options->scene.name.empty())
+            throw UsageError("compare: name a demo (scree list) or a scene file, or give a checkpoint with --resume");
+        status = compare(*options);
+    });
 }
 
 }  // namespace scree::demos

@@ -302,7 +302,7 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
          RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
     std::optional<Adviser> adviser;
-    if (options.advises) adviser.emplace(world);
+    if (options.advises) adviser.emplace(world, subject.before_step != nullptr || options.played.has_value());
     Records records(options, world);
     report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
     std::optional<TimedSlice> finishing(std::in_place, options.timeline.get(), "finish outputs");

@@ -1,7 +1,9 @@
 // Lockstep of the CPU and a Vulkan device, for scree compare.
 #pragma once
 
+#include <cstddef>
 #include <functional>
+#include <span>
 #include <string>
 
 #include "compute/scene.h"
@@ -16,9 +18,10 @@ struct DeviceComparison {
     std::string device;  // name
 };
 
-// `copies`: of the scene; 0: the scene itself. Until a difference, or until `progress` (argument: steps done) returns false.
-// Throws UsageError without Vulkan.
+// `copies`: of the scene; 0: the scene itself. `from`: the state of a checkpoint to begin with, steps counted with its own. Until
+// a difference, or until `progress` (argument: steps done) returns false. Throws UsageError without Vulkan.
 DeviceComparison compare_with_device(const Scene& scene, const Settings& settings, const MachineOptions& machine, int steps,
-                                     const std::function<bool(int)>& progress, std::size_t copies);
+                                     const std::function<bool(int)>& progress, std::size_t copies,
+                                     std::span<const std::byte> from = {});
 
 }  // namespace scree::demos

@@ -5,7 +5,6 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -89,15 +88,9 @@ void write_atomically(const std::filesystem::path& path, std::string_view bytes)
     const std::filesystem::file_status status = std::filesystem::status(path, ignored);
     if (std::filesystem::is_directory(status)) fail("write", path, EISDIR);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return write_in_place(path, bytes);
-    // Resolve symbolic links, so that the rename replaces the target and not the link.
-    std::filesystem::path target = std::filesystem::exists(status) ? std::filesystem::canonical(path, ignored) : path;
-    if (target.empty()) target = path;
-
-    static std::atomic<unsigned> serial{0};
-    std::filesystem::path part = target;
-    part += ".part-" + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+    const std::filesystem::path target = target_of_links(path), part = partial_name(target);
     const Unfinished unfinished(part);
-    Descriptor file(::open(part.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));
+    Descriptor file(create_partial(part));
     if (file.number() < 0) fail("write", path, errno);
     int error = write_all(file.number(), bytes.data(), bytes.size());
     if (!file.close() && error == 0) error = errno;

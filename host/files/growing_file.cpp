@@ -4,7 +4,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <atomic>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -79,17 +78,13 @@ struct GrowingFile::Impl {
 GrowingFile::GrowingFile(const std::filesystem::path& path) : interior_(std::make_unique<Impl>()) {
     std::error_code ignored;
     if (std::filesystem::is_directory(path, ignored)) refuse_path("write", path, EISDIR);
-    interior_->target = std::filesystem::exists(path, ignored) ? std::filesystem::canonical(path, ignored) : path;
-    if (interior_->target.empty()) interior_->target = path;
+    interior_->target = target_of_links(path);
     const bool in_place = std::filesystem::is_other(path, ignored);  // a device or a pipe
     if (!in_place) {
-        static std::atomic<unsigned> serial{0};
-        interior_->part = interior_->target;
-        interior_->part += ".part-" + std::to_string(::getpid()) + "-growing-" + std::to_string(serial++);
+        interior_->part = partial_name(interior_->target);
         interior_->unfinished.emplace(interior_->part);
     }
-    const int flags = O_WRONLY | O_CLOEXEC | (in_place ? 0 : O_CREAT | O_EXCL);
-    interior_->file.emplace(path, ::open(in_place ? path.c_str() : interior_->part.c_str(), flags, 0666));
+    interior_->file.emplace(path, in_place ? ::open(path.c_str(), O_WRONLY | O_CLOEXEC) : create_partial(interior_->part));
 }
 
 GrowingFile::~GrowingFile() {
@@ -121,8 +116,9 @@ ScratchFile::ScratchFile(const std::filesystem::path& beside) : interior_(std::m
     const std::filesystem::path folder = beside.has_parent_path() ? beside.parent_path() : ".";
     std::string name = (folder / ".scree-XXXXXX").string();
     interior_->beside = beside;
-    interior_->file.emplace(beside, ::mkstemp(name.data()));
-    ::unlink(name.c_str());
+    const int made = ::mkstemp(name.data());
+    if (made >= 0) ::unlink(name.c_str());
+    interior_->file.emplace(beside, made);
 }
 
 ScratchFile::~ScratchFile() = default;

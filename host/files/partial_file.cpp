@@ -1,13 +1,20 @@
-// A registry of files being written, for removal by a signal handler.
+// Files being written: names, the registry for a signal handler, left-overs.
 #include "host/files/partial_file.h"
 
+#include <fcntl.h>
 #include <signal.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <charconv>
 #include <cstring>
+#include <mutex>
+#include <set>
 #include <string>
+#include <string_view>
 
 namespace scree::host {
 namespace {
@@ -23,7 +30,71 @@ static_assert(std::atomic<int>::is_always_lock_free, "a signal handler may not w
 
 std::array<Entry, 32> entries;  // more than the files written concurrently
 
+constexpr std::string_view mark = ".part-scree-";
+
+// The process in the name of a partial file; 0: it is none.
+pid_t process_in(std::string_view name) {
+    const std::size_t at = name.rfind(mark);
+    if (at == name.npos || at == 0) return 0;
+    const char *const begin = name.data() + at + mark.size(), *const end = name.data() + name.size();
+    pid_t process = 0;
+    unsigned number = 0;
+    const auto [dash, wrong] = std::from_chars(begin, end, process);
+    if (wrong != std::errc() || dash == end || *dash != '-') return 0;
+    const auto [last, bad] = std::from_chars(dash + 1, end, number);
+    return bad == std::errc() && last == end && process > 0 ? process : 0;
+}
+
+// On a folder that machines share, the process may be another machine's: then the file is locked.
+void remove_if_left(const std::filesystem::path& path, pid_t process) {
+    if (process == ::getpid() || ::kill(process, 0) == 0 || errno != ESRCH) return;
+    const int file = ::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK);
+    if (file < 0) return;
+    if (::flock(file, LOCK_EX | LOCK_NB) == 0) ::unlink(path.c_str());
+    ::close(file);
+}
+
 }  // namespace
+
+std::filesystem::path target_of_links(const std::filesystem::path& path) {
+    std::error_code wrong;
+    std::filesystem::path target = std::filesystem::canonical(path, wrong);
+    if (!wrong) return target;
+    target = path;
+    for (int links = 0; links < 40 && std::filesystem::is_symlink(std::filesystem::symlink_status(target, wrong)); ++links) {
+        const std::filesystem::path next = std::filesystem::read_symlink(target, wrong);
+        if (wrong) break;
+        target = target.parent_path() / next;
+    }
+    return target;
+}
+
+std::filesystem::path partial_name(const std::filesystem::path& target) {
+    static std::atomic<unsigned> serial{0};
+    remove_left_overs(target.has_parent_path() ? target.parent_path() : ".");
+    std::filesystem::path partial = target;
+    partial += std::string(mark) + std::to_string(::getpid()) + "-" + std::to_string(serial++);
+    return partial;
+}
+
+int create_partial(const std::filesystem::path& partial) {
+    const int file = ::open(partial.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
+    if (file >= 0) ::flock(file, LOCK_EX | LOCK_NB);  // without locks here, the process in its name protects it
+    return file;
+}
+
+void remove_left_overs(const std::filesystem::path& folder) {
+    static std::mutex guard;
+    static std::set<std::filesystem::path> looked;
+    std::error_code wrong;
+    const std::filesystem::path place = std::filesystem::canonical(folder, wrong);
+    {
+        const std::lock_guard lock(guard);
+        if (wrong || !looked.insert(place).second) return;
+    }
+    for (std::filesystem::directory_iterator entry(place, wrong), end; !wrong && entry != end; entry.increment(wrong))
+        if (const pid_t process = process_in(entry->path().filename().string())) remove_if_left(entry->path(), process);
+}
 
 Unfinished::Unfinished(const std::filesystem::path& path, pid_t writer) {
     std::error_code ignored;

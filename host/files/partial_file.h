@@ -1,4 +1,4 @@
-// A registry of files being written, so that a signal handler can remove them.
+// Files being written: their names, a registry for signal handlers, and what programs that were killed have left.
 #pragma once
 
 #include <sys/types.h>
@@ -20,6 +20,20 @@ public:
 private:
     int place_ = -1;
 };
+
+// The file that a path names, through symbolic links, also where the last one leads to no file yet: what a rename has to replace.
+std::filesystem::path target_of_links(const std::filesystem::path& path);
+
+// A new name beside the target, "NAME.part-scree-PID-N". The first in a folder removes what programs that are gone have left
+// there.
+std::filesystem::path partial_name(const std::filesystem::path& target);
+
+// Creates and locks such a file, never one that is there or a link; the lock tells others that its writer lives. Returns the
+// descriptor, or -1 with errno.
+int create_partial(const std::filesystem::path& partial);
+
+// Removes "*.part-scree-PID-N" of processes that are gone from a folder; once per folder and process.
+void remove_left_overs(const std::filesystem::path& folder);
 
 // Kills the writers and removes the files. Async-signal-safe; the program should end afterwards.
 void remove_unfinished() noexcept;

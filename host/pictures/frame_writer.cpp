@@ -1,7 +1,12 @@
 // Frame output as PNG files, video, preview and raw pixels, encoded on threads of its own.
 #include "host/pictures/frame_writer.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <condition_variable>
 #include <cstdio>
 #include <deque>
@@ -103,6 +108,25 @@ void require_no_frames(const std::filesystem::path& folder) {
     }
 }
 
+// Holds a folder for one run at a time: the frames of two would mix. Where a file system has no locks it holds nothing.
+class Claim {
+public:
+    Claim() = default;
+    ~Claim() {
+        if (folder_ >= 0) ::close(folder_);
+    }
+    Claim(const Claim&) = delete;
+    Claim& operator=(const Claim&) = delete;
+    void take(const std::filesystem::path& folder) {
+        folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        if (folder_ >= 0 && ::flock(folder_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+            throw ImageError(folder.string() + ": another run writes its frames there; name another folder");
+    }
+
+private:
+    int folder_ = -1;
+};
+
 Clip clip_of(const std::filesystem::path& preview) {
     if (preview.extension() == ".gif") return Clip::gif;
     if (preview.extension() == ".webp") return Clip::webp;
@@ -130,6 +154,7 @@ struct FrameWriter::Impl {
     int frames = 0;
     std::unique_ptr<Video> video, preview;
     std::unique_ptr<RawFrames> raw;
+    Claim folder;
     struct Output {
         std::unique_ptr<Line> line;
         std::function<void()> finish;  // finishes the sink of the line; may be empty
@@ -156,6 +181,7 @@ FrameWriter::FrameWriter(const FrameWriterOptions& options) : interior_(std::mak
     const Clip preview = options.preview.empty() ? Clip::gif : clip_of(options.preview);
     if (!options.folder.empty()) {
         require_writable_folder(options.folder);
+        in.folder.take(options.folder);
         require_no_frames(options.folder);
     }
     if (!options.raw.empty()) {

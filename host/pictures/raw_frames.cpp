@@ -55,10 +55,12 @@ RawFrames::RawFrames(const std::filesystem::path& path) : interior_(std::make_un
         return;
     }
     require_writable_folder(path.parent_path());
-    in.target = std::filesystem::exists(status) ? std::filesystem::canonical(path) : path;
-    in.partial = in.target.string() + ".part" + std::to_string(::getpid());
+    in.target = target_of_links(path);
+    in.partial = partial_name(in.target);
     in.unfinished.emplace(in.partial);
-    in.open(in.partial, O_CREAT | O_TRUNC);
+    in.descriptor = create_partial(in.partial);
+    if (in.descriptor < 0) in.fail(errno);
+    in.owned = true;
 }
 
 RawFrames::~RawFrames() {

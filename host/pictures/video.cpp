@@ -123,11 +123,16 @@ struct Video::Impl {
     pid_t process = -1;
     int pipe = -1;    // to ffmpeg's input
     int errors = -1;  // ffmpeg's standard error, an unnamed file
+    int claim = -1;   // holds the lock of the partial file, which ffmpeg opens itself
 
     void start(const std::string& program);
     int wait();
     [[noreturn]] void fail();
     void discard();
+    void release() {
+        if (claim >= 0) ::close(claim);
+        claim = -1;
+    }
 };
 
 void Video::Impl::start(const std::string& program) {
@@ -194,7 +199,8 @@ void Video::Impl::discard() {
     if (errors >= 0) ::close(errors);
     errors = -1;
     std::error_code ignored;
-    std::filesystem::remove(partial, ignored);
+    if (claim >= 0) std::filesystem::remove(partial, ignored);
+    release();
     unfinished.reset();
 }
 
@@ -207,8 +213,10 @@ Video::Video(const std::filesystem::path& path, const VideoShape& shape) : inter
     require_writable_folder(target.parent_path());
     interior_->path = path;
     interior_->target = target;
-    interior_->partial = target.string() + ".part" + std::to_string(::getpid());
+    interior_->partial = partial_name(target);
     interior_->shape = shape;
+    interior_->claim = create_partial(interior_->partial);
+    if (interior_->claim < 0) throw ImageError(path.string() + ": cannot be written: " + std::strerror(errno));
     interior_->start(program);
 }
 
@@ -237,6 +245,7 @@ void Video::finish() {
     std::error_code error;
     std::filesystem::rename(interior_->partial, interior_->target, error);
     if (error) throw ImageError(interior_->path.string() + ": cannot be written: " + error.message());
+    interior_->release();
     interior_->unfinished.reset();
 }
 

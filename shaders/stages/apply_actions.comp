@@ -3,14 +3,14 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
     uint i = thread();
     if (i >= PARAMETERS.actions || COUNTED.overflow != 0u) return;
     Action action = actions.at[i];
-    if (is_absent(READ(properties, action.body).motion)) return;
+    if (is_out_of_play(READ(properties, action.body).motion)) return;
     Mass mass = mass_in_world(READ(properties, action.body), READ(poses, action.body).orientation);
     if (PARAMETERS.redo == 0u) velocities.at[action.body] = apply_impulses(velocities.at[action.body], action, mass, PARAMETERS);
     WORD(sleep_states, action.body) = 0u;

@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/collide/grid.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/copies.glsl"
@@ -23,6 +24,12 @@ void main() {
         return;
     }
     uint owner = body_of(i);
+    if (is_quarantined(owner == i ? body.motion : READ(properties, owner).motion)) {
+        bounds.at[i] = no_bounds(pose);
+        float mark = masses.at[i].split_state;
+        if (mark < 0.0f) masses.at[i].split_state = quarantine_code(mark, COUNTS.steps);
+        return;
+    }
     float bend = is_part(body) ? bend_of_way(part_in(i), READ(velocities, i), PARAMETERS) : 0.0f;
     Bounds around = no_bounds(pose);
     if (!is_apart(body)) around = bounds_of(body, bend, pose, READ(velocities, i), READ(forces, owner), PARAMETERS);

@@ -1,13 +1,14 @@
-// Counts a slot for each movable body of each joint block; breaks the joints of bodies that no longer exist.
+// Counts a slot for each movable body of each joint block; breaks the joints of bodies that no longer exist or are in quarantine.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/base/work_counts.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/stages/lib/stage.glsl"
 
 bool is_gone(uint body) {
-    return body != NONE && is_absent(READ(properties, body).motion);
+    return body != NONE && is_out_of_play(READ(properties, body).motion);
 }
 
 void main() {

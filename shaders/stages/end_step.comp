@@ -3,6 +3,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/sweep.h"
 #include "shaders/physics/solve/motion.h"
@@ -31,7 +32,18 @@ void main() {
     Velocity velocity = READ(velocities, i);
     velocity.linear = flush_tiny(velocity.linear + sum.change.linear);
     velocity.angular = flush_tiny(velocity.angular + sum.change.angular);
+    bool moved = READ(forces, i).kept != UNSOUND;
+    if (!moved || !is_sound(velocity)) {
+        properties.at[i].motion = MOTION_QUARANTINED;
+        masses.at[i].split_state = moved ? AFTER_STEP : AFTER_MOVE;
+        velocities.at[i] = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+        forces.at[i].kept = 1.0f;
+        WORD(sleep_states, i) = 0u;
+        atomicAdd(COUNTS.quarantined, 1u);
+        return;
+    }
     if (is_spin_limited(velocity, PARAMETERS)) atomicAdd(COUNTS.spin_limited, 1u);
+    velocity = held_velocity(velocity, PARAMETERS);
     float pace = pace_of(body, velocity, PARAMETERS);
     WORD(sleep_states, i) =
         sleep_state_after(WORD(sleep_states, i), pace, sum.weight, least_quiet_beside(i), PARAMETERS.sleep_steps);

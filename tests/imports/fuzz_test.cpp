@@ -114,6 +114,18 @@ TEST_CASE("imports: mutated scene files are read or refused with a place") {
     CHECK(refused < count);
 }
 
+TEST_CASE("imports: a hundred thousand keys, and a key of twenty million letters, are refused at once") {
+    Case file;
+    std::string many = "{\"bodies\": []";
+    for (int i = 0; i < 100000; ++i) many += ", \"k" + std::to_string(i) + "\": 1";
+    const auto start = std::chrono::steady_clock::now();
+    CHECK(file.refusal("a.json", many + "}").find("more than 256 keys") != std::string::npos);
+    const std::string why = file.refusal("a.json", "{\"bodies\": [], \"" + std::string(20000000, 'x') + "\": 1}");
+    CHECK(why.find("unknown key of 20000000 letters") != std::string::npos);
+    CHECK(why.size() < 1000);
+    CHECK(std::chrono::steady_clock::now() - start < std::chrono::seconds(3));
+}
+
 // SCREE_FUZZ=10000 mutates each format so often.
 TEST_CASE("imports: mutated files are read or refused with file and place") {
     const char* wanted = std::getenv("SCREE_FUZZ");

@@ -187,7 +187,13 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
         velocity.linear = velocity.linear + sum.linear;
         velocity.angular = velocity.angular + sum.angular;
         load.impacts = impacts_of(sum.weight, properties);
-        const RigidState after = integrate(gather<Pose>(tables.poses, bodies), velocity, properties, p.h);
+        const Pose before = gather<Pose>(tables.poses, bodies);
+        RigidState after = integrate(before, velocity, properties, p.h);
+        const Bool sound = is_sound(after.pose) && is_sound(after.velocity);
+        if (!none(!sound)) {
+            load.kept = choose(sound, load.kept, Float(UNSOUND));
+            after = moved_soundly(sound, before, after);
+        }
         const Indices live = bodies.only(living(first, last));
         scatter(tables.forces, live, load);
         scatter(tables.poses, live, after.pose);

@@ -22,7 +22,7 @@ void add_devices(CLI::App& program, int&) {
 }
 
 DeviceComparison compare_with_device(const Scene&, const Settings&, const MachineOptions&, int, const std::function<bool(int)>&,
-                                     std::size_t) {
+                                     std::size_t, std::span<const std::byte>) {
     throw UsageError(std::string(lacking) + "; without a device: --flush-denormals");
 }
 

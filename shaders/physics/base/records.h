@@ -13,6 +13,8 @@ CONSTANT uint MOTION_FIXED = 1u;
 CONSTANT uint MOTION_KINEMATIC = 2u;
 CONSTANT uint MOTION_PENDING = 3u;  // an inactive fragment of a body that is still whole
 CONSTANT uint MOTION_BROKEN = 4u;   // replaced by its fragments
+// Its motion was no longer finite (quarantine.h): stands where it last was, collides with nothing, joints let it go.
+CONSTANT uint MOTION_QUARANTINED = 5u;
 // Flag, combined with the motion of the owner: the row is a part, which the solver never moves (compound.h).
 CONSTANT uint MOTION_OF_PART = 8u;
 
@@ -123,7 +125,7 @@ struct Mass {
 };
 struct BodyForces {
     vec3 acceleration;          // gravity and forces, m/s^2, constant over the step
-    float kept;                 // part of its contacts' impulses that it keeps: < 1 if it breaks (fracture.h)
+    float kept;                 // part of its contacts' impulses that it keeps: < 1 if it breaks (fracture.h); UNSOUND
     vec3 angular_acceleration;  // rad/s^2
     float impacts;              // contacts in an impact with restitution in this substep; negative for a body on joints
 };
@@ -548,8 +550,8 @@ struct Counts {  // counted on the device in a step
     uint fast;                 // 1: some body is predicted to be fast (sweep.h)
     uint broken;               // number of bodies that break in this step
     uint spin_limited;         // bodies at the limit of rotation as a step ends, summed over the steps
-    uint pad0;
-    uvec4 arguments[24];  // per WORK_*: workgroups x, y, z, and threads
+    uint quarantined;          // bodies put into quarantine, summed over the steps
+    uvec4 arguments[24];       // per WORK_*: workgroups x, y, z, and threads
 };
 
 // A pending fragment or a broken body: it has a row, but neither collides nor is drawn.

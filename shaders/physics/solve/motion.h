@@ -54,12 +54,43 @@ LAW Mass mass_in_world(BodyProperties properties, vec4 orientation) {
     return mass;
 }
 
+CONSTANT float FARTHEST = 1.0e15f;  // m, m/s, rad/s: squares are finite
+
 // Clamps a velocity to finite values, and to the greatest linear and angular speeds.
 LAW Velocity clamp_velocity(Velocity velocity, Parameters parameters) {
-    vec3 far = vec3(1.0e15f);  // its square is finite
+    vec3 far = vec3(FARTHEST);
     velocity.linear = shortened(larger3(smaller3(velocity.linear, far), -far), parameters.max_speed);
     velocity.angular = shortened(larger3(smaller3(velocity.angular, far), -far), parameters.max_spin);
     return velocity;
+}
+
+// The velocity with which a step ends: beyond the limits as the last pass left it, but no further than twice, or the bounds of
+// the next step reach over more cells than a device's loops have rounds for.
+LAW Velocity held_velocity(Velocity velocity, Parameters parameters) {
+    velocity.linear = shortened(velocity.linear, 2.0f * parameters.max_speed);
+    velocity.angular = shortened(velocity.angular, 2.0f * parameters.max_spin);
+    return velocity;
+}
+
+CONSTANT float UNSOUND = -1.0f;  // for BodyForces.kept
+
+LAW bool is_within(vec3 v, float most) {
+    return abs(v.x) <= most && abs(v.y) <= most && abs(v.z) <= most;
+}
+// Whether a velocity, a pose is finite, and such that it can be moved on. False for NaN (quarantine.h).
+LAW bool is_sound(Velocity velocity) {
+    return is_within(velocity.linear, FARTHEST) && is_within(velocity.angular, FARTHEST);
+}
+LAW bool is_sound(Pose pose) {
+    vec4 q = pose.orientation;
+    return is_within(pose.position, FARTHEST) && is_within(vec3(q.x, q.y, q.z), 2.0f) && abs(q.w) <= 2.0f;
+}
+// A velocity change, or 0 where it is not finite: the contact or joint that gives it marks the body in the same substep.
+LAW float finite_or_none(float x) {
+    return choose(abs(x) <= 3.0e38f, x, 0.0f);
+}
+LAW vec3 finite_or_none(vec3 v) {
+    return vec3(finite_or_none(v.x), finite_or_none(v.y), finite_or_none(v.z));
 }
 
 // Whether a body rotates at the limit, or within 0.5% of it: gyroscopic torque changes a clamped velocity a little.
@@ -91,8 +122,8 @@ LAW Velocity integrate_velocity(Velocity velocity, Velocity change, BodyForces l
     float keep = choose(properties.linear_damping > 0.0f, reciprocal(1.0f + h * properties.linear_damping), 1.0f);
     float keep_turning = choose(properties.angular_damping > 0.0f, reciprocal(1.0f + h * properties.angular_damping), 1.0f);
     Velocity after = velocity;
-    after.linear = (velocity.linear + load.acceleration * h) * keep + change.linear;
-    after.angular = (velocity.angular + load.angular_acceleration * h) * keep_turning + change.angular;
+    after.linear = (velocity.linear + load.acceleration * h) * keep + finite_or_none(change.linear);
+    after.angular = (velocity.angular + load.angular_acceleration * h) * keep_turning + finite_or_none(change.angular);
     after = clamp_velocity(after, parameters);
     after.linear = flush_tiny(after.linear);
     after.angular = flush_tiny(after.angular);
@@ -155,6 +186,18 @@ LAW RigidState integrate(Pose pose, Velocity velocity, BodyProperties properties
     after.pose.orientation = turned(pose.orientation, choose(tumbles, halfway, velocity.angular), h);
     vec3 at_last = velocity.angular + (angular_velocity_of(after.pose.orientation, momentum, i) - at_first);
     after.velocity.angular = choose(tumbles, flush_tiny(at_last), velocity.angular);
+    return after;
+}
+
+// The state after a substep where that is sound, else the body at rest where it was.
+LAW RigidState moved_soundly(bool sound, Pose before, RigidState after) {
+    after.pose.position = choose(sound, after.pose.position, before.position);
+    after.pose.low_x = choose(sound, after.pose.low_x, before.low_x);
+    after.pose.orientation = choose(sound, after.pose.orientation, before.orientation);
+    after.velocity.linear = choose(sound, after.velocity.linear, vec3(0.0f));
+    after.velocity.low_y = choose(sound, after.velocity.low_y, 0.0f);
+    after.velocity.angular = choose(sound, after.velocity.angular, vec3(0.0f));
+    after.velocity.low_z = choose(sound, after.velocity.low_z, 0.0f);
     return after;
 }
 

@@ -4,6 +4,7 @@
 
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/extra/grab_spring.h"
+#include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
@@ -35,7 +36,7 @@ void begin_body(uint i, bool first) {
 void move_body(uint i) {
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || is_asleep(READ_WORD(sleep_states, i), PARAMETERS.sleep_steps)) return;
     BodyProperties body = READ(properties, i);
-    if (body.motion == MOTION_FIXED || is_part(body) || is_absent(body.motion)) return;
+    if (body.motion == MOTION_FIXED || is_part(body) || is_out_of_play(body.motion)) return;
     Velocity velocity = READ(velocities, i);
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);
@@ -44,6 +45,11 @@ void move_body(uint i) {
         forces.at[i].impacts = impacts_of(sum.weight, body);
     }
     RigidState after = integrate(READ(poses, i), velocity, body, PARAMETERS.h);
+    bool sound = is_sound(after.pose) && is_sound(after.velocity);
+    if (!sound) {
+        forces.at[i].kept = UNSOUND;
+        after = moved_soundly(sound, READ(poses, i), after);
+    }
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
     if (!has_isotropic_inertia(body))

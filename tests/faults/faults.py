@@ -1,0 +1,189 @@
+#!/usr/bin/env python3
+"""Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations.
+
+    tests/faults/faults.py PROGRAM [--kills 200] [--writes 100] [--allocations 300] [--seed 1]
+
+A run writes frames, a report, a recording of poses, a scene and checkpoints (and a video where ffmpeg is). What must hold: every
+output is whole or not there; a run resumed from what is left reaches the same final hash; after it no left-over is in the folder;
+a failing write or allocation ends with a message, exit status 1 or 2, and no file that is cut short.
+"""
+
+import argparse
+import json
+import os
+import pathlib
+import random
+import shutil
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+import zipfile
+import zlib
+
+HERE = pathlib.Path(__file__).resolve().parent
+RUN = ["run", "bins", "--backend", "cpu", "--threads", "1", "--steps", "90", "-q"]
+PICTURES = ["--frames", "frames", "--size", "96x64", "--fps", "30", "--canvas", "gl"]
+
+
+def wrong_png(data):
+    if not data.startswith(b"\x89PNG\r\n\x1a\n"):
+        return "no PNG"
+    place = 8
+    while place < len(data):
+        if place + 12 > len(data):
+            return "cut"
+        length, kind = struct.unpack_from(">I4s", data, place)
+        body = data[place + 4:place + 8 + length]
+        if len(data) < place + 12 + length or zlib.crc32(body) != struct.unpack_from(">I", data, place + 8 + length)[0]:
+            return "chunk damaged"
+        place += 12 + length
+        if kind == b"IEND":
+            return None if place == len(data) else "bytes behind the end"
+    return "no end"
+
+
+def wrong_file(path):
+    """What is wrong with an output, or None."""
+    data = path.read_bytes()
+    if path.suffix == ".png":
+        return wrong_png(data)
+    if path.suffix == ".json":
+        try:
+            json.loads(data)
+        except ValueError as error:
+            return f"no JSON: {error}"
+        return None
+    if path.suffix == ".npz":
+        return None if zipfile.ZipFile(path).testzip() is None else "damaged"
+    if path.suffix == ".mp4":
+        return None if b"moov" in data and b"mdat" in data else "no index"
+    if path.suffix == ".glb":
+        return None if len(data) >= 12 and struct.unpack_from("<I", data, 8)[0] == len(data) else "cut"
+    return None  # checkpoints have hashes: resuming tells
+
+
+def wrongs_in(folder, left_overs):
+    found = []
+    for path in folder.rglob("*"):
+        if path.is_dir():
+            continue
+        if ".part-scree-" in path.name:
+            if not left_overs:
+                found.append(f"left over: {path.name}")
+        elif path.name.startswith(".scree-"):
+            found.append(f"left over: {path.name}")
+        elif wrong := wrong_file(path):
+            found.append(f"{path.name}: {wrong}")
+    return found
+
+
+class Faults:
+    def __init__(self, program, seed):
+        self.program, self.random, self.findings = str(program), random.Random(seed), []
+        self.outputs = ["--report", "report.json", "--trajectory", "run.npz", "--save", "end.json", "--export", "end.glb"]
+        if shutil.which("ffmpeg"):
+            self.outputs += ["--video", "film.mp4"]
+        with tempfile.TemporaryDirectory() as folder:
+            start = time.monotonic()
+            done = subprocess.run([self.program, *RUN, *PICTURES, *self.outputs], cwd=folder, capture_output=True)
+            if done.returncode not in (0, 1):  # no canvas here
+                PICTURES.clear()
+                self.outputs = [word for word in self.outputs if word not in ("--video", "film.mp4")]
+                start = time.monotonic()
+                done = subprocess.run([self.program, *RUN, *self.outputs], cwd=folder, capture_output=True)
+            self.duration = time.monotonic() - start
+            self.hash = json.loads((pathlib.Path(folder) / "report.json").read_text())["state_hash"]
+            for wrong in wrongs_in(pathlib.Path(folder), False):
+                self.find(f"without faults: {wrong}")
+
+    def find(self, what):
+        self.findings.append(what)
+        print(f"FOUND: {what}", flush=True)
+
+    def kill(self):
+        """A run killed at a random moment, then what is left resumed."""
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            everything = [self.program, *RUN, *PICTURES, *self.outputs, "--checkpoint", "run.checkpoint", "--every", "0.1"]
+            process = subprocess.Popen(everything, cwd=folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            moment = self.random.uniform(0, 1.3 * self.duration)
+            try:
+                process.wait(moment)
+                ended = True
+            except subprocess.TimeoutExpired:
+                process.send_signal(signal.SIGKILL)
+                process.wait()
+                ended = False
+            time.sleep(0.05)  # ffmpeg sees its pipe end
+            for wrong in wrongs_in(folder, not ended):
+                self.find(f"killed after {moment:.3f} s: {wrong}")
+            shutil.rmtree(folder / "frames", ignore_errors=True)
+            later = [self.program, "run", "--resume", "run.checkpoint"] if (folder / "run.checkpoint").exists() else [self.program, *RUN[:2]]
+            later += [*RUN[2:], *self.outputs, "--checkpoint", "run.checkpoint"]
+            done = subprocess.run(later, cwd=folder, capture_output=True, text=True)
+            report = folder / "report.json"
+            if done.returncode not in (0, 1) or not report.exists():
+                self.find(f"killed after {moment:.3f} s, and resumed: {done.returncode} {done.stderr[:300]}")
+            elif json.loads(report.read_text())["state_hash"] != self.hash:
+                self.find(f"killed after {moment:.3f} s, and resumed: another hash")
+            for wrong in wrongs_in(folder, False):
+                self.find(f"killed after {moment:.3f} s, and resumed: {wrong}")
+            return not ended
+
+    def failing(self, shim, **environment):
+        with tempfile.TemporaryDirectory() as name:
+            folder = pathlib.Path(name)
+            told = {**os.environ, "LD_PRELOAD": str(shim), "SCREE_FAIL_FOLDER": name, **environment}
+            words = [self.program, *RUN, *self.outputs, "--checkpoint", "run.checkpoint", "--every", "0.5"]
+            words = [word for word in words if word not in ("--video", "film.mp4")]
+            try:
+                done = subprocess.run(words, cwd=folder, capture_output=True, text=True, env=told, timeout=60)
+            except subprocess.TimeoutExpired:
+                self.find(f"{environment}: no end in 60 s")
+                return 0, ""
+            what = " ".join(f"{key}={value}" for key, value in environment.items())
+            if done.returncode not in (0, 1, 2):
+                self.find(f"{what}: ends with {done.returncode}: {done.stderr[-300:]}")
+            if done.returncode == 1 and "scree: " not in done.stderr:
+                self.find(f"{what}: ends with 1 and says nothing")
+            for wrong in wrongs_in(folder, done.returncode < 0):
+                self.find(f"{what}: {wrong}")
+            return done.returncode, done.stderr
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    options.add_argument("program", type=pathlib.Path)
+    options.add_argument("--kills", type=int, default=200)
+    options.add_argument("--writes", type=int, default=100)
+    options.add_argument("--allocations", type=int, default=300)
+    options.add_argument("--seed", type=int, default=1)
+    asked = options.parse_args()
+    faults = Faults(asked.program.resolve(), asked.seed)
+    killed = sum(faults.kill() for _ in range(asked.kills))
+    print(f"{asked.kills} runs to be killed within {1.3 * faults.duration:.2f} s, {killed} were before they ended", flush=True)
+    with tempfile.TemporaryDirectory() as name:
+        shim = pathlib.Path(name) / "failing.so"
+        subprocess.run([os.environ.get("CC", "cc"), "-shared", "-fPIC", "-O1", str(HERE / "failing.c"), "-o", str(shim), "-ldl"], check=True)
+        _, said = faults.failing(shim, SCREE_COUNT="1")
+        words = said.split()
+        allocations, written = int(words[words.index("allocations") + 1]), int(words[words.index("written") + 1])
+        print(f"a run has {allocations} allocations and writes {written} bytes", flush=True)
+        ends = [faults.failing(shim, SCREE_FAIL_BYTE=str(faults.random.randrange(written)))[0] for _ in range(asked.writes)]
+        print(f"{asked.writes} runs whose writes fail from some byte on: {ends.count(1) + ends.count(2)} told, {ends.count(0)} had no use for it")
+        ends = []
+        for i in range(asked.allocations):
+            rest = {"SCREE_FAIL_REST": "1"} if i % 3 == 0 else {}
+            # As often in the first thousands, where readers and set-up are, as later.
+            at = faults.random.randrange(min(allocations, 5000) if i % 2 else allocations)
+            ends.append(faults.failing(shim, SCREE_FAIL_ALLOCATION=str(at), **rest)[0])
+        print(f"{asked.allocations} runs in which an allocation fails: {ends.count(1) + ends.count(2)} told, {ends.count(0)} did without")
+    print(f"{len(faults.findings)} findings")
+    return 1 if faults.findings else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

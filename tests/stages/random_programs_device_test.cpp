@@ -1,0 +1,22 @@
+// Random programs on a device and on the CPU: the same bits. SCREE_PROGRAMS=1000 runs so many, from SCREE_PROGRAMS_FROM on.
+#include <cstdlib>
+
+#include "compute/cpu/reference_runner.h"
+#include "compute/device/device_runner.h"
+#include "tests/stages/watched_device.h"
+#include "tests/world/random_program.h"
+
+using namespace scree;
+
+TEST_CASE("random programs give the same bits on a device as on the CPU", "[vulkan]") {
+    Watched watched;
+    const char *count = std::getenv("SCREE_PROGRAMS"), *from = std::getenv("SCREE_PROGRAMS_FROM");
+    const int first = from ? std::atoi(from) : 1;
+    for (int seed = first; seed < first + (count ? std::atoi(count) : 2); ++seed) {
+        INFO("program " << seed);
+        tests::RandomProgram program = tests::random_program(static_cast<std::uint32_t>(seed));
+        const std::string parts = tests::difference(
+            program, [] { return std::make_unique<ReferenceRunner>(1); }, [&] { return make_device_runner(watched.device); });
+        if (!parts.empty()) FAIL_CHECK(parts);
+    }
+}

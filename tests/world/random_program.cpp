@@ -1,0 +1,383 @@
+// Random programs: making, running and reducing them.
+#include "tests/world/random_program.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <random>
+#include <span>
+
+#include "compute/checkpoint.h"
+#include "compute/scene_file/scene_json.h"
+#include "compute/step/state.h"
+
+namespace scree::tests {
+
+namespace {
+
+// The same numbers with every standard library.
+class Dice {
+public:
+    explicit Dice(std::uint32_t seed) : bits_(seed) { bits_.discard(3); }
+    std::size_t below(std::size_t n) { return bits_() % n; }
+    bool one_in(std::size_t n) { return below(n) == 0; }
+    float between(float low, float high) { return low + (high - low) * static_cast<float>(bits_() >> 8) / 16777216.0f; }
+    vec3 vector(float most) { return {between(-most, most), between(-most, most), between(-most, most)}; }
+    std::uint32_t seed() { return static_cast<std::uint32_t>(bits_()); }
+
+private:
+    std::mt19937 bits_;
+};
+
+SimpleShape simple_shape(Dice& dice) {
+    const float size = dice.between(0.15f, 0.6f);
+    const auto about = [&] { return size * dice.between(0.4f, 1); };
+    switch (dice.below(7)) {
+        case 0:
+            return Sphere{size};
+        case 1:
+            return Capsule{about(), dice.one_in(8) ? 0 : about()};
+        case 2:
+            return Cylinder{about(), about()};
+        case 3:
+            return Cone{about(), about()};
+        case 4:
+            return Ellipsoid{{about(), about(), about()}};
+        case 5: {
+            Hull hull;
+            for (std::size_t n = 5 + dice.below(8); n-- > 0;) hull.points.push_back(dice.vector(size));
+            return hull;
+        }
+        default:
+            return Box{{about(), about(), about()}};
+    }
+}
+
+Material material(Dice& dice) {
+    Material made;
+    made.friction = dice.between(0, 1);
+    if (dice.one_in(3)) made.restitution = dice.between(0, 1);
+    if (dice.one_in(3)) made.rolling_resistance = dice.between(0, 0.05f);
+    if (dice.one_in(5)) made.static_friction = made.friction + 0.2f;
+    if (dice.one_in(6)) made.spinning_resistance = 0.01f;
+    if (dice.one_in(8)) made.surface_velocity = dice.vector(2);
+    if (dice.one_in(5)) made.friction_rule = static_cast<CombineRule>(dice.below(6));
+    return made;
+}
+
+Body body(Dice& dice, float width) {
+    Body made;
+    std::visit([&](auto&& shape) { made.shape = shape; }, simple_shape(dice));
+    if (dice.one_in(6)) {
+        Compound compound;
+        for (std::size_t n = 1 + dice.below(4); n-- > 0;)
+            compound.parts.push_back({.shape = simple_shape(dice), .position = dice.vector(0.4f)});
+        if (dice.one_in(3)) compound.parts.front().material = material(dice);
+        if (compound.parts.size() > 1 && dice.one_in(4)) compound.parts.back().role = dice.one_in(2) ? Role::sensor : Role::drawn;
+        made.shape = compound;
+    }
+    made.position = {dice.between(-width, width), dice.between(0.3f, 4), dice.between(-width, width)};
+    made.orientation = {dice.vector(1), 0.3f};
+    if (dice.one_in(3)) made.velocity = dice.vector(dice.one_in(5) ? 60 : 4);
+    if (dice.one_in(3)) made.angular_velocity = dice.vector(6);
+    made.density = dice.one_in(6) ? dice.between(50, 20000) : 1000;
+    const Material own = material(dice);
+    made.friction = own.friction;
+    made.restitution = own.restitution;
+    made.rolling_resistance = own.rolling_resistance;
+    made.static_friction = own.static_friction;
+    made.surface_velocity = own.surface_velocity;
+    made.friction_rule = own.friction_rule;
+    if (dice.one_in(6)) made.linear_damping = made.angular_damping = 0.3f;
+    if (dice.one_in(8)) made.gravity_scale = dice.between(-0.2f, 2);
+    if (dice.one_in(6)) made.filter = Filter{1u << dice.below(3), 7u, static_cast<std::int32_t>(dice.below(5)) - 2};
+    if (dice.one_in(10)) made.motion = Motion::kinematic, made.velocity = dice.vector(1);
+    const bool round = std::holds_alternative<Sphere>(made.shape) || std::holds_alternative<Cylinder>(made.shape);
+    if (round && dice.one_in(6)) made.tyre.emplace();
+    if (std::holds_alternative<Box>(made.shape) && made.motion == Motion::dynamic && dice.one_in(3))
+        made.fracture = Fracture{.impulse = dice.between(20, 3000),
+                                 .cutting = dice.one_in(2) ? Cutting::boxes : Cutting::voronoi,
+                                 .pieces = 2 + dice.below(5),
+                                 .depth = 1 + dice.below(2),
+                                 .seed = dice.seed()};
+    return made;
+}
+
+Axis axis(Dice& dice) {
+    Axis made;
+    if (dice.one_in(2)) made.limits = Limits{dice.between(-1, 0), dice.between(0, 1)};
+    if (dice.one_in(3)) made.spring = Spring{dice.between(0, 5000), dice.between(0, 100), dice.between(-0.5f, 0.5f)};
+    if (dice.one_in(4)) made.motor = Motor{dice.between(-4, 4), dice.between(0, 300)};
+    if (!made.motor && dice.one_in(4)) made.friction = dice.between(0, 20);
+    return made;
+}
+
+JointKind joint_kind(Dice& dice) {
+    switch (dice.below(7)) {
+        case 0:
+            return Hinge{axis(dice)};
+        case 1:
+            return Slider{axis(dice)};
+        case 2:
+            return Fixed{};
+        case 3:
+            return Distance{dice.between(0, 0.5f), dice.between(0.6f, 2)};
+        case 4:
+            return ConeTwist{dice.between(0.1f, 2), {-0.5f, 0.5f}, dice.between(0, 2)};
+        case 5: {
+            SixDof six;
+            six.x.locked = six.y.locked = true;
+            six.z = axis(dice);
+            six.twist = axis(dice);
+            return six;
+        }
+        default:
+            return Ball{dice.one_in(2) ? 0 : dice.between(0, 5)};
+    }
+}
+
+Body ground(Dice& dice) {
+    Body made;
+    made.motion = Motion::fixed;
+    if (dice.one_in(3)) {
+        HeightField hills;
+        hills.columns = hills.rows = 9;
+        hills.spacing = 1.5f;
+        for (int i = 0; i < 81; ++i) hills.heights.push_back(dice.between(-0.4f, 0.2f));
+        made.shape = hills;
+    } else {
+        made.shape = Plane{};
+    }
+    return made;
+}
+
+Scene random_scene(Dice& dice) {
+    Scene scene;
+    if (dice.one_in(6)) scene.gravity = dice.vector(5);
+    scene.bodies.push_back(ground(dice));
+    const std::size_t count = 3 + dice.below(dice.one_in(4) ? 60 : 14);
+    const float width = 0.5f + 0.18f * static_cast<float>(count);
+    for (std::size_t i = 0; i < count; ++i) scene.bodies.push_back(body(dice, std::min(width, 4.0f)));
+    if (dice.one_in(4)) scene.fields.wind.emplace().velocity = dice.vector(10);
+    if (dice.one_in(5)) scene.fields.water.emplace().offset = dice.between(0, 1.5f);
+    if (dice.one_in(6)) scene.fields.attractors.push_back({dice.vector(3), dice.between(-50, 50)});
+    if (dice.one_in(2)) {
+        std::vector<std::size_t> dynamic;
+        for (std::size_t i = 1; i <= count; ++i)
+            if (scene.bodies[i].motion == Motion::dynamic && !scene.bodies[i].fracture) dynamic.push_back(i);
+        for (std::size_t n = dice.below(10); n-- > 0 && dynamic.size() > 1;) {
+            const std::size_t a = dynamic[dice.below(dynamic.size())], b = dynamic[dice.below(dynamic.size())];
+            if (a == b) continue;
+            const vec3 anchor = (scene.bodies[a].position + scene.bodies[b].position) * 0.5f;
+            scene.joints.push_back(joint_at(scene, joint_kind(dice), dice.one_in(5) ? the_world : a, b, anchor, {0, 0.6f, 0.8f}));
+            if (dice.one_in(4)) scene.joints.back().break_force = dice.between(50, 5000);
+            scene.joints.back().collide = dice.one_in(5);
+        }
+    }
+    return scene;
+}
+
+struct Performer {
+    World& world;
+    std::optional<std::vector<std::byte>>& mark;
+
+    std::size_t any(Dice& dice) const { return dice.below(world.scene().bodies.size()); }
+    void perform(const Act& act) const {
+        Dice dice(act.seed);
+        switch (act.kind) {
+            case ActKind::add_bodies: {
+                std::vector<Body> born;
+                for (std::size_t n = 1 + dice.below(3); n-- > 0;) born.push_back(body(dice, 2));
+                world.add_bodies(born);
+                break;
+            }
+            case ActKind::remove_body:
+                world.remove_body(any(dice));
+                break;
+            case ActKind::grip:
+                world.grip(any(dice), dice.vector(0.2f), dice.vector(3) + vec3(0, 2, 0));
+                break;
+            case ActKind::release:
+                world.release(dice.below(2));
+                break;
+            case ActKind::shove:
+                world.apply_impulse(any(dice), dice.vector(dice.one_in(3) ? 50000 : 500));
+                break;
+            case ActKind::teleport:
+                world.set_bodies(std::vector{BodyChange{.body = any(dice), .position = dice.vector(2) + vec3(0, 3, 0)}});
+                break;
+            case ActKind::save:
+                mark = world.save();
+                break;
+            case ActKind::restore:
+                if (mark) world.restore(*mark);
+                break;
+            case ActKind::reorder:
+                world.reorder();
+                break;
+            case ActKind::motion:
+                world.set_motion(any(dice), static_cast<Motion>(dice.below(3)));
+                break;
+            case ActKind::material:
+                world.set_material(any(dice), material(dice));
+                break;
+            case ActKind::filter:
+                world.set_filter(any(dice), Filter{1u << dice.below(3), static_cast<std::uint32_t>(dice.below(8)), 0});
+                break;
+            case ActKind::exclusion:
+                world.set_exclusion(any(dice), any(dice), !dice.one_in(3));
+                break;
+            case ActKind::add_joint: {
+                const std::size_t a = any(dice), b = any(dice);
+                world.add_joint(world.joint_at(joint_kind(dice), dice.one_in(4) ? the_world : a, b, world.body(b).position));
+                break;
+            }
+            case ActKind::remove_joint:
+                if (!world.scene().joints.empty()) world.remove_joint(dice.below(world.scene().joints.size()));
+                break;
+            case ActKind::spring:
+                if (!world.scene().joints.empty())
+                    world.set_spring(dice.below(world.scene().joints.size()), dice.one_in(2) ? JointAxis::twist : JointAxis::x,
+                                     {dice.between(0, 1000), 5, 0.2f});
+                break;
+            case ActKind::explode:
+                world.explode(dice.vector(2), 3, dice.between(1, 20));
+                break;
+            case ActKind::gravity:
+                world.set_gravity(dice.one_in(4) ? vec3(0) : dice.vector(12));
+                break;
+            case ActKind::substeps:
+                world.set_substeps(static_cast<int>(1 + dice.below(10)));
+                break;
+            case ActKind::sleep:
+                world.set_sleeping(dice.one_in(2));
+                break;
+            case ActKind::fields: {
+                Fields fields;
+                if (dice.one_in(2)) fields.wind.emplace().velocity = dice.vector(20);
+                if (dice.one_in(2)) fields.water.emplace().offset = dice.between(0, 2);
+                world.set_fields(fields);
+                break;
+            }
+            case ActKind::target:
+                world.move_bodies(std::vector{BodyTarget{.body = any(dice), .position = dice.vector(2), .steps = 20}});
+                break;
+            case ActKind::velocity:
+                world.set_velocity(any(dice), dice.vector(10), dice.vector(10));
+                break;
+            case ActKind::count:
+                break;
+        }
+    }
+};
+
+// The first line in which they differ; both may be shorter.
+std::optional<std::size_t> first_difference(const std::vector<std::string>& a, const std::vector<std::string>& b) {
+    for (std::size_t i = 0; i < std::max(a.size(), b.size()); ++i)
+        if (i >= a.size() || i >= b.size() || a[i] != b[i]) return i;
+    return std::nullopt;
+}
+
+}  // namespace
+
+RandomProgram random_program(std::uint32_t seed) {
+    RandomProgram made;
+    for (std::uint32_t attempt = 0;; ++attempt) {
+        Dice dice(seed * 977 + attempt * 31);
+        made.scene = random_scene(dice);
+        try {
+            (void)checked(made.scene);  // flat hulls, joints whose frames do not fit
+        } catch (const SceneError&) {
+            continue;
+        }
+        made.settings.substeps = static_cast<int>(1 + dice.below(8));
+        if (dice.one_in(3)) made.settings.pairs_at_first = made.settings.contacts_at_first = 8;  // grow
+        made.settings.sleep_time = dice.one_in(2) ? 0.1f : 0.5f;
+        made.steps = static_cast<int>(10 + dice.below(50));
+        for (std::size_t n = dice.below(25); n-- > 0;)
+            made.acts.push_back({dice.below(static_cast<std::size_t>(made.steps)),
+                                 static_cast<ActKind>(dice.below(static_cast<std::size_t>(ActKind::count))), dice.seed()});
+        std::ranges::stable_sort(made.acts, {}, &Act::step);
+        return made;
+    }
+}
+
+std::vector<std::string> trace_of(const RandomProgram& program, std::unique_ptr<Runner> runner) {
+    World world(program.scene, program.settings, std::move(runner));
+    std::optional<std::vector<std::byte>> mark;
+    std::vector<std::string> lines;
+    std::size_t next = 0;
+    for (int step = 0; step < program.steps; ++step) {
+        std::string line;
+        for (; next < program.acts.size() && program.acts[next].step <= static_cast<std::uint64_t>(step); ++next) {
+            try {
+                Performer{world, mark}.perform(program.acts[next]);
+            } catch (const std::exception& error) {
+                line += std::string(error.what()) + "; ";
+            }
+        }
+        world.step();
+        lines.push_back(line + hash_text(world.state_hash()) + " contacts " + std::to_string(world.state().counted().contacts));
+    }
+    const Statistics last = world.statistics();
+    std::uint64_t hash = 0;
+    for (const std::byte byte : world.save()) hash = hash * 1099511628211u + std::to_integer<std::uint64_t>(byte);
+    lines.push_back("saved " + hash_text(hash) + " not finite " + std::to_string(last.not_finite));
+    return lines;
+}
+
+std::string difference(RandomProgram& program, const MakeRunner& one, const MakeRunner& other) {
+    const auto differs = [&](const RandomProgram& tried) {
+        return first_difference(trace_of(tried, one()), trace_of(tried, other()));
+    };
+    if (!differs(program)) return {};
+    const auto keep_if_differs = [&](RandomProgram smaller) {
+        try {
+            const auto line = differs(smaller);
+            if (!line) return false;
+            smaller.steps = std::min(smaller.steps, static_cast<int>(*line) + 1);
+            program = std::move(smaller);
+            return true;
+        } catch (const std::exception&) {
+            return false;
+        }
+    };
+    keep_if_differs(program);
+    for (bool again = true; again;) {
+        again = false;
+        for (std::size_t i = program.acts.size(); i-- > 0;) {
+            RandomProgram smaller = program;
+            smaller.acts.erase(smaller.acts.begin() + static_cast<std::ptrdiff_t>(i));
+            again |= keep_if_differs(smaller);
+        }
+        for (std::size_t i = program.scene.joints.size(); i-- > 0;) {
+            RandomProgram smaller = program;
+            smaller.scene.joints.erase(smaller.scene.joints.begin() + static_cast<std::ptrdiff_t>(i));
+            again |= keep_if_differs(smaller);
+        }
+        for (std::size_t i = program.scene.bodies.size(); i-- > 0;) {
+            RandomProgram smaller = program;
+            Scene& scene = smaller.scene;
+            scene.bodies.erase(scene.bodies.begin() + static_cast<std::ptrdiff_t>(i));
+            std::erase_if(scene.joints, [&](const Joint& joint) { return joint.a == i || joint.b == i; });
+            for (Joint& joint : scene.joints)
+                for (std::size_t* end : {&joint.a, &joint.b}) *end -= *end != the_world && *end > i;
+            again |= keep_if_differs(smaller);
+        }
+    }
+    const std::vector<std::string> a = trace_of(program, one()), b = trace_of(program, other());
+    const std::size_t line = first_difference(a, b).value_or(0);
+    const auto at = [&](const std::vector<std::string>& lines) { return line < lines.size() ? lines[line] : "nothing"; };
+    return "after step " + std::to_string(line + 1) + ": " + at(a) + " and " + at(b) + "\n" + text_of(program);
+}
+
+std::string text_of(const RandomProgram& program) {
+    std::string text =
+        "substeps " + std::to_string(program.settings.substeps) + ", steps " + std::to_string(program.steps) + ", acts";
+    for (const Act& act : program.acts)
+        text += " {" + std::to_string(act.step) + ", " + std::to_string(static_cast<int>(act.kind)) + ", " +
+                std::to_string(act.seed) + "}";
+    return text + "\n" + scene_to_json(program.scene);
+}
+
+}  // namespace scree::tests
