@@ -222,8 +222,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::SolveResult after =
             physics::solve_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), felt_by(state, c.a));
         state.impulses[i] = after.impulse;
-        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), physics::impact_weight(after.impulse),
-                 0);
+        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), after.impulse.impact_weight, 0);
     });
 }
 

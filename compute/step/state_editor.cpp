@@ -17,8 +17,12 @@ namespace {
 
 physics::Impulse scaled(physics::Impulse impulse, float factor) {
     impulse.normal *= factor;
-    for (int k = 0; k < 4; ++k)  // a negative one is a velocity (restitution.h)
-        if (impulse.solved_normal[k] > 0) impulse.solved_normal[k] *= factor;
+    impulse.solved_normal *= factor;
+    impulse.impact *= factor;
+    impulse.rebound_energy *= factor;
+    impulse.impact_energy *= factor;
+    impulse.impact_weight *= factor;
+    impulse.flight_energy *= factor;
     impulse.friction *= factor;
     impulse.twist *= factor;
     impulse.rolling *= factor;

@@ -1,6 +1,7 @@
 // Impacts: bounces and collisions against Newton's law of restitution.
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "demos/validate/experiment.h"
 
@@ -34,6 +35,64 @@ Collision collide(const Lab& lab, double speed, double offset) {
     world.step(lab.steps(2 * static_cast<double>(away) / speed + 0.2));
     const vec3 v = world.body(0).velocity;
     return {world.statistics().kinetic_energy / before, std::atan2(-static_cast<double>(v.y), static_cast<double>(v.x))};
+}
+
+vec3 any_direction(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    vec3 v;
+    do v = {normal(random), normal(random), normal(random)};
+    while (glm::length(v) < 0.1f);
+    return glm::normalize(v);
+}
+
+// Energy left, of the start's, of 50 balls at rest, each of which two others strike at the same time, in empty space.
+double meet(const Lab& lab, double speed) {
+    std::mt19937 random(1);
+    Scene scene;
+    scene.gravity = vec3(0);
+    const float away = static_cast<float>(speed) / 30;
+    for (int i = 0; i < 50; ++i) {
+        const vec3 place(0, 0, (8 + 4 * static_cast<float>(speed)) * static_cast<float>(i));
+        const vec3 first = any_direction(random);
+        vec3 second;
+        do second = any_direction(random);
+        while (glm::dot(first, second) > 0.45f);
+        scene.bodies.push_back(ball_at(place, vec3(0)));
+        for (const vec3 normal : {first, second}) {
+            vec3 towards;
+            do towards = any_direction(random);
+            while (glm::dot(towards, normal) > -0.3f);
+            scene.bodies.push_back(ball_at(place + normal - away * towards, static_cast<float>(speed) * towards));
+        }
+    }
+    World world = lab.world(scene);
+    const double before = world.statistics().kinetic_energy;
+    world.step(lab.steps(0.25));
+    return world.statistics().kinetic_energy / before;
+}
+
+// Energy left after 10 s, of the start's, of a gas of 125 balls of one speed in a box of ten diameters.
+double gas(const Lab& lab, double speed) {
+    std::mt19937 random(1);
+    Scene scene;
+    scene.gravity = vec3(0);
+    for (int i = 0; i < 125; ++i)
+        scene.bodies.push_back(
+            ball_at(1.9f * (vec3(i % 5, i / 5 % 5, i / 25) - vec3(2)), static_cast<float>(speed) * any_direction(random)));
+    for (const float side : {-1.0f, 1.0f})
+        for (int axis = 0; axis < 3; ++axis) {
+            Body wall = ball_at(vec3(0), vec3(0));
+            vec3 half(9);
+            half[axis] = 2;
+            wall.shape = Box{half};
+            wall.motion = Motion::fixed;
+            wall.position[axis] = 7 * side;
+            scene.bodies.push_back(wall);
+        }
+    World world = lab.world(scene);
+    const double before = world.statistics().kinetic_energy;
+    world.step(lab.steps(10));
+    return world.statistics().kinetic_energy / before;
 }
 
 // The height to which a body rises after its first bounce on a plane, of the height of its fall of 1 m.
@@ -102,6 +161,28 @@ std::vector<Experiment> impact_experiments() {
                    {2, 5, 10, 20, 50, 100, 150},
                    [](double) { return 1.0; },
                    [](const Lab& lab, double v) { return collide(lab, v, 0.5).energy; }});
+    all.push_back({"meeting",
+                   "two balls that strike a third at the same time keep their energy",
+                   "energy after = energy before",
+                   "elastic collisions, e = 1",
+                   "speed, m/s",
+                   "energy after, of before",
+                   0,
+                   0.003,
+                   {0.5, 1, 2, 5, 10},
+                   [](double) { return 1.0; },
+                   meet});
+    all.push_back({"gas",
+                   "a gas of balls keeps its energy for 10 s",
+                   "energy after = energy before",
+                   "elastic collisions, e = 1",
+                   "speed, m/s",
+                   "energy after, of before",
+                   0,
+                   0.02,
+                   {1, 2, 5, 10},
+                   [](double) { return 1.0; },
+                   gas});
     return all;
 }
 

@@ -140,12 +140,12 @@ TEST_CASE("a cradle that keeps some of the blow is seen") {
     };
     const Indices row = {0, 1, 2};
     const Claim last = last_take_the_speed("it", row, 1, 2), others = others_stay("it", row, 1, 2);
-    CHECK(passes(last, left_with({0, 0, 1.96f})));
-    CHECK_FALSE(passes(last, left_with({0, 0, 1.9f})));
-    CHECK_FALSE(passes(last, left_with({0, 0, 2.1f})));
-    CHECK(passes(others, left_with({0.05f, -0.05f, 2})));
-    CHECK_FALSE(passes(others, left_with({0.07f, 0, 2})));
-    CHECK_FALSE(passes(others, left_with({-0.07f, 0, 2})));
+    CHECK(passes(last, left_with({0, 0, 1.999f})));
+    CHECK_FALSE(passes(last, left_with({0, 0, 1.99f})));
+    CHECK_FALSE(passes(last, left_with({0, 0, 2.01f})));
+    CHECK(passes(others, left_with({1e-5f, -1e-5f, 2})));
+    CHECK_FALSE(passes(others, left_with({1e-4f, 0, 2})));
+    CHECK_FALSE(passes(others, left_with({-1e-4f, 0, 2})));
     CHECK_FALSE(passes(last_take_the_speed("it", row, 2, 2), left_with({0, 1.8f, 2})));
 }
 

@@ -65,7 +65,7 @@ TEST_CASE("contact momentum extrapolates the change of an impulse that lasts") {
     CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f)).solved_normal.x == 3);
     CHECK(with_momentum(impulse_of(3, 2), 1, vec4(0.5f)).normal.y == 3);  // not a point of this contact
     Impulse struck = impulse_of(3, 2);
-    struck.impact_velocity.x = -1;
+    struck.impact.x = 1;
     CHECK(with_momentum(struck, 1, vec4(0.5f)).normal.x == 3);  // impacts are exact
 }
 

@@ -60,28 +60,71 @@ TEST_CASE("two balls that meet off centre keep their energy at any speed") {
             }
 }
 
-TEST_CASE("a gas of elastic balls keeps its energy") {
-    tests::Noise noise(4);
-    Scene scene;
-    scene.gravity = vec3(0);
-    for (int i = 0; i < 125; ++i)
-        scene.bodies.push_back(
-            ball(0.2f, vec3(i % 5, i / 5 % 5, i / 25) - vec3(2), 5.0f * glm::normalize(noise.vector() + vec3(1e-3f))));
-    for (const float side : {-1.0f, 1.0f})
-        for (int k = 0; k < 3; ++k) {
-            Body wall;
-            wall.motion = Motion::fixed;
-            vec3 half(4);
-            half[k] = 1;
-            wall.shape = Box{half};
-            wall.position[k] = 4 * side;
-            wall.friction = 0;
-            scene.bodies.push_back(wall);
+TEST_CASE("three balls that meet within one substep keep their energy and momentum") {
+    tests::Noise noise(7);
+    const auto direction = [&] { return glm::normalize(noise.vector() + vec3(1e-3f)); };
+    for (const float speed : {0.5f, 5.0f, 20.0f}) {
+        Scene scene;
+        scene.gravity = vec3(0);
+        for (int i = 0; i < 200; ++i) {
+            const vec3 at(static_cast<float>(i) * 8, 0, 0), first = direction();
+            vec3 second = direction();
+            while (glm::dot(first, second) > 0.45f) second = direction();
+            scene.bodies.push_back(ball(0.2f, at));
+            for (const vec3& normal : {first, second}) {
+                vec3 towards = direction();
+                while (glm::dot(towards, normal) > -0.3f) towards = direction();
+                scene.bodies.push_back(ball(0.2f, at + 0.4f * normal - towards * (speed * 0.04f), towards * speed));
+            }
         }
-    World world(scene, awake(), 2);
-    const double before = energy(scene, world);
-    world.step(600);
-    CHECK(energy(scene, world) / before == Approx(1).margin(0.02));
+        World world(scene, awake(), 1);
+        const std::vector<BodyState> before = world.bodies();
+        world.step(15);
+        const std::vector<BodyState> after = world.bodies();
+        double sum = 0;
+        for (std::size_t i = 0; i < before.size(); i += 3) {
+            vec3 momentum(0);
+            double left = 0;
+            for (std::size_t k = i; k < i + 3; ++k) {
+                momentum += after[k].velocity - before[k].velocity;
+                left += double{glm::dot(after[k].velocity, after[k].velocity)} / (2 * double{speed} * double{speed});
+            }
+            CAPTURE(speed, i / 3);
+            CHECK(left == Approx(1).margin(0.05));
+            CHECK(glm::length(momentum) < 1e-4f * speed);
+            sum += left;
+        }
+        CHECK(sum / 200 == Approx(1).margin(0.002));
+    }
+}
+
+TEST_CASE("a gas of elastic balls keeps its energy at any speed") {
+    for (const float speed : {2.0f, 5.0f, 20.0f}) {
+        tests::Noise noise(4);
+        Scene scene;
+        scene.gravity = vec3(0);
+        for (int i = 0; i < 125; ++i)
+            scene.bodies.push_back(ball(0.2f, 0.78f * (vec3(i % 5, i / 5 % 5, i / 25) - vec3(2)),
+                                        speed * glm::normalize(noise.vector() + vec3(1e-3f))));
+        for (const float side : {-1.0f, 1.0f})
+            for (int k = 0; k < 3; ++k) {
+                Body wall;
+                wall.motion = Motion::fixed;
+                vec3 half(4);
+                half[k] = 1;
+                wall.shape = Box{half};
+                wall.position[k] = 3 * side;
+                wall.friction = 0;
+                scene.bodies.push_back(wall);
+            }
+        World world(scene, awake(), 2);
+        const double before = energy(scene, world);
+        world.step(600);
+        CAPTURE(speed);
+        // At 20 m/s a ball moves by its radius in a third of a step: contacts that let go at the end of a step lose what
+        // they had yet to return.
+        CHECK(energy(scene, world) / before == Approx(1).margin(speed < 20 ? 0.02 : 0.15));
+    }
 }
 
 TEST_CASE("a touching row of balls on the ground passes on a blow at any speed") {

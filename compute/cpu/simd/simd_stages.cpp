@@ -90,14 +90,14 @@ void solve(const WideTables& tables, std::size_t first, std::size_t last) {
         const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         scatter(tables.impulses, group.contacts.only(group.live), after.impulse);
-        group.hand_out(tables, share, impact_weight(after.impulse), 0.0f);
+        group.hand_out(tables, share, after.impulse.impact_weight, 0.0f);
     }
 }
 
 // physics::impact_mass, reading forces only if a lane has an impact.
 SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const Indices& bodies, const Parameters& p) {
     const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
-    if (none(is_impact(impulse) > 0.0f)) return split_mass(mass, impulse, p);
+    if (none(is_impact(impulse))) return split_mass(mass, impulse, p);
     return impact_mass(impulse, mass, gather<BodyForces>(tables.forces, bodies), p);
 }
 

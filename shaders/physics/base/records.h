@@ -227,8 +227,11 @@ struct Impulse {
     vec4 normal;           // per point, N s, >= 0; the next substep starts with these (contact_momentum.h)
     vec4 solved_normal;    // per point, of the last relax pass, N s
     vec4 separation;       // per point, m
-    vec4 impact_velocity;  // per point: normal velocity of an impact with restitution, m/s, < 0; else 0
-    vec4 rebound_deficit;  // per point: of its rebound velocity, what a lasting impact has yet to reach, m/s, or 0
+    vec4 impact;           // per point: impulse of an impact with restitution in the last pass, N s; else 0
+    float rebound_energy;  // that the impact has yet to return, less half the last pass's work so far as it is known, J
+    float impact_energy;   // that the impact had to return as it began, J; 0: it does not last
+    float impact_weight;   // of the contact among the impacts of its bodies: the impulse it will exchange, N s
+    float flight_energy;   // that gravity adds to the rebound of its bodies in this substep, J
     vec3 friction;         // in the tangent plane, world, on B, N s
     float twist;           // about the normal, N m s
     vec3 rolling;          // world, on B, N m s

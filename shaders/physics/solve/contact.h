@@ -50,8 +50,11 @@ LAW Impulse no_impulse(vec3 d) {
     impulse.normal = vec4(0.0f);
     impulse.solved_normal = vec4(0.0f);
     impulse.separation = vec4(0.0f);
-    impulse.impact_velocity = vec4(0.0f);
-    impulse.rebound_deficit = vec4(0.0f);
+    impulse.impact = vec4(0.0f);
+    impulse.rebound_energy = 0.0f;
+    impulse.impact_energy = 0.0f;
+    impulse.impact_weight = 0.0f;
+    impulse.flight_energy = 0.0f;
     impulse.friction = vec3(0.0f);
     impulse.twist = 0.0f;
     impulse.rolling = vec3(0.0f);
@@ -99,9 +102,10 @@ LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
         if (matches[k] == NONE) continue;
         impulse.normal[k] = was.normal[matches[k]];
         impulse.solved_normal[k] = was.solved_normal[matches[k]];
-        impulse.impact_velocity[k] = was.impact_velocity[matches[k]];
-        impulse.rebound_deficit[k] = was.rebound_deficit[matches[k]];
+        impulse.impact[k] = was.impact[matches[k]];
     }
+    impulse.rebound_energy = was.rebound_energy;
+    impulse.impact_energy = was.impact_energy;
     float total = (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w);
     if (total > 0.0f) {
         impulse.friction = was.friction - now.normal * dot3(was.friction, now.normal);

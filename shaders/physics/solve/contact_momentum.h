@@ -57,7 +57,7 @@ LAW Impulse with_momentum(Impulse impulse, uint count, vec4 momentum) {
         bool there = uint(k) < count;
         if (none(there)) break;
         float now = impulse.normal[k], before = impulse.solved_normal[k];
-        bool lasts = there && impulse.impact_velocity[k] == 0.0f && now > 0.0f && before > 0.0f;
+        bool lasts = there && impulse.impact[k] == 0.0f && now > 0.0f && before > 0.0f;
         impulse.solved_normal[k] = choose(there, now, before);
         impulse.normal[k] = choose(lasts, positive(flush_tiny(now + momentum[k] * (now - before))), now);
     }

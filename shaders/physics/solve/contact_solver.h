@@ -70,16 +70,20 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     // layer. At most by 4: a tray under hundreds of boxes must still bear them.
     float push_speed = parameters.push_speed * reciprocal(smaller(4.0f, larger(a.split, b.split)));
     bool bounces = c.restitution > 0.0f;
+    vec4 striking = vec4(0.0f);
     if (none(bounces)) {
-        impulse.impact_velocity = vec4(0.0f);
+        impulse.impact = vec4(0.0f);
+        impulse.impact_weight = 0.0f;
     } else {
-        Impulse lasting = impact_in_progress(c, impulse, v, state, parameters);
-        impulse.rebound_deficit = choose(bounces, lasting.rebound_deficit, impulse.rebound_deficit);
-        impulse.impact_velocity = choose(bounces, impact_velocities(c, lasting, v, a, b, state, parameters), vec4(0.0f));
+        impulse = with_impact(impulse, impact_in_progress(c, impulse, v, state, parameters), bounces && !gone);
+        striking = choose(bounces, impact_velocities(c, impulse, v, a, b, state, parameters), vec4(0.0f));
     }
+    bool strikes = is_any(striking);
+    vec4 normal_before = impulse.normal;
+    VelocityPair before_impact = v;
     float normal = 0.0f;
     float cut = choose((c.flags & CONSTRAINT_RESTLESS) != 0u, 0.0f, LEAK_CUT);
-    uint sweeps = sweeps_of(c, impulse);
+    uint sweeps = choose(strikes && point_count(c) > 1u, uint(IMPACT_SWEEPS), 1u);
     for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
         bool swept = uint(sweep) < sweeps;
         normal = choose(swept, 0.0f, normal);
@@ -107,6 +111,8 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     }
     SolveResult result;
     result.impulse = impulse;
+    if (!none(strikes || is_impact(impulse)))
+        result.impulse = after_compression(c, impulse, striking, normal_before, before_impact, v, a, b, state, parameters);
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, true, parameters);
 }
@@ -114,7 +120,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 // The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
 // applies restitution and friction.
 LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
-    bool struck = is_impact(impulse) > 0.0f;
+    bool struck = is_impact(impulse);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
     bool follows = is_of_round_bodies(c);
@@ -133,40 +139,38 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
     if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.center_offset), impulse.separation.x);
     c = refresh_round_contact(c, impulse.center_offset);
-    vec4 rebound = vec4(0.0f);
-    if (!none(struck)) rebound = rebound_velocities(met, met_offset, c, impulse, v, a, b, state, parameters);
+    SolveResult result;
+    result.impulse = impulse;
+    result.pair_velocity = v;
+    if (!none(struck)) result = with_restitution(met, met_offset, c, impulse, v, a, b, state);
+    impulse = result.impulse;
+    v = result.pair_velocity;
     float slowest = slowest_impact(c, state, parameters);
     float normal = 0.0f;
     vec4 momentum = vec4(0.0f);
-    uint sweeps = sweeps_of(c, impulse);
-    for (int sweep = 0; !none(uint(sweep) < sweeps); ++sweep) {
-        bool swept = uint(sweep) < sweeps;
-        normal = choose(swept, 0.0f, normal);
-        for (int k = 0; k < 4; ++k) {
-            bool there = swept && uint(k) < point_count(c);
-            if (none(there)) break;
-            LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-            float speed = dot3(c.normal, velocity_at(r, v));
-            float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
-            target = choose(impulse.impact_velocity[k] < 0.0f, -rebound[k], target);
-            float before = impulse.normal[k];
-            // A fast approach is left to the next substep, which measures its impact velocity.
-            bool waits = impulse.impact_velocity[k] == 0.0f && c.restitution > 0.0f && speed < -slowest;
-            bool acts = there && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
-            if (none(acts)) continue;
-            JacobianRow row = jacobian_row(r, c.normal, a, b);
-            float mass = mass_along(row, a, b);
-            momentum[k] = choose(acts, contact_momentum(row, point_count(c), a, b, parameters), momentum[k]);
-            acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
-            float after = choose(gone, 0.0f, positive(flush_tiny(before - mass * (speed + target))));
-            impulse.normal[k] = choose(acts, after, before);
-            normal = choose(acts, normal + after, normal);
-            v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
-        }
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < point_count(c);
+        if (none(there)) break;
+        bool rebounds = there && impulse.impact[k] > 0.0f;
+        normal = choose(rebounds, normal + impulse.normal[k], normal);
+        LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
+        float speed = dot3(c.normal, velocity_at(r, v));
+        float target = choose(impulse.separation[k] > 0.0f, impulse.separation[k] * parameters.inverse_h, 0.0f);
+        float before = impulse.normal[k];
+        // A fast approach is left to the next substep, which measures its impact velocity.
+        bool waits = c.restitution > 0.0f && speed < -slowest;
+        bool acts = there && !rebounds && !(before == 0.0f && (gone || speed + target >= 0.0f || waits));
+        if (none(acts)) continue;
+        JacobianRow row = jacobian_row(r, c.normal, a, b);
+        float mass = mass_along(row, a, b);
+        momentum[k] = choose(acts, contact_momentum(row, point_count(c), a, b, parameters), momentum[k]);
+        acts = acts && !(waits && before <= -IMPACT_DISTANCE * mass * speed);
+        float after = choose(gone, 0.0f, positive(flush_tiny(before - mass * (speed + target))));
+        impulse.normal[k] = choose(acts, after, before);
+        normal = choose(acts, normal + after, normal);
+        v = choose(acts, pushed(v, row, after - before, a, a.split, b, b.split), v);
     }
-    SolveResult result;
     result.impulse = with_momentum(impulse, point_count(c), momentum);
-    if (!none(struck)) result.impulse = rebounding(c, result.impulse, rebound, state, parameters);
     result.pair_velocity = v;
     return solve_patch_friction(c, result, normal, a, b, false, parameters);
 }

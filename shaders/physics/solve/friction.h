@@ -30,11 +30,6 @@
 
 LAWS_BEGIN
 
-struct SolveResult {
-    Impulse impulse;
-    VelocityPair pair_velocity;  // of the split bodies, afterwards
-};
-
 // Rolling resistance: an angular impulse against the relative angular velocity, at most rolling_resistance times the
 // normal impulse. As friction, it opposes the rotation that it cannot stop.
 LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {

@@ -18,6 +18,12 @@ LAW VelocityPair choose(bool condition, VelocityPair v, VelocityPair w) {
     return w;
 }
 
+// Of a pass over a contact.
+struct SolveResult {
+    Impulse impulse;
+    VelocityPair pair_velocity;  // of the split bodies, afterwards
+};
+
 struct LeverArms {
     vec3 a;
     float pad0;

@@ -118,8 +118,9 @@ LAW Impulse carry_forward(Contact contact, Impulse was) {
     Impulse impulse = no_impulse(contact.center_offset);
     impulse.normal = was.normal;
     impulse.solved_normal = was.solved_normal;
-    impulse.impact_velocity = was.impact_velocity;
-    impulse.rebound_deficit = was.rebound_deficit;
+    impulse.impact = was.impact;
+    impulse.rebound_energy = was.rebound_energy;
+    impulse.impact_energy = was.impact_energy;
     impulse.friction = was.friction;
     impulse.twist = was.twist;
     impulse.rolling = was.rolling;

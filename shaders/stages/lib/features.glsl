@@ -36,8 +36,8 @@ Constraint narrowed(Constraint c) {
 }
 Impulse narrowed(Impulse impulse) {
     if (!BOUNCES) {
-        impulse.impact_velocity = vec4(0.0f);
-        impulse.rebound_deficit = vec4(0.0f);
+        impulse.impact = vec4(0.0f);
+        impulse.rebound_energy = impulse.impact_energy = impulse.impact_weight = impulse.flight_energy = 0.0f;
     }
     return impulse;
 }

@@ -22,8 +22,11 @@ void solve_contact(uint place) {
     SolveResult after = solve_contact(c, impulse, before, ma, mb, state, felt_by(c.a));
     impulses.at[i].normal = after.impulse.normal;
     if (BOUNCES) {
-        impulses.at[i].impact_velocity = after.impulse.impact_velocity;
-        impulses.at[i].rebound_deficit = after.impulse.rebound_deficit;
+        impulses.at[i].impact = after.impulse.impact;
+        impulses.at[i].rebound_energy = after.impulse.rebound_energy;
+        impulses.at[i].impact_energy = after.impulse.impact_energy;
+        impulses.at[i].impact_weight = after.impulse.impact_weight;
+        impulses.at[i].flight_energy = after.impulse.flight_energy;
     }
     impulses.at[i].friction = after.impulse.friction;
     impulses.at[i].twist = after.impulse.twist;
@@ -31,7 +34,7 @@ void solve_contact(uint place) {
     impulses.at[i].turn = after.impulse.turn;
     if (ROLLS) impulses.at[i].rolling = after.impulse.rolling;
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
-    float blow = impact_weight(after.impulse);
+    float blow = after.impulse.impact_weight;
     if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, blow, 0.0f);
     if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, blow, 0.0f);
 }
@@ -72,8 +75,11 @@ void relax_contact(uint place, uint pass) {
     impulses.at[i].solved_normal = impulse.solved_normal;
     impulses.at[i].separation = impulse.separation;
     if (BOUNCES) {
-        impulses.at[i].impact_velocity = impulse.impact_velocity;
-        impulses.at[i].rebound_deficit = impulse.rebound_deficit;
+        impulses.at[i].impact = impulse.impact;
+        impulses.at[i].rebound_energy = impulse.rebound_energy;
+        impulses.at[i].impact_energy = impulse.impact_energy;
+        impulses.at[i].impact_weight = impulse.impact_weight;
+        impulses.at[i].flight_energy = impulse.flight_energy;
     }
     impulses.at[i].friction = impulse.friction;
     impulses.at[i].twist = impulse.twist;
