@@ -1,12 +1,11 @@
 #!/usr/bin/env python3
-"""Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations.
-
-    tests/faults/faults.py PROGRAM [--kills 200] [--writes 100] [--allocations 300] [--seed 1]
-
-A run writes frames, a report, a recording of poses, a scene and checkpoints (and a video where ffmpeg is). What must hold: every
-output is whole or not there; a run resumed from what is left reaches the same final hash; after it no left-over is in the folder;
-a failing write or allocation ends with a message, exit status 1 or 2, and no file that is cut short.
-"""
+# Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations.
+#
+#     tests/faults/faults.py PROGRAM [--kills 200] [--writes 100] [--allocations 300] [--seed 1]
+#
+# A run writes frames, a report, a recording of poses, a scene and checkpoints (and a video where ffmpeg is). What must hold: every
+# output is whole or not there; a run resumed from what is left reaches the same final hash; after it no left-over is in the folder;
+# a failing write or allocation ends with a message, exit status 1 or 2, and no file that is cut short.
 
 import argparse
 import json
@@ -155,7 +154,7 @@ class Faults:
 
 
 def main():
-    options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    options = argparse.ArgumentParser(description="Faults put into runs of the program: SIGKILL at random moments, failing writes, failing allocations.")
     options.add_argument("program", type=pathlib.Path)
     options.add_argument("--kills", type=int, default=200)
     options.add_argument("--writes", type=int, default=100)

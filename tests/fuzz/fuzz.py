@@ -1,14 +1,13 @@
 #!/usr/bin/env python3
-"""Mutated inputs through the program: scenes, recordings, checkpoints, MJCF, URDF, glTF, GLB, OBJ and STL.
-
-    tests/fuzz/fuzz.py PROGRAM --seconds 600 [--jobs 2] [--seed 1] [--devices] [--findings DIR]
-
-Seeds are demos of a few bodies, the files of tests/imports, and what else the corpus beside this file has. What must hold of every
-mutant: no signal, no exit status but 0, 1 and 2, an error that names the file, an end within 10 s, memory within 200 times the file
-and 200 MB; checkpoints are damaged, not forged (SECURITY in tests/README.md); of what is accepted: no body that is not finite and not told, the same hash and the same bytes from a checkpoint in the
-middle, and on the CPU while it flushes denormals; with --devices also on the Vulkan device. Findings are kept with the command
-that shows them; the exit status is 1 if there are any.
-"""
+# Mutated inputs through the program: scenes, recordings, checkpoints, MJCF, URDF, glTF, GLB, OBJ and STL.
+#
+#     tests/fuzz/fuzz.py PROGRAM --seconds 600 [--jobs 2] [--seed 1] [--devices] [--findings DIR]
+#
+# Seeds are demos of a few bodies, the files of tests/imports, and what else the corpus beside this file has. What must hold of every
+# mutant: no signal, no exit status but 0, 1 and 2, an error that names the file, an end within 10 s, memory within 200 times the file
+# and 200 MB; checkpoints are damaged, not forged (SECURITY in tests/README.md); of what is accepted: no body that is not finite and not told, the same hash and the same bytes from a checkpoint in the
+# middle, and on the CPU while it flushes denormals; with --devices also on the Vulkan device. Findings are kept with the command
+# that shows them; the exit status is 1 if there are any.
 
 import argparse
 import concurrent.futures
@@ -178,7 +177,7 @@ def one(program, corpus, seed, findings, only):
 
 
 def main():
-    options = argparse.ArgumentParser(description=__doc__.split("\n")[0])
+    options = argparse.ArgumentParser(description="Mutated inputs through the program: scenes, recordings, checkpoints, MJCF, URDF, glTF, GLB, OBJ and STL.")
     options.add_argument("program", type=pathlib.Path)
     options.add_argument("--seconds", type=float, default=600)
     options.add_argument("--jobs", type=int, default=2)

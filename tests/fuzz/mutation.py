@@ -1,4 +1,4 @@
-"""Mutants of files that scree reads: JSON by its structure, XML and text by values and lines, bytes by bits."""
+# Mutants of files that scree reads: JSON by its structure, XML and text by values and lines, bytes by bits.
 
 import copy
 import json
