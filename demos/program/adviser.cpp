@@ -21,6 +21,7 @@ namespace {
 constexpr double deep = 0.06;
 constexpr std::uint64_t early_looks[] = {1, 5};  // steps from the start, before what cannot stand has fallen
 constexpr double worth_telling = 0.2;            // of the greatest kinetic energy: elastic impacts gain less
+constexpr double soft = 0.005;                   // of the height, by which what is too heavy sinks and rises
 constexpr double restless_speed = 0.3;           // m/s, of a scene at rest but for jitter
 
 double median_half_width(const World& world) {
@@ -111,12 +112,13 @@ void Adviser::after_step(const World& world) {
     if (second || std::ranges::find(early_looks, world.steps()) != std::end(early_looks)) look_at_burdens(world);
 }
 
-// From the least so far: what falls, slides and breaks loses energy. Overlapping bodies are pushed apart at the start.
+// From the least so far: what falls, slides and breaks loses energy. Overlapping bodies are pushed apart at the start, and
+// soft contacts under a great weight give back what they took: a gain without cause is one that moves bodies.
 void Adviser::look_at_energy(const World& world, const Statistics& statistics) {
     const double energy = statistics.kinetic_energy + statistics.potential_energy;
-    const double rounding = 1e-5 * std::abs(statistics.potential_energy);
+    const double given_back = soft * std::abs(statistics.potential_energy);
     least_ = samples_.size() == 1 ? energy : std::min(least_, energy);
-    const double gain = energy - least_ - rounding;
+    const double gain = std::min(energy - least_ - given_back, statistics.kinetic_energy);
     if (samples_.size() > 1 && gain > worth_telling * moved_with_ && gain > gained_) gained_ = gain, gained_at_ = world.time();
     if (gained_ == 0) moved_with_ = std::max(moved_with_, statistics.kinetic_energy);
 }

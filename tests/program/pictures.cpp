@@ -4,6 +4,7 @@
 #include <array>
 #include <catch2/catch.hpp>
 #include <chrono>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <thread>
 
@@ -263,6 +264,38 @@ TEST_CASE("program: a run that needs more substeps is told so", "[program]") {
     const json fall = json::parse(run_scree("run avalanche --bodies 800 --backend cpu --seconds 5 --report -").output);
     INFO(fall["advice"].dump(1));
     for (const json& advice : fall["advice"]) REQUIRE_FALSE(says(advice["finding"].get<std::string>(), "penetration"));
+}
+
+// A ball without friction that bounces in a trough of fine facets, a known limit (README.md), doubles its energy.
+TEST_CASE("program: energy that grows without a cause is told", "[program]") {
+    const Place place;
+    const auto trough = [&](const char* name, double restitution) {
+        const double radius = 2, pi = 3.14159265358979;
+        json bodies = json::array();
+        for (int i = 0; i < 64; ++i) {
+            const double angle = pi * ((i + 0.5) / 64 - 0.5), out = radius + 0.3;
+            bodies.push_back({{"motion", "fixed"},
+                              {"shape", {{"box", {{"half_extents", {radius * std::tan(pi / 128), 0.3, 1}}}}}},
+                              {"position", {out * std::sin(angle), -out * std::cos(angle), 0}},
+                              {"orientation", {0, 0, std::sin(angle / 2), std::cos(angle / 2)}},
+                              {"friction", 0},
+                              {"restitution", restitution}});
+        }
+        bodies.push_back({{"shape", {{"sphere", {{"radius", 0.2}}}}},
+                          {"position", {1.8 * std::sin(0.87), -1.8 * std::cos(0.87), 0}},
+                          {"friction", 0},
+                          {"restitution", restitution}});
+        return place.write(name, json({{"bodies", bodies}}).dump());
+    };
+    const auto advice = [](const std::string& file) {
+        return json::parse(
+                   run_scree("run '" + file + "' --backend cpu --threads 1 --seconds 25 --no-sleep --report - ").output)["advice"]
+            .dump();
+    };
+    const std::string wins = advice(trough("elastic.json", 1)), loses = advice(trough("dull.json", 0.3));
+    CAPTURE(wins, loses);
+    CHECK(says(wins, "energy grew without a cause"));
+    CHECK_FALSE(says(loses, "energy grew"));
 }
 
 TEST_CASE("program: what bears too much is named, with the substeps that hold it", "[program]") {
