@@ -88,10 +88,9 @@ void compact_contacts(State& state, const Threads& threads, std::uint32_t) {
         c.pair = static_cast<std::uint32_t>(i);
         c.slot_a = c.slot_b = physics::NONE;
         if (!state.reordered()) return;
-        // Temporarily the owner's id, by which sort_slots orders; prepare_contacts overwrites it.
         const physics::Pair& pair = state.pairs[i];
         const bool is_a = state.pair_starts[pair.a] <= i && i < state.pair_starts[pair.a + 1];
-        c.a = state.id_of(is_a ? pair.a : pair.b);
+        state.contact_owners[state.contact_starts[i]] = state.id_of(is_a ? pair.a : pair.b);
     });
 }
 
@@ -136,7 +135,7 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
         // joints last.
         const auto key = [&](std::uint32_t side) {
             const bool of_joint = (side & physics::OF_JOINT) != 0;
-            return std::pair(of_joint ? physics::NONE : state.constraints[side / 2].a, side);
+            return std::pair(of_joint ? physics::NONE : state.contact_owners[side / 2], side);
         };
         const auto sides = state.slot_sides.begin();
         if (state.reordered())

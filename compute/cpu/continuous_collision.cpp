@@ -105,7 +105,7 @@ void clamp_to_impact(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state)) return;
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const float stop = physics::stop_of(state.bounds[i].sweep);
-        if (stop >= 1 || state.properties[i].joints != physics::NONE) return;
+        if (stop >= 1) return;
         const physics::ClampedMotion after =
             physics::clamp_motion(state.bounds[i].sweep, state.poses[i], state.velocities[i], state.forces[i], stop);
         state.poses[i] = after.pose;

@@ -40,6 +40,7 @@ public:
 
     std::span<Joint> joints() const { return joints_; }
     std::span<BlockBody> bodies() const { return members_; }
+    std::size_t first_body() const { return block_.first_body; }
     physics::uint& restless() const { return block_.restless; }
     bool moves() const {
         return std::any_of(members_.begin(), members_.end(), [](const BlockBody& body) { return body.slot != physics::NONE; });

@@ -113,6 +113,46 @@ void wake_joined(State& state, const Threads& threads, std::uint32_t wakes) {
     });
 }
 
+void share_stops(State& state, const Threads& threads, std::uint32_t pass) {
+    if (state.counted().fast == 0) return;
+    const std::size_t written = 1 - pass / 2 % 2, other = 1 - written;
+    const auto stop = [&](const BlockBody& member, std::size_t k) {
+        return std::atomic_ref(state.bounds[member.body].sweep.stops[k]);
+    };
+    const auto lower = [](std::atomic_ref<physics::uint> value, physics::uint to) {
+        physics::uint was = value.load(std::memory_order_relaxed);
+        while (to < was && !value.compare_exchange_weak(was, to, std::memory_order_relaxed)) continue;
+    };
+    for_each_block(state, threads, [&](JointBlock block) {
+        const std::span<BlockBody> members = block.bodies();
+        if (pass % 2 != 0) {
+            for (const BlockBody& member : members)
+                lower(stop(member, written), stop(member, other).load(std::memory_order_relaxed));
+            return;
+        }
+        physics::uint stops[2 * physics::MAX_BLOCK_JOINTS];
+        bool some = false;
+        for (std::size_t m = 0; m < members.size(); ++m) {
+            stops[m] = stop(members[m], written).load(std::memory_order_relaxed);
+            some = some || physics::uintBitsToFloat(stops[m]) < 1;
+        }
+        const std::size_t first = block.first_body();
+        for (bool changed = some; changed;) {
+            changed = false;
+            block.for_each_whole([&](const Joint& joint) {
+                if (joint.block_body_a == NONE || joint.block_body_b == NONE) return;
+                physics::uint &a = stops[joint.block_body_a - first], &b = stops[joint.block_body_b - first];
+                const physics::uint least = std::min(a, b);
+                if (a == b || physics::uintBitsToFloat(least) >= 1) return;
+                a = b = least;
+                changed = true;
+            });
+        }
+        if (!some) return;
+        for (std::size_t m = 0; m < members.size(); ++m) lower(stop(members[m], other), stops[m]);
+    });
+}
+
 void count_joint_slots(State& state, const Threads& threads, std::uint32_t) {
     const auto gone = [&](physics::uint body) { return body != NONE && physics::is_out_of_play(state.properties[body].motion); };
     for_each_block(state, threads, [&](const JointBlock& block) {

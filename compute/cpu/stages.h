@@ -60,6 +60,7 @@ SCREE_STAGE(relax_contacts);  // pass: 1 in the last substep, 2 in the first, 4 
 
 // joints.cpp
 SCREE_STAGE(wake_joined);
+SCREE_STAGE(share_stops);
 SCREE_STAGE(count_joint_slots);
 SCREE_STAGE(fill_joint_slots);
 SCREE_STAGE(prepare_joints);

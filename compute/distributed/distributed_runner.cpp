@@ -70,7 +70,8 @@ void DistributedRunner::adapt() {
         if (name == "begin_substep") after_[i] = Talk::velocities;
         if (name == "move_bodies") after_[i] = Talk::motion;
         if (name == "end_step") after_[i] = Talk::ends;
-        if (starts_with(name, "find_impacts")) after_[i] = Talk::stops;
+        if (starts_with(name, "find_impacts") && !planned_features_.joints) after_[i] = Talk::stops;
+        if (name == "share_stops" && plan_[i].pass % 2 == 1) after_[i] = Talk::stops;
         if (name == "find_broken") after_[i] = Talk::kept;
         if (name == "break_bodies") before_[i] = Talk::broken;
     }

@@ -45,7 +45,7 @@ private:
         velocities,  // after begin_substep
         motion,      // after move_bodies
         ends,        // after end_step: whether some body is fast, and then poses and sweeps
-        stops,       // after each round of find_impacts, if some body is fast
+        stops,       // after each round of find_impacts, with joints of share_stops, if some body is fast
         kept,        // after find_broken, if some body breaks
         broken       // before break_bodies: every rank breaks the bodies of all
     };

@@ -13,7 +13,7 @@ namespace scree {
 // than this, or one whose elimination of a joint would fill in more than MAX_FILL_IN others, is cut in two; the parts
 // share bodies like contacts (mass splitting). One thread works on a block, so larger ones would keep the others
 // waiting.
-constexpr std::size_t most_joints_of_block = 128;
+constexpr std::size_t most_joints_of_block = physics::MAX_BLOCK_JOINTS;
 
 struct JointTables {
     std::vector<physics::Joint> joints;

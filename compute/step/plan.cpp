@@ -131,8 +131,10 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     }
     s.add("end_step");
     // continuous collision
-    for (std::uint32_t round = 0; round < physics::CCD_ROUNDS; ++round)
+    for (std::uint32_t round = 0; round < physics::CCD_ROUNDS; ++round) {
         s.add(convex ? "find_impacts_convex" : "find_impacts", round);
+        for (std::uint32_t half = 0; features.joints && half < 2; ++half) s.add("share_stops", 2 * round + half);
+    }
     s.add("clamp_to_impact");
     if (features.moving_parts) s.add("pose_parts");
     // fracture

@@ -135,7 +135,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     declare_scan(all, {"contacts", DispatchDomain::pair_scan_blocks, point_counts, contact_starts, A::pairs, scan_contacts_spine, scan_contacts_offsets, true, true});
     all.push_back({"compact_contacts", DispatchDomain::pairs, compact_contacts,
         {{counts}, {point_counts, A::pairs}, {contact_starts, A::pairs}, {pairs}, {pair_starts}, {ids}},
-        {unfinished({constraints, A::contacts, 1})}, physics::FEATURE_REORDERED});
+        {unfinished({constraints, A::contacts, 1}), {contact_owners, A::contacts}}, physics::FEATURE_REORDERED});
     // Waking stages read only those bits of the sleep states that waking does not change, and counts that they do not
     // write.
     all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
@@ -166,7 +166,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {in_parts({counts}), {joint_blocks, A::joints}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
     all.push_back({"sort_slots", DispatchDomain::bodies, sort_slots,
-        {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {constraints}},
+        {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {contact_owners, A::contacts}, {constraints, A::contacts, 1}},
         {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {block_bodies}}, physics::FEATURE_REORDERED});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
@@ -238,8 +238,11 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {pairs, A::ccd_pairs}, {bounds, A::ccd_bodies, 1}, {properties}, {parts}, {poses}, {point_counts}},
         {{bounds}}});
     declare_convex(all);
+    all.push_back({"share_stops", DispatchDomain::joint_blocks, share_stops,
+        {{counts}, {joint_blocks, A::ccd_bodies}, {joints}, {block_bodies, A::ccd_bodies, 1}, {bounds, A::ccd_bodies, 1}},
+        {{bounds}}});
     all.push_back({"clamp_to_impact", DispatchDomain::bodies, clamp_to_impact,
-        {{counts}, {bounds, A::ccd_bodies, 1}, {properties}, {poses}, {velocities}, {forces}},
+        {{counts}, {bounds, A::ccd_bodies, 1}, {poses}, {velocities}, {forces}},
         {{poses}, {velocities}}});
     all.push_back({"find_broken", DispatchDomain::bodies, find_broken,
         {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solver_contacts}, {velocities}, {fractures}, {strains}, {ids}, {copy_states}},

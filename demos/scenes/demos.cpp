@@ -76,6 +76,7 @@ const std::vector<Demo>& all_demos() {
         {"tumbling", "free boxes turn over and keep angular momentum and energy", 3, false, tumbling, true},
         {"swarm", "bodies colliding in empty space keep their momentum", 64, false, swarm, true},
         {"shots", "fast spheres and boxes do not pass a thin wall", 10000, true, shots, true},
+        {"joinedshots", "fast bodies on joints do not pass a thin wall", 4000, true, joinedshots, true},
         {"strikes", "fast spheres and boxes do not pass thin plates or small bodies", 1500, true, strikes, true},
         {"blows", "elastic impacts of rows, of joined balls and of pendulums keep their energy", 67, false, blows, true},
         {"pairs", "balls that meet off centre keep their energy", 40, false, pairs, true},

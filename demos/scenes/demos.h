@@ -106,6 +106,7 @@ DemoScene bounce(const DemoOptions&);
 DemoScene tumbling(const DemoOptions&);
 DemoScene swarm(const DemoOptions&);
 DemoScene shots(const DemoOptions&);
+DemoScene joinedshots(const DemoOptions&);
 DemoScene strikes(const DemoOptions&);
 DemoScene blows(const DemoOptions&);
 DemoScene pairs(const DemoOptions&);

@@ -108,6 +108,54 @@ DemoScene shots(const DemoOptions& options) {
     return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
 }
 
+// Pairs and chains of two to six bodies on joints, flying and spinning as one, at the same wall: balls, hinges and fixed
+// joints in turn.
+DemoScene joinedshots(const DemoOptions& options) {
+    constexpr float thin = 0.025f, seconds = 0.4f, apart = 0.12f;
+    const std::size_t groups = std::max<std::size_t>(1, options.bodies / 4);
+    const Front front = front_for(groups);
+    Random random(options.seed);
+    Scene scene;
+    scene.gravity = vec3(0);
+    std::vector<Shot> shots;
+    const auto add_piece = [&](std::size_t i) {
+        scene.bodies.push_back(fixed_box(front.middle(i), {cell / 2, cell / 2, thin}, wall_friction));
+        return scene.bodies.size() - 1;
+    };
+    for (std::size_t i = 0; i < groups; ++i) {
+        const std::size_t piece = add_piece(i);
+        const vec3 aim = some_aim(1, random);
+        const vec3 velocity = aim * some_speed(random);
+        const vec3 spin = random.between(-20, 20) * physics::rotate(random.orientation(), vec3(1, 0, 0));
+        vec3 along = physics::rotate(random.orientation(), vec3(1, 0, 0));
+        along.z = std::abs(along.z);  // the first link is the nearest to the wall
+        const vec3 start = front.middle(i) + some_place(0.2f, random) - aim * (random.between(0.15f, 0.45f) / -aim.z);
+        for (std::size_t k = 0; k < 2 + i % 5; ++k) {
+            Body link = some_shot(i, random);
+            link.orientation = vec4(0, 0, 0, 1);
+            const vec3 from_first = along * (apart * static_cast<float>(k));
+            link.position = start + from_first;
+            link.velocity = velocity + glm::cross(spin, from_first);
+            link.angular_velocity = spin;
+            if (k > 0) {
+                Joint joint;
+                if (i % 3 == 1) joint.kind = Hinge{};
+                if (i % 3 == 2) joint.kind = Fixed{};
+                joint.a = scene.bodies.size() - 1;
+                joint.b = scene.bodies.size();
+                joint.anchor_a = along * (apart / 2);
+                joint.anchor_b = -joint.anchor_a;
+                scene.joints.push_back(joint);
+            }
+            shots.push_back({scene.bodies.size(), piece, {0, 0, 1}, thin, false});
+            scene.bodies.push_back(link);
+        }
+    }
+    for (std::size_t i = groups; i < front.places(); ++i) add_piece(i);  // fill the last row
+    add_margin(scene, front, thin, seconds);
+    return finish(std::move(scene), front, "pairs and chains on joints at a wall 5 cm thick", std::move(shots), seconds);
+}
+
 // Movable targets: plates 0.04 m thick of 50 kg and 4 kg, a sphere and a box as large as the projectiles, of 0.5 and
 // 1 kg. Projectiles with restitution move away from the target's centre, however it rotates; those without hit a
 // plate straight and rotate with it.

@@ -9,7 +9,7 @@ void main() {
     uint i = thread();
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.fast == 0u) return;
     float stop = stop_of(READ(bounds, i).sweep);
-    if (stop >= 1.0f || READ(properties, i).joints != NONE) return;
+    if (stop >= 1.0f) return;
     ClampedMotion after = clamp_motion(READ(bounds, i).sweep, poses.at[i], velocities.at[i], READ(forces, i), stop);
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;

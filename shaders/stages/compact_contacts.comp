@@ -12,8 +12,7 @@ void main() {
     constraints.at[contact].slot_a = NONE;
     constraints.at[contact].slot_b = NONE;
     if (!REORDERED) return;
-    // Temporarily the owner's id, by which sort_slots orders; prepare_contacts overwrites it.
     Pair pair = READ(pairs, i);
     bool is_a = READ_WORD(pair_starts, pair.a) <= i && i < READ_WORD(pair_starts, pair.a + 1u);
-    constraints.at[contact].a = id_of(is_a ? pair.a : pair.b);
+    WORD(contact_owners, contact) = id_of(is_a ? pair.a : pair.b);
 }

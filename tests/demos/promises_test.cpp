@@ -16,7 +16,7 @@ const std::vector<std::string> standing = {"tower",      "stack20", "stack80", "
                                            "heaviertop", "cards",   "jenga",   "scales",     "coins"};
 const std::vector<std::string> moving = {"onset",     "hold",    "steep",  "rolling",   "bounce",   "tumbling", "swarm",
                                          "shots",     "strikes", "solids", "compounds", "rollmesh", "yaw",      "spins",
-                                         "turntable", "blows",   "pairs",  "plough",    "arches",   "capstan"};
+                                         "turntable", "blows",   "pairs",  "plough",    "arches",   "capstan",  "joinedshots"};
 const std::vector<std::string> heaps = {"pile",    "mix",     "avalanche", "assortment", "mix1m",   "bins",
                                         "overlap", "terrain", "mesh",      "calm",       "fountain"};
 const std::vector<std::string> buildings = {"wall", "pyramid"};

@@ -59,6 +59,41 @@ Scene shots(int count, float speed, bool tiles, std::uint32_t seed) {
     return scene;
 }
 
+// Pairs and chains on joints, a step and a half from the wall.
+Scene joined_shots(int groups, float speed, std::uint32_t seed) {
+    tests::Noise noise(seed);
+    Scene scene;
+    build_wall(scene, false);
+    for (int i = 0; i < groups; ++i) {
+        vec3 direction = noise.vector() * 1.7f;
+        direction.x = 1;
+        const vec3 velocity = glm::normalize(direction) * speed, spin = noise.vector() * 10.0f;
+        vec3 along = glm::normalize(noise.vector() + vec3(1e-3f, 0, 0));
+        along.x = -std::abs(along.x);
+        const vec3 start(-0.3f - (0.75f + 0.75f * noise()) * velocity.x * dt, 3 * static_cast<float>(i % 8 - 4),
+                         3 * static_cast<float>(i / 8 % 8 - 4));
+        for (int k = 0; k < 2 + i % 5; ++k) {
+            Body link;
+            link.shape = i % 2 == 0 ? Shape(Sphere{0.1f}) : Shape(Box{vec3(0.1f, 0.03f, 0.06f)});
+            link.position = start + along * (0.24f * static_cast<float>(k));
+            link.velocity = velocity + glm::cross(spin, link.position - start);
+            link.angular_velocity = spin;
+            if (k > 0) {
+                Joint joint;
+                if (i % 3 == 1) joint.kind = Hinge{};
+                if (i % 3 == 2) joint.kind = Fixed{};
+                joint.a = scene.bodies.size() - 1;
+                joint.b = scene.bodies.size();
+                joint.anchor_a = along * 0.12f;
+                joint.anchor_b = -joint.anchor_a;
+                scene.joints.push_back(joint);
+            }
+            scene.bodies.push_back(link);
+        }
+    }
+    return scene;
+}
+
 // Counts bodies whose centre crossed the wall's front within `wall_reach` (m) of its centre; beyond its edge they
 // may.
 int entered(const Scene& scene, int steps, float wall_reach) {
@@ -91,5 +126,41 @@ TEST_CASE("no shot at a thin wall goes through") {
             CAPTURE(tiles, speed);
             CHECK(through == 0);
         }
+    }
+}
+
+TEST_CASE("no shot of bodies on joints goes through") {
+    for (const float speed : {3.0f, 12.0f, 50.0f, 150.0f, 300.0f}) {
+        int through = 0;
+        for (const std::uint32_t seed : {1u, 2u, 3u}) through += entered(joined_shots(64, speed, seed), 60, 99.9f);
+        CAPTURE(speed);
+        CHECK(through == 0);
+    }
+}
+
+// The wall stops the lower of two balls on a rod of 2 m: clamped alone it would leave the upper one to fly on.
+TEST_CASE("bodies on joints are clamped together") {
+    Scene scene;
+    scene.gravity = vec3(0);
+    build_wall(scene, false);
+    for (const float x : {-10.0f, -12.0f}) {
+        Body ball;
+        ball.shape = Sphere{0.1f};
+        ball.position = vec3(x, 0, 0);
+        ball.velocity = vec3(300, 0, 0);
+        scene.bodies.push_back(ball);
+    }
+    Joint rod;
+    rod.kind = Distance{2, 2};
+    rod.a = 1;
+    rod.b = 2;
+    scene.joints.push_back(rod);
+    World world(scene, {}, 1);
+    for (int step = 0; step < 30; ++step) {
+        world.step();
+        const std::vector<BodyState> now = world.bodies();
+        CAPTURE(step);
+        CHECK(now[1].position.x < -half_wall);
+        CHECK(glm::distance(now[1].position, now[2].position) == Approx(2).margin(0.05));
     }
 }

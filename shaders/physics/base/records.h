@@ -352,6 +352,7 @@ struct JointBlock {
     uint unsettled;            // 1: an active set changed in the last round of the pass
     uint pad0, pad1;
 };
+CONSTANT uint MAX_BLOCK_JOINTS = 128u;
 // A dynamic body in a block; one of several if blocks share the body.
 struct BlockBody {
     uint body;
@@ -485,7 +486,8 @@ struct Parameters {  // uniform over a step
     uint copy_states_offset;
     uint gravities_offset;
     uint copies;  // of the scene, at least 1 (copies.h)
-    uint pad0, pad1, pad2;
+    uint contact_owners_offset;
+    uint pad0, pad1;
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air

@@ -5,7 +5,8 @@
 // measures: speculative contacts only for those that will meet (shaders/stages/predict_impacts.comp); after the last
 // substep, clamping where sweeps meet (find_impacts.comp), or where a body leaves the bounds of its broadphase search.
 // A clamped body keeps its velocity and moves on in the next step, which finds its contact (as in Box2D and Box3D: Erin
-// Catto, Continuous Collision, GDC 2013).
+// Catto, Continuous Collision, GDC 2013). Bodies on joints are clamped together, at the earliest time of impact of any
+// (share_stops.comp): one alone would tear its joint open (limbs of falling figures were 0.5 m apart).
 #ifndef SCREE_PHYSICS_SWEEP_H
 #define SCREE_PHYSICS_SWEEP_H
 
@@ -39,8 +40,8 @@ LAW bool in_motion(Velocity v) {
     return v.linear.x != 0.0f || v.linear.y != 0.0f || v.linear.z != 0.0f || v.angular.x != 0.0f || v.angular.y != 0.0f ||
            v.angular.z != 0.0f;
 }
-// Whether a body at this velocity will be fast. Jointed bodies never are: clamping one alone would tear its joint open
-// (limbs of falling figures were 0.5 m apart), and speculative contacts hold them back.
+// Whether a body at this velocity will be fast, so that its doubtful contacts are left to the time of impact. Bodies on
+// joints keep all of theirs, which hold most of them back without a clamp of the whole mechanism.
 LAW bool will_be_fast(BodyProperties properties, Velocity velocity, Parameters parameters) {
     if (!in_motion(velocity) || properties.joints != NONE) return false;
     float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(properties);
@@ -121,7 +122,7 @@ LAW float stop_of(Sweep sweep) {
 LAW bool was_fast(BodyProperties properties, Sweep sweep, Pose end) {
     vec4 turn = turn_between(sweep.orientation, end.orientation);
     float way = length3(end.position - sweep.position) + turning_of(sweep.orientation, turn) * lever_of(properties);
-    return way > ccd_threshold(properties) && properties.joints == NONE;
+    return way > ccd_threshold(properties);
 }
 
 // The fraction of a displacement `way` along one axis that lies between -back and ahead (both may be negative: then 0).

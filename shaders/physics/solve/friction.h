@@ -33,16 +33,18 @@ LAWS_BEGIN
 // Rolling resistance: an angular impulse against the relative angular velocity, at most rolling_resistance times the
 // normal impulse. As friction, it opposes the rotation that it cannot stop.
 LAW SolveResult solve_rolling(Constraint c, SolveResult s, float normal, Mass a, Mass b) {
-    Mass k;
-    k.xx = a.xx * a.split + b.xx * b.split;
-    k.xy = a.xy * a.split + b.xy * b.split;
-    k.xz = a.xz * a.split + b.xz * b.split;
-    k.yy = a.yy * a.split + b.yy * b.split;
-    k.yz = a.yz * a.split + b.yz * b.split;
-    k.zz = a.zz * a.split + b.zz * b.split;
+    float xy_entry = a.xy * a.split + b.xy * b.split;
+    float xz_entry = a.xz * a.split + b.xz * b.split;
+    float yz_entry = a.yz * a.split + b.yz * b.split;
+    // Rows of the inverse effective mass.
+    vec3 x = vec3(a.xx * a.split + b.xx * b.split, xy_entry, xz_entry);
+    vec3 y = vec3(xy_entry, a.yy * a.split + b.yy * b.split, yz_entry);
+    vec3 z = vec3(xz_entry, yz_entry, a.zz * a.split + b.zz * b.split);
     // Scaled by the trace: the determinant of a small body's tensor leaves the range of a float.
-    float unit = reciprocal((k.xx + k.yy) + k.zz);
-    vec3 x = vec3(k.xx, k.xy, k.xz) * unit, y = vec3(k.xy, k.yy, k.yz) * unit, z = vec3(k.xz, k.yz, k.zz) * unit;
+    float unit = reciprocal((x.x + y.y) + z.z);
+    x = x * unit;
+    y = y * unit;
+    z = z * unit;
     vec3 yz = cross3(y, z), zx = cross3(z, x), xy = cross3(x, y);
     float determinant = reciprocal(dot3(x, yz));
     vec3 spin = (s.pair_velocity.b.angular - s.pair_velocity.a.angular) * unit;

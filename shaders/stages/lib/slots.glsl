@@ -39,8 +39,8 @@ void fill_slots_of(uint contact) {
 bool comes_before(uint side, uint other) {
     if (!REORDERED) return side < other;
     uint owner = NONE, other_owner = NONE;
-    if ((side & OF_JOINT) == 0u) owner = constraints.at[side >> 1].a;
-    if ((other & OF_JOINT) == 0u) other_owner = constraints.at[other >> 1].a;
+    if ((side & OF_JOINT) == 0u) owner = READ_WORD(contact_owners, side >> 1);
+    if ((other & OF_JOINT) == 0u) other_owner = READ_WORD(contact_owners, other >> 1);
     return owner < other_owner || (owner == other_owner && side < other);
 }
 #define SORT_GET(i) WORD(slot_sides, i)

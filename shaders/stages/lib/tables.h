@@ -38,24 +38,25 @@
 
 // Lists that are counted, scanned and filled are named after their final content; earlier contents have names of their
 // own (SCREE_VIEWS).
-#define SCREE_WORD_TABLES(X)                                                                                                \
-    X(24, cell_ends, WordsTable, uint, buckets)             /* end of each bucket in cell_entries */                        \
-    X(24, pair_starts, WordsTable, uint, bodies_and_end)    /* first pair that each row owns */                             \
-    X(24, slot_ends, WordsTable, uint, bodies_and_end)      /* end of each body's slots */                                  \
-    X(24, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */ \
-    X(24, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */              \
-    X(24, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                        \
-    X(24, strains, WordsTable, float, bodies)    /* last step's impulse or momentum of breakable bodies: fracture.h */      \
-    X(24, point_counts, WordsTable, uint, pairs) /* points of each pair's manifold; with SPECULATIVE */                     \
-    X(24, pairs_by_type, WordsTable, uint, pairs)                                                                           \
-    X(24, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                       \
-    X(24, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */             \
-    X(24, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                      \
-    X(24, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */      \
-    X(24, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */ \
-    X(24, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */       \
-    X(24, scan_sums, WordsTable, uint, scan_blocks)                                                                         \
-    X(24, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                         \
+#define SCREE_WORD_TABLES(X)                                                                                                  \
+    X(24, cell_ends, WordsTable, uint, buckets)             /* end of each bucket in cell_entries */                          \
+    X(24, pair_starts, WordsTable, uint, bodies_and_end)    /* first pair that each row owns */                               \
+    X(24, slot_ends, WordsTable, uint, bodies_and_end)      /* end of each body's slots */                                    \
+    X(24, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */   \
+    X(24, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */                \
+    X(24, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                          \
+    X(24, strains, WordsTable, float, bodies)    /* last step's impulse or momentum of breakable bodies: fracture.h */        \
+    X(24, point_counts, WordsTable, uint, pairs) /* points of each pair's manifold; with SPECULATIVE */                       \
+    X(24, pairs_by_type, WordsTable, uint, pairs)                                                                             \
+    X(24, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                         \
+    X(24, contact_owners, WordsTable, uint, contacts)      /* if rows are reordered: id of the body that owns each contact */ \
+    X(24, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */               \
+    X(24, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                        \
+    X(24, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */        \
+    X(24, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */   \
+    X(24, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */         \
+    X(24, scan_sums, WordsTable, uint, scan_blocks)                                                                           \
+    X(24, births, WordsTable, uint, copies)      /* step in which each copy began anew: copies.h */                           \
     X(24, copy_states, WordsTable, uint, copies) /* COPY_* of this step */
 
 #define SCREE_QUAD_TABLES(X)                                                                                  \
