@@ -89,15 +89,21 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
             if (round > 0) lower(sweep.stops[next], sweep.stops[now]);
         }
         if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
+        bool clamps[2];
+        for (int side = 0; side < 2; ++side)
+            clamps[side] = physics::may_clamp(state.bounds[bodies[side]].sweep, stops[side], state.properties[bodies[1 - side]],
+                                              state.point_counts[i]);
+        if (!clamps[0] && !clamps[1]) return;
+        const auto joined = [&](int side) { return state.properties[bodies[side]].joints != physics::NONE; };
+        const bool only_joined = (!clamps[0] || joined(0)) && (!clamps[1] || joined(1));
         const physics::BodyProperties &ta = state.properties[rows[0]], &tb = state.properties[rows[1]];
         const physics::Impact impact = physics::impact_of(
             ta, course(state, rows[0], stops[0]), tb, course(state, rows[1], stops[1]),
-            physics::limits_of(ta, tb, physics::contact_state_of(state.point_counts[i], stops[0], stops[1]), state.fixed()),
+            physics::limits_of(ta, tb, physics::contact_state_of(state.point_counts[i], stops[0], stops[1], only_joined),
+                               state.fixed()),
             false, state.hull_table());
         for (int side = 0; side < 2; ++side)
-            if (stops[side] <= 1 && !physics::is_driven_by(state.bounds[bodies[side]].sweep, state.properties[bodies[1 - side]],
-                                                           state.point_counts[i]))
-                lower(state.bounds[bodies[side]].sweep.stops[next], physics::floatBitsToUint(impact.fraction));
+            if (clamps[side]) lower(state.bounds[bodies[side]].sweep.stops[next], physics::floatBitsToUint(impact.fraction));
     });
 }
 

@@ -135,7 +135,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     declare_scan(all, {"contacts", DispatchDomain::pair_scan_blocks, point_counts, contact_starts, A::pairs, scan_contacts_spine, scan_contacts_offsets, true, true});
     all.push_back({"compact_contacts", DispatchDomain::pairs, compact_contacts,
         {{counts}, {point_counts, A::pairs}, {contact_starts, A::pairs}, {pairs}, {pair_starts}, {ids}},
-        {unfinished({constraints, A::contacts, 1}), {contact_owners, A::contacts}}, physics::FEATURE_REORDERED});
+        {unfinished({constraints, A::contacts, 1}), unfinished({contact_owners, A::contacts})}, physics::FEATURE_REORDERED});
     // Waking stages read only those bits of the sleep states that waking does not change, and counts that they do not
     // write.
     all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
@@ -166,7 +166,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {in_parts({counts}), {joint_blocks, A::joints}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
     all.push_back({"sort_slots", DispatchDomain::bodies, sort_slots,
-        {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {contact_owners, A::contacts}, {constraints, A::contacts, 1}},
+        {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {contact_owners, A::contacts}},
         {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {block_bodies}}, physics::FEATURE_REORDERED});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},

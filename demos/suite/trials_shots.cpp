@@ -108,11 +108,11 @@ DemoScene shots(const DemoOptions& options) {
     return finish(std::move(scene), front, "shots at a wall 5 cm thick", std::move(shots), seconds);
 }
 
-// Pairs and chains of two to six bodies on joints, flying and spinning as one, at the same wall: balls, hinges and fixed
+// Pairs and chains of two to five bodies on joints, flying and spinning as one, at the same wall: balls, hinges and fixed
 // joints in turn.
 DemoScene joinedshots(const DemoOptions& options) {
-    constexpr float thin = 0.025f, seconds = 0.4f, apart = 0.12f;
-    const std::size_t groups = std::max<std::size_t>(1, options.bodies / 4);
+    constexpr float thin = 0.025f, seconds = 0.4f, apart = 0.11f;
+    const std::size_t groups = std::max<std::size_t>(1, 2 * options.bodies / 7);
     const Front front = front_for(groups);
     Random random(options.seed);
     Scene scene;
@@ -124,13 +124,12 @@ DemoScene joinedshots(const DemoOptions& options) {
     };
     for (std::size_t i = 0; i < groups; ++i) {
         const std::size_t piece = add_piece(i);
-        const vec3 aim = some_aim(1, random);
+        const vec3 aim = some_aim(0.5f, random);
         const vec3 velocity = aim * some_speed(random);
         const vec3 spin = random.between(-20, 20) * physics::rotate(random.orientation(), vec3(1, 0, 0));
-        vec3 along = physics::rotate(random.orientation(), vec3(1, 0, 0));
-        along.z = std::abs(along.z);  // the first link is the nearest to the wall
-        const vec3 start = front.middle(i) + some_place(0.2f, random) - aim * (random.between(0.15f, 0.45f) / -aim.z);
-        for (std::size_t k = 0; k < 2 + i % 5; ++k) {
+        const vec3 along = -some_aim(1, random);  // the first link is the nearest to the wall
+        const vec3 start = front.middle(i) + some_place(0.05f, random) - aim * (random.between(0.15f, 0.45f) / -aim.z);
+        for (std::size_t k = 0; k < 2 + i % 4; ++k) {
             Body link = some_shot(i, random);
             link.orientation = vec4(0, 0, 0, 1);
             const vec3 from_first = along * (apart * static_cast<float>(k));

@@ -23,6 +23,11 @@ void main() {
         if (!(stop_a < 1.0f || stop_b < 1.0f)) return;
     }
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
+    uint points = READ_WORD(point_counts, i);
+    bool clamps_a = may_clamp(bounds.at[a].sweep, stop_a, tb, points);
+    bool clamps_b = may_clamp(bounds.at[b].sweep, stop_b, ta, points);
+    if (!clamps_a && !clamps_b) return;
+    bool joined = (!clamps_a || ta.joints != NONE) && (!clamps_b || tb.joints != NONE);
     MotionPath ca = path_of(ta, bounds.at[a].sweep.position, bounds.at[a].sweep.orientation, READ(poses, a), stop_a);
     MotionPath cb = path_of(tb, bounds.at[b].sweep.position, bounds.at[b].sweep.orientation, READ(poses, b), stop_b);
     if (row_a != a) {
@@ -33,13 +38,9 @@ void main() {
         tb = READ(properties, row_b);
         cb = path_of_part(tb, part_in(row_b), cb);
     }
-    float fraction =
-        impact_of(ta, ca, tb, cb, limits_of(ta, tb, contact_state_of(READ_WORD(point_counts, i), stop_a, stop_b), PARAMETERS),
-                  false, Hulls(0u))
-            .fraction;
-    uint points = READ_WORD(point_counts, i);
-    bool driven_a = is_driven_by(bounds.at[a].sweep, READ(properties, b), points);
-    bool driven_b = is_driven_by(bounds.at[b].sweep, READ(properties, a), points);
-    if (stop_a <= 1.0f && !driven_a) atomicMin(bounds.at[a].sweep.stops[next], floatBitsToUint(fraction));
-    if (stop_b <= 1.0f && !driven_b) atomicMin(bounds.at[b].sweep.stops[next], floatBitsToUint(fraction));
+    float fraction = impact_of(ta, ca, tb, cb, limits_of(ta, tb, contact_state_of(points, stop_a, stop_b, joined), PARAMETERS),
+                               false, Hulls(0u))
+                         .fraction;
+    if (clamps_a) atomicMin(bounds.at[a].sweep.stops[next], floatBitsToUint(fraction));
+    if (clamps_b) atomicMin(bounds.at[b].sweep.stops[next], floatBitsToUint(fraction));
 }

@@ -75,6 +75,10 @@ LAW bool drives(BodyProperties properties, Velocity velocity, Parameters paramet
 LAW bool is_driven_by(Sweep sweep, BodyProperties by, uint contact_points) {
     return (sweep.struck & DRIVEN) != 0u && by.motion == MOTION_KINEMATIC && contact_points > 0u;
 }
+// Whether a pair may clamp the one body.
+LAW bool may_clamp(Sweep sweep, float stop, BodyProperties by, uint contact_points) {
+    return stop <= 1.0f && !is_driven_by(sweep, by, contact_points);
+}
 // Whether contacts of the body are to be predicted.
 LAW bool will_sweep(BodyProperties properties, Velocity velocity, Parameters parameters) {
     return will_be_fast(properties, velocity, parameters) || drives(properties, velocity, parameters);

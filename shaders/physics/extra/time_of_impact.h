@@ -33,6 +33,11 @@ struct MotionPath {
     PoseInBody part;  // pose in the body that moves
     uint of_part;     // 1: it is a part
 };
+// The part of a shape's turning that moves its surface: those of revolution stand still as they spin about their own axis.
+// (Bounded by its spin, a wheel that landed at 9 m/s ran out of rounds, and was clamped where it touched.)
+LAW float off_axis(uint shape, vec3 axis, vec4 orientation) {
+    return has_straight_side(shape) ? length3(cross3(axis, upright(orientation))) : 1.0f;
+}
 LAW MotionPath path_of(BodyProperties properties, vec3 start, vec4 orientation, Pose end, float until) {
     MotionPath course;
     course.start = start;
@@ -43,8 +48,7 @@ LAW MotionPath path_of(BodyProperties properties, vec3 start, vec4 orientation, 
     vec4 step_turn = compose(orientation + course.turn, conjugate(orientation));
     course.axis = unit3(vec3(step_turn.x, step_turn.y, step_turn.z), vec3(0.0f, 1.0f, 0.0f));
     course.sweep = turning_of(orientation, course.turn) * lever_of(properties);
-    course.most = course.sweep;
-    if (properties.shape == SHAPE_CAPSULE) course.most = course.sweep * length3(cross3(course.axis, upright(orientation)));
+    course.most = course.sweep * off_axis(properties.shape, course.axis, orientation);
     course.part.position = vec3(0.0f);
     course.part.pad0 = 0.0f;
     course.part.orientation = vec4(0.0f);
@@ -54,8 +58,10 @@ LAW MotionPath path_of(BodyProperties properties, vec3 start, vec4 orientation, 
 // The path of a part from that of its body.
 LAW MotionPath path_of_part(BodyProperties properties, PoseInBody part, MotionPath body) {
     MotionPath course = body;
-    course.sweep = turning_of(body.orientation, body.turn) * (length3(part.position) + lever_of(properties));
-    course.most = course.sweep;
+    float turning = turning_of(body.orientation, body.turn), lever = lever_of(properties);
+    course.sweep = turning * (length3(part.position) + lever);
+    float way = length3(cross3(body.axis, rotate(body.orientation, part.position)));
+    course.most = turning * (way + lever * off_axis(properties.shape, body.axis, compose(body.orientation, part.orientation)));
     course.part = part;
     course.of_part = 1u;
     return course;
@@ -82,7 +88,11 @@ struct Limits {
 CONSTANT uint NO_CONTACT = 0u;
 CONSTANT uint IN_CONTACT = 1u;    // in contact, neither is clamped
 CONSTANT uint CONTACT_LOST = 2u;  // in contact, but one of them is clamped
-LAW uint contact_state_of(uint contact_points, float stop_a, float stop_b) {
+// `joined`: bodies on joints alone would be clamped. Loads of a mechanism press them deep, also into triangles that have no
+// contact because their neighbour has, so that only what would go half way through is clamped: a car on a landscape would
+// be clamped in every step.
+LAW uint contact_state_of(uint contact_points, float stop_a, float stop_b, bool joined) {
+    if (joined) return IN_CONTACT;
     if (contact_points == 0u) return NO_CONTACT;
     return stop_a < 1.0f || stop_b < 1.0f ? CONTACT_LOST : IN_CONTACT;
 }
