@@ -126,9 +126,10 @@ std::unique_ptr<host::Canvas> any_canvas(const Backend& machine, const host::Sha
 }  // namespace
 
 Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options,
-                 const CopiesShown& shown)
+                 const CopiesShown& shown, bool from_host)
     : world_(world), word_(canvas), machine_(machine), options_(options), shown_(shown) {
-    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device && shown.count == 0;
+    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device && shown.count == 0 && !from_host;
+    if (from_host && canvas == "auto" && machine.device) word_ = "vulkan";
     update();
 }
 
@@ -149,17 +150,24 @@ void Drawing::update() {
         arrangements_ = world_.arrangements();
     }
     const host::BodyTables tables = from_device_       ? tables_on_device(world_.runner())
-                                    : shown_.count > 0 ? tables_of_copies()
+                                    : shown_.count > 0 ? tables_of_copies(world_.state().poses)
                                                        : tables_of(world_.state());
     contacts_ = tables.touch_count;
     canvas_->set_tables(tables);
 }
 
+void Drawing::update(const std::vector<physics::Pose>& poses) {
+    update();
+    host::BodyTables tables = shown_.count > 0 ? tables_of_copies(poses) : tables_of(world_.state());
+    if (shown_.count == 0) tables.poses = poses;
+    canvas_->set_tables(tables);
+}
+
 // Contacts and joints of copies that are not shown have no points, and are broken.
-host::BodyTables Drawing::tables_of_copies() {
+host::BodyTables Drawing::tables_of_copies(const std::vector<physics::Pose>& poses) {
     const State& state = world_.state();
     host::BodyTables tables = tables_of(state);
-    poses_ = state.poses;
+    poses_ = poses;
     bounds_ = state.bounds;
     contacts_shown_.assign(state.contacts.begin(), state.contacts.begin() + tables.touch_count);
     for (std::uint32_t row = 0; row < poses_.size(); ++row) {
