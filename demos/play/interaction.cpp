@@ -62,6 +62,30 @@ std::string key_help_text() {
     return text;
 }
 
+bool has_body(const World& world, std::size_t body) {
+    try {
+        return world.body(body).exists;
+    } catch (const std::out_of_range&) {
+        return false;
+    }
+}
+
+std::optional<std::size_t> Interaction::selected() const {
+    return selected_ && has_body(session_.world(), *selected_) ? selected_ : std::nullopt;
+}
+
+// Bodies that were removed or have broken, by a script, say.
+void Interaction::forget_removed() {
+    const World& world = session_.world();
+    if (selected_ && !has_body(world, *selected_)) selected_.reset();
+    if (first_point_ && !has_body(world, first_point_->body)) first_point_.reset();
+    if (!hold_ || has_body(world, hold_->body)) return;
+    perform(Release{hold_->grip});  // of a body that has broken; one that was removed is no longer held
+    message_.clear();
+    hold_.reset();
+    motion_ = Motion::none;
+}
+
 Interaction::Interaction(Session& session, Extent extent)
     : session_(session), extent_(extent), eye_(session.subject().viewpoint) {
     begin_again();
@@ -234,7 +258,8 @@ void Interaction::go_to(std::uint64_t step) {
     } catch (const std::exception& error) {
         message_ = error.what();
     }
-    if (selected && *selected < session_.world().scene().bodies.size()) selected_ = selected;
+    selected_ = selected;
+    forget_removed();
 }
 
 void Interaction::open(const std::string& name) {
@@ -285,6 +310,7 @@ void Interaction::advance(double seconds) {
         }
     }
     for (; single_steps_ > 0; --single_steps_) make_step();
+    forget_removed();
     if (chases) chase(seconds);
     if (follows && selected_) eye_.look_at(session_.world().body(*selected_).position);
 }

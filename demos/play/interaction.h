@@ -25,6 +25,9 @@ std::string key_help_text();  // in lines, for --help
 
 enum class Kind { sphere, capsule, box };
 
+// Whether the index is one of a body that exists. World::body throws for one that was removed.
+bool has_body(const World& world, std::size_t body);
+
 // Joints that the pointer makes between two points. Ball, hinge, slider and fixed joints are in the middle between them;
 // rope, rod and spring go from one to the other and have their distance.
 enum class JoinKind { ball, hinge, slider, fixed, rope, rod, spring };
@@ -90,7 +93,7 @@ public:
     bool wants_to_close() const { return wants_to_close_; }
     Extent extent() const { return extent_; }
     const OrbitCamera& eye() const { return eye_; }
-    std::optional<std::size_t> selected() const { return selected_; }
+    std::optional<std::size_t> selected() const;  // that exists
     std::optional<std::size_t> held() const { return hold_ ? std::optional(hold_->body) : std::nullopt; }
     // The body under the pointer while no button is pressed; casts a ray at all bodies.
     std::optional<RayHit> hovered();
@@ -116,6 +119,7 @@ private:
     void scroll(double clicks);
     void press_key(const host::Event& event);
     void begin_again();
+    void forget_removed();
     void pick(const RayHit& hit);
     void join(const PickedPoint& a, const PickedPoint& b);
     void grab(const RayHit& hit);

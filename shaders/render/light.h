@@ -45,10 +45,12 @@ float sun_visibility(vec3 point, vec3 normal) {
                    lit_at(at.xy + vec2(0.55 * r, 1.35 * r), at.z) + lit_at(at.xy + vec2(-1.35 * r, 0.55 * r), at.z));
 }
 
-// Occlusion of the sky at a position of the map: strong by what is close above, weak by what is high above.
+// Occlusion of the sky at a position of the map: strong by what is close above, none by what is high above, which would draw a
+// second shadow.
 float shut_at(vec2 at, float depth) {
     vec4 gap = (depth - textureGather(sky_depths, at)) * (frame.pixel.y / frame.pixel.z);
-    vec4 shut = step(vec4(0.0), gap) / (1.0 + gap * gap);
+    vec4 near = max(1.0 - 0.25 * gap * gap, vec4(0.0));
+    vec4 shut = step(vec4(0.0), gap) * near * near;
     return weighed(shut, at, frame.maps.w);
 }
 

@@ -170,7 +170,7 @@ TEST_CASE("going back begins with a state that was kept, also of a moment when a
         REQUIRE(session.world().state_hash() == hashes[step]);
     }
     REQUIRE(worlds == 1);
-    session.perform(Release{0});  // a branch, which keeps states of its own
+    session.perform(Turn{.sleeping = false});  // a branch, which lets go and keeps states of its own
     for (int step = 0; step < 100; ++step) session.step();
     const std::uint64_t end = session.world().state_hash();
     session.go_to(130);

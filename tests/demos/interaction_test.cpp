@@ -335,9 +335,20 @@ TEST_CASE("the selected body is duplicated onto what is there, and deleted, and 
     REQUIRE(played.hands.selected() == top);
     played.strike(Key::del);
     REQUIRE_FALSE(played.hands.selected());
-    REQUIRE_FALSE(played.session.world().body(top).exists);
+    REQUIRE_FALSE(has_body(played.session.world(), top));
     played.strike(Key::del);  // nothing is selected
     REQUIRE(played.session.input().acts.size() == 2);
+    const glm::vec2 pixel = played.pixel_of(5);
+    played.at(host::EventKind::pressed, pixel);
+    REQUIRE(played.hands.held() == 5);
+    played.session.perform(Remove{5});  // as a script may
+    played.pass(0.1);
+    REQUIRE_FALSE(played.hands.held());
+    REQUIRE_FALSE(played.hands.selected());
+    played.at(host::EventKind::moved, pixel + glm::vec2(20, 0));
+    played.at(host::EventKind::released, pixel);
+    played.hands.go_to(0);
+    REQUIRE(played.hands.message().empty());
     played.hands.select(0);
     played.strike(key_of('V'));
     REQUIRE_THAT(played.hands.message(), Catch::Contains("plane"));

@@ -260,8 +260,9 @@ TEST_CASE("program: sky and sun change the picture, by options and in scene file
     };
     const std::string by_option = picture_of(scene("{}") + "--sky evening --sun 120,30");
     REQUIRE(picture_of(scene(R"({"sky": "evening", "sun_azimuth": 120, "sun_elevation": 30})")) == by_option);
-    require_refused(scene(R"({"sky": "green"})"), {"/picture/sky", "\"green\"", "day, evening, overcast, studio, night"});
-    require_refused(scene(R"({"sun_elevation": 95})"), {"/picture/sun_elevation", "between 3 and 90"});
+    require_refused(scene(R"({"sky": "green"})") + "--frames none",
+                    {"/picture/sky", "\"green\"", "day, evening, overcast, studio, night"});
+    require_refused(scene(R"({"sun_elevation": 95})") + "--frames none", {"/picture/sun_elevation", "between 3 and 90"});
     require_refused("rest --sky blue", {"--sky", "day, evening, overcast, studio, night"});
     require_refused("rest --sun 30", {"--sun", "AZIMUTH,ELEVATION"});
     require_refused("rest --sun 30,0", {"--sun", "ELEVATION must be between 3 and 90 degrees, is 0"});

@@ -216,7 +216,7 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
     show_light(style);
     ImGui::Separator();
     show_vehicle(session, interaction);
-    show_selected(session, interaction);
+    if (!interaction.selected()) ImGui::TextDisabled("click a body to see what it is about");
     if (!interaction.message().empty()) ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", interaction.message().c_str());
     if (!told_.empty()) ImGui::TextColored(ImVec4(0.6f, 0.9f, 0.6f, 1), "%s", told_.c_str());
     show_graphs(session, interaction, rates);
@@ -234,8 +234,9 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
         ImGui::TreePop();
     }
     ImGui::PopItemWidth();
-    list_open_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     ImGui::End();
+    show_selected(session, interaction);
+    list_open_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
     return wishes;
 }
 

@@ -85,23 +85,23 @@ void Panel::show_body_edits(Session& session, Interaction& interaction, std::siz
     const World& world = session.world();
     const Body& now = world.scene().bodies[body];
     const Coefficients first = at_first(session, body);
-    if (const auto value = edits("its friction", now.friction, first.friction, 0, 2, "%.2f", false))
+    if (const auto value = edits("friction", now.friction, first.friction, 0, 2, "%.2f", false))
         interaction.perform(SetMaterial{.body = body, .friction = value});
-    if (const auto value = edits("its restitution", now.restitution, first.restitution, 0, 1, "%.2f", false))
+    if (const auto value = edits("restitution", now.restitution, first.restitution, 0, 1, "%.2f", false))
         interaction.perform(SetMaterial{.body = body, .restitution = value});
     const float arm = std::holds_alternative<Plane>(now.shape) ? 0.1f : 0.2f * bounding_radius(now.shape);
     if (const auto value =
-            edits("its rolling", now.rolling_resistance, first.rolling, 0, std::max(arm, first.rolling), "%.3f m", false))
+            edits("rolling", now.rolling_resistance, first.rolling, 0, std::max(arm, first.rolling), "%.3f m", false))
         interaction.perform(SetMaterial{.body = body, .rolling_resistance = value});
     if (has_mass(now) && first.mass > 0) {
         const float mass = mass_properties(now).mass;
-        const std::string form = with_unit(dragged_label_ == "its mass" ? dragged_ : mass, "kg");
-        if (const auto value = edits("its mass", mass, first.mass, 1e-3f * first.mass, 1e3f * first.mass, form.c_str(), true))
+        const std::string form = with_unit(dragged_label_ == "mass" ? dragged_ : mass, "kg");
+        if (const auto value = edits("mass", mass, first.mass, 1e-3f * first.mass, 1e3f * first.mass, form.c_str(), true))
             interaction.perform(SetMass{body, *value});
     }
     static const std::vector<std::string> words(fields::words<Motion>.begin(), fields::words<Motion>.end());
     Motion motion = now.motion;
-    if (choose("its motion", words, motion)) interaction.perform(SetMotion{body, motion});
+    if (choose("motion", words, motion)) interaction.perform(SetMotion{body, motion});
     ImGui::Checkbox("follow", &interaction.follows);
     ImGui::SameLine();
     if (ImGui::Button("duplicate")) interaction.duplicate_selected();
@@ -138,13 +138,19 @@ void Panel::show_joining(Interaction& interaction) {
 
 void Panel::show_selected(Session& session, Interaction& interaction) {
     const std::optional<std::size_t> selected = interaction.selected();
-    if (!selected || *selected >= session.world().scene().bodies.size() || !session.world().body(*selected).exists) {
+    if (!selected) {
         points_.clear();
         joints_.clear();
         looked_body_.reset();
-        ImGui::TextDisabled("click a body to see what it is about");
         return;
     }
+    // A window of its own, in the upper right corner.
+    ImGui::SetNextWindowPos(ImVec2(ImGui::GetIO().DisplaySize.x - 8, 8), ImGuiCond_Always, ImVec2(1, 0));
+    ImGui::SetNextWindowBgAlpha(0.78f);
+    ImGui::Begin("selected body", nullptr,
+                 ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoFocusOnAppearing |
+                     ImGuiWindowFlags_NoMove);
+    ImGui::PushItemWidth(150);
     World& world = session.world();
     const Scene& scene = world.scene();
     const BodyState state = world.body(*selected);
@@ -166,6 +172,8 @@ void Panel::show_selected(Session& session, Interaction& interaction) {
     say_line(fmt::format("touches {} in {} points, {}", others.size(), points_.size(), with_prefix(force, "N")));
     show_body_edits(session, interaction, *selected);
     show_joints(session, interaction);
+    ImGui::PopItemWidth();
+    ImGui::End();
 }
 
 }  // namespace scree::demos

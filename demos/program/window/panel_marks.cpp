@@ -149,7 +149,7 @@ void Panel::show_hovered(Session& session, Interaction& interaction) {
                                         with_unit(glm::length(state.velocity), "m/s"), contacts.size(), with_prefix(force, "N"));
         }
     }
-    if (!hovered_ || *hovered_ >= scene.bodies.size()) return;
+    if (!hovered_ || !has_body(world, *hovered_)) return;
     if (interaction.selected() != hovered_) show_outline(world, interaction, *hovered_, IM_COL32(255, 255, 255, 110));
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(hovered_text_.c_str());
@@ -159,7 +159,7 @@ void Panel::show_hovered(Session& session, Interaction& interaction) {
 void Panel::show_marks(Session& session, Interaction& interaction) {
     const World& world = session.world();
     const std::optional<std::size_t> held = interaction.held(), selected = interaction.selected();
-    if (selected && *selected < world.scene().bodies.size()) {
+    if (selected) {
         look_at(world, *selected);
         show_outline(world, interaction, *selected, held == selected ? held_color : selected_color);
         show_forces(world, interaction);
