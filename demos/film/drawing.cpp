@@ -65,6 +65,7 @@ private:
 
 host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) {
     const Scene& scene = world.scene();
+    const State& state = world.state();
     Instances instances;
     const std::vector<std::size_t> first_parts = world.first_part_rows();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
@@ -74,7 +75,7 @@ host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) 
         if (!shown.shows(copy) || (copy > shown.first && std::holds_alternative<Plane>(shape))) continue;
         auto part = static_cast<std::uint32_t>(first_parts[i]);
         if (const std::optional<SimpleShape> simple = simple_shape(shape))
-            instances.add(static_cast<std::uint32_t>(world.row_of(i)), *simple);
+            instances.add(state.row_of(i), *simple);  // also of a removed body: shaders skip its row
         if (const auto* compound = std::get_if<Compound>(&shape))
             for (const Part& one : compound->parts) {
                 if (one.role != Role::sensor) instances.add(part, one.shape);
