@@ -9,9 +9,11 @@ namespace scree::demos {
 
 namespace {
 
+// Going back plays at most the steps of a kept state's interval again: half a second of work or less, if memory allows.
 constexpr double keep_every = 1;               // s of simulated time
-constexpr double short_while = 0.01;           // s
-constexpr double least_work = 20;              // the time of steps is that of keeping times this, where it is long
+constexpr double keep_after = 0.5;             // s of wall time that steps took
+constexpr double short_while = 0.01;           // s; keeping that takes longer is rare:
+constexpr double least_work = 20;              // steps take this times as long in between
 constexpr std::size_t most_bytes = 256 << 20;  // of kept states
 
 double seconds_since(std::chrono::steady_clock::time_point start) {
@@ -128,11 +130,12 @@ void Session::go_to(std::uint64_t step) {
     while (world_->steps() < step) this->step();
 }
 
-// Keeps a state a second, or fewer where that takes long or much memory.
+// Keeps states regularly, fewer where that takes long or much memory.
 void Session::keep() {
     const std::uint64_t step = world_->steps(), last = kept_.empty() ? 0 : kept_.back().step;
     const auto pause = static_cast<std::uint64_t>(keep_every * static_cast<double>(world_->settings().rate));
-    if (step < last + pause || (keeping_takes_ > short_while && since_kept_ < least_work * keeping_takes_)) return;
+    const bool due = step >= last + pause || (step > last && since_kept_ >= keep_after);
+    if (!due || (keeping_takes_ > short_while && since_kept_ < least_work * keeping_takes_)) return;
     const auto start = std::chrono::steady_clock::now();
     kept_.push_back({step, performed_, world_->save()});
     keeping_takes_ = seconds_since(start);
