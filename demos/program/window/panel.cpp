@@ -185,7 +185,11 @@ void Panel::show_chooser(Interaction& interaction) {
 }
 
 bool Panel::closes_something() {
-    if (list_open_ && shown) return true;  // by itself, in the next layout
+    if (list_open_ && shown) {
+        // The list sees the key in the next layout, even if it is released by then.
+        ImGui::GetIO().KeysDown[ImGui::GetKeyIndex(ImGuiKey_Escape)] = true;
+        return true;
+    }
     if (!chooser.shown()) return false;
     chooser.hide();
     return true;
@@ -237,6 +241,7 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
     ImGui::End();
     show_selected(session, interaction);
     list_open_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    ImGui::GetIO().KeysDown[ImGui::GetKeyIndex(ImGuiKey_Escape)] = false;
     return wishes;
 }
 

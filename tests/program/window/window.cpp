@@ -172,9 +172,18 @@ TEST_CASE(
     viewer.strike("h");
     viewer.next();
     viewer.shoot("3_joined");
+    viewer.point(95, 48);  // the list of scenes
+    wait_for(0.3);
+    viewer.hand("mousedown 1");
+    wait_for(0.3);
+    viewer.hand("mouseup 1");
+    viewer.next();
+    viewer.shoot("4_list");
+    viewer.strike("Escape");
+    viewer.next();
     viewer.strike("o");
     viewer.next();
-    viewer.shoot("4_open");
+    viewer.shoot("5_open");
     viewer.strike("Escape");  // the list of files
     viewer.next();
     REQUIRE(viewer.report().contains("selected"));
