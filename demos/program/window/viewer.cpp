@@ -127,12 +127,15 @@ void Viewer::measure_range(double seconds) {
         scale_ = scale_of(style_, session_.subject(), world.settings(), false);
         scaled_ = style_;
         range_ = MeasuredRange(scale_->high);
+        least_of_range_ = 1e-3 * static_cast<double>(scale_->high);
         measured_ = 0;
     }
     measured_ += seconds;
     if (style_.range.x < style_.range.y || measured_ < every) return;
     const std::vector<double> values = values_now(world, word_of(style_.color));
-    if (!values.empty() && range_.update(nearly_greatest(values), std::exchange(measured_, 0.0))) scale_->high = range_.high();
+    if (values.empty()) return;
+    const double seen = std::max(nearly_greatest(values), least_of_range_);
+    if (range_.update(seen, std::exchange(measured_, 0.0))) scale_->high = range_.high();
 }
 
 void Viewer::draw() {

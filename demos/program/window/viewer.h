@@ -66,7 +66,8 @@ private:
     std::optional<host::ColorScale> scale_;
     PictureStyle scaled_;  // the style that scale_ is of
     MeasuredRange range_;
-    double measured_ = 0;  // s since the range was looked at
+    double least_of_range_ = 0;  // so that what rests is not coloured by its last tremor
+    double measured_ = 0;        // s since the range was looked at
     PictureDetail detail_;
     host::View view_;
     std::unique_ptr<Film> film_;
