@@ -298,7 +298,10 @@ public:
     // From the next step on. They throw std::out_of_range for the index and SceneError for values or a motion that the
     // body cannot have. Fragments of an unbroken body keep what they have.
     void set_material(std::size_t body, const Material& material);  // wakes it; all, if it is not dynamic
-    void set_filter(std::size_t body, const Filter& filter);        // wakes all; parts with filters of their own keep them
+    // kg, 1e-9 to 1e15. Its moments of inertia change in proportion, its buoyancy does not. A body that can break, a fragment, a
+    // plane, a mesh and a height field refuse.
+    void set_mass(std::size_t body, float mass);
+    void set_filter(std::size_t body, const Filter& filter);  // wakes all; parts with filters of their own keep them
     // Wakes all. A fixed body has no velocity; a body of a vehicle, or joined to one that is not dynamic, stays dynamic.
     void set_motion(std::size_t body, Motion motion);
     void set_exclusion(std::size_t a, std::size_t b, bool excluded);  // whether they never collide; wakes all

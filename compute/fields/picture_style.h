@@ -17,6 +17,8 @@ inline constexpr auto words<ShownMap> = std::array{"ember", "plasma", "inferno",
 template <>
 inline constexpr auto words<ShownScale> = std::array{"auto", "linear", "root", "log"};
 template <>
+inline constexpr auto words<ShownSky> = std::array{"day", "evening", "overcast", "studio", "night"};
+template <>
 inline constexpr auto words<Overlay> = std::array{"contacts", "velocities", "joints", "boxes", "cells", "sleep"};
 
 template <>
@@ -27,6 +29,10 @@ inline constexpr auto table<PictureStyle> = table_of(
           "Places of values on the colour map: linear, root (square root), log, or auto: root for momentum, energy and impulses"),
     field("color_range", &PictureStyle::range, {}, "",
           "Lowest and highest value, in the unit of the quantity; equal: from the scene and its first seconds"),
-    field("show", &PictureStyle::show, at_least(0), "overlays", "Overlays"));
+    field("show", &PictureStyle::show, at_least(0), "overlays", "Overlays"),
+    field("sky", &PictureStyle::sky, "Light and background"),
+    field("sun_azimuth", &PictureStyle::sun_azimuth, within(360), "degrees", "Where the sun stands: about y, from z towards x"),
+    field("sun_elevation", &PictureStyle::sun_elevation, between(3, 90), "degrees",
+          "Height of the sun above the horizon; 0: where that sky has it, whatever sun_azimuth"));
 
 }  // namespace scree::fields

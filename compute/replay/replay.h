@@ -15,6 +15,10 @@
 //       {"step": 9, "add": {"shape": {"sphere": {"radius": 0.3}}, "position": [0, 2, 9], "velocity": [0, 3, -15]}},
 //       {"step": 9, "join": {"kind": {"ball": {}}, "a": 17, "b": 18, "anchor_a": [0, 0.5, 0], "anchor_b": [0, -0.5, 0]}},
 //       {"step": 15, "unjoin": {"joint": 0}},
+//       {"step": 16, "set_material": {"body": 17, "friction": 0.2, "restitution": 0.5, "rolling_resistance": 0.01}},
+//       {"step": 16, "set_mass": {"body": 17, "mass": 20}},
+//       {"step": 17, "set_motion": {"body": 18, "motion": "fixed"}},
+//       {"step": 18, "remove": {"body": 19}},
 //       {"step": 20, "push": {"body": 17, "force": [500, 0, 0]}},
 //       {"step": 30, "explode": {"centre": [0, 0, 0], "radius": 5, "speed": 10}},
 //       {"step": 40, "turn": {"gravity": [0, -1.6, 0], "substeps": 4, "friction_factor": 0.5, "least_restitution": 0.9,
@@ -24,7 +28,7 @@
 //     ]}
 //
 // Anchors are in body frames; "add" takes a body and "join" a joint as in a scene file (bodies by index, anchors in
-// body frames), "turn" (settings) any of its keys; "drive" lasts until the next one. SI units.
+// body frames), "turn" (settings) and "set_material" any of their keys; "drive" lasts until the next one. SI units.
 #pragma once
 
 #include <cstdint>

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "compute/fields/body.h"
 #include "compute/replay/replay.h"
 #include "compute/scene_file/joints_json.h"
 #include "compute/scene_file/json_reading.h"
@@ -19,7 +20,8 @@ using namespace json_reading;
 
 const Names keys = {"scree_input", "scene", "bodies",   "seed", "rate",      "substeps",
                     "sleeping",    "steps", "end_hash", "acts", "start_hash"};
-const Names act_names = {"grab", "drag", "release", "add", "join", "unjoin", "push", "explode", "turn", "drive", "righten"};
+const Names act_names = {"grab", "drag",  "release", "add",    "join",         "unjoin",   "push",      "explode",
+                         "turn", "drive", "righten", "remove", "set_material", "set_mass", "set_motion"};
 constexpr std::uint64_t most_steps = 1000000000;  // as --steps
 
 // ---- writing
@@ -80,6 +82,24 @@ struct Writer {
                         std::pair("hand_brake", act.controls.hand_brake));
     }
     std::string operator()(const Righten& act) const { return act_text("righten", std::pair("vehicle", act.vehicle)); }
+    std::string operator()(const Remove& act) const { return act_text("remove", std::pair("body", act.body)); }
+    std::string operator()(const SetMaterial& act) const {
+        std::string inside = "\"body\": " + text_of(act.body);
+        const auto add = [&](const char* key, const std::optional<float>& value) {
+            if (value) inside += std::string(", \"") + key + "\": " + text_of(*value);
+        };
+        add("friction", act.friction);
+        add("restitution", act.restitution);
+        add("rolling_resistance", act.rolling_resistance);
+        return "\"set_material\": {" + inside + "}";
+    }
+    std::string operator()(const SetMass& act) const {
+        return act_text("set_mass", std::pair("body", act.body), std::pair("mass", act.mass));
+    }
+    std::string operator()(const SetMotion& act) const {
+        return "\"set_motion\": {\"body\": " + text_of(act.body) + ", \"motion\": \"" +
+               fields::words<Motion>[static_cast<std::size_t>(act.motion)] + "\"}";
+    }
     std::string operator()(const Turn& act) const {
         std::string inside;
         const auto add = [&](const char* key, const auto& value) {
@@ -136,10 +156,51 @@ Body added_body(const json& value, const Place& place) {
     }
 }
 
+SetMaterial material_act_of(const json& value, const Place& place) {
+    only(value, place, {"body", "friction", "restitution", "rolling_resistance"});
+    SetMaterial act;
+    required(value, place, "body", act.body);
+    if (value.size() == 1) refuse(place, "changes no coefficient");
+    if (value.contains("friction")) read(value["friction"], place / "friction", act.friction.emplace());
+    if (value.contains("restitution")) read(value["restitution"], place / "restitution", act.restitution.emplace());
+    if (value.contains("rolling_resistance"))
+        read(value["rolling_resistance"], place / "rolling_resistance", act.rolling_resistance.emplace());
+    return act;
+}
+
+SetMotion motion_act_of(const json& value, const Place& place) {
+    only(value, place, {"body", "motion"});
+    SetMotion act;
+    std::string word;
+    required(value, place, "body", act.body);
+    required(value, place, "motion", word);
+    const auto& words = fields::words<Motion>;
+    const auto found = std::find(words.begin(), words.end(), word);
+    if (found == words.end())
+        throw SceneError((place / "motion").pointer(), unknown("motion", word, Names(words.begin(), words.end())));
+    act.motion = static_cast<Motion>(found - words.begin());
+    return act;
+}
+
 UserCommand act_of(const std::string& name, const json& value, const Place& place) {
     if (name == "add") return Add{added_body(value, place)};
     if (name == "turn") return turn_of(value, place);
     if (name == "join") return Join{joint_of(value, place)};
+    if (name == "set_material") return material_act_of(value, place);
+    if (name == "set_motion") return motion_act_of(value, place);
+    if (name == "set_mass") {
+        SetMass act;
+        only(value, place, {"body", "mass"});
+        required(value, place, "body", act.body);
+        required(value, place, "mass", act.mass);
+        return act;
+    }
+    if (name == "remove") {
+        Remove act;
+        only(value, place, {"body"});
+        required(value, place, "body", act.body);
+        return act;
+    }
     if (name == "unjoin") {
         Unjoin act;
         only(value, place, {"joint"});

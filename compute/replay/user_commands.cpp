@@ -26,6 +26,17 @@ struct Performer {
     void operator()(const Explode& act) const { world.explode(act.centre, act.radius, act.speed); }
     void operator()(const Drive& act) const { world.drive(act.vehicle, act.controls); }
     void operator()(const Righten& act) const { world.reset_upright(act.vehicle); }
+    void operator()(const Remove& act) const { world.remove_body(act.body); }
+    void operator()(const SetMaterial& act) const {
+        if (act.body >= world.scene().bodies.size()) throw std::out_of_range("there is no body " + std::to_string(act.body));
+        Material material = material_of(world.scene().bodies[act.body]);
+        if (act.friction) material.friction = *act.friction;
+        if (act.restitution) material.restitution = *act.restitution;
+        if (act.rolling_resistance) material.rolling_resistance = *act.rolling_resistance;
+        world.set_material(act.body, material);
+    }
+    void operator()(const SetMass& act) const { world.set_mass(act.body, act.mass); }
+    void operator()(const SetMotion& act) const { world.set_motion(act.body, act.motion); }
     void operator()(const Turn& act) const {
         if (act.gravity) world.set_gravity(*act.gravity);
         if (act.substeps) world.set_substeps(*act.substeps);

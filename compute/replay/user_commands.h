@@ -33,6 +33,23 @@ struct Join {
 struct Unjoin {  // see World::remove_joint
     std::size_t joint = 0;
 };
+struct Remove {  // see World::remove_body
+    std::size_t body = 0;
+};
+struct SetMaterial {  // the three plain coefficients; empty ones stay, as does the rest of the material
+    std::size_t body = 0;
+    std::optional<float> friction;
+    std::optional<float> restitution;
+    std::optional<float> rolling_resistance;  // m
+};
+struct SetMass {
+    std::size_t body = 0;
+    float mass = 1;  // kg
+};
+struct SetMotion {
+    std::size_t body = 0;
+    Motion motion = Motion::dynamic;
+};
 struct Push {  // a force for one step
     std::size_t body = 0;
     vec3 force{0};  // N
@@ -57,7 +74,8 @@ struct Turn {  // settings; empty ones stay
     std::optional<bool> sleeping;
 };
 
-using UserCommand = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin, Drive, Righten>;
+using UserCommand = std::variant<Grab, Drag, Release, Add, Push, Explode, Turn, Join, Unjoin, Drive, Righten, Remove, SetMaterial,
+                                 SetMass, SetMotion>;
 
 struct TimedAct {
     std::uint64_t step = 0;  // number of steps done before it

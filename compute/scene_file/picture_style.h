@@ -27,6 +27,7 @@ enum class ShownScale {
     root,        // place = sqrt(value / range): small values are seen beside large ones
     logarithmic  // from a thousandth of the range's upper end unless the range says
 };
+enum class ShownSky { day, evening, overcast, studio, night };
 enum class Overlay { contacts, velocities, joints, boxes, cells, sleep };
 
 struct PictureStyle {
@@ -35,6 +36,9 @@ struct PictureStyle {
     ShownScale scale = ShownScale::automatic;
     glm::vec2 range{0};  // low and high in the quantity's unit; equal: from the scene
     std::vector<Overlay> show;
+    ShownSky sky = ShownSky::day;
+    float sun_azimuth = 0;    // degrees about y, from z towards x
+    float sun_elevation = 0;  // degrees above the horizon, 3 to 90; 0: the sun (or moon) stands where that sky has it
 
     bool operator==(const PictureStyle&) const = default;
 };

@@ -149,6 +149,28 @@ void World::set_material(std::size_t body, const Material& material) {
         body, [&](Body& b) { scree::set_material(b, material); }, false);
 }
 
+void World::set_mass(std::size_t body, float mass) {
+    Impl& in = *interior_;
+    in.require_body(body);
+    const Body& now = in.scene.bodies[body];
+    const auto refuse = [&](const std::string& reason) {
+        throw SceneError("/bodies/" + std::to_string(body) + "/mass",
+                         reason + (now.name.empty() ? "" : " (body \"" + now.name + "\")"));
+    };
+    if (!(mass >= 1e-9f && mass <= 1e15f)) refuse("must be between 1e-9 and 1e15 kg");
+    if (std::holds_alternative<Plane>(now.shape) || std::holds_alternative<Mesh>(now.shape) ||
+        std::holds_alternative<HeightField>(now.shape))
+        refuse("a plane, mesh or height field has no mass");
+    if (now.fracture || now.piece_of != no_body)
+        refuse("a body that can break, and its fragments, have the mass of their shapes at their density");
+    const MassProperties before = mass_properties(now);
+    const Inertial made{.mass = mass, .inertia = before.inertia * (mass / before.mass)};
+    for (const float value : {made.inertia.x, made.inertia.y, made.inertia.z})
+        if (!std::isnormal(value) || !std::isnormal(1 / value)) refuse("gives an inertia out of the range of a float");
+    in.change(
+        body, [&](Body& b) { b.inertial = made; }, false);
+}
+
 void World::Impl::refilter(std::size_t body) {
     const TableLengths before = TableLengths::of(state);
     send(StateEditor(state).filter(scene), before);

@@ -65,6 +65,7 @@ private:
 
 host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) {
     const Scene& scene = world.scene();
+    const State& state = world.state();
     Instances instances;
     const std::vector<std::size_t> first_parts = world.first_part_rows();
     for (std::uint32_t i = 0; i < scene.bodies.size(); ++i) {
@@ -74,7 +75,7 @@ host::ShapeInstances instances_of(const World& world, const CopiesShown& shown) 
         if (!shown.shows(copy) || (copy > shown.first && std::holds_alternative<Plane>(shape))) continue;
         auto part = static_cast<std::uint32_t>(first_parts[i]);
         if (const std::optional<SimpleShape> simple = simple_shape(shape))
-            instances.add(static_cast<std::uint32_t>(world.row_of(i)), *simple);
+            instances.add(state.row_of(i), *simple);  // also of a removed body: shaders skip its row
         if (const auto* compound = std::get_if<Compound>(&shape))
             for (const Part& one : compound->parts) {
                 if (one.role != Role::sensor) instances.add(part, one.shape);
@@ -126,9 +127,10 @@ std::unique_ptr<host::Canvas> any_canvas(const Backend& machine, const host::Sha
 }  // namespace
 
 Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options,
-                 const CopiesShown& shown)
+                 const CopiesShown& shown, bool from_host)
     : world_(world), word_(canvas), machine_(machine), options_(options), shown_(shown) {
-    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device && shown.count == 0;
+    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device && shown.count == 0 && !from_host;
+    if (from_host && canvas == "auto" && machine.device) word_ = "vulkan";
     update();
 }
 
@@ -149,17 +151,24 @@ void Drawing::update() {
         arrangements_ = world_.arrangements();
     }
     const host::BodyTables tables = from_device_       ? tables_on_device(world_.runner())
-                                    : shown_.count > 0 ? tables_of_copies()
+                                    : shown_.count > 0 ? tables_of_copies(world_.state().poses)
                                                        : tables_of(world_.state());
     contacts_ = tables.touch_count;
     canvas_->set_tables(tables);
 }
 
+void Drawing::update(const std::vector<physics::Pose>& poses) {
+    update();
+    host::BodyTables tables = shown_.count > 0 ? tables_of_copies(poses) : tables_of(world_.state());
+    if (shown_.count == 0) tables.poses = poses;
+    canvas_->set_tables(tables);
+}
+
 // Contacts and joints of copies that are not shown have no points, and are broken.
-host::BodyTables Drawing::tables_of_copies() {
+host::BodyTables Drawing::tables_of_copies(const std::vector<physics::Pose>& poses) {
     const State& state = world_.state();
     host::BodyTables tables = tables_of(state);
-    poses_ = state.poses;
+    poses_ = poses;
     bounds_ = state.bounds;
     contacts_shown_.assign(state.contacts.begin(), state.contacts.begin() + tables.touch_count);
     for (std::uint32_t row = 0; row < poses_.size(); ++row) {

@@ -23,13 +23,14 @@ host::BodyTables tables_of(const State& state);
 class Drawing {
 public:
     // `canvas` is a value of --canvas. Throws UsageError where that canvas is not available, naming the package to
-    // install.
+    // install. `from_host`: draws from host memory wherever the simulation runs, for update(poses).
     Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options,
-            const CopiesShown& shown = {});
+            const CopiesShown& shown = {}, bool from_host = false);
 
     host::Canvas& canvas() { return *canvas_; }
-    void update();                   // to be called before a picture: takes the world's current tables, with added bodies
-    std::uint32_t contacts() const;  // contacts at the last update
+    void update();  // to be called before a picture: takes the world's current tables, with added bodies
+    void update(const std::vector<physics::Pose>& poses);  // the same with other poses of its rows; reads them until finish()
+    std::uint32_t contacts() const;                        // contacts at the last update
     vec3 position_of(std::size_t body) const;
     // Whether a picture may be drawn while the next steps run. Not when both use one queue: the steps would wait for
     // it, and their measured time would include it.
@@ -37,7 +38,7 @@ public:
 
 private:
     std::unique_ptr<host::Canvas> make_canvas() const;
-    host::BodyTables tables_of_copies();
+    host::BodyTables tables_of_copies(const std::vector<physics::Pose>& poses);
 
     World& world_;
     std::string word_;

@@ -12,6 +12,7 @@
 #include "demos/film/camera_track.h"
 #include "demos/film/channel_writer.h"
 #include "demos/film/drawing.h"
+#include "demos/film/motion_blur.h"
 #include "demos/film/style.h"
 #include "demos/program/option_parsing.h"
 #include "host/canvas/canvas.h"
@@ -69,6 +70,7 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     canvas.legend = options.legend;
     canvas.smooth = options.samples == 1;  // averaged pictures are smooth
     show_overlays(style, world, canvas);
+    show_light(style, canvas);
     return canvas;
 }
 
@@ -89,19 +91,40 @@ struct Pictures::Impl {
     std::string cameras;  // file; may be empty
     std::optional<ChannelWriter> channels;
     PictureTimes times;
-    int begun = 0;             // pictures
-    int before = 0;            // of those, due before a resumed run
-    bool drawing_one = false;  // the last one is being drawn, concurrently with later steps
+    std::optional<PastPoses> past{};  // for motion blur
+    double shutter = 0;               // s
+    int blurred = 0;                  // pictures that are averaged
+    int begun = 0;                    // pictures
+    int before = 0;                   // of those, due before a resumed run
+    bool drawing_one = false;         // the last one is being drawn, concurrently with later steps
+
+    host::Image finished() {
+        host::Image drawn = drawing->canvas().finish();
+        return factor > 1 ? host::reduced(drawn, factor) : std::move(drawn);
+    }
 
     // Passes the pending picture to the encoders.
     void take() {
         if (!drawing_one) return;
         drawing_one = false;
-        host::Image picture = timed(times.draw, [&] {
-            host::Image drawn = drawing->canvas().finish();
-            return factor > 1 ? host::reduced(drawn, factor) : std::move(drawn);
-        });
+        host::Image picture = timed(times.draw, [&] { return finished(); });
         timed(times.encode_wait, [&] { writer->add(std::move(picture)); });
+    }
+
+    void draw(const host::Camera& view) {
+        drawing->canvas().begin(view, scale, caption(), low, high);
+        drawing_one = true;
+    }
+
+    // The mean of pictures of moments while the shutter was open, which it is until now.
+    void draw_blurred(const host::Camera& view) {
+        host::MeanImage mean;
+        for (int i = 0; i < blurred; ++i) {
+            drawing->update(past->at(shutter * (i + 0.5) / blurred));
+            drawing->canvas().begin(view, scale, caption(), low, high);
+            mean.add(finished());
+        }
+        timed(times.encode_wait, [&] { writer->add(mean.image()); });
     }
 
     std::string caption() const {
@@ -142,7 +165,11 @@ Pictures::Pictures(const PictureOptions& options, const Backend& machine, const 
     writer.height = options.height;
     writer.bits = options.bits;
     in.writer = std::make_unique<host::FrameWriter>(writer);
-    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world), shown);
+    in.drawing.emplace(options.canvas, machine, world, canvas_of(options, style_of(options, subject.style), world), shown,
+                       options.shutter > 0);
+    in.shutter = static_cast<double>(options.shutter) / in.fps;
+    in.blurred = options.shutter_samples;
+    if (options.shutter > 0) in.past.emplace(in.shutter);
     if (!options.channels.empty()) in.channels.emplace(options, world);
     if (world.steps() > 0) {
         const double half_step = 0.5 / world.settings().rate;
@@ -154,6 +181,7 @@ Pictures::~Pictures() = default;
 
 void Pictures::after_step() {
     Impl& in = *interior_;
+    if (in.past) in.past->keep(in.world);
     // Picture n, due at n / fps, is drawn after the nearest step.
     const double half_step = 0.5 / in.world.settings().rate;
     if (in.world.time() + half_step <= in.begun / in.fps) return;
@@ -163,10 +191,12 @@ void Pictures::after_step() {
         const std::optional<std::size_t> body = in.camera.followed();
         const host::Camera camera = in.camera.at(in.world.time(), body ? in.drawing->position_of(*body) : vec3(0));
         if (!in.cameras.empty()) in.track.add(in.world.time(), camera);
-        in.drawing->canvas().begin(camera, in.scale, in.caption(), in.low, in.high);
+        if (in.past)
+            in.draw_blurred(camera);
+        else
+            in.draw(camera);
         if (in.channels) in.channels->add(in.world, camera);
     });
-    in.drawing_one = true;
     ++in.begun;
     if (!in.drawing->beside_steps()) in.take();
 }

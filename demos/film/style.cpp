@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <map>
 
 #include "compute/fields/picture_style.h"
@@ -63,7 +64,19 @@ PictureStyle style_of(const PictureOptions& options, const PictureStyle& scene) 
         for (const std::string& word : *options.show)
             if (word != "none") style.show.push_back(named<Overlay>(word));
     }
+    if (options.sky) style.sky = named<ShownSky>(*options.sky);
+    if (options.sun) std::tie(style.sun_azimuth, style.sun_elevation) = *options.sun;
     return style;
+}
+
+void show_light(const PictureStyle& style, host::CanvasOptions& canvas) {
+    static_assert(static_cast<int>(host::Sky::night) == static_cast<int>(ShownSky::night));
+    canvas.sky = static_cast<host::Sky>(style.sky);
+    canvas.toward_sun = host::usual_sun(canvas.sky);
+    if (style.sun_elevation <= 0) return;
+    const float azimuth = glm::radians(style.sun_azimuth), elevation = glm::radians(style.sun_elevation);
+    canvas.toward_sun =
+        vec3(std::cos(elevation) * std::sin(azimuth), std::sin(elevation), std::cos(elevation) * std::cos(azimuth));
 }
 
 host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject, const Settings& settings, bool rehearses) {
@@ -116,6 +129,9 @@ const std::vector<std::string>& color_scale_words() {
 }
 const std::vector<std::string>& overlay_words() {
     return all_words<Overlay>();
+}
+const std::vector<std::string>& sky_words() {
+    return all_words<ShownSky>();
 }
 std::string word_of(ShownQuantity quantity) {
     return all_words<ShownQuantity>()[static_cast<std::size_t>(quantity)];

@@ -7,6 +7,7 @@
 #include "compute/scene_file/picture_style.h"
 #include "demos/program/loaded_scene.h"
 #include "demos/program/options.h"
+#include "host/canvas/canvas.h"
 #include "host/canvas/colors.h"
 
 namespace scree::demos {
@@ -17,6 +18,9 @@ PictureStyle style_of(const PictureOptions& options, const PictureStyle& scene);
 // The colour scale of a style; a range that it leaves open is color_range()'s. Throws UsageError for a logarithmic scale
 // that begins at 0.
 host::ColorScale scale_of(const PictureStyle& style, const LoadedScene& subject, const Settings& settings, bool rehearses = true);
+
+// Sets light and background.
+void show_light(const PictureStyle& style, host::CanvasOptions& canvas);
 
 bool shows(const PictureStyle& style, Overlay overlay);
 void set_shown(PictureStyle& style, Overlay overlay, bool on);
@@ -30,6 +34,7 @@ const std::vector<std::string>& color_words();
 const std::vector<std::string>& color_map_words();
 const std::vector<std::string>& color_scale_words();
 const std::vector<std::string>& overlay_words();
+const std::vector<std::string>& sky_words();
 std::string word_of(ShownQuantity quantity);
 ShownQuantity quantity_named(const std::string& word);  // one of color_words()
 

@@ -19,7 +19,7 @@ constexpr double most_looked_at = 2e5;  // bodies looked at in a simulated secon
 std::array<float, 3> motion_of(const World& world, std::size_t body) {
     const BodyState state = world.body(body);
     const Body& what = world.scene().bodies[body];
-    const MassProperties mass = mass_properties(what);
+    const MassProperties mass = what.motion == Motion::dynamic ? mass_properties(what) : MassProperties{};
     const vec3 spin = physics::rotate_back(state.orientation, state.angular_velocity);
     const float turning = glm::dot(mass.inertia, spin * spin), speed = glm::length(state.velocity);
     return {0.5f * (mass.mass * speed * speed + turning), -mass.mass * glm::dot(world.scene().gravity, state.position),

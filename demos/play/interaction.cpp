@@ -15,6 +15,7 @@ namespace {
 // however few pictures are drawn; a slow machine falls behind it rather than freeze the window.
 constexpr double least_time = 0.05, most_time = 0.25;
 constexpr double longest_backlog = 1;  // s of the simulated clock
+constexpr double longest_click = 3;    // pixels that the pointer may move
 constexpr double slowest = 1.0 / 16;
 constexpr std::size_t few_vehicles = 4;  // vehicles up to which a scene is taken to be about driving
 
@@ -31,6 +32,10 @@ const std::vector<KeyHelp>& key_help() {
         {"Space, B", "throw a ball, a box through the pointer"},
         {"arrows, Page Up/Down", "push the selected body"},
         {"X", "explosion at the pointer"},
+        {"click", "select a body that is not dynamic"},
+        {"Delete, V", "delete, duplicate the selected body"},
+        {"J", "join two bodies: click a point of each"},
+        {"O, or drop a file", "open a scene"},
         {"1, 2, 3", "add a sphere, a capsule, a box"},
         {"4, 5, 6", "show contacts, velocities, joints"},
         {"7, 8, 9", "show bounding boxes, cells, sleep"},
@@ -38,7 +43,8 @@ const std::vector<KeyHelp>& key_help() {
         {"P, .", "pause, single step"},
         {"L", "slow motion (1/2 to 1/16), then full speed"},
         {"R, Tab", "restart, next demo (Shift: previous)"},
-        {"H, Esc, Q", "hide the panel, deselect, quit"},
+        {"H, Q", "hide the panel, quit"},
+        {"Esc", "close what is open, end joining, deselect"},
         {"with a vehicle:", ""},
         {"W, S, A, D or arrows", "throttle, brake (then reverse), left, right"},
         {"Space, Backspace, C", "hand brake, reset upright, chase camera"},
@@ -54,6 +60,30 @@ std::string key_help_text() {
         text += (text.empty() ? "" : "\n") + (*line.meaning ? keys + line.meaning : std::string("  ") + line.keys);
     }
     return text;
+}
+
+bool has_body(const World& world, std::size_t body) {
+    try {
+        return world.body(body).exists;
+    } catch (const std::out_of_range&) {
+        return false;
+    }
+}
+
+std::optional<std::size_t> Interaction::selected() const {
+    return selected_ && has_body(session_.world(), *selected_) ? selected_ : std::nullopt;
+}
+
+// Bodies that were removed or have broken, by a script, say.
+void Interaction::forget_removed() {
+    const World& world = session_.world();
+    if (selected_ && !has_body(world, *selected_)) selected_.reset();
+    if (first_point_ && !has_body(world, first_point_->body)) first_point_.reset();
+    if (!hold_ || has_body(world, hold_->body)) return;
+    perform(Release{hold_->grip});  // of a body that has broken; one that was removed is no longer held
+    message_.clear();
+    hold_.reset();
+    motion_ = Motion::none;
 }
 
 Interaction::Interaction(Session& session, Extent extent)
@@ -76,6 +106,9 @@ void Interaction::perform(const UserCommand& act) {
 void Interaction::on(const host::Event& event) {
     using enum host::EventKind;
     switch (event.kind) {
+        case dropped:
+            open(event.file);
+            break;
         case resized:
             extent_ = {static_cast<int>(event.x), static_cast<int>(event.y)};
             break;
@@ -112,14 +145,25 @@ void Interaction::press(const host::Event& event) {
     motion_ = Motion::orbits;
     if (event.button == host::Button::right) return;
     const std::optional<RayHit> hit = hit_under_pointer();
+    if (hit && joining_) {
+        motion_ = Motion::none;
+        pick(*hit);
+        return;
+    }
     const bool dynamic = hit && session_.world().scene().bodies[hit->body].motion == scree::Motion::dynamic;
     if (dynamic) {
         selected_ = hit->body;
         grab(*hit);
+    } else if (hit) {
+        pressed_ = hit->body;
+        pressed_x_ = x_;
+        pressed_y_ = y_;
     }
 }
 
 void Interaction::release_button() {
+    if (pressed_ && std::hypot(x_ - pressed_x_, y_ - pressed_y_) <= longest_click) selected_ = pressed_;
+    pressed_.reset();
     if (motion_ == Motion::holds) let_go();
     motion_ = Motion::none;
 }
@@ -167,7 +211,15 @@ void Interaction::press_key(const host::Event& event) {
     if (pressed == home) eye_ = OrbitCamera(session_.subject().viewpoint);
     if (pressed == key('R')) reset();
     if (pressed == tab) open_next(event.shift ? -1 : 1);
-    if (pressed == escape) selected_.reset();
+    if (pressed == del) remove_selected();
+    if (pressed == key('V')) duplicate_selected();
+    if (pressed == key('J')) joining_ ? end_joining() : begin_joining();
+    if (pressed == escape) {
+        if (joining_)
+            end_joining();
+        else
+            selected_.reset();
+    }
     if (pressed == key('Q')) wants_to_close_ = true;
 }
 
@@ -181,6 +233,8 @@ void Interaction::begin_again() {
     hold_.reset();
     motion_ = Motion::none;
     selected_.reset();
+    pressed_.reset();
+    end_joining();
     handled_.clear();
     thrown_ = 0;
     follows = false;
@@ -204,7 +258,8 @@ void Interaction::go_to(std::uint64_t step) {
     } catch (const std::exception& error) {
         message_ = error.what();
     }
-    if (selected && *selected < session_.world().scene().bodies.size()) selected_ = selected;
+    selected_ = selected;
+    forget_removed();
 }
 
 void Interaction::open(const std::string& name) {
@@ -255,6 +310,7 @@ void Interaction::advance(double seconds) {
         }
     }
     for (; single_steps_ > 0; --single_steps_) make_step();
+    forget_removed();
     if (chases) chase(seconds);
     if (follows && selected_) eye_.look_at(session_.world().body(*selected_).position);
 }

@@ -25,6 +25,22 @@ std::string key_help_text();  // in lines, for --help
 
 enum class Kind { sphere, capsule, box };
 
+// Whether the index is one of a body that exists. World::body throws for one that was removed.
+bool has_body(const World& world, std::size_t body);
+
+// Joints that the pointer makes between two points. Ball, hinge, slider and fixed joints are in the middle between them;
+// rope, rod and spring go from one to the other and have their distance.
+enum class JoinKind { ball, hinge, slider, fixed, rope, rod, spring };
+const std::vector<std::string>& join_words();
+enum class JoinAxis { x, y, z, between };  // of hinges and sliders: of the world, or from the first point to the second
+const std::vector<std::string>& join_axis_words();
+
+// A point on a body, in its frame.
+struct PickedPoint {
+    std::size_t body = 0;
+    vec3 anchor{0};  // m
+};
+
 // The grab spring as drawn: from the body's anchor to the pointer.
 struct Pull {
     std::size_t body = 0;
@@ -62,10 +78,22 @@ public:
     void reset_upright();                  // the vehicle, at its position
     void perform(const UserCommand& act);  // errors go to message()
 
+    // Edits of the selected body; errors go to message().
+    void remove_selected();
+    void duplicate_selected();  // above what is highest where it is
+    // Joining: the next two points that the left button picks on bodies are joined.
+    JoinKind join_kind = JoinKind::ball;
+    JoinAxis join_axis = JoinAxis::z;
+    void begin_joining();
+    void end_joining();
+    bool joining() const { return joining_; }
+    const std::optional<PickedPoint>& first_point() const { return first_point_; }
+    std::size_t joined() const { return joined_; }  // joints made so far
+
     bool wants_to_close() const { return wants_to_close_; }
     Extent extent() const { return extent_; }
     const OrbitCamera& eye() const { return eye_; }
-    std::optional<std::size_t> selected() const { return selected_; }
+    std::optional<std::size_t> selected() const;  // that exists
     std::optional<std::size_t> held() const { return hold_ ? std::optional(hold_->body) : std::nullopt; }
     // The body under the pointer while no button is pressed; casts a ray at all bodies.
     std::optional<RayHit> hovered();
@@ -91,6 +119,9 @@ private:
     void scroll(double clicks);
     void press_key(const host::Event& event);
     void begin_again();
+    void forget_removed();
+    void pick(const RayHit& hit);
+    void join(const PickedPoint& a, const PickedPoint& b);
     void grab(const RayHit& hit);
     void let_go();
     void drag();
@@ -108,6 +139,11 @@ private:
     double x_ = 0, y_ = 0;  // pixels
     Motion motion_ = Motion::none;
     std::optional<Hold> hold_;
+    std::optional<std::size_t> pressed_;  // a body that cannot be grabbed; selected by a click without motion
+    double pressed_x_ = 0, pressed_y_ = 0;
+    bool joining_ = false;
+    std::optional<PickedPoint> first_point_;
+    std::size_t joined_ = 0;
     std::optional<std::size_t> selected_;
     std::vector<Handled> handled_;
     std::set<host::Key> held_keys_;

@@ -124,8 +124,8 @@ void Interaction::push_selected() {
     for (const auto& [pressed, direction] : directions) {
         if (held_keys_.count(pressed) != 0) push += direction;
     }
-    if (push == vec3(0)) return;
     const Body& body = session_.world().scene().bodies[*selected_];
+    if (push == vec3(0) || body.motion != scree::Motion::dynamic) return;
     perform(Push{*selected_, push * (push_acceleration * mass_properties(body).mass)});
 }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "demos/play/replay.h"
 #include "demos/program/loaded_scene.h"
@@ -25,10 +27,12 @@ public:
     void perform(const UserCommand& act);
     void step();
 
-    // Goes back, or forward again as far as the session has been, by playing the commands again from the start: the
-    // bits are the same. Steps from there repeat the later commands until the next one by the user, which begins a
-    // branch.
+    // Goes back, or forward again as far as the session has been, by playing the commands again from the last state that was
+    // kept before, or from the start: the bits are the same. Steps from there repeat the later commands until the next one by the
+    // user, which begins a branch.
     void go_to(std::uint64_t step);
+    std::size_t kept_states() const { return kept_.size(); }
+    std::size_t kept_bytes() const;
     std::uint64_t farthest_step() const { return std::max(farthest_, world_->steps()); }
 
     World& world() { return *world_; }
@@ -39,6 +43,15 @@ public:
     Input input() const;                                      // recording of the current world
 
 private:
+    // A state right after its step, before the script's and the user's commands.
+    struct Kept {
+        std::uint64_t step = 0;
+        std::size_t performed = 0;
+        std::vector<std::byte> bytes;
+    };
+
+    void keep();
+    void forget_some();
     void begin();
     void begin_world();
     void run_script();
@@ -52,6 +65,9 @@ private:
     Input input_;
     std::size_t performed_ = 0;  // commands of input_ so far; later ones are those of a future that was left
     std::uint64_t farthest_ = 0;
+    std::vector<Kept> kept_;    // ascending by step
+    double since_kept_ = 0;     // s of wall time that steps took
+    double keeping_takes_ = 0;  // s, the last time
     std::uint64_t beginnings_ = 0;
 };
 

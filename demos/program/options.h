@@ -74,6 +74,10 @@ struct PictureOptions {
     std::optional<std::string> color, color_map, color_scale;
     std::optional<std::pair<float, float>> color_range;
     std::optional<std::vector<std::string>> show;  // overlays, or "none"
+    std::optional<std::string> sky;
+    std::optional<std::pair<float, float>> sun;  // azimuth and elevation, degrees
+    float shutter = 0;                           // of motion blur: part of the time between pictures, 0: none
+    int shutter_samples = 8;                     // pictures that are averaged
     bool legend = true, caption = true;
     int samples = 1;  // per pixel: 1, 4, 9 or 16, drawn as larger pictures
     bool wanted() const { return !(frames.empty() && video.empty() && preview.empty() && raw.empty()); }

@@ -68,6 +68,28 @@ void set_camera(CameraOptions& options, const std::string& list) {
     }
 }
 
+void set_sun(PictureOptions& options, const std::string& word) {
+    const auto [azimuth, elevation] = halves(word, ',', "--sun", "AZIMUTH,ELEVATION");
+    options.sun = {float_of(azimuth, "--sun"), float_of(elevation, "--sun")};
+    if (!(std::abs(options.sun->first) <= 360))
+        throw CLI::ValidationError("--sun", "AZIMUTH must be between -360 and 360 degrees, is " + azimuth);
+    if (!(options.sun->second >= 3 && options.sun->second <= 90))
+        throw CLI::ValidationError("--sun", "ELEVATION must be between 3 and 90 degrees, is " + elevation);
+}
+
+void set_blur(PictureOptions& options, const std::string& word) {
+    const std::size_t comma = std::min(word.find(','), word.size());
+    options.shutter = float_of(word.substr(0, comma), "--motion-blur");
+    if (!(options.shutter > 0 && options.shutter <= 1))
+        throw CLI::ValidationError("--motion-blur", "SHUTTER must be above 0 and at most 1, is " + word.substr(0, comma));
+    if (comma == word.size()) return;
+    const std::string count = word.substr(comma + 1);
+    const double samples = number_of(count, "--motion-blur");
+    if (samples != std::floor(samples) || samples < 2 || samples > 64)
+        throw CLI::ValidationError("--motion-blur", "SAMPLES must be a whole number from 2 to 64, is " + count);
+    options.shutter_samples = static_cast<int>(samples);
+}
+
 using Set = std::function<void(const std::string&)>;
 
 void add_camera(CLI::App& command, CameraOptions& options) {
@@ -223,6 +245,23 @@ void add_options(CLI::App& command, PictureOptions& options) {
                     "Samples per pixel, 1, 4, 9 or 16: pictures are drawn 2, 3 or 4 times as wide and high, and averaged. "
                     "Default: 1, with smoothed edges.")
         ->check(CLI::IsMember({1, 4, 9, 16}))
+        ->group(group);
+    command
+        .add_option_function<std::string>("--motion-blur", Set([&options](const std::string& word) { set_blur(options, word); }),
+                                          "Motion blur, SHUTTER[,SAMPLES]: each picture is the mean of SAMPLES (8) pictures of "
+                                          "the moments of the last SHUTTER (above 0, at most 1) of the time between pictures, "
+                                          "with bodies interpolated between steps. The camera stands still meanwhile.")
+        ->group(group);
+    command
+        .add_option("--sky", options.sky,
+                    "Light and background: day, evening (a low, warm sun), overcast (faint shadows), studio (light grey), "
+                    "night (moonlight). Default: the scene's, mostly day.")
+        ->check(one_of(sky_words()))
+        ->group(group);
+    command
+        .add_option_function<std::string>("--sun", Set([&options](const std::string& word) { set_sun(options, word); }),
+                                          "Where the sun stands, AZIMUTH,ELEVATION, degrees: about y from z towards x, and "
+                                          "above the horizon (3 to 90). Default: the scene's, or the sky's.")
         ->group(group);
     command
         .add_option("--canvas", options.canvas,

@@ -29,6 +29,11 @@ inline std::string with_unit(double value, const char* unit) {
     return (value < 0 ? "-" : "") + digits + " " + unit;
 }
 
+// Three digits, never "-0".
+inline std::string short_number(double value) {
+    return std::abs(value) < 5e-4 ? "0" : fmt::format("{:.3g}", value);
+}
+
 // A rounded whole number, never "-0".
 inline long whole(double value) {
     return std::lround(value);

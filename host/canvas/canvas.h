@@ -77,6 +77,16 @@ struct ShapeInstances {
     std::vector<SolidMesh> meshes;
 };
 
+// Light and background.
+enum class Sky {
+    day,       // sun and blue sky
+    evening,   // a warm sun, low unless CanvasOptions::toward_sun says otherwise
+    overcast,  // light from everywhere, with faint shadows
+    studio,    // white light before a light grey
+    night      // moonlight before a dark blue
+};
+vec3 usual_sun(Sky sky);  // direction to the sun or moon
+
 struct CanvasOptions {
     int width = 1280;     // pixels
     int height = 720;     // pixels
@@ -90,16 +100,17 @@ struct CanvasOptions {
     // Velocity change of the lighter body, m/s, at which the line of an impulse is half as long as the thinner body's
     // half width; length grows with the square root.
     float mark_push = 0.02f;
-    bool velocities = false;                // linear velocities as arrows
-    float arrow_seconds = 0.2f;             // arrow length is velocity times this
-    bool boxes = false;                     // bounding boxes of bodies
-    bool cells = false;                     // occupied cells of the broadphase grid
-    float cell = 1;                         // width of the finest grid level, m
-    bool joints = false;                    // unbroken joints: lines from bodies to their anchors, and axes
-    float joint_pull = 9.81f;               // acceleration of the lighter body, m/s^2, that is the unit of a joint's colour
-    bool sleep = false;                     // sleeping bodies are drawn dull and blue
-    std::uint32_t sleep_steps = 0;          // still steps after which a body falls asleep; 0: sleep is off
-    float step_seconds = 1.0f / 60;         // duration of a step
+    bool velocities = false;         // linear velocities as arrows
+    float arrow_seconds = 0.2f;      // arrow length is velocity times this
+    bool boxes = false;              // bounding boxes of bodies
+    bool cells = false;              // occupied cells of the broadphase grid
+    float cell = 1;                  // width of the finest grid level, m
+    bool joints = false;             // unbroken joints: lines from bodies to their anchors, and axes
+    float joint_pull = 9.81f;        // acceleration of the lighter body, m/s^2, that is the unit of a joint's colour
+    bool sleep = false;              // sleeping bodies are drawn dull and blue
+    std::uint32_t sleep_steps = 0;   // still steps after which a body falls asleep; 0: sleep is off
+    float step_seconds = 1.0f / 60;  // duration of a step
+    Sky sky = Sky::day;
     vec3 toward_sun{-0.52f, 0.74f, 0.43f};  // need not be normalised
 };
 

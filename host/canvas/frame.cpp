@@ -168,7 +168,58 @@ void set_scale(Frame& frame, const ColorScale& scale) {
     }
 }
 
+// Colours of light and sky, linear RGB.
+struct SkyLight {
+    vec3 toward_sun;  // need not be normalised
+    vec3 sun, zenith, horizon, bounce, ambient;
+    float glow;  // brightness of the sky around the sun
+};
+const SkyLight& light_of(Sky sky) {
+    static const std::array<SkyLight, 5> lights{{
+        {{-0.52f, 0.74f, 0.43f},
+         {1.02f, 0.94f, 0.82f},
+         {0.10f, 0.22f, 0.44f},
+         {0.60f, 0.66f, 0.72f},
+         {0.20f, 0.18f, 0.16f},
+         {0.44f, 0.48f, 0.55f},
+         1},
+        {{-0.85f, 0.32f, 0.35f},
+         {1.25f, 0.72f, 0.38f},
+         {0.09f, 0.13f, 0.28f},
+         {0.72f, 0.50f, 0.36f},
+         {0.17f, 0.13f, 0.11f},
+         {0.30f, 0.31f, 0.40f},
+         1.6f},
+        {{-0.52f, 0.74f, 0.43f},
+         {0.30f, 0.30f, 0.30f},
+         {0.55f, 0.58f, 0.62f},
+         {0.70f, 0.72f, 0.74f},
+         {0.34f, 0.33f, 0.32f},
+         {0.90f, 0.92f, 0.95f},
+         0.3f},
+        {{-0.45f, 0.85f, 0.55f},
+         {0.85f, 0.85f, 0.85f},
+         {0.78f, 0.78f, 0.79f},
+         {0.86f, 0.86f, 0.86f},
+         {0.34f, 0.34f, 0.34f},
+         {0.62f, 0.62f, 0.63f},
+         0},
+        {{-0.52f, 0.74f, 0.43f},
+         {0.30f, 0.36f, 0.50f},
+         {0.008f, 0.012f, 0.030f},
+         {0.030f, 0.040f, 0.075f},
+         {0.05f, 0.05f, 0.06f},
+         {0.13f, 0.15f, 0.21f},
+         0.25f},
+    }};
+    return lights[static_cast<std::size_t>(sky)];
+}
+
 }  // namespace
+
+vec3 usual_sun(Sky sky) {
+    return light_of(sky).toward_sun;
+}
 
 PixelRays pixel_rays(const Camera& camera, int width, int height) {
     CanvasOptions options;
@@ -207,6 +258,12 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     frame.pixel.z = 20 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
     frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
+    const SkyLight& light = light_of(options.sky);
+    frame.sun_light = vec4(light.sun, 0);
+    frame.zenith = vec4(light.zenith, light.glow);
+    frame.horizon = vec4(light.horizon, 0);
+    frame.bounce = vec4(light.bounce, 0);
+    frame.ambient = vec4(light.ambient, 0);
     const std::size_t materials = std::min<std::size_t>(scale.materials.size(), MOST_MATERIALS);
     for (std::size_t i = 0; i < materials; ++i) frame.materials[i] = vec4(scale.materials[i].nature, 0);
 

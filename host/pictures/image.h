@@ -29,6 +29,18 @@ std::vector<std::uint8_t> rgb_bytes(const Image& image);
 // Means of blocks of `factor` x `factor` pixels in linear light; the size must be a multiple of it. Throws ImageError.
 Image reduced(const Image& image, int factor);
 
+// The mean of images of one size, in linear light.
+class MeanImage {
+public:
+    void add(const Image& image);  // throws ImageError for another size than before
+    Image image() const;           // of those added, at least one
+
+private:
+    int width_ = 0, height_ = 0, bits_ = 8;
+    std::size_t count_ = 0;
+    std::vector<float> light_;  // three sums per pixel
+};
+
 // Encodes a PNG file (bits per channel as in the image; opaque images are stored as RGB).
 std::vector<std::uint8_t> png_bytes(const Image& image);
 

@@ -1,14 +1,31 @@
 // Window events, independent of the window system: pointer, buttons, keys, resizing.
 #pragma once
 
+#include <string>
+
 namespace scree::host {
 
-enum class EventKind { moved, pressed, released, scrolled, key_pressed, key_released, resized };
+enum class EventKind { moved, pressed, released, scrolled, key_pressed, key_released, resized, dropped };
 
 enum class Button { left, right, middle };
 
 // Key codes: upper-case ASCII for letters, digits and ' ' '.' ','; other keys from 256.
-enum class Key : int { space = ' ', escape = 256, enter, tab, backspace, left, right, up, down, page_up, page_down, home, other };
+enum class Key : int {
+    space = ' ',
+    escape = 256,
+    enter,
+    tab,
+    backspace,
+    left,
+    right,
+    up,
+    down,
+    page_up,
+    page_down,
+    home,
+    del,
+    other
+};
 constexpr Key key_of(char character) {
     return static_cast<Key>(character);
 }
@@ -20,6 +37,7 @@ struct Event {
     Button button = Button::left;
     Key key = Key::other;
     bool shift = false;
+    std::string file{};  // dropped: a path
 };
 
 }  // namespace scree::host

@@ -52,6 +52,8 @@ Key key_of_glfw(int code) {
             return Key::page_up;
         case GLFW_KEY_PAGE_DOWN:
             return Key::page_down;
+        case GLFW_KEY_DELETE:
+            return Key::del;
         case GLFW_KEY_HOME:
             return Key::home;
         default:
@@ -184,6 +186,10 @@ void Window::Impl::listen() {
         Impl& in = of(window);
         if (!ImGui::GetIO().WantCaptureMouse)
             in.events.push_back({.kind = EventKind::scrolled, .x = in.x, .y = in.y, .amount = amount});
+    });
+    glfwSetDropCallback(handle, [](GLFWwindow* window, int count, const char** files) {
+        Impl& in = of(window);
+        if (count > 0) in.events.push_back({.kind = EventKind::dropped, .x = in.x, .y = in.y, .file = files[0]});
     });
     glfwSetFramebufferSizeCallback(handle, [](GLFWwindow* window, int width, int height) {
         of(window).events.push_back(

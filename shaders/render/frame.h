@@ -61,6 +61,11 @@ struct Frame {
     vec4 sun_view;                   // bounds of what the camera sees on the axes of the sun's map, from the eye: low, high, m
     vec4 sky_view;                   // likewise on those of the sky's map, x and -z
     vec4 sides[4];                   // sides of the view frustum: unit normals inwards; w: distance of the eye inside, m
+    vec4 sun_light;                  // colour of the sun, linear RGB
+    vec4 zenith;                     // colours of the sky straight above and at the horizon; zenith w: brightness of the
+    vec4 horizon;                    // sky's glow around the sun
+    vec4 bounce;                     // light that the ground reflects
+    vec4 ambient;                    // light of the sky on what faces up
     vec4 materials[MOST_MATERIALS];  // friction, restitution, density in kg/m^3
     vec4 colors[MAP_ENTRIES];        // the colour map, linear RGB
 };

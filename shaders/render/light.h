@@ -7,16 +7,11 @@
 layout(set = 0, binding = 5) uniform sampler2D sun_depths;
 layout(set = 0, binding = 6) uniform sampler2D sky_depths;
 
-const vec3 SUN = vec3(1.02, 0.94, 0.82);
-const vec3 SKY_ZENITH = vec3(0.10, 0.22, 0.44);
-const vec3 SKY_HORIZON = vec3(0.60, 0.66, 0.72);
-const vec3 BOUNCE = vec3(0.20, 0.18, 0.16);  // light reflected by the ground
-
 vec3 sky_color(vec3 direction) {
     float high = max(dot(direction, frame.toward_sky.xyz), 0.0);
-    vec3 sky = mix(SKY_ZENITH, SKY_HORIZON, exp(-8.0 * high * sqrt(high)));
+    vec3 sky = mix(frame.zenith.xyz, frame.horizon.xyz, exp(-8.0 * high * sqrt(high)));
     float toward = max(dot(direction, frame.toward_sun.xyz), 0.0);
-    return sky + SUN * (0.10 * pow(toward, 6.0) + 0.25 * pow(toward, 90.0));
+    return sky + frame.sun_light.xyz * frame.zenith.w * (0.10 * pow(toward, 6.0) + 0.25 * pow(toward, 90.0));
 }
 
 // Bilinear filter of four texels from textureGather. Done by hand, because comparison samplers may use the nearest
@@ -50,10 +45,12 @@ float sun_visibility(vec3 point, vec3 normal) {
                    lit_at(at.xy + vec2(0.55 * r, 1.35 * r), at.z) + lit_at(at.xy + vec2(-1.35 * r, 0.55 * r), at.z));
 }
 
-// Occlusion of the sky at a position of the map: strong by what is close above, weak by what is high above.
+// Occlusion of the sky at a position of the map: strong by what is close above, none by what is high above, which would draw a
+// second shadow.
 float shut_at(vec2 at, float depth) {
     vec4 gap = (depth - textureGather(sky_depths, at)) * (frame.pixel.y / frame.pixel.z);
-    vec4 shut = step(vec4(0.0), gap) / (1.0 + gap * gap);
+    vec4 near = max(1.0 - 0.25 * gap * gap, vec4(0.0));
+    vec4 shut = step(vec4(0.0), gap) * near * near;
     return weighed(shut, at, frame.maps.w);
 }
 
@@ -88,8 +85,8 @@ vec3 lit(vec3 color, vec3 point, vec3 normal, vec3 direction, float gloss) {
     vec3 to_sun = frame.toward_sun.xyz;
     float sun = max(dot(normal, to_sun), 0.0) * sun_visibility(point, normal);
     float open = sky_visibility(point, normal);
-    vec3 sky = mix(BOUNCE, vec3(0.44, 0.48, 0.55), 0.5 + 0.5 * normal.y) * open;
-    vec3 light = color * (SUN * sun + sky);
+    vec3 sky = mix(frame.bounce.xyz, frame.ambient.xyz, 0.5 + 0.5 * normal.y) * open;
+    vec3 light = color * (frame.sun_light.xyz * sun + sky);
     if (gloss <= 0.0) return light;
     // Schlick's Fresnel approximation, Blinn-Phong highlight.
     float facing = clamp(-dot(direction, normal), 0.0, 1.0);
@@ -104,15 +101,16 @@ vec3 lit(vec3 color, vec3 point, vec3 normal, vec3 direction, float gloss) {
     shine *= shine;
     float highlight = shine * shine * shine * 0.35 * sun;  // to the power of 48
     vec3 mirrored = reflect(direction, normal);
-    vec3 reflected = mix(BOUNCE, mix(SKY_HORIZON, SKY_ZENITH, clamp(mirrored.y, 0.0, 1.0)), smoothstep(-0.15, 0.15, mirrored.y));
-    return light + gloss * (SUN * highlight + reflected * (fresnel * open * 0.7));
+    vec3 above = mix(frame.horizon.xyz, frame.zenith.xyz, clamp(mirrored.y, 0.0, 1.0));
+    vec3 reflected = mix(frame.bounce.xyz, above, smoothstep(-0.15, 0.15, mirrored.y));
+    return light + gloss * (frame.sun_light.xyz * highlight + reflected * (fresnel * open * 0.7));
 }
 
 // Haze: distant points fade to the colour of the horizon.
 vec3 hazed(vec3 color, float distance) {
     if (orthographic()) return color;
     float x = distance / frame.eye.w;
-    return mix(SKY_HORIZON, color, exp(-0.35 * x * x));
+    return mix(frame.horizon.xyz, color, exp(-0.35 * x * x));
 }
 
 // Output colour; with one sample per pixel alpha holds the perceived luminance for smooth.frag.

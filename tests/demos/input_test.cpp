@@ -47,6 +47,11 @@ void play(Session& session) {
             rope.break_force = 1e7f / 3;
             session.perform(Join{rope});
         }
+        if (step == 38) session.perform(SetMaterial{.body = 4, .friction = 0.1f, .rolling_resistance = 1.0f / 3});
+        if (step == 39) session.perform(SetMass{7, 1234.567f});
+        if (step == 52) session.perform(SetMotion{2, Motion::fixed});
+        if (step == 57) session.perform(SetMotion{2, Motion::dynamic});
+        if (step == 65) session.perform(Remove{8});
         if (step == 70) session.perform(Unjoin{0});
         if (step > 40 && step < 45) session.perform(Push{5, vec3(3e4f, 1, -2)});
         if (step == 50) session.perform(Explode{vec3(0.3f, 0, 0), 4, 7});
@@ -143,10 +148,50 @@ TEST_CASE("a session goes back to any moment with the same bits, and on from the
     }
 }
 
+TEST_CASE("going back begins with a state that was kept, also of a moment when a body was held") {
+    int worlds = 0;
+    Session session(options_of("stack"), [&] {
+        ++worlds;
+        return make_reference_runner(1);
+    });
+    session.perform(Grab{0, 10, vec3(0), vec3(0, 9, 1)});
+    std::vector<std::uint64_t> hashes;
+    for (int step = 0; step < 200; ++step) {
+        session.perform(Drag{0, vec3(0, 9 + 0.01f * static_cast<float>(step), 1)});
+        if (step == 150) session.perform(Add{});
+        hashes.push_back(session.world().state_hash());
+        session.step();
+    }
+    REQUIRE(session.kept_states() >= 1);  // fewer than three where the machine is busy
+    REQUIRE(session.kept_bytes() > 0);
+    for (const std::uint64_t step : {199u, 120u, 165u, 61u}) {
+        session.go_to(step);
+        REQUIRE(session.world().steps() == step);
+        REQUIRE(session.world().state_hash() == hashes[step]);
+    }
+    REQUIRE(worlds == 1);
+    session.perform(Turn{.sleeping = false});  // a branch, which lets go and keeps states of its own
+    for (int step = 0; step < 100; ++step) session.step();
+    const std::uint64_t end = session.world().state_hash();
+    session.go_to(130);
+    session.go_to(161);
+    REQUIRE(session.world().state_hash() == end);
+    REQUIRE(replayed(session.input(), session.options()) == end);
+    session.go_to(3);  // before all that are kept
+    REQUIRE(session.world().state_hash() == hashes[3]);
+    REQUIRE(worlds == 2);
+}
+
 TEST_CASE("an act that the world refuses is not recorded") {
     Session session(options_of("stack"), on_cpu);
     REQUIRE_THROWS_AS(session.perform(Drag{0, vec3(0)}), std::out_of_range);
     REQUIRE_THROWS_AS(session.perform(Push{999, vec3(0)}), std::out_of_range);
+    REQUIRE_THROWS_AS(session.perform(SetMaterial{.body = 999, .friction = 1.0f}), std::out_of_range);
+    REQUIRE_THROWS_AS(session.perform(SetMaterial{.body = 5, .friction = -1.0f}), SceneError);
+    REQUIRE_THROWS_AS(session.perform(SetMass{5, 0}), SceneError);
+    REQUIRE_THROWS_AS(session.perform(SetMass{0, 10}), SceneError);  // the ground is a plane
+    REQUIRE_THROWS_AS(session.perform(SetMotion{0, Motion::dynamic}), SceneError);
+    REQUIRE_THROWS_AS(session.perform(Remove{999}), std::out_of_range);
     REQUIRE_THROWS_AS(session.perform(Grab{1, 5, vec3(0), vec3(0)}), std::invalid_argument);  // slot 0 is free
     REQUIRE_THROWS_AS(session.perform(Turn{.substeps = 65}), std::invalid_argument);
     REQUIRE(session.input().acts.empty());

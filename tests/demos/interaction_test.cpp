@@ -5,6 +5,7 @@
 
 #include "compute/scene/shape_geometry.h"
 #include "demos/play/interaction.h"
+#include "tests/temporary_folder.h"
 
 using namespace scree;
 using namespace scree::demos;
@@ -301,6 +302,126 @@ TEST_CASE("to begin again and to open the next demo let go of everything") {
     REQUIRE(played.session.options().name != first);
     played.strike(Key::tab, true);
     REQUIRE(played.session.options().name == first);
+}
+
+TEST_CASE("a click selects what cannot be grabbed, and a drag that begins there looks round") {
+    Played played;
+    const glm::vec2 ground = played.hands.eye().pixel_of(vec3(2, 0, 1), extent).value();
+    played.at(host::EventKind::moved, ground);
+    played.at(host::EventKind::pressed, ground);
+    played.at(host::EventKind::moved, ground + glm::vec2(40, 0));
+    played.at(host::EventKind::released, ground + glm::vec2(40, 0));
+    REQUIRE_FALSE(played.hands.selected());
+    const glm::vec2 now = played.hands.eye().pixel_of(vec3(2, 0, 1), extent).value();
+    played.at(host::EventKind::pressed, now);
+    played.at(host::EventKind::released, now);
+    REQUIRE(played.hands.selected() == 0);
+    played.hands.on({.kind = host::EventKind::key_pressed, .key = Key::left});  // no force on it, and no complaint
+    played.pass(0.1);
+    REQUIRE(played.hands.message().empty());
+    played.strike(Key::escape);
+    REQUIRE_FALSE(played.hands.selected());
+    REQUIRE_FALSE(played.hands.wants_to_close());
+}
+
+TEST_CASE("the selected body is duplicated onto what is there, and deleted, and both are recorded") {
+    Played played;
+    played.hands.select(top);
+    const std::size_t bodies = played.session.world().scene().bodies.size();
+    const float height = played.session.world().body(top).position.y;
+    played.strike(key_of('V'));
+    REQUIRE(played.session.world().scene().bodies.size() == bodies + 1);
+    REQUIRE(played.session.world().body(bodies).position.y > height + 0.5f);
+    REQUIRE(played.hands.selected() == top);
+    played.strike(Key::del);
+    REQUIRE_FALSE(played.hands.selected());
+    REQUIRE_FALSE(has_body(played.session.world(), top));
+    played.strike(Key::del);  // nothing is selected
+    REQUIRE(played.session.input().acts.size() == 2);
+    const glm::vec2 pixel = played.pixel_of(5);
+    played.at(host::EventKind::pressed, pixel);
+    REQUIRE(played.hands.held() == 5);
+    played.session.perform(Remove{5});  // as a script may
+    played.pass(0.1);
+    REQUIRE_FALSE(played.hands.held());
+    REQUIRE_FALSE(played.hands.selected());
+    played.at(host::EventKind::moved, pixel + glm::vec2(20, 0));
+    played.at(host::EventKind::released, pixel);
+    played.hands.go_to(0);
+    REQUIRE(played.hands.message().empty());
+    played.hands.select(0);
+    played.strike(key_of('V'));
+    REQUIRE_THAT(played.hands.message(), Catch::Contains("plane"));
+}
+
+TEST_CASE("duplicates of every shape are replayed from the recording's text with the same bits") {
+    Played played("assortment");
+    played.pass(0.2);
+    const std::size_t bodies = played.session.world().scene().bodies.size();
+    std::size_t made = 0;
+    for (std::size_t body = 0; body < bodies && made < 40; ++body) {
+        if (played.session.world().scene().bodies[body].motion != scree::Motion::dynamic) continue;
+        played.hands.select(body);
+        played.strike(key_of('V'));
+        REQUIRE(played.hands.message().empty());
+        ++made;
+    }
+    REQUIRE(made > 5);
+    played.pass(0.5);
+    const Input input = input_from_json(json_of(played.session.input()));
+    World world(played.session.subject().scene, played.session.subject().settings(played.session.options()),
+                make_reference_runner(1));
+    for (perform_due(input, world); world.steps() < input.steps; perform_due(input, world)) world.step();
+    REQUIRE(world.state_hash() == played.session.world().state_hash());
+}
+
+TEST_CASE("two clicks join two bodies by each kind of joint, and the recording says so") {
+    for (std::size_t kind = 0; kind < join_words().size(); ++kind) {
+        CAPTURE(join_words()[kind]);
+        Played played;
+        const auto click = [&](std::size_t body) {
+            const glm::vec2 pixel = played.pixel_of(body);
+            played.at(host::EventKind::pressed, pixel);
+            played.at(host::EventKind::released, pixel);
+        };
+        played.hands.join_kind = static_cast<JoinKind>(kind);
+        played.strike(key_of('J'));
+        REQUIRE(played.hands.joining());
+        click(top);
+        REQUIRE(played.hands.first_point()->body == top);
+        click(top);
+        REQUIRE_THAT(played.hands.message(), Catch::Contains("same body"));
+        click(top - 3);
+        REQUIRE(played.hands.message().empty());
+        REQUIRE_FALSE(played.hands.joining());
+        REQUIRE(played.hands.joined() == 1);
+        const Scene& scene = played.session.world().scene();
+        REQUIRE(scene.joints.size() == 1);
+        REQUIRE(scene.joints[0].a == top);
+        REQUIRE(scene.joints[0].b == top - 3);
+        const auto& act = std::get<Join>(played.session.input().acts.at(0).act);
+        REQUIRE(act.joint.kind.index() == scene.joints[0].kind.index());
+        played.pass(0.2);
+        REQUIRE(played.session.world().joint(0).gap < (kind < 4 ? 0.01f : 5.0f));
+        played.hands.perform(Unjoin{0});
+        REQUIRE(played.session.world().scene().joints.empty());
+    }
+    Played played;
+    played.strike(key_of('J'));
+    played.strike(Key::escape);
+    REQUIRE_FALSE(played.hands.joining());
+}
+
+TEST_CASE("a scene file that is dropped is opened, and a wrong one told") {
+    Played played;
+    played.hands.on({.kind = host::EventKind::dropped, .file = "nowhere/scene.json"});
+    REQUIRE_THAT(played.hands.message(), Catch::Contains("nowhere/scene.json"));
+    REQUIRE(played.session.options().name == "stack");
+    const tests::TemporaryFolder folder;
+    const std::string file = folder.write("ball.json", R"({"bodies": [{"shape": {"sphere": {"radius": 0.5}}}]})");
+    played.hands.on({.kind = host::EventKind::dropped, .file = file});
+    REQUIRE(played.hands.message().empty());
+    REQUIRE(played.session.world().scene().bodies.size() == 1);
 }
 
 TEST_CASE("the view follows the selected body") {

@@ -23,6 +23,25 @@ TEST_CASE("a reduced image has the mean light of its blocks", "[image]") {
     CHECK_THROWS_AS(reduced(image, 3), ImageError);
 }
 
+TEST_CASE("the mean of images is that of their light", "[image]") {
+    for (const int bits : {8, 16}) {
+        const std::size_t bytes = bits / 8;
+        const Image black{1, 1, std::vector<std::uint8_t>(4 * bytes, 0), bits},
+            white{1, 1, std::vector<std::uint8_t>(4 * bytes, 255), bits};
+        MeanImage mean;
+        for (const Image* one : {&black, &white}) mean.add(*one);
+        const Image half = mean.image();
+        REQUIRE(half.bits == bits);
+        REQUIRE(half.rgba.size() == 4 * bytes);
+        CHECK(std::abs(int{half.rgba[bytes - 1]} - 188) <= 1);  // the higher byte
+        CHECK(half.rgba.back() == 255);
+        CHECK_THROWS_AS(mean.add(Image{2, 1, std::vector<std::uint8_t>(8 * bytes, 0), bits}), ImageError);
+        MeanImage same;
+        for (int i = 0; i < 3; ++i) same.add(half);
+        CHECK(same.image().rgba == half.rgba);
+    }
+}
+
 TEST_CASE("a level stays itself when reduced", "[image]") {
     for (int level = 0; level < 256; ++level) {
         Image image{2, 2, std::vector<std::uint8_t>(16, static_cast<std::uint8_t>(level)), 8};

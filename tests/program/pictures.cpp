@@ -244,6 +244,71 @@ TEST_CASE("program: pictures of more samples have the same size, and --samples t
     require_refused("rest --steps 1 --frames none --samples 3", {"--samples"});
 }
 
+TEST_CASE("program: sky and sun change the picture, by options and in scene files", "[program]") {
+    const std::string run = "rest --steps 1 --fps 10 " + small;
+    const std::string plain = picture_of(run);
+    for (const char* light : {"--sky evening", "--sky overcast", "--sky studio", "--sky night", "--sun 120,30"}) {
+        INFO(light);
+        REQUIRE(picture_of(run + light) != plain);
+    }
+    REQUIRE(picture_of(run + "--sky day") == plain);
+    const Place place;
+    const auto scene = [&](const std::string& picture) {
+        const std::string text = scene_with_camera(R"({"eye": [0, 2, 8], "target": [0, 1, 0]})");
+        return "'" + place.write("scene.json", text.substr(0, text.size() - 1) + R"(, "picture": )" + picture + "}") +
+               "' --steps 1 --fps 10 " + small;
+    };
+    const std::string by_option = picture_of(scene("{}") + "--sky evening --sun 120,30");
+    REQUIRE(picture_of(scene(R"({"sky": "evening", "sun_azimuth": 120, "sun_elevation": 30})")) == by_option);
+    require_refused(scene(R"({"sky": "green"})") + "--frames none",
+                    {"/picture/sky", "\"green\"", "day, evening, overcast, studio, night"});
+    require_refused(scene(R"({"sun_elevation": 95})") + "--frames none", {"/picture/sun_elevation", "between 3 and 90"});
+    require_refused("rest --sky blue", {"--sky", "day, evening, overcast, studio, night"});
+    require_refused("rest --sun 30", {"--sun", "AZIMUTH,ELEVATION"});
+    require_refused("rest --sun 30,0", {"--sun", "ELEVATION must be between 3 and 90 degrees, is 0"});
+    require_refused("rest --sun north,20", {"--sun", "north"});
+    require_refused("rest --steps 1 --sky night", {"--sky", "no pictures are asked for"});
+}
+
+TEST_CASE("program: motion blur smears a body over its way while the shutter is open, and nothing else", "[program]") {
+    const Place place;
+    // 60 m/s; a pixel is 0.1 m. At 0.1 s the ball is at 6 m.
+    const std::string file = place.write("shot.json", R"({"gravity": [0, 0, 0], "bodies": [
+        {"shape": {"sphere": {"radius": 0.5}}, "position": [0, 0, 0], "velocity": [60, 0, 0]}],
+        "camera": {"eye": [5, 0, 20], "target": [5, 0, 0], "orthographic": true, "vertical_fov": 18.1806}})");
+    for (const char* backend : {"cpu", "vulkan"}) {
+        CAPTURE(backend);
+        const auto last = [&](const std::string& options) {
+            const Outcome run =
+                run_scree("run '" + file + "' --backend " + backend +
+                          " --size 240x64 --steps 6 --fps 10 --no-caption --no-legend --quiet --raw - " + options);
+            INFO(run.errors);
+            REQUIRE(run.output.size() == 2 * 240 * 64 * 3);
+            return run.output.substr(240 * 64 * 3);
+        };
+        const std::string sharp = last(""), blurred = last("--motion-blur 0.5,32"), longer = last("--motion-blur 1");
+        // Whether the middle row changes at a place, m.
+        const auto changes = [&](const std::string& one, double x) {
+            const auto column = static_cast<std::size_t>(std::lround(120 + (x - 5) / 0.1));
+            const std::size_t at = (32 * 240 + column) * 3;
+            int most = 0;
+            for (std::size_t k = 0; k < 3; ++k)
+                most =
+                    std::max(most, std::abs(static_cast<std::uint8_t>(one[at + k]) - static_cast<std::uint8_t>(sharp[at + k])));
+            return most > 6;
+        };
+        CHECK(changes(blurred, 6));
+        for (const double x : {3.2, 4.0, 4.8, 5.2}) CHECK(changes(blurred, x));  // 3 m of way
+        for (const double x : {0.5, 1.5, 2.2, 7.0, 9.0}) CHECK_FALSE(changes(blurred, x));
+        CHECK(changes(longer, 1.5));
+        CHECK_FALSE(changes(longer, 7.0));
+    }
+    require_refused("rest --steps 1 --frames none --motion-blur 0", {"--motion-blur", "above 0 and at most 1"});
+    require_refused("rest --steps 1 --frames none --motion-blur 2", {"--motion-blur", "above 0 and at most 1"});
+    require_refused("rest --steps 1 --frames none --motion-blur 0.5,1", {"--motion-blur", "from 2 to 64"});
+    require_refused("rest --steps 1 --frames none --motion-blur half", {"--motion-blur", "half"});
+}
+
 TEST_CASE("program: a run that needs more substeps is told so", "[program]") {
     const Place place;
     // A column of heavy boxes whose lowest contacts give way.

@@ -239,6 +239,18 @@ class Model(unittest.TestCase):
         world.step(30)
         np.testing.assert_allclose(world.position[lift], (0, 1, 0), atol=1e-5)
 
+    def test_masses_change(self):
+        scene = scree.Scene()
+        boxes = scene.add(scree.Box((.5, .5, .5)), position=[(0, 5, 0), (5, 5, 0)])
+        world = scree.World(scene, backend="cpu")
+        world.set_mass(boxes, (10, 40))
+        for box in boxes:
+            world.apply([box], impulse=(40, 0, 0))
+        world.step()
+        np.testing.assert_allclose(world.velocity[boxes, 0], (4, 1), rtol=1e-5)
+        with self.assertRaises(scree.SceneError):
+            world.set_mass(boxes, 0)
+
     def test_materials_and_fields_change(self):
         scene = scree.Scene()
         scene.add(scree.Plane(), friction=1.0)

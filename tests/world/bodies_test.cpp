@@ -113,11 +113,37 @@ TEST_CASE("bodies that are refused are not added or removed, and nothing else ha
     REQUIRE_THROWS_AS(world.set_bodies(std::vector{BodyChange{0, vec3(0)}}), std::invalid_argument);
     REQUIRE_THROWS_AS(world.set_bodies(std::vector{BodyChange{100000, vec3(0)}}), std::out_of_range);
     REQUIRE_THROWS_AS(world.set_material(3, {-1, 0, 0}), SceneError);
+    for (const float mass : {0.0f, -1.0f, nan, 1e16f}) REQUIRE_THROWS_AS(world.set_mass(3, mass), SceneError);
+    REQUIRE_THROWS_AS(world.set_mass(0, 5), SceneError);
+    REQUIRE_THROWS_AS(world.set_mass(100000, 5), std::out_of_range);
     REQUIRE_THROWS_AS(world.set_motion(0, Motion::dynamic), SceneError);
     REQUIRE_THROWS_AS(world.set_motion(chassis, Motion::fixed), SceneError);
     world.step(30);
     other.step(30);
     REQUIRE(world.state_hash() == other.state_hash());
+}
+
+TEST_CASE("a body whose mass was set moves like one that began with it, also from a saved state", "[world]") {
+    Scene scene = stack(3), heavy = scene;
+    const MassProperties mass = mass_properties(scene.bodies[2]);
+    const float factor = 7000 / mass.mass;
+    heavy.bodies[2].inertial = Inertial{.mass = 7000, .inertia = mass.inertia * factor};
+    World world(scene, {}, 1), other(heavy, {}, 1), third(scene, {}, 1);
+    world.set_mass(2, 7000);
+    REQUIRE(mass_properties(world.scene().bodies[2]).mass == 7000);
+    for (int i = 0; i < 60; ++i) {
+        for (World* one : {&world, &other}) one->apply_impulse(3, vec3(300, 0, 0));
+        world.step();
+        other.step();
+        REQUIRE(world.state_hash() == other.state_hash());
+    }
+    third.restore(world.save());
+    for (World* one : {&world, &third}) {
+        one->apply_impulse(2, vec3(7000, 0, 0));
+        one->step(30);
+    }
+    REQUIRE(third.state_hash() == world.state_hash());
+    REQUIRE(mass_properties(third.scene().bodies[2]).mass == 7000);
 }
 
 TEST_CASE("a body that is put somewhere moves like one that began there", "[world]") {

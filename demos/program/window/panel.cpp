@@ -8,6 +8,7 @@
 
 #include "compute/fields/picture_style.h"
 #include "demos/program/units.h"
+#include "demos/program/window/widgets.h"
 #include "demos/scenes/demos.h"
 #include "host/files/file.h"
 
@@ -15,15 +16,9 @@ namespace scree::demos {
 
 namespace {
 
-constexpr double look_every = 0.25;  // s: reading all contacts of a large world takes a while
-
-void say_line(const std::string& text) {
-    ImGui::TextUnformatted(text.c_str());
-}
-
 void choose_demo(Session& session, Interaction& interaction) {
     const std::string& name = session.subject().name;
-    if (!ImGui::BeginCombo("scene", session.subject().title().c_str())) return;
+    if (!begin_list("scene", session.subject().title())) return;
     for (const Demo& demo : all_demos()) {
         if (demo.trial) continue;
         if (ImGui::Selectable(demo.name, name == demo.name)) interaction.open(demo.name);
@@ -32,38 +27,12 @@ void choose_demo(Session& session, Interaction& interaction) {
     ImGui::EndCombo();
 }
 
-// A drop-down list of an enum's words.
-template <class Enum>
-bool choose(const char* label, const std::vector<std::string>& words, Enum& value) {
-    bool changed = false;
-    if (!ImGui::BeginCombo(label, words[static_cast<std::size_t>(value)].c_str())) return false;
-    for (std::size_t i = 0; i < words.size(); ++i) {
-        if (!ImGui::Selectable(words[i].c_str(), i == static_cast<std::size_t>(value))) continue;
-        changed = value != static_cast<Enum>(i);
-        value = static_cast<Enum>(i);
-    }
-    ImGui::EndCombo();
-    return changed;
-}
-
 void choose_color(PictureStyle& style) {
     if (choose("colour", color_words(), style.color)) {
         style.scale = ShownScale::automatic;
         style.range = glm::vec2(0);
     }
     choose("map", color_map_words(), style.map);
-}
-
-// A button that takes a slider back to its default, beside it while it has another value.
-template <class Value>
-bool resets(const char* name, Value& value, Value by_default) {
-    if (value == by_default) return false;
-    ImGui::SameLine();
-    ImGui::PushID(name);
-    const bool pressed = ImGui::SmallButton("reset");
-    ImGui::PopID();
-    if (pressed) value = by_default;
-    return pressed;
 }
 
 }  // namespace
@@ -148,46 +117,9 @@ void Panel::show_additions(Interaction& interaction, Wishes& wishes) {
     ImGui::SameLine();
     wishes.picture = ImGui::Button("picture");
     ImGui::SameLine();
+    wishes.film = ImGui::Button(filming ? "end video" : "video");
+    ImGui::SameLine();
     wishes.recording = ImGui::Button("recording");
-}
-
-void Panel::look_at(const World& world, std::size_t body) {
-    if (looked_body_ == body && ImGui::GetTime() - looked_at_ <= look_every && ImGui::GetTime() >= looked_at_) return;
-    points_ = contact_points_of(world, body);
-    looked_body_ = body;
-    looked_at_ = ImGui::GetTime();
-}
-
-void Panel::show_selected(Session& session, Interaction& interaction) {
-    const std::optional<std::size_t> selected = interaction.selected();
-    if (!selected) {
-        points_.clear();
-        looked_body_.reset();
-        ImGui::TextDisabled("take hold of a body to see what it is about");
-        return;
-    }
-    World& world = session.world();
-    const Scene& scene = world.scene();
-    const BodyState state = world.body(*selected);
-    const Body& body = scene.bodies[*selected];
-    const float mass = mass_properties(body).mass;
-    look_at(world, *selected);
-    double force = 0;
-    std::vector<std::size_t> others;
-    for (const ContactPoint& point : points_) {
-        force += static_cast<double>(point.force);
-        if (std::find(others.begin(), others.end(), point.other) == others.end()) others.push_back(point.other);
-    }
-    say_line(name_of(scene, *selected) + (state.asleep ? ", asleep" : ""));
-    const vec3 p = state.velocity * mass;
-    say_line("momentum " + with_unit(glm::length(p), "kg m/s"));
-    say_line(fmt::format("    ({:.3g}, {:.3g}, {:.3g})", p.x, p.y, p.z));
-    say_line(with_unit(glm::length(state.velocity), "m/s") + ", " + with_unit(glm::length(state.angular_velocity), "rad/s") +
-             ", " + with_unit(mass, "kg"));
-    say_line(fmt::format("touches {} in {} points, {}", others.size(), points_.size(), with_prefix(force, "N")));
-    say_line(fmt::format("density {}, friction {:g}, restitution {:g}", with_unit(body.density, "kg/m^3"), body.friction,
-                         body.restitution));
-    ImGui::Checkbox("follow", &interaction.follows);
 }
 
 void Panel::show_vehicle(Session& session, Interaction& interaction) {
@@ -230,9 +162,45 @@ void Panel::write_graphs(const Session& session) {
     }
 }
 
+void Panel::show_light(PictureStyle& style) {
+    if (!ImGui::TreeNodeEx("light", ImGuiTreeNodeFlags_None)) return;
+    choose("sky", sky_words(), style.sky);
+    float elevation = style.sun_elevation > 0 ? style.sun_elevation : 45;
+    bool own = style.sun_elevation > 0;
+    if (ImGui::Checkbox("sun stands at", &own)) style.sun_elevation = own ? elevation : 0;
+    if (own) {
+        if (ImGui::SliderFloat("height", &elevation, 3, 90, "%.0f deg", ImGuiSliderFlags_AlwaysClamp))
+            style.sun_elevation = elevation;
+        ImGui::SliderFloat("around", &style.sun_azimuth, -180, 180, "%.0f deg", ImGuiSliderFlags_AlwaysClamp);
+        resets("around", style.sun_azimuth, 0.0f);
+    }
+    ImGui::TreePop();
+}
+
+void Panel::show_chooser(Interaction& interaction) {
+    const std::optional<std::string> file = chooser.lay_out(interaction.message());
+    if (!file) return;
+    interaction.open(*file);
+    if (interaction.message().empty()) chooser.hide();
+}
+
+bool Panel::closes_something() {
+    if (list_open_ && shown) {
+        // The list sees the key in the next layout, even if it is released by then.
+        ImGui::GetIO().KeysDown[ImGui::GetKeyIndex(ImGuiKey_Escape)] = true;
+        return true;
+    }
+    if (!chooser.shown()) return false;
+    chooser.hide();
+    return true;
+}
+
 Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& rates, PictureStyle& style) {
     Wishes wishes;
     show_marks(session, interaction);
+    if (joined_ != interaction.joined()) set_shown(style, Overlay::joints, true);
+    joined_ = interaction.joined();
+    show_chooser(interaction);
     if (!shown) return wishes;
     ImGui::SetNextWindowPos(ImVec2(8, 8), ImGuiCond_FirstUseEver);
     ImGui::SetNextWindowBgAlpha(0.78f);
@@ -240,15 +208,19 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
                  ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoNavInputs | ImGuiWindowFlags_NoFocusOnAppearing);
     ImGui::PushItemWidth(170);
     choose_demo(session, interaction);
+    ImGui::SameLine();
+    if (ImGui::SmallButton("open")) chooser.show();
     choose_color(style);
     show_overlays(style);
     show_clock(session, interaction, rates);
     ImGui::Separator();
     show_dials(session, interaction);
     show_additions(interaction, wishes);
+    show_joining(interaction);
+    show_light(style);
     ImGui::Separator();
     show_vehicle(session, interaction);
-    show_selected(session, interaction);
+    if (!interaction.selected()) ImGui::TextDisabled("click a body to see what it is about");
     if (!interaction.message().empty()) ImGui::TextColored(ImVec4(1, 0.5f, 0.4f, 1), "%s", interaction.message().c_str());
     if (!told_.empty()) ImGui::TextColored(ImVec4(0.6f, 0.9f, 0.6f, 1), "%s", told_.c_str());
     show_graphs(session, interaction, rates);
@@ -267,6 +239,9 @@ Wishes Panel::lay_out(Session& session, Interaction& interaction, const Rates& r
     }
     ImGui::PopItemWidth();
     ImGui::End();
+    show_selected(session, interaction);
+    list_open_ = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup);
+    ImGui::GetIO().KeysDown[ImGui::GetKeyIndex(ImGuiKey_Escape)] = false;
     return wishes;
 }
 

@@ -1,6 +1,7 @@
 // The window's panel: clock, rates, settings, overlays, graphs, and data of the selected body.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "demos/play/contact_points.h"
 #include "demos/play/history.h"
 #include "demos/play/interaction.h"
+#include "demos/program/window/file_chooser.h"
 
 namespace scree::demos {
 
@@ -22,6 +24,7 @@ struct Rates {
 // What the panel asks of the window.
 struct Wishes {
     bool picture = false;    // write the next picture to a file
+    bool film = false;       // begin a video, or end it
     bool recording = false;  // write the recording so far
 };
 
@@ -31,14 +34,36 @@ public:
     Wishes lay_out(Session& session, Interaction& interaction, const Rates& rates, PictureStyle& style);
     void tell(std::string message) { told_ = std::move(message); }  // shown until the next
 
+    // Escape: whether a list or the chooser of files was open, and closes.
+    bool closes_something();
+
     bool shown = true;
+    bool filming = false;  // a video is being written
+    FileChooser chooser;
 
 private:
+    struct Coefficients {
+        float friction = 0, restitution = 0, rolling = 0, mass = 0;  // rolling resistance in m; kg, 0: none
+    };
+    struct JointOfBody {
+        std::size_t index = 0, other = 0;  // joint; the other body, or the_world
+        float force = 0;                   // N
+    };
+
     void show_clock(Session& session, Interaction& interaction, const Rates& rates);
     void show_timeline(Session& session, Interaction& interaction);
     void show_dials(Session& session, Interaction& interaction);
     void show_overlays(PictureStyle& style);
     void show_additions(Interaction& interaction, Wishes& wishes);
+    void show_light(PictureStyle& style);
+    void show_chooser(Interaction& interaction);
+    // panel_edit.cpp: the selected body, and joining
+    void show_joining(Interaction& interaction);
+    void show_body_edits(Session& session, Interaction& interaction, std::size_t body);
+    void show_joints(Session& session, Interaction& interaction);
+    const Coefficients& at_first(const Session& session, std::size_t body);
+    std::optional<float> edits(const char* label, float now, float by_default, float low, float high, const char* form,
+                               bool logarithmic);
     void show_selected(Session& session, Interaction& interaction);
     void show_vehicle(Session& session, Interaction& interaction);
     void show_graphs(Session& session, Interaction& interaction, const Rates& rates);
@@ -47,11 +72,13 @@ private:
     void show_marks(Session& session, Interaction& interaction);
     void show_pull(Interaction& interaction) const;
     void show_outline(const World& world, const Interaction& interaction, std::size_t body, unsigned color) const;
+    void show_first_point(const World& world, const Interaction& interaction) const;
     void show_forces(const World& world, const Interaction& interaction) const;
     void show_hovered(Session& session, Interaction& interaction);
     void look_at(const World& world, std::size_t body);
 
     std::vector<ContactPoint> points_;  // contacts of the selected body, updated several times per second
+    std::vector<JointOfBody> joints_;   // of the selected body, likewise
     double looked_at_ = -1;             // time of the update, s of Dear ImGui's clock
     std::optional<std::size_t> looked_body_;
     std::optional<std::size_t> hovered_;  // body under the pointer, and what is said of it; updated likewise
@@ -60,6 +87,12 @@ private:
     History history_;
     std::optional<int> wanted_step_;  // of the timeline, while it is dragged
     std::string told_;
+    std::map<std::pair<std::uint32_t, std::uint32_t>, Coefficients> first_;  // by handle of the body
+    std::uint64_t first_beginning_ = 0;
+    std::string dragged_label_;  // the slider that is being dragged, and its value
+    float dragged_ = 0;
+    bool list_open_ = false;
+    std::size_t joined_ = 0;
 };
 
 std::string name_of(const Scene& scene, std::size_t body);  // "box 17 \"brick\""

@@ -65,6 +65,7 @@ void Panel::show_outline(const World& world, const Interaction& interaction, std
     const BodyState state = world.body(body);
     if (!state.exists) return;
     const Shape& shape = world.scene().bodies[body].shape;
+    if (std::holds_alternative<Plane>(shape)) return;
     if (const auto* sphere = std::get_if<Sphere>(&shape)) {
         const std::optional<ImVec2> middle = screen_of(interaction, state.position);
         const std::optional<ImVec2> rim = screen_of(interaction, state.position + interaction.eye().right() * sphere->radius);
@@ -89,6 +90,7 @@ void Panel::show_outline(const World& world, const Interaction& interaction, std
 void Panel::show_forces(const World& world, const Interaction& interaction) const {
     if (points_.empty() || !interaction.selected()) return;
     const Body& body = world.scene().bodies[*interaction.selected()];
+    if (body.motion != scree::Motion::dynamic) return;
     const float mass = mass_properties(body).mass;
     const float weight = mass * std::max(1.0f, glm::length(world.scene().gravity));
     const float reach = bounding_radius(body.shape);
@@ -108,6 +110,23 @@ void Panel::show_forces(const World& world, const Interaction& interaction) cons
         if (end && numbered++ < most_numbers)
             draw_text(ImVec2(end->x + 5, end->y - 7), force_color, with_prefix(point.force, "N"));
     }
+}
+
+// The first point of a joint, and what to do next.
+void Panel::show_first_point(const World& world, const Interaction& interaction) const {
+    if (!interaction.joining()) return;
+    const std::string word = join_words()[static_cast<std::size_t>(interaction.join_kind)];
+    const ImVec2 pointer = ImGui::GetIO().MousePos;
+    draw_text(ImVec2(pointer.x + 14, pointer.y - 18), held_color,
+              fmt::format("{} joint: click a point of {} body", word, interaction.first_point() ? "the other" : "the first"));
+    if (!interaction.first_point()) return;
+    const BodyState body = world.body(interaction.first_point()->body);
+    const vec3 place = body.position + physics::rotate(body.orientation, interaction.first_point()->anchor);
+    const std::optional<ImVec2> at = screen_of(interaction, place);
+    if (!at) return;
+    ImGui::GetBackgroundDrawList()->AddLine(*at, pointer, shade, 3.5f);
+    ImGui::GetBackgroundDrawList()->AddLine(*at, pointer, held_color, 1.8f);
+    ImGui::GetBackgroundDrawList()->AddCircleFilled(*at, 6, held_color);
 }
 
 // Name, speed and contacts of the body under the pointer.
@@ -130,7 +149,7 @@ void Panel::show_hovered(Session& session, Interaction& interaction) {
                                         with_unit(glm::length(state.velocity), "m/s"), contacts.size(), with_prefix(force, "N"));
         }
     }
-    if (!hovered_ || *hovered_ >= scene.bodies.size()) return;
+    if (!hovered_ || !has_body(world, *hovered_)) return;
     if (interaction.selected() != hovered_) show_outline(world, interaction, *hovered_, IM_COL32(255, 255, 255, 110));
     ImGui::BeginTooltip();
     ImGui::TextUnformatted(hovered_text_.c_str());
@@ -140,12 +159,13 @@ void Panel::show_hovered(Session& session, Interaction& interaction) {
 void Panel::show_marks(Session& session, Interaction& interaction) {
     const World& world = session.world();
     const std::optional<std::size_t> held = interaction.held(), selected = interaction.selected();
-    if (selected && *selected < world.scene().bodies.size()) {
+    if (selected) {
         look_at(world, *selected);
         show_outline(world, interaction, *selected, held == selected ? held_color : selected_color);
         show_forces(world, interaction);
     }
     show_pull(interaction);
+    show_first_point(world, interaction);
     show_hovered(session, interaction);
 }
 

@@ -42,6 +42,10 @@ private:
     double events_ = 0, seconds_ = 0, rate_ = 0;
 };
 
+std::array<float, 3> light_of(const PictureStyle& style) {
+    return {static_cast<float>(style.sky), style.sun_azimuth, style.sun_elevation};
+}
+
 host::Camera camera_of(const OrbitCamera& eye) {
     host::Camera camera;
     const Viewpoint view = eye.viewpoint();
@@ -72,8 +76,11 @@ bool Viewer::is_over() {
 
 void Viewer::take_events(double wait) {
     for (const host::Event& event : window_.poll(wait)) {
+        const bool escape = event.kind == host::EventKind::key_pressed && event.key == host::Key::escape;
+        if (escape && panel_.closes_something()) continue;
         interaction_.on(event);
         if (event.kind != host::EventKind::key_pressed) continue;
+        if (event.key == host::key_of('O')) panel_.chooser.shown() ? panel_.chooser.hide() : panel_.chooser.show();
         if (event.key == host::key_of('H')) panel_.shown = !panel_.shown;
         const int overlay = static_cast<int>(event.key) - '4';
         if (overlay >= 0 && overlay < static_cast<int>(overlay_words().size()))
@@ -94,7 +101,7 @@ void Viewer::make_drawing() {
     const auto side = [&](int pixels) { return std::max(16, static_cast<int>(static_cast<float>(pixels) / detail_.divisor())); };
     const Extent extent{side(window_.width()), side(window_.height())};
     const bool same = drawing_ && drawn_beginning_ == session_.beginnings() && drawn_extent_.width == extent.width &&
-                      drawn_extent_.height == extent.height && drawn_overlays_ == style_.show;
+                      drawn_extent_.height == extent.height && drawn_overlays_ == style_.show && drawn_light_ == light_of(style_);
     if (same) return;
     host::CanvasOptions canvas;
     canvas.width = extent.width;
@@ -102,12 +109,14 @@ void Viewer::make_drawing() {
     canvas.stays = true;
     canvas.smooth = detail_.divisor() == 1;
     show_overlays(style_, session_.world(), canvas);
+    show_light(style_, canvas);
     drawing_.reset();
     drawing_ = std::make_unique<Drawing>("vulkan", machine_, session_.world(), canvas);
     if (drawn_beginning_ != session_.beginnings()) window_.set_title("scree: " + session_.subject().title());
     drawn_beginning_ = session_.beginnings();
     drawn_extent_ = extent;
     drawn_overlays_ = style_.show;
+    drawn_light_ = light_of(style_);
 }
 
 // The range of the scene, and without one of its own what is measured.
@@ -118,12 +127,15 @@ void Viewer::measure_range(double seconds) {
         scale_ = scale_of(style_, session_.subject(), world.settings(), false);
         scaled_ = style_;
         range_ = MeasuredRange(scale_->high);
+        least_of_range_ = 1e-3 * static_cast<double>(scale_->high);
         measured_ = 0;
     }
     measured_ += seconds;
     if (style_.range.x < style_.range.y || measured_ < every) return;
     const std::vector<double> values = values_now(world, word_of(style_.color));
-    if (!values.empty() && range_.update(nearly_greatest(values), std::exchange(measured_, 0.0))) scale_->high = range_.high();
+    if (values.empty()) return;
+    const double seen = std::max(nearly_greatest(values), least_of_range_);
+    if (range_.update(seen, std::exchange(measured_, 0.0))) scale_->high = range_.high();
 }
 
 void Viewer::draw() {
@@ -146,12 +158,52 @@ void Viewer::draw() {
     if (!window_.show(drawing_->canvas(), view_)) return;
     ++pictures_;
     detail_.drawn(seconds_between(start, Clock::now()), !interaction_.paused);
+    draw_film();
     grant(wishes);
+}
+
+void Viewer::draw_film() {
+    if (film_ && !film_->is_of(session_.beginnings())) end_film();
+    if (!film_) return;
+    try {
+        film_->look(session_.world(), view_);
+    } catch (const std::exception& error) {
+        film_.reset();
+        panel_.filming = false;
+        panel_.tell(error.what());
+    }
+}
+
+void Viewer::begin_or_end_film() {
+    if (film_) {
+        end_film();
+        return;
+    }
+    const std::string file = host::unused_name(session_.subject().title(), ".mp4");
+    film_ = std::make_unique<Film>(file, Extent{window_.width(), window_.height()}, style_, machine_, session_.world(),
+                                   session_.beginnings());
+    panel_.filming = true;
+    panel_.tell("filming to " + file);
+}
+
+// Also where the world is another one.
+void Viewer::end_film() {
+    panel_.filming = false;
+    const std::unique_ptr<Film> film = std::move(film_);
+    if (!film) return;
+    try {
+        film->finish();
+        panel_.tell(fmt::format("video of {} in {}", counted(static_cast<std::size_t>(film->pictures()), "picture", "pictures"),
+                                film->file()));
+    } catch (const std::exception& error) {
+        panel_.tell(error.what());
+    }
 }
 
 void Viewer::grant(const Wishes& wishes) {
     try {
         if (wishes.picture) write_picture();
+        if (wishes.film) begin_or_end_film();
         if (wishes.recording) {
             const std::string file = host::unused_name(session_.subject().title() + "-played", ".json");
             host::write_atomically(file, json_of(session_.input()));
@@ -168,6 +220,7 @@ void Viewer::write_picture() {
     canvas.width = window_.width();
     canvas.height = window_.height();
     show_overlays(style_, session_.world(), canvas);
+    show_light(style_, canvas);
     Drawing drawing("vulkan", machine_, session_.world(), canvas);
     const host::Image image = drawing.canvas().draw(view_.camera, view_.scale, view_.caption, view_.low, view_.high);
     const std::string file = host::unused_name(session_.subject().title(), ".png");

@@ -1,6 +1,7 @@
 // The window with its session, interaction, drawing and panel.
 #pragma once
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "demos/program/backend.h"
 #include "demos/program/options.h"
 #include "demos/program/window/detail.h"
+#include "demos/program/window/film.h"
 #include "demos/program/window/panel.h"
 #include "host/window/window.h"
 
@@ -44,6 +46,9 @@ private:
     void draw();
     void grant(const Wishes& wishes);
     void write_picture();
+    void draw_film();
+    void begin_or_end_film();
+    void end_film();
 
     const ViewOptions& options_;
     Backend machine_;
@@ -55,14 +60,17 @@ private:
     std::uint64_t drawn_beginning_ = 0;
     Extent drawn_extent_{0, 0};
     std::vector<Overlay> drawn_overlays_;
+    std::array<float, 3> drawn_light_{};
     PictureStyle style_;
     std::string styled_;  // the scene that style_ is of
     std::optional<host::ColorScale> scale_;
     PictureStyle scaled_;  // the style that scale_ is of
     MeasuredRange range_;
-    double measured_ = 0;  // s since the range was looked at
+    double least_of_range_ = 0;  // so that what rests is not coloured by its last tremor
+    double measured_ = 0;        // s since the range was looked at
     PictureDetail detail_;
     host::View view_;
+    std::unique_ptr<Film> film_;
     Rates rates_;
     std::uint64_t pictures_ = 0;
     std::optional<std::uint64_t> last_step_;  // step at which the window closes by itself

@@ -159,6 +159,7 @@ void bind_bodies(WorldClass& of_world) {
              })
         .def("wake_all", [](WorldObject& object) { Use(object)->wake_all(); })
         .def("set_material", &set_material)
+        .def("set_mass", [](WorldObject& object, std::size_t body, float mass) { Use(object)->set_mass(body, mass); })
         .def("move", &move_bodies)
         .def("set_fields",
              [](WorldObject& object, const std::string& text) { Use(object)->set_fields(value_of<Fields>(text, "fields")); })

@@ -67,7 +67,12 @@ Look look_of(const SceneDocument& shown, const std::string& text) {
     take("samples", look.samples);
     look.style = shown.picture.value_or(PictureStyle{});
     // Another quantity has a range and a scale of its own.
-    if (given.contains("color") && given["color"] != demos::word_of(look.style.color)) look.style = PictureStyle{};
+    if (given.contains("color") && given["color"] != demos::word_of(look.style.color)) {
+        PictureStyle plain;
+        std::tie(plain.sky, plain.sun_azimuth, plain.sun_elevation) =
+            std::tuple(look.style.sky, look.style.sun_azimuth, look.style.sun_elevation);
+        look.style = plain;
+    }
     if (given.contains("show")) look.style.show.clear();
     only(given, place, keys_of<PictureStyle>());
     read_fields(given, place, look.style);
@@ -77,8 +82,9 @@ Look look_of(const SceneDocument& shown, const std::string& text) {
 
 bool alike(const host::CanvasOptions& a, const host::CanvasOptions& b) {
     return a.width == b.width && a.height == b.height && a.legend == b.legend && a.smooth == b.smooth && a.shadows == b.shadows &&
-           a.marks == b.marks && a.velocities == b.velocities && a.boxes == b.boxes && a.cells == b.cells &&
-           a.joints == b.joints && a.sleep == b.sleep && a.mark_push == b.mark_push && a.joint_pull == b.joint_pull;
+           a.sky == b.sky && a.toward_sun == b.toward_sun && a.marks == b.marks && a.velocities == b.velocities &&
+           a.boxes == b.boxes && a.cells == b.cells && a.joints == b.joints && a.sleep == b.sleep && a.mark_push == b.mark_push &&
+           a.joint_pull == b.joint_pull;
 }
 
 demos::Drawing& drawing_for(WorldObject& object, const host::CanvasOptions& options, const std::string& canvas,
@@ -109,6 +115,7 @@ host::Image colour_picture(WorldObject& object, const host::Camera& camera, int 
     options.shadows = look.shadows;
     options.smooth = look.samples == 1;
     demos::show_overlays(look.style, object.world, options);
+    demos::show_light(look.style, options);
     demos::Drawing& drawing = drawing_for(object, options, look.canvas, copy);
     drawing.update();
     const demos::LoadedScene& subject = object.as_subject();

@@ -202,7 +202,7 @@ class Scene:
         self._native.set_part("camera", "null" if value is None else json_text(value, "/camera"))
 
     def set_picture(self, **style: Any) -> None:
-        """How pictures show the scene: color, color_map, color_scale, color_range, show, as in a scene file."""
+        """How pictures show the scene: color, color_map, color_scale, color_range, show, sky, sun_azimuth, sun_elevation, as in a scene file."""
         require_keys(style, _native.keys("picture"), "a picture")
         self._native.set_part("picture", json_text(style, "/picture"))
 

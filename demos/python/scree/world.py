@@ -22,7 +22,7 @@ from scree.shapes import Filter, Shape, Vector
 Array = npt.NDArray[Any]
 ALL_CATEGORIES = 0xFFFFFFFF
 CHANNELS = ("color", "depth", "body", "part", "normal", "flow")
-_LOOK = ("color_map", "color_scale", "color_range", "show", "caption", "canvas", "legend", "shadows", "samples")
+_LOOK = ("color_map", "color_scale", "color_range", "show", "sky", "sun_azimuth", "sun_elevation", "caption", "canvas", "legend", "shadows", "samples")
 
 
 class EventKind(IntEnum):
@@ -390,6 +390,12 @@ class World:
         require_keys(fields, _native.keys("material"), "a material")
         self._native.set_material(ids_of(ids), json_text(fields, "/material"))
 
+    def set_mass(self, ids: Any, mass: Any) -> None:
+        """Changes masses, kg (one for all, or one each), and moments of inertia in proportion, from the next step on."""
+        named = ids_of(ids)
+        for body, kilograms in zip(named, np.broadcast_to(np.asarray(mass, dtype=np.float32), len(named))):
+            self._native.set_mass(int(body), float(kilograms))
+
     def move(self, ids: Any, position: Any, orientation: Optional[Any] = None, steps: int = 1) -> None:
         """Moves kinematic bodies to poses, (n, 3) and (n, 4), within that many steps, pushing what they meet; then they stand."""
         named = ids_of(ids)
@@ -660,7 +666,8 @@ class World:
         OpenGL ES, with smooth edges; DeviceError names what is missing.
         color: the quantity shown: momentum, speed, spin, kinetic-energy, height, body, plain, angular-momentum,
         contact-impulse, contacts, sleep, material; default: the scene's, mostly momentum. Also color_map, color_scale,
-        color_range (low, high), show (contacts, velocities, joints, boxes, cells, sleep), caption, legend, shadows,
+        color_range (low, high), show (contacts, velocities, joints, boxes, cells, sleep), sky (day, evening, overcast, studio,
+        night), sun_azimuth and sun_elevation (degrees), caption, legend, shadows,
         samples (1, 4, 9 or 16), canvas (auto, vulkan, gl).
         copy: of the scene, in a world of several; by default the first.
         flow: motion of what is seen since `seconds_before` (default: a step ago), when the camera was camera_before.

@@ -198,6 +198,48 @@ TEST_CASE("canvases: both draw alike from far above, close by, and in every colo
     require_alike(view);
 }
 
+TEST_CASE("canvases: both draw alike under every sky, each of which looks different, and with another sun", "[canvas][gl]") {
+    World world(heap(), {}, 1);
+    world.step(12);
+    const ShapeInstances instances = demos::instances_of(world);
+    View view;
+    view.camera = {.eye = {4, 1.2f, 6}, .target = {0, 1.2f, 0}, .vertical_fov = 50};  // with the horizon
+    std::vector<Image> seen;
+    for (const Sky sky : {Sky::day, Sky::evening, Sky::overcast, Sky::studio, Sky::night, Sky::day}) {
+        CanvasOptions options = options_of(1, true, false);
+        options.sky = sky;
+        options.toward_sun = seen.size() == 5 ? vec3(0.9f, 0.5f, 0.8f) : usual_sun(sky);
+        const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
+        seen.push_back(picture(*vulkan, world, view));
+        const Likeness both = likeness(seen.back(), picture(*gl, world, view));
+        CAPTURE(seen.size(), both.mean, both.strayed, both.misshapen);
+        CHECK(alike(both));
+        for (std::size_t i = 0; i + 1 < seen.size(); ++i) CHECK(likeness(seen[i], seen.back()).mean > 1);
+    }
+    CHECK(validated_device()->validation_messages().empty());
+}
+
+TEST_CASE("canvases: bodies that were removed are not drawn, of any shape", "[canvas][gl]") {
+    World world(heap(), {}, 1);
+    const CanvasOptions options = options_of(1, true, false);
+    const View view;
+    const Image before = picture(*make_gl_canvas(demos::instances_of(world), options), world, view);
+    for (std::size_t body = 3; body < 24; ++body) world.remove_body(body);
+    const ShapeInstances instances = demos::instances_of(world);
+    const auto vulkan = make_vulkan_canvas(validated_device(), instances, options), gl = make_gl_canvas(instances, options);
+    const Image after = picture(*gl, world, view);
+    CHECK(likeness(before, after).strayed > 0.02);
+    CHECK(alike(likeness(picture(*vulkan, world, view), after)));
+    // A scene without them looks the same.
+    Scene fewer = heap();
+    fewer.bodies.erase(fewer.bodies.begin() + 3, fewer.bodies.begin() + 24);
+    const World other(fewer, {}, 1);
+    View plain = view;
+    plain.scale.by = ColorBy::plain;
+    const auto alone = make_gl_canvas(demos::instances_of(other), options);
+    CHECK(alike(likeness(picture(*alone, other, plain), picture(*gl, world, plain))));
+}
+
 TEST_CASE("canvases: both show velocities, bounds, cells and sleepers alike", "[canvas][gl]") {
     World world(heap(), {}, 1);
     CanvasOptions options = options_of(1, true, false);

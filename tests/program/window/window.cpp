@@ -136,6 +136,81 @@ TEST_CASE(
     }
 }
 
+TEST_CASE(
+    "in the window bodies are selected, duplicated, deleted and joined, and Escape closes what is open but not the program") {
+    if (!can_show()) return;
+    const Screen screen;
+    const Place place;
+    const std::string file = place.write("box.json", scene), recording = (place / "edited.json").string();
+    Viewer viewer(screen, place, "edit", {file, "--backend", "cpu", "--validate", "--size", "800x450", "--record", recording});
+    viewer.find_window();
+    const auto click = [&](int x, int y) {
+        viewer.point(x, y);
+        wait_for(0.3);
+        viewer.hand("click 1");
+    };
+    viewer.strike("h");
+    click(265, 219);  // the sphere
+    REQUIRE(viewer.until([](const json& now) { return now.contains("selected") && now.at("selected") == 3; }));
+    viewer.shoot("1_selected");
+    viewer.strike("v");
+    REQUIRE(viewer.until([](const json& now) { return now.at("bodies") == 5; }));
+    viewer.strike("Delete");
+    REQUIRE(viewer.until([](const json& now) { return !now.contains("selected"); }));
+    viewer.strike("j");
+    click(400, 225);  // the box
+    wait_for(0.5);
+    viewer.point(500, 210);
+    wait_for(0.5);
+    viewer.shoot("2_joining");
+    click(570, 199);  // the capsule
+    wait_for(0.5);
+    click(400, 400);  // the ground
+    REQUIRE(viewer.until([](const json& now) { return now.contains("selected") && now.at("selected") == 0; }));
+    click(400, 225);
+    REQUIRE(viewer.until([](const json& now) { return now.contains("selected") && now.at("selected") == 1; }));
+    viewer.strike("h");
+    viewer.next();
+    viewer.shoot("3_joined");
+    viewer.point(95, 48);  // the list of scenes
+    wait_for(0.3);
+    viewer.hand("mousedown 1");
+    wait_for(0.3);
+    viewer.hand("mouseup 1");
+    viewer.next();
+    viewer.shoot("4_list");
+    viewer.strike("Escape");
+    viewer.next();
+    viewer.strike("o");
+    viewer.next();
+    viewer.shoot("5_open");
+    viewer.strike("Escape");  // the list of files
+    viewer.next();
+    REQUIRE(viewer.report().contains("selected"));
+    viewer.strike("Escape");
+    REQUIRE(viewer.until([](const json& now) { return !now.contains("selected"); }));
+    viewer.strike("Escape");
+    const json before = viewer.next();
+    REQUIRE(viewer.until([&](const json& now) { return now.at("pictures") > before.at("pictures").get<int>() + 1; }));
+    viewer.strike("q");
+    const int status = viewer.process().end(30);
+    INFO(viewer.errors());
+    REQUIRE(status == 0);
+    REQUIRE(viewer.errors().empty());
+    const json recorded = json::parse(place.read("edited.json"));
+    for (const char* act : {"add", "remove", "join"}) {
+        CAPTURE(act);
+        REQUIRE(std::count_if(recorded.at("acts").begin(), recorded.at("acts").end(),
+                              [&](const json& one) { return one.contains(act); }) == 1);
+    }
+    for (const std::string other : {"cpu", "vulkan"}) {
+        const Outcome outcome = run_scree("run --input '" + recording + "' --backend " + other);
+        INFO(outcome.output << outcome.errors);
+        REQUIRE(outcome.status == 0);
+        REQUIRE(says(outcome.output, "as recorded"));
+    }
+}
+
 TEST_CASE("in the window keys drive a car and put it on its wheels, and a recording of it leads to the same state") {
     if (!can_show()) return;
     const Screen screen;
