@@ -1,9 +1,8 @@
 #!/usr/bin/env python3
-"""Public API: compares the declarations of the public headers with the kept list, so that a change raises the version.
-
-public_api.py          exit status 1 if the headers and public_api.txt differ, or a header shows what is private
-public_api.py --keep   writes public_api.txt, if compute/version.h was raised by what the change asks for
-"""
+# Public API: compares the declarations of the public headers with the kept list, so that a change raises the version.
+#
+# public_api.py          exit status 1 if the headers and public_api.txt differ, or a public header includes a private one
+# public_api.py --keep   writes public_api.txt, if compute/version.h was raised by what the change asks for
 import pathlib
 import re
 import sys
@@ -105,6 +104,8 @@ def faults_of_includes():
 def main():
     text = lambda number: ".".join(str(one) for one in number)
     faults = list(faults_of_includes())
+    if f"project(scree VERSION {text(version())} " not in (ROOT / "CMakeLists.txt").read_text():
+        faults.append(f"CMakeLists.txt has another version than compute/version.h, {text(version())}")
     now = listed()
     kept_lines = KEPT.read_text().splitlines() if KEPT.exists() else ["version 0.1.0"]
     kept_version = tuple(int(one) for one in kept_lines[0].split()[-1].split("."))

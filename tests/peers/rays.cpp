@@ -131,7 +131,6 @@ public:
             bodies_.back()->setCollisionShape(shapes_.back().get());
             world_.addCollisionObject(bodies_.back().get());
         }
-        broadphase_.optimize();
     }
     ~InBullet() {
         for (const auto& body : bodies_) world_.removeCollisionObject(body.get());
