@@ -1,9 +1,13 @@
 // Rollback: a world goes back to states it keeps, and forward again with the same bits.
 #include <catch2/catch.hpp>
 #include <cstdint>
+#include <memory>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
+#include "compute/distributed/distributed.h"
+#include "compute/distributed/in_process.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 #include "tests/world/museum.h"
@@ -96,4 +100,36 @@ TEST_CASE("events come again after going back", "[world]") {
     REQUIRE(again.size() == 1);
     REQUIRE(again[0].step == first[0].step);
     REQUIRE(again[0].kind == EventKind::begin);
+}
+
+TEST_CASE("ranks go back together, and copies of a scene do", "[world]") {
+    const Scene scene = tests::heap(60);
+    World alone(scene, {}, 1);
+    alone.step(30);
+    std::vector<std::uint64_t> hashes;
+    run_in_process(2, [&](const std::shared_ptr<Exchange>& exchange) {
+        World world(scene, {}, make_distributed_runner(exchange, 1));
+        world.step(20);
+        for (int i = 0; i < 10; ++i) {
+            world.keep_state();
+            world.step();
+        }
+        world.roll_back(7);
+        world.step(7);
+        const std::uint64_t hash = world.state_hash();
+        if (exchange->rank() == 0) hashes.push_back(hash);
+    });
+    REQUIRE(hashes == std::vector<std::uint64_t>{alone.state_hash()});
+
+    World copies(scene, {}, make_reference_runner(2), 3,
+                 [](std::size_t copy, Scene& one) { one.bodies.back().position.y += 0.5f * static_cast<float>(copy); });
+    copies.step(20);
+    copies.keep_state();
+    copies.step(10);
+    const std::vector<std::uint64_t> end = copies.state_hashes();
+    REQUIRE(end[0] == alone.state_hash());
+    copies.reset_copy(1);
+    copies.roll_back(10);
+    copies.step(10);
+    REQUIRE(copies.state_hashes() == end);
 }
