@@ -74,7 +74,7 @@ public:
                 const float x = x_[first + k] - ray.from.x, y = y_[first + k] - ray.from.y, z = z_[first + k] - ray.from.z;
                 const float along = x * ray.along.x + y * ray.along.y + z * ray.along.z;
                 const float square = x * x + y * y + z * z;
-                const bool beside = square - along * along * 0.9999f <= reach2_[first + k] + 1e-3f;
+                const bool beside = square - along * along * 1.0001f <= reach2_[first + k] + 1e-3f;
                 const bool ahead = along >= 0 || square <= reach2_[first + k];
                 near[k] = static_cast<std::uint8_t>(beside & ahead);
                 any |= near[k];
