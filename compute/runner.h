@@ -2,6 +2,7 @@
 // lockstep.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -52,6 +53,12 @@ public:
     void upload(const std::vector<TableRange>& ranges);
     void download(const std::vector<TableRange>& ranges);
     std::uint64_t uploaded_bytes() const { return uploaded_bytes_; }  // so far, by upload()
+
+    // For rollback, of runners that are not in_place(): keeps copies of ranges of its tables under a number, in its own
+    // memory, and brings them back to where these tables are by then. The latter adapts nothing and leaves counts alone.
+    virtual void keep(std::size_t /* slot */, const std::vector<TableRange>& /* ranges */) {}
+    virtual void bring_back(std::size_t /* slot */) {}
+    virtual void drop_kept() {}
 
     // Whether later steps are timed stage by stage. Off at first on devices: on a software device a timestamp between
     // two stages of a small world takes longer than the stages. On the CPU always on, at no cost.

@@ -23,6 +23,7 @@
 #include "compute/scene.h"
 #include "compute/settings.h"
 #include "compute/timeline.h"
+#include "compute/version.h"
 
 namespace scree {
 
@@ -152,10 +153,18 @@ struct Statistics {
     std::size_t below_ground = 0;  // dynamic bodies whose centre is behind a plane of the scene
 };
 
+// States that a world keeps for going back, at most.
+constexpr std::size_t most_kept_states = 10;
+
 // Changes one copy of a scene before a world of many begins: poses, velocities, materials, masses, joints, gravity; the
 // number of bodies, parts, joints and vehicles stays.
 using VaryCopy = std::function<void(std::size_t copy, Scene& scene)>;
 
+// Threads: a world belongs to one thread at a time. Its functions, const ones too (they read from the runner, and keep what
+// they found), are called by one thread after another, which may be others; worlds of their own run side by side, also on one
+// host::Device. What a function returns by value may be used by any thread, and references until the next call of the world.
+// Within a call the runner's threads work (Runner::threads); functions that the user passes run on the calling thread, but for
+// Timeline and the messages of a device, which say for themselves. compute/README.md, "Threads".
 class World {
 public:
     // Validates and copies the scene. Throws SceneError, and std::invalid_argument for settings out of range. `runner`:
@@ -385,6 +394,18 @@ public:
     // added since then are gone. Uploads everything. Buffers that a canvas draws from may be replaced. Throws
     // CheckpointError, changing nothing, if the bytes are damaged, of another format, or of another scene.
     void restore(std::span<const std::byte> saved);
+
+    // Rollback. keep_state() keeps the whole state where the runner has it, on a device in its memory, without a transfer of
+    // what steps change; of most_kept_states the oldest goes. A state kept at the same number of steps is replaced. Throws as
+    // step() does where memory ends, and then keeps no other state.
+    void keep_state();
+    // Goes back to the state that was kept `steps` steps ago (0: now, undoing edits). Later steps give the same bits as they
+    // did, if the same functions are called; events come again. Bodies and joints added since are gone, removed ones are back, as
+    // with restore(). The state stays kept; later ones are dropped. Throws std::out_of_range, naming the steps that are
+    // kept, if there is none, and then changes nothing. restore() drops all.
+    void roll_back(std::uint64_t steps);
+    std::vector<std::uint64_t> kept_states() const;  // numbers of steps done at which states are kept, ascending
+    void drop_states();                              // all; frees their memory
 
     std::uint64_t buffer_growths() const;
     std::size_t buffer_bytes() const;  // of all tables, at present

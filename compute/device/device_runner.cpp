@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <utility>
 
 #include "compute/step/stage_fusion.h"
 #include "compute/step/stage_slices.h"
@@ -52,7 +53,10 @@ std::size_t argument_offset(physics::uint row) {
 
 DeviceRunner::DeviceRunner(std::shared_ptr<host::Device> device) : device_(std::move(device)) {}
 DeviceRunner::~DeviceRunner() {
-    if (device_) device_->wait_idle();
+    if (!device_) return;
+    wait_for_returned();
+    device_->wait_idle();
+    device_->vk().vkDestroySemaphore(device_->handle(), ready_.timeline, nullptr);
 }
 
 std::string DeviceRunner::device() const {
@@ -76,6 +80,7 @@ void DeviceRunner::attach(State& state) {
 }
 
 void DeviceRunner::adapt() {
+    wait_for_returned();
     device_->wait_idle();
     make_buffers();
     const host::Reach reach = reach_needed();
@@ -260,7 +265,7 @@ bool DeviceRunner::step() {
     begin_step();
     const TimedSlice wait(timeline(), "wait for the device");
     submitted_[parity_] = Timeline::Clock::now();
-    device_->submit_and_wait({whole_step().handle()});
+    host::Submission(*device_, {whole_step().handle()}, std::exchange(returned_, {}), next_ready()).wait();
     return finished(parity_);
 }
 
@@ -291,7 +296,7 @@ bool DeviceRunner::steps(int count, std::uint64_t& done) {
         while (submitted < count && submitted < waited + 2) {
             begin_step();
             submitted_[parity_] = Timeline::Clock::now();
-            under_way[parity_].emplace(*device_, std::vector{whole_step().handle()});
+            under_way[parity_].emplace(*device_, std::vector{whole_step().handle()}, std::exchange(returned_, {}), next_ready());
             ++submitted;
         }
         const std::size_t parity = submitted == waited + 2 ? parity_ ^ 1 : parity_;

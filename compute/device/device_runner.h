@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "compute/device/body_lease.h"
+#include "compute/device/make_device_runner.h"
 #include "compute/device/queue_clock.h"
 #include "compute/runner.h"
 #include "compute/step/plan.h"
@@ -36,6 +38,9 @@ public:
     void adapt() override;               // throws the same
     bool step() override;
     bool steps(int count, std::uint64_t& done) override;
+    void keep(std::size_t slot, const TableRanges& ranges) override;
+    void bring_back(std::size_t slot) override;
+    void drop_kept() override { kept_.clear(); }
     void set_profiling(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
@@ -46,7 +51,10 @@ public:
         std::size_t offset, bytes;
     };
     Range range(Table table) const;
+    Range place_of(const TableRange& range) const;
     std::uint32_t joint_records() const;  // length of the table of joints
+    BodyLease lease_bodies();             // body_lease.h
+    void return_bodies(VkSemaphore timeline, std::uint64_t value) { returned_ = {timeline, value}; }
 
     // For lockstep: a step stage by stage, and access to tables.
     void begin_step();
@@ -82,6 +90,8 @@ private:
     bool finished(std::size_t parity);  // of a step: false if a list overflowed
     void tell_stages(Timeline& told, std::size_t parity);
     void record_stage(host::CommandBuffer& commands, const Stage& stage) const;
+    host::Submission::Moment next_ready();
+    void wait_for_returned();  // on the host
     void send_inputs();
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
@@ -109,8 +119,15 @@ private:
     QueueClock queue_clock_;
     std::array<Timeline::Time, 2> submitted_{};  // per parity
     physics::Parameters sent_{};
+    // Copies of ranges of tables, a buffer for each; buffers may be longer than their ranges.
+    struct Kept {
+        TableRanges ranges;
+        std::vector<host::Buffer> buffers;
+    };
+    std::map<std::size_t, Kept> kept_;
+    // Leases: signalled by each step, once asked for; what the next step waits for; how often buffers were made.
+    host::Submission::Moment ready_, returned_;
+    std::uint64_t buffers_made_ = 0;
 };
-
-std::unique_ptr<Runner> make_device_runner(std::shared_ptr<host::Device> device);
 
 }  // namespace scree

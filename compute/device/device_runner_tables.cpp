@@ -120,6 +120,7 @@ void DeviceRunner::make_buffer(std::size_t index) {
         }
     }
     if (keeps) move_lasting(before, were, index);
+    ++buffers_made_;
 }
 
 void DeviceRunner::move_lasting(const host::Buffer& before, const TableOffsets& were, std::size_t index) {
@@ -178,6 +179,7 @@ void DeviceRunner::poison() {
 }
 
 void DeviceRunner::send(const TableRanges& ranges) {
+    wait_for_returned();
     std::vector<host::Upload> pieces;
     for (const TableRange& range : ranges) {
         const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
@@ -196,6 +198,44 @@ void DeviceRunner::receive(const TableRanges& ranges) {
                           this->range(range.table).offset + range.first * bytes});
     }
     host::download(device_, pieces);
+}
+
+void DeviceRunner::keep(std::size_t slot, const TableRanges& ranges) {
+    Kept& kept = kept_[slot];
+    kept.ranges = ranges;
+    kept.buffers.resize(ranges.size());
+    host::CommandBuffer commands(device_);
+    commands.barrier();
+    for (std::size_t i = 0; i < ranges.size(); ++i) {
+        const auto [from, offset, bytes] = place_of(ranges[i]);
+        if (bytes == 0) continue;
+        if (kept.buffers[i].bytes() < bytes) {
+            kept.buffers[i] = {};
+            kept.buffers[i] = host::Buffer(device_, "kept state", bytes + bytes / 8);
+        }
+        commands.copy(*from, kept.buffers[i], bytes, offset, 0);
+    }
+    commands.end();
+    device_->submit_and_wait({commands.handle()});
+}
+
+void DeviceRunner::bring_back(std::size_t slot) {
+    wait_for_returned();
+    const Kept& kept = kept_.at(slot);
+    tell_offsets(offsets_, state_->fixed());  // which kept parameters are without
+    host::CommandBuffer commands(device_);
+    commands.barrier();
+    for (std::size_t i = 0; i < kept.ranges.size(); ++i) {
+        const auto [to, offset, bytes] = place_of(kept.ranges[i]);
+        if (bytes > 0) commands.copy(kept.buffers[i], *to, bytes, 0, offset);
+    }
+    commands.end();
+    device_->submit_and_wait({commands.handle()});
+}
+
+DeviceRunner::Range DeviceRunner::place_of(const TableRange& range) const {
+    const std::size_t bytes = table_infos()[static_cast<std::size_t>(range.table)].record_bytes;
+    return {&buffer(range.table), this->range(range.table).offset + range.first * bytes, range.count * bytes};
 }
 
 std::uint32_t DeviceRunner::joint_records() const {

@@ -9,6 +9,7 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "compute/checkpoint.h"
@@ -19,6 +20,9 @@ static_assert(std::endian::native == std::endian::little);
 
 class ByteWriter {
 public:
+    ByteWriter() = default;
+    explicit ByteWriter(std::vector<std::byte>&& memory) : bytes_(std::move(memory)) { bytes_.clear(); }  // used again
+
     template <class Value>
     void put(const Value& value) {
         static_assert(std::is_trivially_copyable_v<Value>);

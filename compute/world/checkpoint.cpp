@@ -290,15 +290,52 @@ World::Impl::Own World::Impl::take_world(ByteReader& in) {
     return own;
 }
 
+void World::Impl::put(ByteWriter& out, SteppedTables which) const {
+    out.put_list(std::span(edits_now()));
+    put_world(out);
+    put_state(out, state, shapes_at_start, which);
+}
+
+void World::Impl::take(std::span<const std::byte> bytes, SteppedTables which, std::size_t slot) {
+    ByteReader reader(bytes);
+    const auto edited = reader.take_records(1);
+    std::optional<Edits> made;  // none if the scene is the same
+    const std::vector<std::byte>& now = edits_now();
+    if (edited.size() != now.size() || std::memcmp(edited.data(), now.data(), now.size()) != 0) made = read_edits(edited);
+    Own own = take_world(reader);
+    const StateBytes tables(reader, shapes_at_start, which);
+    if (!reader.at_end()) refuse("the checkpoint is damaged: it has more bytes than it should");
+    broken = true;  // until it is done
+    if (made) take_edits(std::move(*made), edited);
+    settings = own.settings;
+    scene.gravity = own.gravity;
+    steps = own.steps;
+    reorder_now = own.reorder_now;
+    actions = std::move(own.actions);
+    grips = own.grips;
+    arrivals = std::move(own.arrivals);
+    events = std::move(own.events);
+    state.sums_impulses = events.settings().contacts;
+    const TableLengths before = TableLengths::of(state);
+    const int substeps_before = state.substeps;
+    const TableRanges changed = tables.restore(state);
+    if (made) find_shapes_again();
+    find_spare_hulls();
+    if (which == SteppedTables::all || state.substeps != substeps_before || TableLengths::of(state) != before) runner->adapt();
+    runner->upload(changed);
+    if (which == SteppedTables::on_device) runner->bring_back(slot);
+    ++arrangements;
+    ++changes;
+    broken = false;
+}
+
 std::vector<std::byte> World::save() const {
     const Impl& in = *interior_;
     in.runner->download(ranges_to_save(in.state));
     ByteWriter out;
     Head head{};
     out.put(head);
-    out.put_list(std::span(in.edits_now()));
-    in.put_world(out);
-    put_state(out, in.state, in.shapes_at_start);
+    in.put(out, SteppedTables::all);
     std::memcpy(head.magic, magic, sizeof magic);
     head.format = format;
     head.settings_bytes = sizeof(Settings);
@@ -322,33 +359,8 @@ void World::restore(std::span<const std::byte> saved) {
     if (head.scene != in.fingerprint)
         refuse("the checkpoint is of another scene: its fingerprint is " + hash_text(head.scene) + ", this scene's " +
                hash_text(in.fingerprint));
-    ByteReader reader(saved.subspan(sizeof head));
-    const auto edits = reader.take_records(1);
-    std::optional<Impl::Edits> made;  // none if the scene is the same
-    const std::vector<std::byte>& now = in.edits_now();
-    if (edits.size() != now.size() || std::memcmp(edits.data(), now.data(), now.size()) != 0) made = in.read_edits(edits);
-    Impl::Own own = Impl::take_world(reader);
-    const StateBytes tables(reader, in.shapes_at_start);
-    if (!reader.at_end()) refuse("the checkpoint is damaged: it has more bytes than it should");
-    in.broken = true;  // until it is done
-    if (made) in.take_edits(std::move(*made), edits);
-    in.settings = own.settings;
-    in.scene.gravity = own.gravity;
-    in.steps = own.steps;
-    in.reorder_now = own.reorder_now;
-    in.actions = std::move(own.actions);
-    in.grips = own.grips;
-    in.arrivals = std::move(own.arrivals);
-    in.events = std::move(own.events);
-    in.state.sums_impulses = in.events.settings().contacts;
-    const TableRanges changed = tables.restore(in.state);
-    if (made) in.find_shapes_again();
-    in.find_spare_hulls();
-    in.runner->adapt();
-    in.runner->upload(changed);
-    ++in.arrangements;
-    ++in.changes;
-    in.broken = false;
+    in.take(saved.subspan(sizeof head), SteppedTables::all);
+    in.drop_kept();
 }
 
 void restore_tables(State& state, std::span<const std::byte> saved) {

@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
+#include <vector>
 
 #include "compute/step/table_layout.h"
 #include "shaders/physics/base/work_counts.h"
@@ -24,6 +26,16 @@ std::size_t record_bytes(Table table) {
 
 std::span<const std::byte> records_of(const State& state, Table table, std::size_t count) {
     return state.raw(table).first(count * record_bytes(table));
+}
+
+// With their lengths, in the order of the bytes.
+std::vector<std::pair<Table, std::size_t>> stepped_tables(std::size_t rows, std::size_t contacts, SteppedTables which) {
+    if (which == SteppedTables::on_device) return {{Table::properties, rows}};
+    std::vector<std::pair<Table, std::size_t>> all;
+    for (const Table table : row_tables) all.emplace_back(table, rows);
+    all.emplace_back(Table::first_contacts, rows + 1);
+    for (const Table table : contact_tables) all.emplace_back(table, contacts);
+    return all;
 }
 
 template <class Record>
@@ -103,7 +115,7 @@ TableRanges ranges_to_save(const State& state) {
     return ranges;
 }
 
-void put_state(ByteWriter& out, const State& state, const StartLengths& at_start) {
+void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which) {
     const std::size_t rows = state.fixed().bodies, contacts = state.counted().contacts;
     out.put(portable(state.fixed()));
     out.put(portable(state.counted()));
@@ -111,13 +123,11 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put(state.body_count);
     out.put_list(std::span(state.rows()));
     out.put_list(std::span(state.joint_records));
-    std::size_t bytes = record_bytes(Table::first_contacts) * (rows + 1);
-    for (const Table table : row_tables) bytes += rows * record_bytes(table);
-    for (const Table table : contact_tables) bytes += contacts * record_bytes(table);
+    const auto stepped = stepped_tables(rows, contacts, which);
+    std::size_t bytes = 0;
+    for (const auto& [table, count] : stepped) bytes += count * record_bytes(table);
     out.reserve(bytes + bytes / 16);
-    for (const Table table : row_tables) out.put_bytes(records_of(state, table, rows));
-    out.put_bytes(records_of(state, Table::first_contacts, rows + 1));
-    for (const Table table : contact_tables) out.put_bytes(records_of(state, table, contacts));
+    for (const auto& [table, count] : stepped) out.put_bytes(records_of(state, table, count));
     out.put_list(std::span(state.joints));
     out.put_list(std::span<const physics::JointBlock>(portable(state.joint_blocks)));
     out.put_list(std::span<const physics::BlockBody>(portable(state.block_bodies)));
@@ -135,21 +145,18 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put_list(std::span(state.gravities));
 }
 
-StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start)
+StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start, SteppedTables which)
     : parameters_(in.take<physics::Parameters>()),
       counts_(in.take<physics::Counts>()),
       substeps_(in.take<std::int32_t>()),
       body_count_(in.take<std::uint32_t>()),
       rows_(in.take_list<std::uint32_t>()),
       joint_records_(in.take_list<std::uint32_t>()),
-      at_start_(at_start) {
-    const std::size_t rows = parameters_.bodies, contacts = counts_.contacts;
-    const auto take = [&](Table table, std::size_t count) {
+      at_start_(at_start),
+      which_(which) {
+    const std::size_t rows = parameters_.bodies;
+    for (const auto& [table, count] : stepped_tables(rows, counts_.contacts, which))
         tables_.emplace_back(table, in.take_bytes(count * record_bytes(table)));
-    };
-    for (const Table table : row_tables) take(table, rows);
-    take(Table::first_contacts, rows + 1);
-    for (const Table table : contact_tables) take(table, contacts);
     joints_ = in.take_records(sizeof(physics::Joint));
     joint_blocks_ = in.take_records(sizeof(physics::JointBlock));
     block_bodies_ = in.take_records(sizeof(physics::BlockBody));
@@ -202,13 +209,13 @@ TableRanges StateBytes::restore(State& state) const {
     assign(state.immersions, shapes_[8]);
     assign(state.births, shapes_[9]);
     assign(state.gravities, shapes_[10]);
-    for (const auto& [table, bytes] : tables_) state.make(table);
+    for (const auto& [table, count] : stepped_tables(0, 0, SteppedTables::all)) state.make(table);
     state.allocate();
     for (const auto& [table, bytes] : tables_)
         if (!bytes.empty()) std::memcpy(state.raw(table).data(), bytes.data(), bytes.size());
     state.take_rows(rows_);
     state.index_surfaces();
-    TableRanges changed = ranges_to_save(state);
+    TableRanges changed = which_ == SteppedTables::all ? ranges_to_save(state) : TableRanges{};
     changed.push_back({Table::counts, 0, 1});
     changed.push_back({Table::ids, 0, p.bodies});
     append(changed, joint_structure_ranges(state));

@@ -27,7 +27,12 @@ std::uint64_t layout_of_tables();
 
 // Ranges that a checkpoint needs from the runner.
 TableRanges ranges_to_save(const State& state);
-void put_state(ByteWriter& out, const State& state, const StartLengths& at_start);
+// What bytes have of the tables that steps change (ranges_to_save).
+enum class SteppedTables {
+    all,
+    on_device,  // only the properties: the runner keeps the others itself
+};
+void put_state(ByteWriter& out, const State& state, const StartLengths& at_start, SteppedTables which = SteppedTables::all);
 
 // Brings a state, made from the scene with which the saved world was, to what a checkpoint says. Commands that were to come with
 // the next step, and grips, are left out. Throws CheckpointError for damaged bytes and those of another scene.
@@ -37,9 +42,9 @@ void restore_tables(State& state, std::span<const std::byte> saved);
 class StateBytes {
 public:
     // Throws CheckpointError where lengths contradict each other.
-    StateBytes(ByteReader& in, const StartLengths& at_start);
+    StateBytes(ByteReader& in, const StartLengths& at_start, SteppedTables which = SteppedTables::all);
     // Replaces all lasting tables of a state with the same `at_start`. Capacities only grow; the runner is to be adapted,
-    // and the returned ranges to be uploaded. Throws std::bad_alloc alone.
+    // and the returned ranges to be uploaded: without those that it keeps itself. Throws std::bad_alloc alone.
     TableRanges restore(State& state) const;
 
 private:
@@ -52,6 +57,7 @@ private:
     std::span<const std::byte> joints_, joint_blocks_, block_bodies_, vehicles_;
     std::array<std::span<const std::byte>, 11> shapes_;  // those of StartLengths: behind `at_start`
     StartLengths at_start_;
+    SteppedTables which_;
 };
 
 }  // namespace scree

@@ -181,6 +181,19 @@ struct World::Impl {
     void find_shapes_again();
     void put_world(ByteWriter& out) const;
     static Own take_world(ByteReader& in);
+    void put(ByteWriter& out, SteppedTables which) const;
+    // Throws CheckpointError, changing nothing. `slot`: where the runner keeps what is `on_device`.
+    void take(std::span<const std::byte> bytes, SteppedTables which, std::size_t slot = 0);
+
+    // rollback.cpp
+    struct Kept {
+        std::uint64_t steps = 0;
+        std::size_t slot = 0;  // of the runner
+        std::vector<std::byte> bytes;
+    };
+    std::vector<Kept> kept;  // ascending by steps
+    SteppedTables kept_by_host() const { return runner->in_place() ? SteppedTables::all : SteppedTables::on_device; }
+    void drop_kept();
 };
 
 }  // namespace scree

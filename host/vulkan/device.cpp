@@ -6,6 +6,7 @@
 #include <limits>
 #include <mutex>
 
+#include "host/vulkan/adoption.h"
 #include "host/vulkan/instance.h"
 #include "host/vulkan/pipeline_cache.h"
 #include "host/vulkan/shared_pipelines.h"
@@ -112,7 +113,11 @@ struct Device::Impl {
     std::unique_ptr<PipelineCache> cache;
     std::unique_ptr<SharedPipelines> pipelines;
     bool staged = false;
-    std::mutex queue_mutex;  // queues are externally synchronised in Vulkan
+    bool has_timelines = false;
+    bool is_adopted = false;  // belongs to the host program
+    VkInstance adopted_instance = VK_NULL_HANDLE;
+    std::mutex own_mutex;
+    std::mutex* queue_mutex = &own_mutex;  // queues are externally synchronised in Vulkan
 };
 
 void check(VkResult result, const char* what) {
@@ -151,6 +156,14 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     VkPhysicalDeviceBufferDeviceAddressFeatures addresses{};
     addresses.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_BUFFER_DEVICE_ADDRESS_FEATURES;
     addresses.bufferDeviceAddress = in.report.has_addresses;
+    VkPhysicalDeviceTimelineSemaphoreFeatures timelines{};
+    timelines.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES;
+    VkPhysicalDeviceFeatures2 features{};
+    features.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2;
+    features.pNext = &timelines;
+    in.vk.vkGetPhysicalDeviceFeatures2(in.physical, &features);
+    in.has_timelines = timelines.timelineSemaphore;
+    addresses.pNext = &timelines;
     VkDeviceCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO;
     info.pNext = &addresses;
@@ -169,13 +182,46 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     return device;
 }
 
+std::shared_ptr<Device> Device::adopt(const HostDevice& made) {
+    std::shared_ptr<Device> device(new Device);
+    Impl& in = *device->interior_;
+    in.is_adopted = true;
+    in.vk = functions_of(made);
+    in.report = describe(in.vk, made.physical, 0);
+    const EnabledFeatures enabled = enabled_features(*made.made_with);
+    in.report.has_addresses = in.report.has_addresses && enabled.addresses;
+    in.has_timelines = enabled.timelines;
+    std::uint32_t count = 0;
+    in.vk.vkGetPhysicalDeviceQueueFamilyProperties(made.physical, &count, nullptr);
+    std::vector<VkQueueFamilyProperties> families(count);
+    in.vk.vkGetPhysicalDeviceQueueFamilyProperties(made.physical, &count, families.data());
+    VkPhysicalDeviceProperties properties;
+    in.vk.vkGetPhysicalDeviceProperties(made.physical, &properties);
+    in.limits = properties.limits;
+    require_usable(made, in.report, enabled, in.limits, families);
+    in.adopted_instance = made.instance;
+    in.physical = made.physical;
+    in.device = made.device;
+    in.queue = made.queue;
+    in.family = made.queue_family;
+    in.timestamp_bits = families[made.queue_family].timestampValidBits;
+    if (made.queue_mutex) in.queue_mutex = made.queue_mutex;
+    in.vk.vkGetPhysicalDeviceMemoryProperties(in.physical, &in.memory);
+    in.cache = std::make_unique<PipelineCache>(in.vk, in.physical, in.device);
+    in.pipelines = std::make_unique<SharedPipelines>();
+    return device;
+}
+
 Device::~Device() {
     Impl& in = *interior_;
     if (!in.device) return;
-    if (in.vk.vkDeviceWaitIdle) in.vk.vkDeviceWaitIdle(in.device);
+    if (in.is_adopted)
+        wait_idle();
+    else if (in.vk.vkDeviceWaitIdle)
+        in.vk.vkDeviceWaitIdle(in.device);
     in.pipelines.reset();
     in.cache.reset();
-    if (in.vk.vkDestroyDevice) in.vk.vkDestroyDevice(in.device, nullptr);
+    if (in.vk.vkDestroyDevice && !in.is_adopted) in.vk.vkDestroyDevice(in.device, nullptr);
 }
 
 const DeviceReport& Device::report() const {
@@ -185,7 +231,7 @@ const VulkanFunctions& Device::vk() const {
     return interior_->vk;
 }
 VkInstance Device::instance() const {
-    return interior_->instance->handle();
+    return interior_->is_adopted ? interior_->adopted_instance : interior_->instance->handle();
 }
 VkPhysicalDevice Device::physical() const {
     return interior_->physical;
@@ -221,7 +267,7 @@ double Device::timestamp_period_ns() const {
     return interior_->limits.timestampPeriod;
 }
 std::vector<std::string> Device::validation_messages() const {
-    return interior_->instance->messages();
+    return interior_->is_adopted ? std::vector<std::string>{} : interior_->instance->messages();
 }
 
 std::uint32_t Device::memory_type(std::uint32_t allowed_bits, VkMemoryPropertyFlags properties) const {
@@ -242,12 +288,12 @@ void Device::submit(const std::vector<VkCommandBuffer>& commands, VkFence fence)
 }
 
 void Device::submit(const VkSubmitInfo& info, VkFence fence) {
-    const std::lock_guard lock(interior_->queue_mutex);
+    const std::lock_guard lock(*interior_->queue_mutex);
     check(interior_->vk.vkQueueSubmit(interior_->queue, 1, &info, fence), "submitting to the device");
 }
 
 VkResult Device::present(const VkPresentInfoKHR& info) {
-    const std::lock_guard lock(interior_->queue_mutex);
+    const std::lock_guard lock(*interior_->queue_mutex);
     return interior_->vk.vkQueuePresentKHR(interior_->queue, &info);
 }
 
@@ -255,12 +301,34 @@ void Device::submit_and_wait(const std::vector<VkCommandBuffer>& commands) {
     Submission(*this, commands).wait();
 }
 
-Submission::Submission(Device& device, const std::vector<VkCommandBuffer>& commands) : device_(device) {
-    VkFenceCreateInfo info{};
-    info.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
-    check(device.vk().vkCreateFence(device.handle(), &info, nullptr, &fence_), "creating a fence");
+Submission::Submission(Device& device, const std::vector<VkCommandBuffer>& commands) : Submission(device, commands, {}, {}) {}
+
+Submission::Submission(Device& device, const std::vector<VkCommandBuffer>& commands, Moment after, Moment reaches)
+    : device_(device) {
+    VkFenceCreateInfo fence{};
+    fence.sType = VK_STRUCTURE_TYPE_FENCE_CREATE_INFO;
+    check(device.vk().vkCreateFence(device.handle(), &fence, nullptr, &fence_), "creating a fence");
+    const VkPipelineStageFlags all = VK_PIPELINE_STAGE_ALL_COMMANDS_BIT;
+    VkTimelineSemaphoreSubmitInfo values{};
+    values.sType = VK_STRUCTURE_TYPE_TIMELINE_SEMAPHORE_SUBMIT_INFO;
+    VkSubmitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SUBMIT_INFO;
+    info.commandBufferCount = static_cast<std::uint32_t>(commands.size());
+    info.pCommandBuffers = commands.data();
+    if (after.timeline || reaches.timeline) info.pNext = &values;
+    if (after.timeline) {
+        info.waitSemaphoreCount = values.waitSemaphoreValueCount = 1;
+        info.pWaitSemaphores = &after.timeline;
+        info.pWaitDstStageMask = &all;
+        values.pWaitSemaphoreValues = &after.value;
+    }
+    if (reaches.timeline) {
+        info.signalSemaphoreCount = values.signalSemaphoreValueCount = 1;
+        info.pSignalSemaphores = &reaches.timeline;
+        values.pSignalSemaphoreValues = &reaches.value;
+    }
     try {
-        device.submit(commands, fence_);
+        device.submit(info, fence_);
     } catch (...) {
         device.vk().vkDestroyFence(device.handle(), fence_, nullptr);
         throw;
@@ -277,8 +345,22 @@ Submission::~Submission() {
     device_.vk().vkDestroyFence(device_.handle(), fence_, nullptr);
 }
 
+bool Device::has_timelines() const {
+    return interior_->has_timelines;
+}
+
+void Device::wait_for(VkSemaphore timeline, std::uint64_t value) const {
+    VkSemaphoreWaitInfo info{};
+    info.sType = VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO;
+    info.semaphoreCount = 1;
+    info.pSemaphores = &timeline;
+    info.pValues = &value;
+    check(interior_->vk.vkWaitSemaphores(interior_->device, &info, std::numeric_limits<std::uint64_t>::max()),
+          "waiting for a semaphore");
+}
+
 void Device::wait_idle() const {
-    const std::lock_guard lock(interior_->queue_mutex);
+    const std::lock_guard lock(*interior_->queue_mutex);
     check(interior_->vk.vkQueueWaitIdle(interior_->queue), "waiting for the device");
 }
 

@@ -14,6 +14,7 @@
 namespace scree::host {
 
 class SharedPipelines;
+struct HostDevice;  // host/vulkan/host_device.h
 
 // Descriptors that the simulation's one descriptor set needs (device_runner.cpp checks these counts). Lavapipe binds
 // 32 storage buffers per stage, MoltenVK 31, most GPUs a million.
@@ -63,6 +64,8 @@ struct DeviceOptions {
 class Device {
 public:
     static std::shared_ptr<Device> open(const DeviceOptions& options = {});
+    // A device that the program has made itself, which outlives this one. Throws DeviceError, naming what is missing.
+    static std::shared_ptr<Device> adopt(const HostDevice& device);
     ~Device();
     Device(const Device&) = delete;
     Device& operator=(const Device&) = delete;
@@ -92,6 +95,9 @@ public:
     void submit(const std::vector<VkCommandBuffer>& commands, VkFence fence);
     // For windows: submission with semaphores, and presentation, whose result (out of date, lost) the caller handles.
     void submit(const VkSubmitInfo& info, VkFence fence);
+    // Timeline semaphores: whether the device has them (one that was opened here does where it can), and waiting for a value.
+    bool has_timelines() const;
+    void wait_for(VkSemaphore timeline, std::uint64_t value) const;
     VkResult present(const VkPresentInfoKHR& info);
     void wait_idle() const;
 
@@ -112,6 +118,12 @@ private:
 class Submission {
 public:
     Submission(Device& device, const std::vector<VkCommandBuffer>& commands);
+    // Begins after a timeline semaphore has reached a value, and brings another one to a value (null: none).
+    struct Moment {
+        VkSemaphore timeline = VK_NULL_HANDLE;
+        std::uint64_t value = 0;
+    };
+    Submission(Device& device, const std::vector<VkCommandBuffer>& commands, Moment after, Moment reaches);
     ~Submission();  // waits
     Submission(const Submission&) = delete;
     Submission& operator=(const Submission&) = delete;

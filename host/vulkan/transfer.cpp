@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <iterator>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -20,6 +22,24 @@ void check_range(std::size_t bytes, std::size_t offset, std::size_t size) {
     throw std::out_of_range("bytes " + std::to_string(offset) + " and the next " + std::to_string(bytes) +
                             " lie outside a buffer of " + std::to_string(size));
 }
+
+// Ranges of buffers that a recording has written.
+class Written {
+public:
+    // False if some of the range was written before.
+    bool add(const Buffer& buffer, std::size_t begin, std::size_t end) {
+        std::map<std::size_t, std::size_t>& ranges = ranges_[buffer.handle()];
+        const auto after = ranges.lower_bound(begin);
+        if (after != ranges.end() && after->first < end) return false;
+        if (after != ranges.begin() && std::prev(after)->second > begin) return false;
+        ranges.emplace_hint(after, begin, end);
+        return true;
+    }
+    void clear() { ranges_.clear(); }
+
+private:
+    std::map<VkBuffer, std::map<std::size_t, std::size_t>> ranges_;  // begin, end
+};
 
 // A staging buffer that is filled, submitted when full, and reused.
 class Staging {
@@ -71,13 +91,20 @@ void upload(const std::shared_ptr<Device>& device, std::span<const Upload> piece
             std::memcpy(static_cast<std::byte*>(piece.to->mapped()) + piece.offset, piece.data.data(), piece.data.size());
     if (staged == 0) return;
     Staging staging(device, "staging for writing", staged, BufferUse::upload);
-    const auto sent = [](const std::byte*) {};
+    Written written;
+    const auto sent = [&](const std::byte*) { written.clear(); };
     for (const Upload& piece : pieces) {
         if (piece.to->mapped()) continue;
         staging.add(
             piece.data.size(),
             [&](CommandBuffer& commands, const Buffer& from, std::size_t place, std::size_t done, std::size_t count) {
                 std::memcpy(static_cast<std::byte*>(from.mapped()) + place, piece.data.data() + done, count);
+                const std::size_t begin = piece.offset + done;
+                if (!written.add(*piece.to, begin, begin + count)) {  // of overlapping pieces the last one counts
+                    commands.barrier();
+                    written.clear();
+                    written.add(*piece.to, begin, begin + count);
+                }
                 commands.copy(from, *piece.to, count, place, piece.offset + done);
             },
             sent);

@@ -1,4 +1,4 @@
-// What a scene can say: masses, materials, sensors, targets, water, joints; prints "ok", or what is wrong.
+// What a scene can say: masses, materials, sensors, targets, water, joints, rollback; prints "ok", or what is wrong.
 #include <scree/compute/world.h>
 #include <cmath>
 #include <cstdio>
@@ -47,6 +47,15 @@ int main() {
     expect(std::abs(world.body(1).velocity.x) < 0.05f, "the joint does not hold the parcel");
     world.remove_joints(joints);
     expect(!world.is_valid(joints[0]), "a removed joint is still there");
+    for (int i = 0; i < 10; ++i) {
+        world.keep_state();
+        world.step();
+    }
+    const std::uint64_t end = world.state_hash();
+    world.roll_back(10);
+    world.step(10);
+    expect(world.state_hash() == end, "ten steps back and forward again give other bits");
+    expect(scree::is_library_of_headers(), "the library has another version than its headers");
     if (failures == 0) std::printf("ok\n");
     return failures;
 }

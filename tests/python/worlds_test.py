@@ -70,6 +70,25 @@ class SameBits(unittest.TestCase):
         self.assertEqual(worlds[0].state_hash(), worlds[1].state_hash())
         self.assertEqual(worlds[0].steps, 100)
 
+    def test_a_world_goes_back_to_states_that_it_keeps(self):
+        scene, ids = pile()
+        world = scree.World(scene, backend="cpu")
+        hashes = []
+        for _ in range(12):
+            world.keep_state()
+            world.step()
+            hashes.append(world.state_hash())
+        self.assertEqual(world.kept_states, list(range(2, 12)))
+        world.apply(ids, impulse=(5, 0, 0))
+        world.roll_back(10)
+        self.assertEqual(world.steps, 2)
+        world.step(10)
+        self.assertEqual(world.state_hash(), hashes[-1])
+        with self.assertRaisesRegex(IndexError, "no state is kept 3 steps before step 12: those of steps 2 are"):
+            world.roll_back(3)
+        world.drop_states()
+        self.assertEqual(world.kept_states, [])
+
     def test_a_restored_world_goes_on_with_the_same_bits(self):
         scene, ids = pile()
         world = scree.World(scene, backend="cpu")

@@ -194,6 +194,13 @@ void restore(WorldObject& object, const std::string_view saved) {
     world->restore(std::as_bytes(std::span(saved)));
 }
 
+void roll_back(WorldObject& object, std::uint64_t steps) {
+    object.require_no_views("rolled back");
+    Use world(object);
+    const py::gil_scoped_release unlocked;
+    world->roll_back(steps);
+}
+
 Description snapshot(WorldObject& object, std::optional<std::size_t> copy) {
     Use world(object);
     Description made{object.shown, {}};
@@ -257,6 +264,23 @@ void bind_worlds(py::module_& module) {
         .def("close_exports", &WorldObject::close_exports)
         .def("save", &save)
         .def("restore", &restore)
+        .def("keep_state",
+             [](WorldObject& object) {
+                 Use world(object);
+                 const py::gil_scoped_release unlocked;
+                 world->keep_state();
+             })
+        .def("roll_back", &roll_back)
+        .def("kept_states",
+             [](WorldObject& object) {
+                 Use world(object);
+                 return world->kept_states();
+             })
+        .def("drop_states",
+             [](WorldObject& object) {
+                 Use world(object);
+                 world->drop_states();
+             })
         .def("snapshot", &snapshot, py::arg("copy") = py::none())
         .def("write_checkpoint",
              [](WorldObject& object, const std::string& path, const std::string& note) {

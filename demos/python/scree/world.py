@@ -575,6 +575,26 @@ class World:
         """
         self._native.restore(mark)
 
+    def keep_state(self) -> None:
+        """Keeps the present state where the runner has it, on a device in its memory; of ten the oldest goes."""
+        self._native.keep_state()
+
+    def roll_back(self, steps: int) -> None:
+        """Goes back to the state kept `steps` steps ago: later steps give the same bits. Later kept states are dropped.
+
+        Raises IndexError, naming the steps that are kept, if there is none, and BufferError while views (World.tables) live.
+        """
+        self._native.roll_back(steps)
+
+    @property
+    def kept_states(self) -> typing.List[int]:
+        """Numbers of steps done at which states are kept, ascending."""
+        return self._native.kept_states()
+
+    def drop_states(self) -> None:
+        """Drops all kept states, and frees their memory."""
+        self._native.drop_states()
+
     def write_checkpoint(self, path: Union[str, "os.PathLike[str]"], note: str = "") -> None:
         """Writes save() and a note to a file, atomically; scree run --resume reads it. Raises OSError."""
         self._native.write_checkpoint(os.fspath(path), note)

@@ -9,6 +9,7 @@
 #include "host/files/file.h"
 #include "host/spirv/spirv.h"
 #include "host/vulkan/command_buffer.h"
+#include "host/vulkan/transfer.h"
 #include "tests/host/vulkan/compiled.h"
 
 using namespace scree::host;
@@ -154,6 +155,17 @@ TEST_CASE("a range outside a buffer is refused") {
     REQUIRE_THROWS_AS(commands.copy(buffer, buffer, 8, 12, 0), std::out_of_range);
     REQUIRE_THROWS_AS(commands.dispatch_indirect(buffer, 8), std::out_of_range);
     commands.end();
+}
+
+TEST_CASE("of overlapping pieces of an upload the last one counts, with and without staging") {
+    const bool staged = GENERATE(false, true);
+    const Watched device(staged);
+    Buffer buffer(device.get(), "pieces", 64);
+    std::vector<std::byte> ones(32, std::byte{1}), twos(16, std::byte{2}), threes(8, std::byte{3}), got(64);
+    upload(device.get(), std::vector<Upload>{{ones, &buffer, 0}, {twos, &buffer, 8}, {ones, &buffer, 32}, {threes, &buffer, 4}});
+    buffer.read(got.data(), got.size());
+    for (std::size_t i = 0; i < got.size(); ++i)
+        REQUIRE(static_cast<int>(got[i]) == (i >= 4 && i < 12 ? 3 : i >= 8 && i < 24 ? 2 : 1));
 }
 
 TEST_CASE("a buffer larger than a binding is refused by name where it is to be bound, and found by its address") {
