@@ -15,7 +15,7 @@
 //       {"step": 9, "add": {"shape": {"sphere": {"radius": 0.3}}, "position": [0, 2, 9], "velocity": [0, 3, -15]}},
 //       {"step": 9, "join": {"kind": {"ball": {}}, "a": 17, "b": 18, "anchor_a": [0, 0.5, 0], "anchor_b": [0, -0.5, 0]}},
 //       {"step": 15, "unjoin": {"joint": 0}},
-//       {"step": 16, "set_material": {"body": 17, "friction": 0.2, "restitution": 0.5, "rolling_resistance": 0.01}},
+//       {"step": 16, "set_material": {"body": 17, "friction": 0.2}},
 //       {"step": 16, "set_mass": {"body": 17, "mass": 20}},
 //       {"step": 17, "set_motion": {"body": 18, "motion": "fixed"}},
 //       {"step": 18, "remove": {"body": 19}},

@@ -57,6 +57,14 @@ std::string act_text(const char* name, const Pairs&... pairs) {
     return std::string("\"") + name + "\": {" + inside + "}";
 }
 
+// Calls visit(key, value) for each coefficient, under the body's key.
+template <class Visit>
+void for_each_coefficient(auto& act, const Visit& visit) {
+    visit(fields::field_of(&Body::friction).key, act.friction);
+    visit(fields::field_of(&Body::restitution).key, act.restitution);
+    visit(fields::field_of(&Body::rolling_resistance).key, act.rolling_resistance);
+}
+
 struct Writer {
     std::string operator()(const Grab& act) const {
         return act_text("grab", std::pair("grip", act.grip), std::pair("body", act.body), std::pair("anchor", act.anchor),
@@ -85,12 +93,9 @@ struct Writer {
     std::string operator()(const Remove& act) const { return act_text("remove", std::pair("body", act.body)); }
     std::string operator()(const SetMaterial& act) const {
         std::string inside = "\"body\": " + text_of(act.body);
-        const auto add = [&](const char* key, const std::optional<float>& value) {
+        for_each_coefficient(act, [&](const char* key, const std::optional<float>& value) {
             if (value) inside += std::string(", \"") + key + "\": " + text_of(*value);
-        };
-        add("friction", act.friction);
-        add("restitution", act.restitution);
-        add("rolling_resistance", act.rolling_resistance);
+        });
         return "\"set_material\": {" + inside + "}";
     }
     std::string operator()(const SetMass& act) const {
@@ -157,14 +162,15 @@ Body added_body(const json& value, const Place& place) {
 }
 
 SetMaterial material_act_of(const json& value, const Place& place) {
-    only(value, place, {"body", "friction", "restitution", "rolling_resistance"});
     SetMaterial act;
+    std::vector<std::string> keys{"body"};
+    for_each_coefficient(act, [&](const char* key, std::optional<float>&) { keys.push_back(key); });
+    only(value, place, keys);
     required(value, place, "body", act.body);
     if (value.size() == 1) refuse(place, "changes no coefficient");
-    if (value.contains("friction")) read(value["friction"], place / "friction", act.friction.emplace());
-    if (value.contains("restitution")) read(value["restitution"], place / "restitution", act.restitution.emplace());
-    if (value.contains("rolling_resistance"))
-        read(value["rolling_resistance"], place / "rolling_resistance", act.rolling_resistance.emplace());
+    for_each_coefficient(act, [&](const char* key, std::optional<float>& coefficient) {
+        if (value.contains(key)) read(value[key], place / key, coefficient.emplace());
+    });
     return act;
 }
 

@@ -53,6 +53,7 @@ public:
     template <class Value>
     Value take() {
         static_assert(std::is_trivially_copyable_v<Value>);
+        if constexpr (std::is_same_v<Value, bool>) return take<std::uint8_t>() != 0;  // any other byte is no bool
         Value value;
         std::memcpy(&value, take_bytes(sizeof value).data(), sizeof value);
         return value;

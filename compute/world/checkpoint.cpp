@@ -13,8 +13,11 @@
 #include <map>
 #include <utility>
 
+#include "compute/fields/check.h"
 #include "compute/scene/fracture.h"
+#include "compute/scene/validator.h"
 #include "compute/statistics.h"
+#include "compute/world/checkpoint_seal.h"
 #include "compute/world/scene_bytes.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/extra/tyre.h"
@@ -174,8 +177,54 @@ World::Impl::Edits World::Impl::read_edits(std::span<const std::byte> bytes) con
     take_value(in, made.vehicles);
     take_value(in, made.exclusions);
     take_value(in, made.fields);
-    if (made.bodies < bodies_at_start) refuse("the checkpoint is damaged: it lacks bodies of the scene");
+    check_edits(made, bodies_at_start);
     return made;
+}
+
+void World::Impl::check_edits(Edits& made, std::size_t bodies_at_start) {
+    const auto require = [](bool holds, const char* reason) {
+        if (!holds) refuse(std::string("the checkpoint is damaged: ") + reason);
+    };
+    const std::size_t bodies = made.bodies;
+    require(bodies >= bodies_at_start, "it lacks bodies of the scene");
+    require(made.generations.size() <= bodies && made.gone.size() == made.generations.size() &&
+                made.origins.size() == made.generations.size(),
+            "its lists of bodies do not fit together");
+    for (const std::uint8_t origin : made.origins)
+        require(origin <= static_cast<std::uint8_t>(Origin::none), "a body has an origin that is not known");
+    for (const std::uint64_t index : made.freed) require(index < bodies, "it frees a body behind the last one");
+    const auto is_joined = [&](std::size_t body) { return body == the_world || body < bodies; };
+    for (const Joint& joint : made.joints)
+        require(is_joined(joint.a) && is_joined(joint.b) && joint.a != joint.b, "a joint is of a body that is none");
+    for (const Vehicle& vehicle : made.vehicles) {
+        require(vehicle.chassis < bodies, "a vehicle has a chassis that is none");
+        for (const Wheel& wheel : vehicle.wheels) require(wheel.joint < made.joints.size(), "a wheel is on a joint that is none");
+    }
+    for (const Exclusion& one : made.exclusions) require(one.a < bodies && one.b < bodies, "it excludes a body that is none");
+    try {
+        for (auto& [index, body] : made.changed) {
+            require(index < bodies_at_start, "it changes a body that the scene lacks");
+            fields::check_fields(Examination{}, body);
+        }
+        check_world_fields(made.fields);
+    } catch (const SceneError& error) {
+        refuse(std::string("the checkpoint is damaged: ") + error.what());
+    }
+}
+
+void World::Impl::check_own(Own& own, std::size_t bodies) {
+    const auto require = [&](std::uint64_t body, const char* what) {
+        if (body >= bodies) refuse(std::string("the checkpoint is damaged: it ") + what + " body " + std::to_string(body));
+    };
+    for (const auto& [body, action] : own.actions) require(body, "acts on");
+    for (const std::optional<Held>& grip : own.grips)
+        if (grip) require(grip->body, "holds");
+    for (const auto& [body, step] : own.arrivals) require(body, "moves");
+    try {
+        own.settings = checked(own.settings);
+    } catch (const std::exception& error) {
+        refuse(std::string("the checkpoint is damaged: ") + error.what());
+    }
 }
 
 void World::Impl::take_edits(Edits&& made, std::span<const std::byte> bytes) {
@@ -303,8 +352,16 @@ void World::Impl::take(std::span<const std::byte> bytes, SteppedTables which, st
     const std::vector<std::byte>& now = edits_now();
     if (edited.size() != now.size() || std::memcmp(edited.data(), now.data(), now.size()) != 0) made = read_edits(edited);
     Own own = take_world(reader);
-    const StateBytes tables(reader, shapes_at_start, which);
+    const StateBytes tables(reader, state, shapes_at_start, which);
     if (!reader.at_end()) refuse("the checkpoint is damaged: it has more bytes than it should");
+    if (tables.bodies() != (made ? made->bodies : scene.bodies.size()) ||
+        tables.joints() != (made ? made->joints : scene.joints).size() ||
+        tables.vehicles() != (made ? made->vehicles : scene.vehicles).size())
+        refuse("the checkpoint is damaged: its tables are not of its bodies, joints and vehicles");
+    check_own(own, tables.bodies());
+    if (!tables.follow_from(own.settings, own.gravity)) refuse("the checkpoint is damaged: its tables are not of its settings");
+    if (!own.events.fits(tables.rows(), tables.first_part()))
+        refuse("the checkpoint is damaged: it has events of rows that are none");
     broken = true;  // until it is done
     if (made) take_edits(std::move(*made), edited);
     settings = own.settings;
@@ -342,10 +399,17 @@ std::vector<std::byte> World::save() const {
     head.tables = layout_of_tables();
     head.scene = in.fingerprint;
     head.steps = in.steps;
-    head.bytes = out.bytes().size() - sizeof head;
-    head.hash = hash_of(head, std::span(out.bytes()).subspan(sizeof head));
     std::memcpy(out.bytes().data(), &head, sizeof head);
+    seal_checkpoint(out.bytes());
     return std::move(out.bytes());
+}
+
+void seal_checkpoint(std::span<std::byte> state) {
+    Head head;
+    std::memcpy(&head, state.data(), sizeof head);
+    head.bytes = state.size() - sizeof head;
+    head.hash = hash_of(head, state.subspan(sizeof head));
+    std::memcpy(state.data(), &head, sizeof head);
 }
 
 CheckpointInfo inspect_checkpoint(std::span<const std::byte> state) {
@@ -371,7 +435,7 @@ void restore_tables(State& state, std::span<const std::byte> saved) {
     ByteReader reader(saved.subspan(sizeof head));
     (void)reader.take_records(1);  // edits of the scene: their bodies are in the tables
     (void)World::Impl::take_world(reader);
-    StateBytes(reader, StartLengths::of(state)).restore(state);
+    StateBytes(reader, state, StartLengths::of(state)).restore(state);
 }
 
 }  // namespace scree

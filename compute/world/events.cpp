@@ -374,4 +374,11 @@ void Events::restore(ByteReader& in) {
     arrangement_ = ~std::uint64_t{0};
 }
 
+bool Events::fits(std::uint32_t rows, std::uint32_t first_part) const {
+    if (before_.empty()) return true;
+    if (first_part_ > first_part) return false;
+    const auto is_row = [&](std::uint32_t id) { return id < first_part_ || id < rows - (first_part - first_part_); };
+    return std::all_of(before_.begin(), before_.end(), [&](const Entry& e) { return is_row(e.id_a) && is_row(e.id_b); });
+}
+
 }  // namespace scree

@@ -34,6 +34,8 @@ public:
 
     void put(ByteWriter& out) const;
     void restore(ByteReader& in);
+    // Whether restored contacts are of rows that there are.
+    bool fits(std::uint32_t rows, std::uint32_t first_part) const;
 
 private:
     // A contact of two rows.

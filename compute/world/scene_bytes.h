@@ -88,6 +88,11 @@ void take_value(ByteReader& in, Value& value) {
         std::visit([&](auto& one) { take_value(in, one); }, value);
     } else if constexpr (OfAShape<Value> || std::is_same_v<Value, Part> || fields::HasTable<Value>) {
         for_each_member(value, [&](auto& member) { take_value(in, member); });
+    } else if constexpr (fields::HasWords<Value>) {
+        const auto number = in.take<std::underlying_type_t<Value>>();
+        if (number < 0 || static_cast<std::size_t>(number) >= fields::words<Value>.size())
+            throw CheckpointError("the checkpoint is damaged: a word that is not known");
+        value = static_cast<Value>(number);
     } else {
         value = in.take<Value>();
     }

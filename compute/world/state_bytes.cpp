@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "compute/step/scene_compiler.h"
 #include "compute/step/table_layout.h"
+#include "compute/world/state_check.h"
 #include "shaders/physics/base/work_counts.h"
 
 namespace scree {
@@ -145,7 +147,7 @@ void put_state(ByteWriter& out, const State& state, const StartLengths& at_start
     out.put_list(std::span(state.gravities));
 }
 
-StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start, SteppedTables which)
+StateBytes::StateBytes(ByteReader& in, const State& own, const StartLengths& at_start, SteppedTables which)
     : parameters_(in.take<physics::Parameters>()),
       counts_(in.take<physics::Counts>()),
       substeps_(in.take<std::int32_t>()),
@@ -179,6 +181,45 @@ StateBytes::StateBytes(ByteReader& in, const StartLengths& at_start, SteppedTabl
         shapes_[9].size() != (physics::has_copies(parameters_) ? parameters_.copies * sizeof(physics::uint) : 0) ||
         (shapes_[10].size() != 0 && shapes_[10].size() != parameters_.copies * sizeof(physics::uvec4)))
         refuse();
+    if (which == SteppedTables::all) check(own);
+}
+
+void StateBytes::check(const State& own) const {
+    const auto bytes = [&](Table table) {
+        return std::find_if(tables_.begin(), tables_.end(), [&](const auto& one) { return one.first == table; })->second;
+    };
+    check_tables({.parameters = parameters_,
+                  .counts = counts_,
+                  .body_count = body_count_,
+                  .rows = rows_,
+                  .properties = bytes(Table::properties),
+                  .poses = bytes(Table::poses),
+                  .velocities = bytes(Table::velocities),
+                  .first_contacts = bytes(Table::first_contacts),
+                  .contacts = bytes(Table::contacts),
+                  .constraints = bytes(Table::constraints),
+                  .joints = joints_,
+                  .joint_blocks = joint_blocks_,
+                  .block_bodies = block_bodies_,
+                  .vehicles = vehicles_,
+                  .hulls = shapes_[0],
+                  .parts = shapes_[1],
+                  .fractures = shapes_[2],
+                  .pieces = shapes_[3],
+                  .tyres = shapes_[4],
+                  .filters = shapes_[5],
+                  .exclusions = shapes_[6],
+                  .surfaces = shapes_[7],
+                  .immersions = shapes_[8],
+                  .hulls_at_start = at_start_.hulls,
+                  .pieces_at_start = at_start_.pieces,
+                  .tyres_at_start = at_start_.tyres},
+                 own);
+}
+
+bool StateBytes::follow_from(const Settings& settings, vec3 gravity) const {
+    const physics::Parameters expected = tuned(parameters_, gravity, settings);
+    return std::memcmp(&expected, &parameters_, sizeof expected) == 0 && substeps_ == settings.substeps;
 }
 
 TableRanges StateBytes::restore(State& state) const {

@@ -41,13 +41,23 @@ void restore_tables(State& state, std::span<const std::byte> saved);
 // The tables in a checkpoint, not yet restored. Refers to the reader's bytes.
 class StateBytes {
 public:
-    // Throws CheckpointError where lengths contradict each other.
-    StateBytes(ByteReader& in, const StartLengths& at_start, SteppedTables which = SteppedTables::all);
+    // `own`: the state that is to take them. Throws CheckpointError where lengths contradict each other, or indices lead out
+    // of their tables (state_check.h).
+    StateBytes(ByteReader& in, const State& own, const StartLengths& at_start, SteppedTables which = SteppedTables::all);
+    std::uint32_t bodies() const { return body_count_; }
+    std::size_t joints() const { return joint_records_.size(); }
+    std::size_t vehicles() const { return parameters_.vehicles; }
+    // Whether the step's parameters are those of the settings.
+    bool follow_from(const Settings& settings, vec3 gravity) const;
+    std::uint32_t rows() const { return parameters_.bodies; }
+    std::uint32_t first_part() const { return parameters_.first_part; }
     // Replaces all lasting tables of a state with the same `at_start`. Capacities only grow; the runner is to be adapted,
     // and the returned ranges to be uploaded: without those that it keeps itself. Throws std::bad_alloc alone.
     TableRanges restore(State& state) const;
 
 private:
+    void check(const State& own) const;
+
     physics::Parameters parameters_;
     physics::Counts counts_;
     int substeps_;

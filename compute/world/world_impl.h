@@ -177,6 +177,8 @@ struct World::Impl {
     struct Own;
     const std::vector<std::byte>& edits_now() const;
     Edits read_edits(std::span<const std::byte> bytes) const;
+    static void check_edits(Edits& made, std::size_t bodies_at_start);  // throws CheckpointError for indices that lead nowhere
+    static void check_own(Own& own, std::size_t bodies);                // likewise
     void take_edits(Edits&& made, std::span<const std::byte> bytes);
     void find_shapes_again();
     void put_world(ByteWriter& out) const;
