@@ -75,7 +75,8 @@ std::vector<vec3> swept(const std::vector<vec3>& corners, vec3 middle) {
 
 }  // namespace
 
-CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect) : view_(subject.viewpoint) {
+CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, float aspect, float strip)
+    : view_(subject.viewpoint) {
     const bool placed = options.eye || options.target;
     if (!view_.path.empty()) view_.eye = view_.path[0].eye, view_.target = view_.path[0].target;
     if (placed || options.fit || options.follow || options.still) view_.path.clear();
@@ -93,7 +94,7 @@ CameraMan::CameraMan(const CameraOptions& options, const LoadedScene& subject, f
     if (options.fit || (subject.viewpoint.fit && !placed && !options.follow)) {
         std::vector<vec3> points = corners_of(subject.low, subject.high);
         if (orbit_) points = swept(points, 0.5f * (subject.low + subject.high));
-        view_ = fitted(points, view_.eye - view_.target, view_.vertical_fov, aspect, view_.orthographic);
+        view_ = fitted(points, view_.eye - view_.target, view_.vertical_fov, aspect, view_.orthographic, strip);
     }
     if (!followed_) return;
     const Body& body = subject.scene.bodies[*followed_];
@@ -180,7 +181,7 @@ std::vector<vec3> corners_of(vec3 low, vec3 high) {
     return corners;
 }
 
-Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov, float aspect, bool orthographic) {
+Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov, float aspect, bool orthographic, float strip) {
     constexpr float margin = 1.06f;
     Viewpoint view;
     view.vertical_fov = vertical_fov;
@@ -192,15 +193,17 @@ Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov,
     const float rise = std::tan(glm::radians(vertical_fov) / 2) / margin;
     view.target = vec3(0);
     for (const vec3& point : points) view.target += point / static_cast<float>(points.size());
-    // A point p relative to the target is visible if |p.right| <= rise aspect (d - p.back), and likewise upward; with
-    // an orthographic camera the bound is that at d. Iterate: centre the visible extent by moving the target.
+    // A point p relative to the target is visible if |p.right| <= rise aspect (d - p.back), and likewise upward, but
+    // downward to 1 - 2 strip of that; with an orthographic camera the bound is that at d. Iterate: centre the visible
+    // extent in what is left of the picture by moving the target.
     float distance = 0;
     for (int round = 0; round < 8; ++round) {
         distance = 1e-3f;
         for (const vec3& point : points) {
             const vec3 p = point - view.target;
-            const float side = std::abs(glm::dot(p, right)) / (rise * aspect), height = std::abs(glm::dot(p, up)) / rise;
-            distance = std::max(distance, (orthographic ? 0 : glm::dot(p, back)) + std::max(side, height));
+            const float side = std::abs(glm::dot(p, right)) / (rise * aspect), height = glm::dot(p, up) / rise;
+            distance =
+                std::max(distance, (orthographic ? 0 : glm::dot(p, back)) + std::max({side, height, -height / (1 - 2 * strip)}));
         }
         vec3 least(1e30f), most(-1e30f);
         for (const vec3& point : points) {
@@ -210,7 +213,7 @@ Viewpoint fitted(const std::vector<vec3>& points, vec3 back, float vertical_fov,
             least = glm::min(least, seen);
             most = glm::max(most, seen);
         }
-        view.target += (right * (least.x + most.x) + up * (least.y + most.y)) * (0.5f * distance);
+        view.target += (right * (least.x + most.x) + up * (least.y + most.y - 2 * strip * rise)) * (0.5f * distance);
     }
     view.eye = view.target + back * distance;
     return view;

@@ -16,6 +16,7 @@
 #include "demos/film/style.h"
 #include "demos/program/option_parsing.h"
 #include "host/canvas/canvas.h"
+#include "host/canvas/overlay.h"
 #include "host/files/file.h"
 #include "host/pictures/frame_writer.h"
 #include "shaders/physics/extra/sleep.h"
@@ -72,6 +73,15 @@ host::CanvasOptions canvas_of(const PictureOptions& options, const PictureStyle&
     show_overlays(style, world, canvas);
     show_light(style, canvas);
     return canvas;
+}
+
+constexpr int CAPTION_LINES = 3;
+
+// A fitted scene is above legend and caption.
+CameraMan camera_of(const PictureOptions& options, const LoadedScene& subject) {
+    const float strip = host::overlay_height(options.width, options.height, options.legend, options.caption ? CAPTION_LINES : 0);
+    const auto width = static_cast<float>(options.width), height = static_cast<float>(options.height);
+    return {options.camera, subject, width / height, std::min(strip / height, 0.4f)};
 }
 
 }  // namespace
@@ -138,22 +148,21 @@ struct Pictures::Impl {
 
 Pictures::Pictures(const PictureOptions& options, const Backend& machine, const LoadedScene& subject, World& world,
                    const CopiesShown& shown)
-    : interior_(
-          new Impl{world,
-                   {},
-                   nullptr,
-                   CameraMan(options.camera, subject, static_cast<float>(options.width) / static_cast<float>(options.height)),
-                   scale_of(style_of(options, subject.style), subject, world.settings()),
-                   subject.title(),
-                   subject.low,
-                   subject.high,
-                   options.fps,
-                   options.caption,
-                   factor_of(options),
-                   CameraTrack(options.width, options.height),
-                   options.cameras,
-                   {},
-                   {}}) {
+    : interior_(new Impl{world,
+                         {},
+                         nullptr,
+                         camera_of(options, subject),
+                         scale_of(style_of(options, subject.style), subject, world.settings()),
+                         subject.title(),
+                         subject.low,
+                         subject.high,
+                         options.fps,
+                         options.caption,
+                         factor_of(options),
+                         CameraTrack(options.width, options.height),
+                         options.cameras,
+                         {},
+                         {}}) {
     Impl& in = *interior_;
     host::FrameWriterOptions writer;
     writer.folder = options.frames;

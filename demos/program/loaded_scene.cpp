@@ -59,21 +59,58 @@ bool is_file_name(const std::string& name) {
     return name.find('/') != name.npos || name.ends_with(".json") || is_scene_import(name);
 }
 
-// Sets the bounding box of the initial bodies: of moving ones if there are any, else of all but planes.
-void set_bounds(LoadedScene& subject) {
-    vec3 low(std::numeric_limits<float>::max()), high(-low);
+struct BoundingSphere {
+    vec3 position;
+    float radius;
+};
+
+// Of the initial bodies: of moving ones if there are any, else of all but planes.
+std::vector<BoundingSphere> spheres_of(const Scene& scene) {
+    std::vector<BoundingSphere> spheres;
     for (const bool moving : {true, false}) {
-        for (const Body& body : subject.scene.bodies) {
+        for (const Body& body : scene.bodies) {
             if (std::holds_alternative<Plane>(body.shape) || (moving && body.motion != Motion::dynamic)) continue;
-            const float reach = bounding_radius(body.shape);
-            low = glm::min(low, body.position - reach);
-            high = glm::max(high, body.position + reach);
+            spheres.push_back({body.position, bounding_radius(body.shape)});
         }
-        if (low.x <= high.x) break;
+        if (!spheres.empty()) break;
     }
-    if (low.x > high.x) low = vec3(-1), high = vec3(1);
-    subject.low = low;
-    subject.high = high;
+    return spheres;
+}
+
+// Removes outliers, so that a few bodies far away do not make the rest tiny: at most a tenth, further than 6 times the diagonal
+// of the middle half (on each axis the quartiles, with the median radius).
+void remove_outliers(std::vector<BoundingSphere>& spheres) {
+    if (spheres.size() < 10) return;
+    std::vector<float> values(spheres.size());
+    const auto quantile = [&](double share, auto&& value_of) {
+        std::ranges::transform(spheres, values.begin(), value_of);
+        const auto place = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
+        std::ranges::nth_element(values, place);
+        return *place;
+    };
+    const float radius = quantile(0.5, [](const BoundingSphere& sphere) { return sphere.radius; });
+    vec3 low(0), high(0);
+    for (int axis = 0; axis < 3; ++axis) {
+        const auto place = [axis](const BoundingSphere& sphere) { return sphere.position[axis]; };
+        low[axis] = quantile(0.25, place) - radius;
+        high[axis] = quantile(0.75, place) + radius;
+    }
+    const vec3 middle = 0.5f * (low + high);
+    const float furthest = 6 * glm::length(high - low);
+    const auto is_far = [&](const BoundingSphere& sphere) { return glm::length(sphere.position - middle) > furthest; };
+    if (10 * std::ranges::count_if(spheres, is_far) <= std::ssize(spheres)) std::erase_if(spheres, is_far);
+}
+
+// Sets the box that cameras see whole.
+void set_bounds(LoadedScene& subject) {
+    std::vector<BoundingSphere> spheres = spheres_of(subject.scene);
+    remove_outliers(spheres);
+    if (spheres.empty()) spheres.push_back({vec3(0), 1});
+    subject.low = subject.high = spheres.front().position;
+    for (const BoundingSphere& sphere : spheres) {
+        subject.low = glm::min(subject.low, sphere.position - sphere.radius);
+        subject.high = glm::max(subject.high, sphere.position + sphere.radius);
+    }
 }
 
 bool are_default(const Settings& settings) {
@@ -180,7 +217,9 @@ LoadedScene subject_of(SceneDocument document, std::string name, std::vector<std
     subject.name = std::move(name);
     subject.scene = checked(std::move(document.scene), notes);
     set_bounds(subject);
-    subject.viewpoint = document.viewpoint ? *document.viewpoint : view_of(subject.low, subject.high, 30, 20);
+    subject.viewpoint = view_of(subject.low, subject.high, 30, 20);
+    subject.viewpoint.fit = true;
+    if (document.viewpoint) subject.viewpoint = *document.viewpoint;
     if (document.settings) subject.of_scene = *document.settings;
     if (document.duration > 0) subject.seconds = static_cast<double>(document.duration);
     if (document.picture) subject.style = *document.picture;

@@ -17,7 +17,7 @@ struct LoadedScene {
     std::string name;
     Scene scene;
     Viewpoint viewpoint;
-    vec3 low, high;  // bounding box of the action, m
+    vec3 low, high;  // bounding box of the action, m; of a file without bodies far from the others (at most a tenth)
     double seconds = 10;
     std::optional<Promise> promise{};  // none for scene files
     Settings of_scene{};               // the scene's own

@@ -255,7 +255,7 @@ Frame make_frame(const Camera& camera, const ColorScale& scale, const CanvasOpti
     // Haze and grid fade with the view, but not within the scene.
     frame.eye.w = std::max(frame.eye.w, 3.5f * frame.box_high.w);
     frame.pixel.y = sky_map.depth;
-    frame.pixel.z = 20 * sky_map.texel;
+    frame.pixel.z = 10 * sky_map.texel;
     frame.toward_sun = vec4(sun, options.shadows ? 1.0f : 0.0f);
     frame.toward_sky = vec4(0, 1, 0, static_cast<float>(options.samples));
     const SkyLight& light = light_of(options.sky);

@@ -23,6 +23,13 @@ struct Measures {
           margin(std::round(18 * unit)),
           padding(std::round(12 * unit)),
           side(std::round(14 * unit)) {}
+    float line_step() const { return std::round(1.3f * text); }
+    // From the upper edge of the caption's panel to that of the picture below.
+    float caption_height(std::size_t lines) const {
+        return margin + 2 * padding + line_step() * static_cast<float>(lines) - std::round(0.3f * text);
+    }
+    // From the bar to the upper edge of the legend's panel.
+    float title_height() const { return std::round(1.15f * text) + padding; }
 };
 
 class Sheet {
@@ -77,9 +84,9 @@ void add_caption(Sheet& sheet, int height, const std::string& caption) {
     }
     float widest = 0;
     for (const std::string_view line : lines) widest = std::max(widest, text_width(line, m.text));
-    const float step = std::round(1.3f * m.text);
+    const float step = m.line_step();
     const float bottom = static_cast<float>(height) - m.margin;
-    const float top = bottom - 2 * m.padding - step * static_cast<float>(lines.size()) + std::round(0.3f * m.text);
+    const float top = static_cast<float>(height) - m.caption_height(lines.size());
     sheet.panel(m.margin, top, std::round(m.margin + 2 * m.padding + widest), bottom, std::round(7 * m.unit),
                 glm::vec4(PANEL, 0.62f));
     float base = top + m.padding + std::round(0.80f * m.text);
@@ -112,7 +119,7 @@ void add_legend(Sheet& sheet, int width, int height, const ColorScale& scale) {
     const BarPlace place = legend_bar(width, height);
     const auto left = static_cast<float>(place.left), top = static_cast<float>(place.top);
     const auto right = static_cast<float>(place.right), bottom = static_cast<float>(place.bottom);
-    sheet.panel(left - m.padding - m.side, top - std::round(1.15f * m.text) - m.padding, right + m.padding + m.side,
+    sheet.panel(left - m.padding - m.side, top - m.title_height(), right + m.padding + m.side,
                 static_cast<float>(height) - m.margin, std::round(7 * m.unit), glm::vec4(PANEL, 0.62f));
     std::string unit = color_unit(scale.by);
     if (scale.root) unit += unit.empty() ? "root scale" : ", root scale";
@@ -162,6 +169,14 @@ BarPlace legend_bar(int width, int height) {
     const int below = static_cast<int>(m.margin + std::round(0.5f * m.padding) + std::round(6 * m.unit + 1.2f * m.small));
     const int thickness = static_cast<int>(std::max(4.0f, std::round(14 * m.unit)));
     return {width - inset - long_side, height - below - thickness, width - inset, height - below};
+}
+
+float overlay_height(int width, int height, bool legend, int caption_lines) {
+    const Measures m(height);
+    const BarPlace bar = legend_bar(width, height);
+    const float of_caption = caption_lines > 0 ? m.caption_height(static_cast<std::size_t>(caption_lines)) : 0;
+    const float of_legend = legend && bar.left >= 0 ? static_cast<float>(height - bar.top) + m.title_height() : 0;
+    return std::max(of_caption, of_legend);
 }
 
 std::vector<OverlayQuad> overlay_quads(int width, int height, bool legend, const ColorScale& scale, const std::string& caption) {

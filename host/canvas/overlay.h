@@ -20,4 +20,7 @@ BarPlace legend_bar(int width, int height);
 // Sizes are proportional to the picture's height.
 std::vector<OverlayQuad> overlay_quads(int width, int height, bool legend, const ColorScale& scale, const std::string& caption);
 
+// Height of the strip at the lower edge that legend and a caption of so many lines take, pixels.
+float overlay_height(int width, int height, bool legend, int caption_lines);
+
 }  // namespace scree::host

@@ -45,10 +45,12 @@ void main() {
     // Decimetres show where a pixel is at most a centimetre.
     float near = 1.0 - smoothstep(0.006, 0.02, max(wu, wv));
     float finest = near * max(line(at.x * 10.0, wu * 10.0, 0.012), line(at.y * 10.0, wv * 10.0, 0.012));
-    float fine = max(line(at.x, wu, 0.012), line(at.y, wv, 0.012));
+    // Metres fade where a tile is a few pixels wide: they would flicker, and look like a weave.
+    float metres = 1.0 - smoothstep(0.08, 0.3, max(wu, wv));
+    float fine = metres * max(line(at.x, wu, 0.012), line(at.y, wv, 0.012));
     float coarse = max(line(at.x * 0.1, wu * 0.1, 0.003), line(at.y * 0.1, wv * 0.1, 0.003));
     vec3 color = vec3(0.335, 0.33, 0.32);
-    color *= 1.0 - 0.05 * tiles(at, w) - 0.06 * tiles(at * 0.1, w * 0.1);
+    color *= 1.0 - 0.05 * mix(0.5, tiles(at, w), metres) - 0.06 * tiles(at * 0.1, w * 0.1);
     color *= 1.0 - 0.10 * finest - 0.24 * fine;
     color = mix(color, color * 0.55, coarse);
     vec3 shaded = ground_lit(color, point, plane.xyz, ray / length(ray));
