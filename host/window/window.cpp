@@ -4,6 +4,7 @@
 
 #include <backends/imgui_impl_glfw.h>
 #include <imgui.h>
+#include <imgui_internal.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -98,6 +99,7 @@ struct Window::Impl {
 
     static Impl& of(GLFWwindow* window) { return *static_cast<Impl*>(glfwGetWindowUserPointer(window)); }
     void moved(double to_x, double to_y);
+    bool is_over_panel() const;
     void clicked(int button, int action, int modifiers);
     void typed(int code, int action, int modifiers);
 };
@@ -157,9 +159,21 @@ void Window::Impl::moved(double to_x, double to_y) {
     events.push_back({.kind = EventKind::moved, .x = x, .y = y});
 }
 
+// Whether the pointer is over the panel's windows as they were drawn last: between two pictures ImGui only knows what was under
+// the pointer at the last one.
+bool Window::Impl::is_over_panel() const {
+    if (ImGui::GetIO().WantCaptureMouse) return true;
+    double across = 0, down = 0;  // screen units, as ImGui's
+    glfwGetCursorPos(handle, &across, &down);
+    const ImVec2 pointer(static_cast<float>(across), static_cast<float>(down));
+    return std::ranges::any_of(ImGui::GetCurrentContext()->Windows, [&](const ImGuiWindow* window) {
+        return window->WasActive && !(window->Flags & ImGuiWindowFlags_NoMouseInputs) && window->Rect().Contains(pointer);
+    });
+}
+
 void Window::Impl::clicked(int button, int action, int modifiers) {
     Event event{.kind = action == GLFW_PRESS ? EventKind::pressed : EventKind::released, .x = x, .y = y};
-    if (event.kind == EventKind::pressed && ImGui::GetIO().WantCaptureMouse) return;
+    if (event.kind == EventKind::pressed && is_over_panel()) return;
     event.button = button == GLFW_MOUSE_BUTTON_RIGHT    ? Button::right
                    : button == GLFW_MOUSE_BUTTON_MIDDLE ? Button::middle
                                                         : Button::left;
@@ -184,8 +198,7 @@ void Window::Impl::listen() {
         handle, [](GLFWwindow* window, int code, int, int action, int modifiers) { of(window).typed(code, action, modifiers); });
     glfwSetScrollCallback(handle, [](GLFWwindow* window, double, double amount) {
         Impl& in = of(window);
-        if (!ImGui::GetIO().WantCaptureMouse)
-            in.events.push_back({.kind = EventKind::scrolled, .x = in.x, .y = in.y, .amount = amount});
+        if (!in.is_over_panel()) in.events.push_back({.kind = EventKind::scrolled, .x = in.x, .y = in.y, .amount = amount});
     });
     glfwSetDropCallback(handle, [](GLFWwindow* window, int count, const char** files) {
         Impl& in = of(window);
