@@ -195,6 +195,12 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
             c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, velocities_of(state, c));
         const physics::VelocityPair now = velocities_of(state, c);
+        if (pair.previous != physics::NONE && physics::rebounds_across(prepared.impulse)) {
+            const physics::Constraint before =
+                physics::constraint_of(state.contacts_before[pair.previous], ta, tb, c.slot_a, c.slot_b, felt_by(state, a));
+            prepared.impulse = physics::settled_impact(prepared.impulse, c, state.impulses_before[pair.previous], before, now);
+            state.impulses[i].rebound_energy = prepared.impulse.rebound_energy;
+        }
         const float unrest = physics::unrest_of(prepared, c, ta, tb, now, felt_by(state, a));
         state.contacts[i].unrest = unrest;
         c = physics::with_unrest(c, unrest);
@@ -221,7 +227,8 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::SolveResult after =
             physics::solve_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), felt_by(state, c.a));
         state.impulses[i] = after.impulse;
-        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), after.impulse.impact_weight, 0);
+        hand_out(state, c, physics::to_body_deltas(before, after.pair_velocity, ma, mb), after.impulse.impact_weight,
+                 physics::impact_debt(after.impulse));
     });
 }
 
@@ -244,9 +251,11 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         const physics::Mass ma = physics::impact_mass(state.impulses[i], state.masses[c.a], state.forces[c.a], state.fixed());
         const physics::Mass mb = physics::impact_mass(state.impulses[i], state.masses[c.b], state.forces[c.b], state.fixed());
         const physics::VelocityPair before = velocities_of(state, c);
-        const physics::SolveResult after =
-            physics::relax_contact(c, state.impulses[i], before, ma, mb, impact_state(state, c), felt_by(state, c.a));
         physics::Impulse& impulse = state.impulses[i];
+        const float debt = physics::part_of_debts(impulse, state.impact_debts[c.a], state.forces[c.a], ma,
+                                                  state.impact_debts[c.b], state.forces[c.b], mb);
+        const physics::SolveResult after =
+            physics::relax_contact(c, impulse, before, ma, mb, impact_state(state, c), debt, felt_by(state, c.a));
         if (felt) {
             const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = first ? carried : state.carried[i] + carried;

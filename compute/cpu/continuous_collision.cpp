@@ -45,7 +45,8 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         if (state.point_counts[i] == 0 || !(any_fast || driving[0] || driving[1])) return;
         const physics::Manifold& manifold = state.manifolds[i];
         const float cosine = physics::same_normal(driving[0] || driving[1]);
-        const bool holds = !any_fast ||
+        const bool rebounds = previous != physics::NONE && physics::rebounds_across(state.impulses_before[previous]);
+        const bool holds = !any_fast || rebounds ||
                            physics::is_near(manifold, state.point_counts[i], state.properties[a], state.properties[b], p) ||
                            physics::will_meet(manifold.normal, cosine, state.properties[a], state.poses[a], state.velocities[a],
                                               state.forces[bodies[0]], state.properties[b], state.poses[b], state.velocities[b],

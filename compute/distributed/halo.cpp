@@ -29,6 +29,7 @@ struct GhostMotion {
     physics::Velocity velocity;
     physics::vec4 orientation;
     float impacts = 0;
+    float impact_debt = 0;
 };
 struct GhostEnd {
     physics::Pose pose;
@@ -229,12 +230,13 @@ void Halo::send_motion(State& state, Exchange& exchange) {
     send<GhostMotion>(
         state, exchange,
         [](const State& s, std::uint32_t row) {
-            return GhostMotion{s.velocities[row], s.poses[row].orientation, s.forces[row].impacts};
+            return GhostMotion{s.velocities[row], s.poses[row].orientation, s.forces[row].impacts, s.impact_debts[row]};
         },
         [](State& s, std::uint32_t row, const GhostMotion& ghost) {
             s.velocities[row] = ghost.velocity;
             s.poses[row].orientation = ghost.orientation;
             s.forces[row].impacts = ghost.impacts;
+            s.impact_debts[row] = ghost.impact_debt;
             if (!physics::has_isotropic_inertia(s.properties[row]))
                 s.masses[row] =
                     physics::body_mass(physics::mass_in_world(s.properties[row], ghost.orientation), s.masses[row].split_state);

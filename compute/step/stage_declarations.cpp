@@ -123,7 +123,7 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
         {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
     // Few pairs are fast: most return early.
     all.push_back({"predict_impacts", DispatchDomain::ccd_pairs, predict_impacts,
-        {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifolds}},
+        {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifolds}, {impulses_before}},
         {{point_counts}, {bounds}}});
     declare_convex(all);
     all.push_back({"cull_speculative", DispatchDomain::ccd_pairs, cull_speculative,
@@ -171,7 +171,7 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
         {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
          {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {gravities}, {ids}},
-        {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | felt});
+        {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BOUNCES | felt});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.
@@ -193,10 +193,10 @@ void declare_solver(std::vector<StageDeclaration>& all) {
         {{joint_blocks}, {joints, A::joints}, {block_bodies, A::joints}, unfinished({joint_equations, A::joints}), in_parts({slots, A::joints})}});
     all.push_back({"move_bodies", DispatchDomain::bodies, move_bodies,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses, A::movers}, {masses, A::movers, 1}},
-        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}}});
+        {{poses, A::movers}, {velocities, A::movers}, {masses, A::movers}, {forces, A::movers, 1}, unfinished({impact_debts})}});
     all.push_back({"relax_contacts", DispatchDomain::solver_contacts, relax_contacts,
         {{counts}, {contacts_to_solve, A::solver_contacts}, {constraints, A::solver_contacts}, {impulses, A::solver_contacts}, {carried, A::breakable}, {masses, A::movers}, {forces, A::movers},
-         {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
+         {impact_debts}, {velocities, A::movers}, {properties}, {sleep_states}, {gravities}, {ids}},
         {{impulses, A::solver_contacts}, unfinished({carried, A::breakable}), in_parts({slots, A::slots}), unfinished({neighbours_quiet})}, features | physics::FEATURE_SUMS});
     all.push_back({"relax_joints", DispatchDomain::joint_blocks, relax_joints,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {forces, A::joints}, {slot_ends},

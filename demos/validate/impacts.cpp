@@ -180,7 +180,7 @@ std::vector<Experiment> impact_experiments() {
                    "energy after, of before",
                    0,
                    0.02,
-                   {1, 2, 5, 10},
+                   {1, 5, 10, 25, 50},
                    [](double) { return 1.0; },
                    gas});
     return all;

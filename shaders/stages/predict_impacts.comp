@@ -21,7 +21,9 @@ void main() {
     bool any_fast = will_be_fast(whole_a, motion_a, PARAMETERS) || will_be_fast(whole_b, motion_b, PARAMETERS);
     if (!any_fast && !drives_a && !drives_b) return;
     vec3 normal = READ(manifolds, i).normal;
-    if (any_fast && !is_near(READ(manifolds, i), WORD(point_counts, i), ta, tb, PARAMETERS) &&
+    uint previous = READ(pairs, i).previous;
+    bool rebounds = previous != NONE && rebounds_across(READ(impulses_before, previous));
+    if (any_fast && !rebounds && !is_near(READ(manifolds, i), WORD(point_counts, i), ta, tb, PARAMETERS) &&
         !will_meet(normal, same_normal(drives_a || drives_b), ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb,
                    READ(forces, of_b), PARAMETERS, Hulls(0u))) {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;

@@ -60,6 +60,11 @@ void main() {
     now.a = READ(velocities, of_a);
     now.b = READ(velocities, of_b);
     if (tyre_of(ta) != 0u || tyre_of(tb) != 0u) constraint = on_tyre_of(ta, tb, constraint, prepared.contact.center_offset, now);
+    if (BOUNCES && pair.previous != NONE && rebounds_across(prepared.impulse)) {
+        Constraint before = constraint_of(READ(contacts_before, pair.previous), ta, tb, slot_a, slot_b, felt);
+        prepared.impulse = settled_impact(prepared.impulse, constraint, READ(impulses_before, pair.previous), before, now);
+        impulses.at[i].rebound_energy = prepared.impulse.rebound_energy;
+    }
     prepared.contact.unrest = unrest_of(prepared, constraint, ta, tb, now, felt);
     contacts.at[i] = prepared.contact;
     constraint = with_unrest(constraint, prepared.contact.unrest);

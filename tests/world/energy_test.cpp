@@ -1,6 +1,8 @@
 // Energy: contacts dissipate or transfer kinetic energy at any speed, and never create it.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cmath>
+#include <random>
 
 #include "compute/world.h"
 #include "tests/world/heaps.h"
@@ -83,6 +85,106 @@ TEST_CASE("balls that bounce perfectly on the ground and on each other never gai
             INFO(balls << " balls, friction " << friction << ": most " << most / start << ", at the end " << last / start);
             CHECK(most < 1.005 * start);
             if (friction == 0) CHECK(last > 0.9 * start);
+        }
+    }
+}
+
+namespace {
+
+// Elastic balls of one speed (m/s), a metre in diameter, in a box of ten metres with walls of boxes.
+Scene gas_in_a_box(int a_side, float speed, unsigned seed) {
+    Scene scene;
+    scene.gravity = vec3(0);
+    std::mt19937 random(seed);
+    std::normal_distribution<float> normal;
+    const auto elastic = [&](Shape shape, vec3 position) {
+        Body body;
+        body.shape = std::move(shape);
+        body.position = position;
+        body.friction = 0;
+        body.restitution = 1;
+        scene.bodies.push_back(body);
+        return scene.bodies.end() - 1;
+    };
+    const float apart = 9.0f / static_cast<float>(a_side), first = -0.5f * apart * static_cast<float>(a_side - 1);
+    for (int i = 0; i < a_side * a_side * a_side; ++i) {
+        const vec3 place(i % a_side, i / a_side % a_side, i / (a_side * a_side));
+        const vec3 direction(normal(random), normal(random), normal(random));
+        elastic(Sphere{0.5f}, vec3(first) + apart * place)->velocity = speed * glm::normalize(direction);
+    }
+    for (int wall = 0; wall < 6; ++wall) {
+        vec3 half(9), position(0);
+        half[wall / 2] = 2;
+        position[wall / 2] = wall % 2 == 0 ? 7.0f : -7.0f;
+        elastic(Box{half}, position)->motion = Motion::fixed;
+    }
+    return scene;
+}
+
+}  // namespace
+
+// Where two or three walls are struck in one substep, and where a step ends meanwhile, an impact returns its energy over
+// several substeps. Measured: 0.9979 to 0.9993 at 25 m/s, 0.976 to 0.993 at 50 m/s (0.87 to 0.94 before impacts lasted
+// across steps), 0.9995 to 0.9999 of 8 balls at 80 m/s.
+TEST_CASE("a gas of elastic balls in a box keeps its energy for ten seconds, however fast") {
+    struct Case {
+        int a_side;
+        float speed;
+        double lost;
+    };
+    for (const Case& one : {Case{5, 5, 5e-4}, Case{5, 25, 0.005}, Case{5, 50, 0.04}, Case{2, 80, 0.001}}) {
+        for (unsigned seed = 1; seed <= 3; ++seed) {
+            World world(gas_in_a_box(one.a_side, one.speed, seed), {}, 1);
+            const double before = world.statistics().kinetic_energy;
+            world.step(600);
+            const double after = world.statistics().kinetic_energy / before;
+            CAPTURE(one.a_side, one.speed, seed, after);
+            CHECK(after > 1 - one.lost);
+            CHECK(after < 1.001);
+        }
+    }
+}
+
+// A ball between two facets strikes both along nearly parallel normals. Without debts (restitution.h) its energy grew to 2.8
+// and 3.0 times with 64 and 128 facets; measured: at most 1.02 up to 32 facets, 1.07 with 64, 1.14 with 128.
+TEST_CASE("an elastic ball in a trough of facets gains little energy") {
+    for (const auto& [facets, gain] : {std::pair(8, 0.02), {32, 0.03}, {64, 0.1}, {128, 0.2}}) {
+        for (const double start : {0.6, 0.87}) {
+            Scene scene;
+            const double pi = 3.14159265358979, radius = 2;
+            for (int i = 0; i < facets; ++i) {
+                const double angle = pi * ((i + 0.5) / facets - 0.5), out = radius + 0.3;
+                Body facet;
+                facet.shape = Box{{static_cast<float>(radius * std::tan(0.5 * pi / facets)), 0.3f, 1.0f}};
+                facet.motion = Motion::fixed;
+                facet.position = vec3(out * std::sin(angle), -out * std::cos(angle), 0);
+                facet.orientation = vec4(0, 0, std::sin(angle / 2), std::cos(angle / 2));
+                scene.bodies.push_back(facet);
+            }
+            Body ball;
+            ball.shape = Sphere{0.2f};
+            ball.position = vec3(1.8 * std::sin(start), -1.8 * std::cos(start), 0);
+            scene.bodies.push_back(ball);
+            for (Body& body : scene.bodies) body.friction = 0, body.restitution = 1;
+            Settings settings;
+            settings.sleeping = false;
+            World world(scene, settings, 1);
+            const std::size_t last = scene.bodies.size() - 1;
+            // Of the parabola through the positions, per mass: velocities lead by half a substep.
+            const double ahead = 0.5 * 9.81 / (settings.rate * settings.substeps);
+            const auto energy = [&] {
+                vec3 velocity = world.body(last).velocity;
+                velocity.y -= static_cast<float>(ahead);
+                return 0.5 * glm::dot(velocity, velocity) + 9.81 * (world.body(last).position.y + 1.8);
+            };
+            const double before = energy();
+            double most = 0;
+            for (int i = 0; i < 1500; ++i) {
+                world.step();
+                most = std::max(most, energy() / before);
+            }
+            CAPTURE(facets, start, most);
+            CHECK(most < 1 + gain);
         }
     }
 }

@@ -8,9 +8,11 @@ namespace scree::reference {
 
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     const auto words = [](auto& table) { return reinterpret_cast<std::uint32_t*>(table.data()); };
-    return {items.data(),           words(state.parameters), words(state.properties), words(state.constraints),
-            words(state.slot_ends), words(state.poses),      words(state.velocities), words(state.masses),
-            words(state.forces),    words(state.impulses),   words(state.slots)};
+    WideTables tables{items.data(),           words(state.parameters), words(state.properties), words(state.constraints),
+                      words(state.slot_ends), words(state.poses),      words(state.velocities), words(state.masses),
+                      words(state.forces),    words(state.impulses),   words(state.slots)};
+    tables.impact_debts = state.impact_debts.data();
+    return tables;
 }
 
 const WideStages* wide_stages(int most) {

@@ -90,7 +90,7 @@ void solve(const WideTables& tables, std::size_t first, std::size_t last) {
         const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         scatter(tables.impulses, group.contacts.only(group.live), after.impulse);
-        group.hand_out(tables, share, after.impulse.impact_weight, 0.0f);
+        group.hand_out(tables, share, after.impulse.impact_weight, impact_debt(after.impulse));
     }
 }
 
@@ -99,6 +99,18 @@ SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const
     const BodyMass mass = gather<BodyMass>(tables.masses, bodies);
     if (none(is_impact(impulse))) return split_mass(mass, impulse, p);
     return impact_mass(impulse, mass, gather<BodyForces>(tables.forces, bodies), p);
+}
+
+// physics::part_of_debts, likewise.
+SCREE_INLINE Float debts(const Impulse& impulse, const WideTables& tables, const Group& group, const Mass& a, const Mass& b) {
+    if (none(is_impact(impulse))) return 0.0f;
+    Float of_a, of_b;
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+        of_a.v[lane] = tables.impact_debts[group.a.of[lane]];
+        of_b.v[lane] = tables.impact_debts[group.b.of[lane]];
+    }
+    return part_of_debts(impulse, of_a, gather<BodyForces>(tables.forces, group.a), a, of_b,
+                         gather<BodyForces>(tables.forces, group.b), b);
 }
 
 // Adds this substep's normal impulses to the contacts' sums over the step.
@@ -117,7 +129,8 @@ void relax(const WideTables& tables, std::size_t first, std::size_t last) {
         const Group group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), p);
+        const SolveResult after =
+            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), debts(was, tables, group, ma, mb), p);
         if (tables.carried != nullptr) feel(tables, group, after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
@@ -195,6 +208,8 @@ void move(const WideTables& tables, std::size_t first, std::size_t last) {
             after = moved_soundly(sound, before, after);
         }
         const Indices live = bodies.only(living(first, last));
+        for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+            if (sum.weight.v[lane] > 0) tables.impact_debts[bodies.of[lane]] = sum.normal_impulse.v[lane];
         scatter(tables.forces, live, load);
         scatter(tables.poses, live, after.pose);
         scatter(tables.velocities, live, after.velocity);

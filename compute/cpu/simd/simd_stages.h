@@ -19,6 +19,7 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
+    float* impact_debts = nullptr;        // of each body, J (restitution.h)
     float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
     std::uint32_t steps = 0;              // Counts::steps in the first substep, for the hysteresis of mass splitting
     const std::uint32_t* ages = nullptr;  // of each body, in place of `steps`, if there are several copies of the scene

@@ -275,7 +275,7 @@ struct VelocityDelta {     // velocity change of one body by one contact; summed
     vec3 linear;           // m/s
     float weight;          // in the mass splitting that follows: 1 if active; after the biased pass, that of an impact
     vec3 angular;          // rad/s
-    float normal_impulse;  // that the contact bears, N s; after the biased pass 0
+    float normal_impulse;  // that the contact bears, N s; after the biased pass its impact_debt, J (restitution.h)
 };
 
 // ---- joints
@@ -487,7 +487,8 @@ struct Parameters {  // uniform over a step
     uint gravities_offset;
     uint copies;  // of the scene, at least 1 (copies.h)
     uint contact_owners_offset;
-    uint pad0, pad1;
+    uint impact_debts_offset;
+    uint pad0;
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air

@@ -110,6 +110,13 @@ LAW Bounds bounds_of(BodyProperties properties, float bend, Pose pose, Velocity 
     vec3 fall = way + shortened(load.acceleration * (parameters.dt * parameters.dt), length3(way));
     bounds.lower = smaller3(bounds.lower, pose.position - half_size + fall);
     bounds.upper = larger3(bounds.upper, pose.position + half_size + fall);
+    // A fast body may rebound within the step, and one that did in the last substep has not returned all of its impact
+    // (restitution.h) to what is behind it.
+    if (will_be_fast(properties, velocity, parameters)) {
+        vec3 back = velocity.linear * larger(parameters.h, properties.restitution * parameters.dt);
+        bounds.lower = smaller3(bounds.lower, pose.position - half_size - back);
+        bounds.upper = larger3(bounds.upper, pose.position + half_size - back);
+    }
     bounds.level = 0u;
     bounds.bucket = parameters.buckets;
     bounds.sweep = sweep_of(pose);

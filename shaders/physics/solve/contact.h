@@ -95,6 +95,11 @@ LAW uvec4 matches_of(Contact now, Contact before, float radius) {
     return matches;
 }
 
+// Whether an impact of the last step has energy left to return in this one.
+LAW bool rebounds_across(Impulse was) {
+    return was.impact_energy > 0.0f;
+}
+
 // Impulses of the matching points; friction only if some normal impulse is left, projected onto the new tangent plane.
 LAW Impulse warm_start_from(Contact now, Impulse was, uvec4 matches) {
     Impulse impulse = no_impulse(now.center_offset);

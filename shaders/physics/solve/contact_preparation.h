@@ -80,6 +80,28 @@ LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta,
     return c;
 }
 
+// Half the sum of the last impulses of an impact times the present velocities, J.
+LAW float impact_work(Constraint c, vec4 impact, vec3 center_offset, VelocityPair now) {
+    c = refresh_round_contact(c, center_offset);
+    float work = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        if (uint(k) < point_count(c) && impact[k] > 0.0f) {
+            float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), center_offset), now));
+            work = work + 0.5f * (impact[k] * speed);
+        }
+    }
+    return work;
+}
+// An impact that lasts from the last step, whose last impulses did their work along the rows of that step, `before`: the
+// first biased pass takes the present rows, `c`. They differ where bodies were clamped to a time of impact. (Without this a
+// gas of balls in a box at 80 diameters a second gained 5 to 19% in 10 s.)
+LAW Impulse settled_impact(Impulse impulse, Constraint c, Impulse was, Constraint before, VelocityPair now) {
+    float work =
+        impact_work(c, impulse.impact, impulse.center_offset, now) - impact_work(before, was.impact, was.center_offset, now);
+    impulse.rebound_energy = flush_least(impulse.rebound_energy + work);
+    return impulse;
+}
+
 // The contact's unrest in this step, s. `now`: velocities as the step begins.
 LAW float unrest_of(PreparedContact prepared, Constraint c, BodyProperties ta, BodyProperties tb, VelocityPair now,
                     Parameters parameters) {

@@ -118,8 +118,9 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 }
 
 // The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
-// applies restitution and friction.
-LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, Parameters parameters) {
+// applies restitution and friction. `debt`: part_of_debts().
+LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, float debt,
+                              Parameters parameters) {
     bool struck = is_impact(impulse);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
@@ -142,7 +143,7 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     result.pair_velocity = v;
-    if (!none(struck)) result = with_restitution(met, met_offset, c, impulse, v, a, b, state);
+    if (!none(struck)) result = with_restitution(met, met_offset, c, impulse, v, a, b, state, debt);
     impulse = result.impulse;
     v = result.pair_velocity;
     float slowest = slowest_impact(c, state, parameters);

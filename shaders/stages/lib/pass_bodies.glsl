@@ -43,6 +43,7 @@ void move_body(uint i) {
         velocity.linear = velocity.linear + sum.change.linear;
         velocity.angular = velocity.angular + sum.change.angular;
         forces.at[i].impacts = impacts_of(sum.weight, body);
+        if (sum.weight > 0.0f) SET_FLOAT(impact_debts, i, sum.normal_impulse);
     }
     RigidState after = integrate(READ(poses, i), velocity, body, PARAMETERS.h);
     bool sound = is_sound(after.pose) && is_sound(after.velocity);

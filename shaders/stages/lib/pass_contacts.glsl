@@ -35,8 +35,9 @@ void solve_contact(uint place) {
     if (ROLLS) impulses.at[i].rolling = after.impulse.rolling;
     VelocityPair share = to_body_deltas(before, after.pair_velocity, ma, mb);
     float blow = after.impulse.impact_weight;
-    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, blow, 0.0f);
-    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, blow, 0.0f);
+    float debt = BOUNCES ? impact_debt(after.impulse) : 0.0f;
+    if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, blow, debt);
+    if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, blow, debt);
 }
 
 // Each body's quiet steps, for the other's sleep.
@@ -63,7 +64,11 @@ void relax_contact(uint place, uint pass) {
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
     vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
-    SolveResult after = relax_contact(c, impulse, before, ma, mb, state, felt_by(c.a));
+    float debt = 0.0f;
+    if (BOUNCES && is_impact(impulse))
+        debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), ma, READ_FLOAT(impact_debts, c.b),
+                             READ(forces, c.b), mb);
+    SolveResult after = relax_contact(c, impulse, before, ma, mb, state, debt, felt_by(c.a));
     if (SUMS) {
         float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;

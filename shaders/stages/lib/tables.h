@@ -45,8 +45,9 @@
     X(24, first_contacts, WordsTable, uint, bodies_and_end) /* first contact each row owns; until sort_slots last step's */   \
     X(24, sleep_states, WordsTable, uint, bodies)           /* quiet steps, and what woke the body: sleep.h */                \
     X(24, ids, WordsTable, uint, bodies)                    /* id of the body or part in each row */                          \
-    X(24, strains, WordsTable, float, bodies)    /* last step's impulse or momentum of breakable bodies: fracture.h */        \
-    X(24, point_counts, WordsTable, uint, pairs) /* points of each pair's manifold; with SPECULATIVE */                       \
+    X(24, strains, WordsTable, float, bodies)      /* last step's impulse or momentum of breakable bodies: fracture.h */      \
+    X(24, impact_debts, WordsTable, float, bodies) /* J, of bodies in an impact in this substep: restitution.h */             \
+    X(24, point_counts, WordsTable, uint, pairs)   /* points of each pair's manifold; with SPECULATIVE */                     \
     X(24, pairs_by_type, WordsTable, uint, pairs)                                                                             \
     X(24, contacts_to_solve, WordsTable, uint, contacts)   /* contacts of the solver, in any order */                         \
     X(24, contact_owners, WordsTable, uint, contacts)      /* if rows are reordered: id of the body that owns each contact */ \
