@@ -58,7 +58,9 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         const bool struck = any_fast && physics::is_impacting(manifold.normal, state.velocities[a], state.velocities[b]);
         for (int side = 0; side < 2; ++side) {
             const std::uint32_t body = bodies[side];
-            const physics::uint flags = (struck ? physics::STRUCK : 0u) | (driving[1 - side] ? physics::DRIVEN : 0u);
+            const bool driven =
+                driving[1 - side] || (struck && physics::outweighs(state.properties[bodies[1 - side]], state.properties[body]));
+            const physics::uint flags = (struck ? physics::STRUCK : 0u) | (driven ? physics::DRIVEN : 0u);
             if (flags != 0) std::atomic_ref(state.bounds[body].sweep.struck).fetch_or(flags, std::memory_order_relaxed);
         }
     });
@@ -92,8 +94,9 @@ void find_impacts(State& state, const Threads& threads, std::uint32_t round) {
         if (std::min(stops[0], stops[1]) > 1 || (round > 0 && std::min(stops[0], stops[1]) >= 1)) return;
         bool clamps[2];
         for (int side = 0; side < 2; ++side)
-            clamps[side] = physics::may_clamp(state.bounds[bodies[side]].sweep, stops[side], state.properties[bodies[1 - side]],
-                                              state.point_counts[i]);
+            clamps[side] = physics::may_clamp(stops[side], state.bounds[bodies[side]].sweep.struck,
+                                              state.properties[bodies[side]], state.bounds[bodies[1 - side]].sweep.struck,
+                                              state.properties[bodies[1 - side]], state.point_counts[i]);
         if (!clamps[0] && !clamps[1]) return;
         const auto joined = [&](int side) { return state.properties[bodies[side]].joints != physics::NONE; };
         const bool only_joined = (!clamps[0] || joined(0)) && (!clamps[1] || joined(1));

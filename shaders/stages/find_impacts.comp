@@ -24,8 +24,9 @@ void main() {
     }
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
     uint points = READ_WORD(point_counts, i);
-    bool clamps_a = may_clamp(bounds.at[a].sweep, stop_a, tb, points);
-    bool clamps_b = may_clamp(bounds.at[b].sweep, stop_b, ta, points);
+    uint struck_a = bounds.at[a].sweep.struck, struck_b = bounds.at[b].sweep.struck;
+    bool clamps_a = may_clamp(stop_a, struck_a, ta, struck_b, tb, points);
+    bool clamps_b = may_clamp(stop_b, struck_b, tb, struck_a, ta, points);
     if (!clamps_a && !clamps_b) return;
     bool joined = (!clamps_a || ta.joints != NONE) && (!clamps_b || tb.joints != NONE);
     MotionPath ca = path_of(ta, bounds.at[a].sweep.position, bounds.at[a].sweep.orientation, READ(poses, a), stop_a);

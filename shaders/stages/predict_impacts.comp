@@ -30,8 +30,10 @@ void main() {
         return;
     }
     uint struck = any_fast && is_impacting(normal, va, vb) ? STRUCK : 0u;
-    uint flags_a = struck | (drives_b ? DRIVEN : 0u);
-    uint flags_b = struck | (drives_a ? DRIVEN : 0u);
+    bool driven_a = drives_b || (struck != 0u && outweighs(whole_b, whole_a));
+    bool driven_b = drives_a || (struck != 0u && outweighs(whole_a, whole_b));
+    uint flags_a = struck | (driven_a ? DRIVEN : 0u);
+    uint flags_b = struck | (driven_b ? DRIVEN : 0u);
     if (flags_a != 0u) atomicOr(bounds.at[of_a].sweep.struck, flags_a);
     if (flags_b != 0u) atomicOr(bounds.at[of_b].sweep.struck, flags_b);
 }
