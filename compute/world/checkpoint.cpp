@@ -362,6 +362,7 @@ void World::Impl::take(std::span<const std::byte> bytes, SteppedTables which, st
     if (!tables.follow_from(own.settings, own.gravity)) refuse("the checkpoint is damaged: its tables are not of its settings");
     if (!own.events.fits(tables.rows(), tables.first_part()))
         refuse("the checkpoint is damaged: it has events of rows that are none");
+    still = {};
     broken = true;  // until it is done
     if (made) take_edits(std::move(*made), edited);
     settings = own.settings;

@@ -93,6 +93,7 @@ void World::set_events(const EventSettings& settings) {
     in.bring(joint_ranges);
     in.events.set(settings, in.scene, in.state);
     in.state.sums_impulses = settings.contacts;
+    in.still = {};
     in.runner->adapt();
 }
 

@@ -116,6 +116,7 @@ void World::Impl::step() {
     broken = true;
     const auto begin = Timeline::Clock::now();
     const std::uint64_t steps_before = steps;
+    catch_up();
     keep_order();
     take_up_grips();
     stop_arrived();
@@ -135,6 +136,7 @@ void World::Impl::step() {
     state.fixed().removed = 0;
     release_indices();
     ++steps;
+    note_stillness();
     if (watched) {
         runner->download(events.needed(scene, state));
         events.after_step(scene, state, generations, arrangements, steps, runner->threads());
@@ -156,6 +158,7 @@ int World::Impl::steps_alone(int count) {
         while (!runner->step());
         ++steps;
     }
+    note_stillness();
     if (timeline) tell_timeline(begin, before);
     broken = false;
     return static_cast<int>(steps - before);
@@ -176,6 +179,7 @@ World& World::operator=(World&&) noexcept = default;
 void World::step(int count) {
     constexpr int most_alone = 64;  // between them the memory order is checked
     while (count > 0) {
+        if (interior_->is_still()) return interior_->pass_over(count);
         interior_->step();
         --count;
         if (count > 0 && !interior_->events.settings().any())

@@ -45,6 +45,14 @@ struct World::Impl {
     std::optional<std::chrono::steady_clock::time_point> looked;
     std::shared_ptr<Timeline> timeline;  // may be null
     bool broken = false;                 // left true by a step that threw: tables may be half grown
+    // What the last steps found if no body stirred in them: their number, and the input of the last one.
+    struct Stillness {
+        int steps = 0;
+        physics::Parameters parameters{};
+        std::uint64_t uploaded = 0;
+    };
+    Stillness still;
+    bool steps_ahead = false;  // of the runner's counts: steps were passed over
 
     // Bodies that came and went. By index, as far as one differs from the start: its generation, whether it is gone, and
     // where it is from.
@@ -100,6 +108,12 @@ struct World::Impl {
     void reset(std::span<const std::size_t> which);
     Scene snapshot(std::optional<std::size_t> copy) const;
     void step();
+    // Steps in which no body can stir change nothing but their number, and are passed over.
+    bool is_still() const;
+    physics::Parameters lasting_parameters() const;
+    void note_stillness();  // after a step
+    void pass_over(int count);
+    void catch_up();             // before a step that is not
     int steps_alone(int count);  // up to `count` steps without actions; 0 while a grip is held. Returns their number
     bool keeps_order() const;    // whether bodies are reordered in memory
     void begin_in_order();

@@ -117,7 +117,7 @@ std::vector<Claim> sleeping_claims(std::size_t boxes) {
     const Claim falls_asleep = at_most("time until all sleep", 5, "s", "from when sleeping is allowed",
                                        [](const Trace& trace) { return all_asleep_since(trace, settled); });
     const Claim cheap = by_clock(at_most(
-        "cost of a step asleep, of one awake", 0.15, "", "medians: the second before the blow, the two seconds before sleeping",
+        "cost of a step asleep, of one awake", 0.01, "", "medians: the second before the blow, the two seconds before sleeping",
         [](const Trace& trace) { return median_step(trace, left_alone, struck) / median_step(trace, settled - 2, settled); }));
     const Claim stays = at_most("greatest drift while all sleep", 0, "m", "of any body in the second before the blow; all asleep",
                                 [](const Trace& trace) {

@@ -39,3 +39,32 @@ TEST_CASE("a checkpoint of a device goes on on the CPU, and one of the CPU on a 
         there.restore(from_there);
     }
 }
+
+TEST_CASE("a device passes over steps in which all sleep, and goes on with the bits of the CPU", "[vulkan]") {
+    Scene scene;
+    scene.bodies.resize(6);
+    scene.bodies[0].motion = Motion::fixed;
+    scene.bodies[0].shape = Plane{};
+    for (std::size_t i = 1; i < scene.bodies.size(); ++i) scene.bodies[i].position = vec3(0, static_cast<float>(i) - 0.5f, 0);
+    World cpu(scene, {}, 1), there(scene, {}, make_device_runner(host::Device::open({})));
+    for (World* world : {&cpu, &there}) {
+        world->step(150);
+        world->keep_state();
+        world->step(1'000'000'000);  // days, were they simulated
+        world->step();
+    }
+    REQUIRE(there.steps() == 1'000'000'151);
+    REQUIRE(cpu.save() == there.save());
+    for (World* world : {&cpu, &there}) {
+        world->apply_impulse(5, vec3(3, 1, 0));
+        world->step(10);
+    }
+    REQUIRE(cpu.save() == there.save());
+    for (World* world : {&cpu, &there}) {
+        world->roll_back(1'000'000'011);
+        world->apply_impulse(5, vec3(3, 1, 0));
+        world->step(10);
+    }
+    REQUIRE(cpu.steps() == 160);
+    REQUIRE(cpu.save() == there.save());
+}
