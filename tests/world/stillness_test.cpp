@@ -10,6 +10,7 @@
 #include "compute/step/table_ranges.h"
 #include "compute/vehicle_presets.h"
 #include "tests/world/museum.h"
+#include "tests/world/random_program.h"
 #include "tests/world/sleepers.h"
 
 using namespace scree;
@@ -167,4 +168,21 @@ TEST_CASE("copies that all sleep are passed over until one is reset, whose life 
     }
     REQUIRE(taken < 200);
     REQUIRE(world.save() == always.save());
+}
+
+TEST_CASE("random programs give the same bits with steps passed over and without", "[world]") {
+    int taken = 0, steps = 0;
+    for (std::uint32_t seed = 1; seed <= 20; ++seed) {
+        INFO("program " << seed);
+        tests::RandomProgram program = tests::random_program(seed);
+        program.scene = museum_at_rest();
+        program.settings = {};
+        program.settings.sleep_time = 0.05f;
+        for (tests::Act& act : program.acts) act.step = 500 + act.step * 10;
+        program.steps = 500 + program.steps * 10;
+        steps += program.steps;
+        const std::vector<std::string> some = tests::trace_of(program, std::make_unique<Counting>(taken));
+        REQUIRE(some == tests::trace_of(program, std::make_unique<Restless>()));
+    }
+    REQUIRE(taken < 0.8 * steps);
 }
