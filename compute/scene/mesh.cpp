@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
+#include <numeric>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 namespace scree {
@@ -23,6 +24,18 @@ constexpr double least_height = 1e-5;
 // Sine of half a degree: smaller bends count as flat.
 constexpr double flat_bend = 0.0087;
 
+// Cells of a spatial hash.
+using Cell = std::array<std::int64_t, 3>;
+struct HashOfCell {
+    std::size_t operator()(const Cell& cell) const {
+        std::uint64_t hash = 0;
+        for (const std::int64_t at : cell)
+            hash = (hash ^ static_cast<std::uint64_t>(at)) * 0x9E3779B97F4A7C15u, hash ^= hash >> 29;
+        return hash;
+    }
+};
+constexpr std::uint32_t none = ~0u;
+
 // For each vertex the first one at the same position, by a spatial hash; neighbouring cells are searched too. Cells count
 // from the lower corner of the mesh: a number of cells from the origin could exceed what a double counts exactly.
 std::vector<std::uint32_t> welded(std::span<const vec3> vertices) {
@@ -32,10 +45,14 @@ std::vector<std::uint32_t> welded(std::span<const vec3> vertices) {
         upper = glm::max(upper, dvec3(v));
     }
     const double tolerance = vertices.empty() ? 0 : same_place * glm::length(upper - lower);
-    using Cell = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
-    std::map<Cell, std::vector<std::uint32_t>> cells;
-    std::vector<std::uint32_t> first(vertices.size());
     const double inverse = tolerance > 0 ? 0.5 / tolerance : 1e9;
+    const auto cell_at = [](const dvec3& place) {
+        return Cell{static_cast<std::int64_t>(place.x), static_cast<std::int64_t>(place.y), static_cast<std::int64_t>(place.z)};
+    };
+    std::unordered_map<Cell, std::uint32_t, HashOfCell> last_in;  // the last vertex of each cell,
+    std::vector<std::uint32_t> before_it(vertices.size(), none);  // and the one before each in its cell
+    last_in.reserve(vertices.size());
+    std::vector<std::uint32_t> first(vertices.size());
     for (std::uint32_t i = 0; i < vertices.size(); ++i) {
         const dvec3 v = dvec3(vertices[i]) - lower;
         const auto low = glm::floor((v - tolerance) * inverse), high = glm::floor((v + tolerance) * inverse);
@@ -43,17 +60,14 @@ std::vector<std::uint32_t> welded(std::span<const vec3> vertices) {
         for (double x = low.x; x <= high.x && first[i] == i; ++x)
             for (double y = low.y; y <= high.y && first[i] == i; ++y)
                 for (double z = low.z; z <= high.z && first[i] == i; ++z) {
-                    const auto at =
-                        cells.find({static_cast<std::int64_t>(x), static_cast<std::int64_t>(y), static_cast<std::int64_t>(z)});
-                    if (at == cells.end()) continue;
-                    for (const std::uint32_t other : at->second)
+                    const auto at = last_in.find(cell_at({x, y, z}));
+                    for (std::uint32_t other = at == last_in.end() ? none : at->second; other != none; other = before_it[other])
                         if (glm::length(dvec3(vertices[other]) - dvec3(vertices[i])) <= tolerance)
                             first[i] = std::min(first[i], other);
                 }
         if (first[i] != i) continue;
-        const dvec3 own = glm::floor(v * inverse);
-        cells[{static_cast<std::int64_t>(own.x), static_cast<std::int64_t>(own.y), static_cast<std::int64_t>(own.z)}].push_back(
-            i);
+        const auto [own, fresh] = last_in.try_emplace(cell_at(glm::floor(v * inverse)), i);
+        if (!fresh) before_it[i] = std::exchange(own->second, i);
     }
     return first;
 }
@@ -75,27 +89,53 @@ uvec3 rotated_to_least(uvec3 t) {
     return t;
 }
 
-struct Edge {
-    std::vector<std::uint32_t> along, against;  // triangles that traverse it from the lower to the higher vertex index, and back
-};
-using Edges = std::map<std::pair<std::uint32_t, std::uint32_t>, Edge>;
-
-Edges edges_of(const std::vector<uvec3>& triangles) {
-    Edges edges;
-    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
-        for (int k = 0; k < 3; ++k) {
-            const std::uint32_t from = triangles[i][k], to = triangles[i][(k + 1) % 3];
-            Edge& edge = edges[std::minmax(from, to)];
-            (from < to ? edge.along : edge.against).push_back(i);
-        }
-    }
-    return edges;
+// The triangles that are the first with their corners.
+std::vector<bool> first_of_equal(const std::vector<uvec3>& triangles) {
+    std::vector<std::uint32_t> order(triangles.size());
+    std::iota(order.begin(), order.end(), 0u);
+    const auto key = [&](std::uint32_t i) { return std::tuple(triangles[i][0], triangles[i][1], triangles[i][2]); };
+    std::sort(order.begin(), order.end(),
+              [&](std::uint32_t x, std::uint32_t y) { return std::tuple(key(x), x) < std::tuple(key(y), y); });
+    std::vector<bool> is_first(triangles.size());
+    for (std::size_t k = 0; k < order.size(); ++k) is_first[order[k]] = k == 0 || key(order[k]) != key(order[k - 1]);
+    return is_first;
 }
 
-// The neighbour across an edge, if there is exactly one and it has the same orientation.
-const std::uint32_t* neighbour(const Edge& edge, bool along) {
-    if (edge.along.size() != 1 || edge.against.size() != 1) return nullptr;
-    return along ? edge.against.data() : edge.along.data();
+struct Edges {
+    std::vector<std::array<std::uint32_t, 3>> neighbours;  // by triangle, of each edge; none
+    std::size_t open = 0, branching = 0;
+};
+
+// An edge's neighbour: if it has one triangle on each side, of the same orientation.
+Edges edges_of(const std::vector<uvec3>& triangles) {
+    struct Side {
+        std::uint32_t low, high, triangle;
+        std::uint8_t corner, along;  // along: from the lower to the higher vertex index
+    };
+    std::vector<Side> sides;
+    sides.reserve(3 * triangles.size());
+    for (std::uint32_t i = 0; i < triangles.size(); ++i) {
+        for (std::uint8_t k = 0; k < 3; ++k) {
+            const auto [low, high] = std::minmax(triangles[i][k], triangles[i][(k + 1) % 3]);
+            sides.push_back({low, high, i, k, triangles[i][k] == low});
+        }
+    }
+    std::sort(sides.begin(), sides.end(), [](const Side& x, const Side& y) {
+        return std::tie(x.low, x.high, x.along, x.triangle) < std::tie(y.low, y.high, y.along, y.triangle);
+    });
+    Edges edges;
+    edges.neighbours.assign(triangles.size(), {none, none, none});
+    for (auto one = sides.begin(); one != sides.end();) {
+        const auto end = std::find_if(one, sides.end(), [&](const Side& o) { return o.low != one->low || o.high != one->high; });
+        if (end - one == 2 && one[0].along != one[1].along) {
+            edges.neighbours[one[0].triangle][one[0].corner] = one[1].triangle;
+            edges.neighbours[one[1].triangle][one[1].corner] = one[0].triangle;
+        } else {
+            ++(end - one == 1 ? edges.open : edges.branching);
+        }
+        one = end;
+    }
+    return edges;
 }
 
 vec3 limit_of(dvec3 own, dvec3 outward, const dvec3* neighbours) {
@@ -118,23 +158,18 @@ MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given)
     const std::vector<std::uint32_t> first = welded(vertices);
     MeshForm form;
     std::vector<uvec3> triangles;
-    std::map<std::array<std::uint32_t, 3>, bool> seen;
-    for (const uvec3& t : given) {
-        const uvec3 own = rotated_to_least({first[t[0]], first[t[1]], first[t[2]]});
-        const bool fresh = seen.try_emplace({own[0], own[1], own[2]}, true).second;
-        if (fresh && has_area(vertices, own))
-            triangles.push_back(own);
-        else
-            ++form.dropped;
-    }
+    std::vector<uvec3> all;
+    for (const uvec3& t : given) all.push_back(rotated_to_least({first[t[0]], first[t[1]], first[t[2]]}));
+    const std::vector<bool> is_first = first_of_equal(all);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        if (is_first[i] && has_area(vertices, all[i])) triangles.push_back(all[i]);
+    form.dropped = given.size() - triangles.size();
     if (triangles.empty()) throw MeshError("/triangles", "all of them are degenerate");
 
     const Edges edges = edges_of(triangles);
-    for (const auto& [ends, edge] : edges) {
-        const std::size_t sides = edge.along.size() + edge.against.size();
-        form.open += sides == 1;
-        form.branching += sides > 1 && !neighbour(edge, true);
-    }
+    form.open = edges.open;
+    form.branching = edges.branching;
+    form.triangles.reserve(triangles.size());
     std::vector<dvec3> normals;
     for (const uvec3& t : triangles) normals.push_back(normal_of(vertices, t));
     for (std::size_t i = 0; i < triangles.size(); ++i) {
@@ -151,9 +186,9 @@ MeshForm mesh_form(std::span<const vec3> vertices, std::span<const uvec3> given)
             made.half_extents = glm::max(made.half_extents, glm::abs(corners[k] - made.middle));
             form.reach = std::max(form.reach, glm::length(corners[k]));
             const std::uint32_t from = t[k], to = t[(k + 1) % 3];
-            const std::uint32_t* other = neighbour(edges.at(std::minmax(from, to)), from < to);
+            const std::uint32_t other = edges.neighbours[i][static_cast<std::size_t>(k)];
             const dvec3 outward = glm::normalize(glm::cross(dvec3(vertices[to]) - dvec3(vertices[from]), normals[i]));
-            made.limits[static_cast<std::size_t>(k)] = limit_of(normals[i], outward, other ? &normals[*other] : nullptr);
+            made.limits[static_cast<std::size_t>(k)] = limit_of(normals[i], outward, other != none ? &normals[other] : nullptr);
         }
         made.distance = glm::dot(made.normal, made.corners[0]);
         form.triangles.push_back(made);

@@ -64,10 +64,10 @@ void move_frame(vec3& position, vec4& orientation, dvec3 centre, glm::dquat axes
 }
 
 // `position` and `orientation`: of the body, or of the part.
-Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, CheckedHulls& hulls,
+Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hull& hull, CheckedShapes& shapes,
                  std::vector<std::string>* notes) {
     try {
-        const CheckedHulls::Made& made = hulls.of(hull.points);
+        const CheckedShapes::MadeHull& made = shapes.hull_of(hull.points);
         if (made.simplified && notes) {
             notes->push_back(body.place() + "/shape/hull: simplified to " + std::to_string(physics::MOST_CORNERS) + " corners");
         }
@@ -80,7 +80,8 @@ Shift check_hull(const Examination& body, vec3& position, vec4& orientation, Hul
     }
 }
 
-Shift check_compound(const Examination& body, Body& b, Compound& compound, CheckedHulls& hulls, std::vector<std::string>* notes) {
+Shift check_compound(const Examination& body, Body& b, Compound& compound, CheckedShapes& shapes,
+                     std::vector<std::string>* notes) {
     constexpr std::size_t most_parts = 10000;
     if (compound.parts.empty() && b.motion == Motion::dynamic && !b.inertial)
         body.refuse("/shape/compound/parts", "a compound needs at least one part, or the body \"inertial\"");
@@ -98,7 +99,7 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
         if (p.density != 0) part.between("/density", p.density, smallest_density, largest_density, " kg/m^3");
         if (p.filter) fields::check_fields(part / "filter", *p.filter);
         if (p.material) fields::check_fields(part / "material", *p.material);
-        if (auto* hull = std::get_if<Hull>(&p.shape)) check_hull(part, p.position, p.orientation, *hull, hulls, notes);
+        if (auto* hull = std::get_if<Hull>(&p.shape)) check_hull(part, p.position, p.orientation, *hull, shapes, notes);
     }
     if (compound.parts.empty() || b.inertial) return {};
     const Recentred before = bring_to_centre(compound, b.density);
@@ -107,7 +108,7 @@ Shift check_compound(const Examination& body, Body& b, Compound& compound, Check
     return before;
 }
 
-void check_mesh(const Examination& body, Body& b, std::vector<std::string>* notes) {
+void check_mesh(const Examination& body, Body& b, CheckedShapes& shapes, std::vector<std::string>* notes) {
     auto* mesh = std::get_if<Mesh>(&b.shape);
     auto* field = std::get_if<HeightField>(&b.shape);
     if (b.motion == Motion::dynamic)
@@ -120,7 +121,7 @@ void check_mesh(const Examination& body, Body& b, std::vector<std::string>* note
             if (mesh->triangles.empty() && !mesh->file.empty())
                 body.refuse(key + "/file", "\"" + mesh->file + "\" has not been read");
             check_fields(body, *mesh);
-            mesh->form = std::make_shared<const MeshForm>(mesh_form(mesh->vertices, mesh->triangles));
+            shapes.form(*mesh);
         } else {
             if (field->columns < 2 || field->rows < 2 || field->columns > 30000 || field->rows > 30000)
                 body.refuse(key, "columns and rows must be between 2 and 30000, are " + std::to_string(field->columns) + " and " +
@@ -135,18 +136,19 @@ void check_mesh(const Examination& body, Body& b, std::vector<std::string>* note
     } catch (const MeshError& error) {
         body.refuse(key + error.place, error.what());
     }
-    const std::string odd = mesh && notes ? oddities(*mesh->form) : "";
+    const bool is_first = mesh && std::ranges::find(shapes.meshes, mesh) != shapes.meshes.end();
+    const std::string odd = is_first && notes ? oddities(*mesh->form) : "";
     if (!odd.empty()) notes->push_back(body.place() + key + ": " + odd);
 }
 
 }  // namespace
 
 // Hulls already centred along principal axes, to rounding, stay: checking twice changes no bit.
-const CheckedHulls::Made& CheckedHulls::of(const std::vector<vec3>& points) {
+const CheckedShapes::MadeHull& CheckedShapes::hull_of(const std::vector<vec3>& points) {
     std::vector<float> key(points.size() * 3);
     std::memcpy(key.data(), points.data(), key.size() * sizeof(float));
-    const auto [at, fresh] = made.try_emplace(std::move(key));
-    Made& one = at->second;
+    const auto [at, fresh] = hulls.try_emplace(std::move(key));
+    MadeHull& one = at->second;
     if (!fresh) return one;
     try {
         one.hull.points = points;
@@ -165,10 +167,24 @@ const CheckedHulls::Made& CheckedHulls::of(const std::vector<vec3>& points) {
         }
         one.hull.form = std::make_shared<const HullForm>(std::move(form));
     } catch (...) {
-        made.erase(at);
+        hulls.erase(at);
         throw;
     }
     return one;
+}
+
+void CheckedShapes::form(Mesh& mesh) {
+    const auto equal = std::ranges::find_if(meshes, [&](const Mesh* other) {
+        return other->vertices.size() == mesh.vertices.size() &&
+               std::memcmp(other->vertices.data(), mesh.vertices.data(), mesh.vertices.size() * sizeof(vec3)) == 0 &&
+               other->triangles == mesh.triangles;
+    });
+    if (equal != meshes.end()) {
+        mesh.form = (*equal)->form;
+        return;
+    }
+    mesh.form = std::make_shared<const MeshForm>(mesh_form(mesh.vertices, mesh.triangles));
+    meshes.push_back(&mesh);
 }
 
 void check_shape(const Examination& body, Shape& shape, Motion motion) {
@@ -182,10 +198,10 @@ void check_shape(const Examination& body, Shape& shape, Motion motion) {
         body.refuse("/motion", "a plane must be \"fixed\": it is infinite and cannot move");
 }
 
-Shift bring_to_centre(const Examination& body, Body& b, CheckedHulls& hulls, std::vector<std::string>* notes) {
-    if (auto* hull = std::get_if<Hull>(&b.shape)) return check_hull(body, b.position, b.orientation, *hull, hulls, notes);
-    if (auto* compound = std::get_if<Compound>(&b.shape)) return check_compound(body, b, *compound, hulls, notes);
-    if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape)) check_mesh(body, b, notes);
+Shift bring_to_centre(const Examination& body, Body& b, CheckedShapes& shapes, std::vector<std::string>* notes) {
+    if (auto* hull = std::get_if<Hull>(&b.shape)) return check_hull(body, b.position, b.orientation, *hull, shapes, notes);
+    if (auto* compound = std::get_if<Compound>(&b.shape)) return check_compound(body, b, *compound, shapes, notes);
+    if (std::holds_alternative<Mesh>(b.shape) || std::holds_alternative<HeightField>(b.shape)) check_mesh(body, b, shapes, notes);
     return {};
 }
 

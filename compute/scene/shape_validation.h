@@ -13,17 +13,20 @@
 
 namespace scree {
 
-// Cache of a scene's hulls by their points.
-struct CheckedHulls {
-    struct Made {
+// Cache of the shapes of a scene that many bodies have: hulls by their points, and meshes.
+struct CheckedShapes {
+    struct MadeHull {
         Hull hull;  // about its centre of mass, principal axes
         glm::dvec3 centre{0};
         glm::dquat axes{1, 0, 0, 0};
         bool simplified = false;
     };
-    std::map<std::vector<float>, Made> made;
+    std::map<std::vector<float>, MadeHull> hulls;
+    const MadeHull& hull_of(const std::vector<vec3>& points);
 
-    const Made& of(const std::vector<vec3>& points);
+    std::vector<const Mesh*> meshes;  // of bodies checked before, one of each kind, with its form
+    // Gives the mesh the form of an equal one, else makes it. Throws MeshError. The mesh stays where it is.
+    void form(Mesh& mesh);
 };
 
 using Shift = std::optional<Recentred>;  // displacement of the body's frame: new origin and axes in the old frame
@@ -32,6 +35,6 @@ using Shift = std::optional<Recentred>;  // displacement of the body's frame: ne
 void check_shape(const Examination& body, Shape& shape, Motion motion);
 // Moves the body's frame to the shape's centre of mass, after position and orientation are checked. Makes the forms of
 // hulls, meshes and height fields.
-Shift bring_to_centre(const Examination& body, Body& b, CheckedHulls& hulls, std::vector<std::string>* notes);
+Shift bring_to_centre(const Examination& body, Body& b, CheckedShapes& shapes, std::vector<std::string>* notes);
 
 }  // namespace scree

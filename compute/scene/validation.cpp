@@ -34,10 +34,10 @@ void check_role(const Examination& body, const Body& b) {
     if (b.fracture) body.refuse("/role", "a body that can break is solid");
 }
 
-Shift examine(const Examination& body, Body& b, CheckedHulls& hulls, std::vector<std::string>* notes) {
+Shift examine(const Examination& body, Body& b, CheckedShapes& shapes, std::vector<std::string>* notes) {
     check_shape(body, b.shape, b.motion);
     fields::check_fields(body, b);
-    const Shift shift = bring_to_inertial(body, b, bring_to_centre(body, b, hulls, notes));
+    const Shift shift = bring_to_inertial(body, b, bring_to_centre(body, b, shapes, notes));
     if (shift) turn_surfaces(b, glm::conjugate(shift->axes));
     check_role(body, b);
     if (b.motion == Motion::fixed && (b.velocity != vec3(0) || b.angular_velocity != vec3(0))) {
@@ -85,12 +85,12 @@ void check_world_fields(Fields& of_world) {
 }
 
 Scene checked(Scene scene, std::vector<std::string>* notes) {
-    CheckedHulls hulls;
+    CheckedShapes shapes;
     fields::check_field(Examination(), scene, fields::field_of(&Scene::gravity));
     check_world_fields(scene.fields);
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].piece_of != no_body) continue;  // fragments of a scene checked before
-        const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], hulls, notes);
+        const Shift shift = examine(Examination("bodies", "body", i, scene.bodies[i].name), scene.bodies[i], shapes, notes);
         if (shift) shift_joints(scene, i, shift->centre, shift->axes);
     }
     check_joints(scene);

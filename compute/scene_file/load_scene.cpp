@@ -1,6 +1,9 @@
 // Loading a scene file with its meshes.
 #include "compute/scene_file/load_scene.h"
 
+#include <map>
+#include <string>
+
 #include "compute/scene_file/import/folder.h"
 #include "compute/scene_file/import/import_scene.h"
 #include "host/files/mesh_file.h"
@@ -11,6 +14,7 @@ namespace {
 
 void read_meshes(Scene& scene, const std::filesystem::path& folder, bool allow_outside) {
     const std::filesystem::path home = imports::canonical_or_itself(folder.empty() ? "." : folder);
+    std::map<std::string, host::MeshFile> files;  // that several bodies may name
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         auto* mesh = std::get_if<Mesh>(&scene.bodies[i].shape);
         if (!mesh || mesh->file.empty()) continue;
@@ -19,9 +23,10 @@ void read_meshes(Scene& scene, const std::filesystem::path& folder, bool allow_o
             throw SceneError(pointer, "\"" + mesh->file + "\" lies outside of the scene file's folder, " + home.string() +
                                           "; move it there, or allow it (--allow-outside)");
         try {
-            host::MeshFile read = host::read_mesh(folder / mesh->file);
-            mesh->vertices = std::move(read.vertices);
-            mesh->triangles = std::move(read.triangles);
+            const auto [found, fresh] = files.try_emplace(mesh->file);
+            if (fresh) found->second = host::read_mesh(folder / mesh->file);
+            mesh->vertices = found->second.vertices;
+            mesh->triangles = found->second.triangles;
             for (vec3& vertex : mesh->vertices) vertex *= mesh->scale;
         } catch (const host::FileError& error) {
             throw SceneError(pointer, error.what());

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "compute/scene/mesh.h"
 #include "compute/world.h"
 #include "tests/imports/import_case.h"
 
@@ -112,4 +113,16 @@ TEST_CASE("imports: meshes of a scene file lie in its folder, unless others are 
         }
         CHECK(file.load("scenes/a.json", scene(outside), {.allow_outside = true}).scene.bodies.size() == 1);
     }
+}
+
+TEST_CASE("imports: bodies that name one mesh file share its triangles, those of another size do not") {
+    Case file;
+    file.write("cube.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+    const std::string mesh = R"({"motion": "fixed", "shape": {"mesh": {"file": "cube.obj"}}})",
+                      larger = R"({"motion": "fixed", "shape": {"mesh": {"file": "cube.obj", "scale": 2}}})";
+    const Scene scene = checked(file.load("a.json", "{\"bodies\": [" + mesh + ", " + larger + ", " + mesh + "]}").scene);
+    const auto form = [&](std::size_t body) { return std::get<Mesh>(scene.bodies[body].shape).form; };
+    CHECK(form(0) == form(2));
+    CHECK(form(0) != form(1));
+    CHECK(form(1)->reach == Approx(2));
 }
