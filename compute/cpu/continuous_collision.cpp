@@ -116,8 +116,8 @@ void clamp_to_impact(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         const float stop = physics::stop_of(state.bounds[i].sweep);
         if (stop >= 1) return;
-        const physics::ClampedMotion after =
-            physics::clamp_motion(state.bounds[i].sweep, state.poses[i], state.velocities[i], state.forces[i], stop);
+        const physics::ClampedMotion after = physics::clamp_motion(state.bounds[i].sweep, state.poses[i], state.velocities[i],
+                                                                   state.properties[i], state.forces[i], stop);
         state.poses[i] = after.pose;
         state.velocities[i] = after.velocity;
     });

@@ -242,7 +242,7 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {joint_blocks, A::ccd_bodies}, {joints}, {block_bodies, A::ccd_bodies, 1}, {bounds, A::ccd_bodies, 1}},
         {{bounds}}});
     all.push_back({"clamp_to_impact", DispatchDomain::bodies, clamp_to_impact,
-        {{counts}, {bounds, A::ccd_bodies, 1}, {poses}, {velocities}, {forces}},
+        {{counts}, {bounds, A::ccd_bodies, 1}, {poses}, {velocities}, {properties}, {forces}},
         {{poses}, {velocities}}});
     all.push_back({"find_broken", DispatchDomain::bodies, find_broken,
         {{counts}, {properties, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {carried, A::solver_contacts}, {velocities}, {fractures}, {strains}, {ids}, {copy_states}},

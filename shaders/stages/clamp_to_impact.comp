@@ -10,7 +10,8 @@ void main() {
     if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || COUNTED.fast == 0u) return;
     float stop = stop_of(READ(bounds, i).sweep);
     if (stop >= 1.0f) return;
-    ClampedMotion after = clamp_motion(READ(bounds, i).sweep, poses.at[i], velocities.at[i], READ(forces, i), stop);
+    ClampedMotion after =
+        clamp_motion(READ(bounds, i).sweep, poses.at[i], velocities.at[i], READ(properties, i), READ(forces, i), stop);
     poses.at[i] = after.pose;
     velocities.at[i] = after.velocity;
 }

@@ -175,17 +175,35 @@ TEST_CASE("what is driven out of the bounds of its neighbours' search is stopped
     REQUIRE(part({0.5f, 0.5f, 0}) == Approx(0.104f));
 }
 
+TEST_CASE("a tumbling body that waits keeps its energy of rotation and the direction of its angular momentum") {
+    BodyProperties body{};
+    body.motion = MOTION_DYNAMIC;
+    body.inverse_inertia = vec3(8, 3, 2.5f);
+    Pose there = pose_at({1, 0, 0});
+    there.orientation = glm::normalize(vec4(0.3f, -0.2f, 0.5f, 0.7f));
+    const Velocity end{vec3(60, 0, 0), 0, vec3(20, -30, 10), 0};
+    const Velocity after = clamp_motion(sweep_of(pose_at(vec3(0))), there, end, body, BodyForces{}, 0.5f).velocity;
+    const auto momentum = [&](vec3 angular, vec4 orientation) {
+        return rotate(orientation, rotate_back(orientation, angular) / body.inverse_inertia);
+    };
+    const vec4 orientation = clamp_motion(sweep_of(pose_at(vec3(0))), there, end, body, BodyForces{}, 0.5f).pose.orientation;
+    const vec3 was = momentum(end.angular, there.orientation), is = momentum(after.angular, orientation);
+    REQUIRE(after.angular != end.angular);
+    REQUIRE(glm::dot(is, after.angular) == Approx(glm::dot(was, end.angular)).epsilon(1e-5));
+    REQUIRE(glm::dot(is, was) == Approx(glm::length(is) * glm::length(was)).epsilon(1e-5));
+}
+
 TEST_CASE("a body that waits keeps its energy") {
     BodyForces load{};
     load.acceleration = vec3(0, -9.81f, 0);
     const Sweep sweep = sweep_of(pose_at({0, 10, 0}));
     const Velocity end{vec3(20, -15, 0), 0.001f, vec3(1, 2, 3), 0.001f};
     const Pose there = pose_at({0.3f, 9.7f, 0});
-    const ClampedMotion after = clamp_motion(sweep, there, end, load, 0.25f);
+    const ClampedMotion after = clamp_motion(sweep, there, end, BodyProperties{}, load, 0.25f);
     REQUIRE(after.pose.position.y == Approx(9.925f));
     REQUIRE(after.velocity.low_y == 0);
     const auto energy = [](vec3 v, float height) { return 0.5 * glm::dot(glm::dvec3(v), glm::dvec3(v)) + 9.81 * height; };
     REQUIRE(energy(after.velocity.linear, after.pose.position.y) == Approx(energy(end.linear, 9.7f)).epsilon(1e-6));
     REQUIRE(after.velocity.angular == end.angular);
-    REQUIRE(clamp_motion(sweep, there, end, BodyForces{}, 0.25f).velocity.linear == end.linear);
+    REQUIRE(clamp_motion(sweep, there, end, BodyProperties{}, BodyForces{}, 0.25f).velocity.linear == end.linear);
 }

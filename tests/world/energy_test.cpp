@@ -2,7 +2,9 @@
 #include <algorithm>
 #include <catch2/catch.hpp>
 #include <cmath>
+#include <glm/gtc/quaternion.hpp>
 #include <random>
+#include <variant>
 
 #include "compute/world.h"
 #include "tests/world/heaps.h"
@@ -187,4 +189,129 @@ TEST_CASE("an elastic ball in a trough of facets gains little energy") {
             CHECK(most < 1 + gain);
         }
     }
+}
+
+namespace {
+
+vec3 direction(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    vec3 v(0);
+    while (glm::length(v) < 0.1f) v = vec3(normal(random), normal(random), normal(random));
+    return glm::normalize(v);
+}
+
+vec4 orientation(std::mt19937& random) {
+    std::normal_distribution<float> normal;
+    return glm::normalize(vec4(normal(random), normal(random), normal(random), normal(random)));
+}
+
+// Inertia tensors and masses by body, from closed forms.
+struct Solid {
+    Shape shape;
+    double mass;
+    glm::dvec3 inertia;
+};
+std::vector<Solid> solids() {
+    const double pi = 3.14159265358979, r = 0.25, h = 1, rod = pi * r * r * h * 1000, ball = 4 / 3.0 * pi * r * r * r * 1000;
+    const double across = rod * (3 * r * r + h * h) / 12 + ball * (0.4 * r * r + h * h / 4 + 0.375 * r * h);
+    const double box = 8 * 0.5 * 0.3 * 0.2 * 1000, disc = pi * 0.16 * 0.1 * 1000;
+    std::vector<Solid> all;
+    all.push_back({Capsule{0.25f, 0.5f}, rod + ball, glm::dvec3(across, rod * r * r / 2 + ball * 0.4 * r * r, across)});
+    all.push_back({Box{vec3(0.5f, 0.3f, 0.2f)}, box, glm::dvec3(0.13, 0.29, 0.34) * (box / 3)});
+    all.push_back({Cylinder{0.4f, 0.05f}, disc, glm::dvec3(0.49, 0.96, 0.49) * (disc / 12)});
+    return all;
+}
+
+glm::dquat turn_of(const BodyState& body) {
+    return {body.orientation.w, body.orientation.x, body.orientation.y, body.orientation.z};
+}
+glm::dvec3 spin_of(const BodyState& body) {
+    return glm::conjugate(turn_of(body)) * glm::dvec3(body.angular_velocity);
+}
+glm::dvec3 angular_momentum_of(const BodyState& body, const Solid& solid) {
+    return turn_of(body) * (solid.inertia * spin_of(body));
+}
+
+double energy_of(const BodyState& body, const Solid& solid) {
+    const glm::dvec3 v(body.velocity), spin = spin_of(body);
+    return 0.5 * solid.mass * glm::dot(v, v) + 0.5 * glm::dot(spin, solid.inertia * spin);
+}
+
+}  // namespace
+
+// Explicit midpoint gained 40% in a second at 150 rad/s.
+TEST_CASE("free bodies that spin fast keep their energy and their angular momentum") {
+    std::mt19937 random(7);
+    for (const float spin : {20.0f, 150.0f, 300.0f}) {
+        for (const Solid& solid : solids()) {
+            Scene scene;
+            scene.gravity = vec3(0);
+            for (int i = 0; i < 20; ++i) {
+                Body& body = scene.bodies.emplace_back();
+                body.shape = solid.shape;
+                body.position = vec3(5.0f * static_cast<float>(i), 0, 0);
+                body.orientation = orientation(random);
+                body.angular_velocity = spin * direction(random);
+            }
+            World world(scene, {}, 1);
+            const std::vector<BodyState> before = world.bodies();
+            // Two equal moments: exact but for rounding. Three: the error is bounded and does not grow.
+            const double allowed = std::holds_alternative<Box>(solid.shape) && spin > 100 ? 3e-3 : 1e-4;
+            for (int second = 0; second < 3; ++second) {
+                world.step(60);
+                const std::vector<BodyState> now = world.bodies();
+                for (std::size_t i = 0; i < now.size(); ++i) {
+                    INFO("shape " << solid.shape.index() << ", " << spin << " rad/s, body " << i << ", second " << second);
+                    const glm::dvec3 was = angular_momentum_of(before[i], solid), is = angular_momentum_of(now[i], solid);
+                    CHECK(energy_of(now[i], solid) == Approx(energy_of(before[i], solid)).epsilon(allowed));
+                    CHECK(glm::length(is - was) < 1e-4 * glm::length(was));
+                }
+            }
+        }
+    }
+}
+
+// Of 1,400 such pairs 62% were outside of 0.99 to 1.001 (some at 2.4) while the work of compression was taken with the angular
+// velocities after the substep's tumbling, and bodies clamped to their time of impact kept angular velocities of another pose.
+TEST_CASE("pairs that collide elastically off centre keep their energy at any speed and spin") {
+    int pairs = 0, outside = 0;
+    for (const auto& [speed, spin] : {std::pair{5.0f, 0.0f}, {5.0f, 20.0f}, {20.0f, 60.0f}, {50.0f, 0.0f}, {50.0f, 60.0f}}) {
+        for (const Solid& solid : solids()) {
+            std::mt19937 random(11);
+            std::uniform_real_distribution<float> part(0, 1);
+            Scene scene;
+            scene.gravity = vec3(0);
+            for (int i = 0; i < 60; ++i) {
+                const vec3 middle(200.0f * static_cast<float>(i), 0, 0), along = direction(random);
+                const vec3 aside = glm::normalize(glm::cross(along, direction(random))) * (0.25f * part(random));
+                const vec3 apart = along * (1.25f + 0.025f * speed * part(random)) + aside;
+                for (const float side : {1.0f, -1.0f}) {
+                    Body& body = scene.bodies.emplace_back();
+                    body.shape = solid.shape;
+                    body.position = middle + side * apart;
+                    body.orientation = orientation(random);
+                    body.velocity = along * (-0.5f * side * speed);
+                    body.angular_velocity = spin * direction(random);
+                    body.friction = 0;
+                    body.restitution = 1;
+                }
+            }
+            World world(scene, {}, 1);
+            const std::vector<BodyState> before = world.bodies();
+            world.step(20 + static_cast<int>(60 * 4 / speed));
+            const std::vector<BodyState> now = world.bodies();
+            for (std::size_t i = 0; i < now.size(); i += 2) {
+                const double ratio = (energy_of(now[i], solid) + energy_of(now[i + 1], solid)) /
+                                     (energy_of(before[i], solid) + energy_of(before[i + 1], solid));
+                if (glm::length(now[i].velocity - before[i].velocity) < 1e-3f * speed) continue;  // they missed
+                INFO("shape " << solid.shape.index() << ", " << speed << " m/s, " << spin << " rad/s, pair " << i / 2);
+                CHECK(ratio < 1.02);
+                ++pairs;
+                outside += ratio < 0.99 || ratio > 1.001;
+            }
+        }
+    }
+    INFO(outside << " of " << pairs);
+    REQUIRE(pairs > 500);
+    REQUIRE(outside < 0.03 * pairs);
 }

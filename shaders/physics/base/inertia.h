@@ -7,6 +7,12 @@
 
 LAWS_BEGIN
 
+// Spheres, cubes, and bodies that contacts do not turn (inverse inertia 0).
+LAW bool has_isotropic_inertia(BodyProperties properties) {
+    return properties.inverse_inertia.x == properties.inverse_inertia.y &&
+           properties.inverse_inertia.x == properties.inverse_inertia.z;
+}
+
 // R diag(i) R^T, the tensor with principal values i in the axes R.
 LAW Mass tensor_in_world(Axes axes, vec3 i) {
     vec3 x = axes.x * i.x, y = axes.y * i.y, z = axes.z * i.z;

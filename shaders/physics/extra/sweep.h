@@ -11,6 +11,7 @@
 #define SCREE_PHYSICS_SWEEP_H
 
 #include "shaders/physics/base/arithmetic.h"
+#include "shaders/physics/base/inertia.h"
 #include "shaders/physics/base/records.h"
 
 LAWS_BEGIN
@@ -170,9 +171,22 @@ struct ClampedMotion {
     Pose pose;
     Velocity velocity;
 };
+// The angular velocity that belongs to another orientation of the body, with its energy and the direction of its angular
+// momentum. (With the angular velocity kept, boxes off centre at 50 m/s gained up to 66% in being clamped.)
+LAW vec3 spin_in(vec4 orientation, vec4 was, vec3 angular, vec3 inverse_inertia) {
+    vec3 i = inverse_inertia, spin = rotate_back(was, angular);
+    vec3 momentum = vec3(spin.x * reciprocal(i.x), spin.y * reciprocal(i.y), spin.z * reciprocal(i.z));
+    float energy = dot3(spin, momentum);
+    momentum = rotate_back(orientation, rotate(was, momentum));
+    spin = vec3(momentum.x * i.x, momentum.y * i.y, momentum.z * i.z);
+    float found = dot3(spin, momentum);
+    if (found < 1.0e-30f || energy < 1.0e-30f) return angular;
+    return rotate(orientation, spin) * square_root(energy * reciprocal(found));
+}
+
 // The body clamped to a fraction of its sweep. The velocity stays, less what gravity and forces added on the omitted
 // part: v^2 - 2 a.x, so clamping conserves energy.
-LAW ClampedMotion clamp_motion(Sweep sweep, Pose end, Velocity velocity, BodyForces load, float fraction) {
+LAW ClampedMotion clamp_motion(Sweep sweep, Pose end, Velocity velocity, BodyProperties body, BodyForces load, float fraction) {
     ClampedMotion after;
     after.pose = pose_along(sweep.position, end.position - sweep.position, sweep.orientation,
                             turn_between(sweep.orientation, end.orientation), fraction);
@@ -183,6 +197,9 @@ LAW ClampedMotion clamp_motion(Sweep sweep, Pose end, Velocity velocity, BodyFor
     float squared = dot3(velocity.linear, velocity.linear);
     if (abs(work) > 1.0e-6f * squared && abs(work) < 0.5f * squared)
         after.velocity.linear = velocity.linear * square_root((squared - work) * reciprocal(squared));
+    if (body.motion == MOTION_DYNAMIC && !has_isotropic_inertia(body))
+        after.velocity.angular =
+            flush_tiny(spin_in(after.pose.orientation, end.orientation, velocity.angular, body.inverse_inertia));
     return after;
 }
 

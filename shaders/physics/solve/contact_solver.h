@@ -143,7 +143,8 @@ LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     SolveResult result;
     result.impulse = impulse;
     result.pair_velocity = v;
-    if (!none(struck)) result = with_restitution(met, met_offset, c, impulse, v, a, b, state, debt);
+    if (!none(struck))
+        result = with_restitution(met, met_offset, before_motion(v, a, b, parameters.h), c, impulse, v, a, b, state, debt);
     impulse = result.impulse;
     v = result.pair_velocity;
     float slowest = slowest_impact(c, state, parameters);
