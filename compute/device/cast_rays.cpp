@@ -1,0 +1,30 @@
+// Device runner: which batches of rays it casts itself.
+#include <limits>
+
+#include "compute/device/device_runner.h"
+
+namespace scree {
+
+namespace {
+
+// Fewer rays are cast sooner on the host.
+std::size_t fewest_rays(const host::Device& device) {
+    return device.report().is_processor ? std::numeric_limits<std::size_t>::max() : 4096;
+}
+
+}  // namespace
+
+bool DeviceRunner::cast(RayTask& task) {
+    if (task.rays.size() < fewest_rays_.value_or(fewest_rays(*device_)) || task.rays.empty() || state_->has_copies()) return false;
+    const auto table = [&](Table one) { return &buffer(one); };
+    const RayCaster::Tables tables{table(Table::parameters), table(Table::properties),      table(Table::poses),
+                                   table(Table::hulls),      table(Table::sleep_states),    state_->fixed().bodies,
+                                   !state_->filters.empty(), state_->reordered(), buffers_made_};
+    if (!rays_) rays_ = std::make_unique<RayCaster>(device_, group_size());
+    if (!rays_->takes(tables)) return false;
+    send_parameters();
+    rays_->cast(tables, task);
+    return true;
+}
+
+}  // namespace scree
