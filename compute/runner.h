@@ -61,7 +61,9 @@ public:
     virtual void bring_back(std::size_t /* slot */) {}
     virtual void drop_kept() {}
 
-    // Casts rays at the present poses of the bodies in its tables. False: not this one, or not so few; the host is to.
+    // Whether batches of so many rays are to be cast by it, not on the host.
+    virtual bool casts(std::size_t /* rays */) const { return false; }
+    // Casts rays at the present poses of the bodies in its tables. False: it cannot, and the host is to.
     virtual bool cast(RayTask& /* task */) { return false; }
 
     // Whether later steps are timed stage by stage. Off at first on devices: on a software device a timestamp between

@@ -14,12 +14,16 @@ std::size_t fewest_rays(const host::Device& device) {
 
 }  // namespace
 
+// Copies of a scene lie at the same places: one tree over all would be searched in vain.
+bool DeviceRunner::casts(std::size_t rays) const {
+    return rays > 0 && rays >= fewest_rays_.value_or(fewest_rays(*device_)) && !state_->has_copies();
+}
+
 bool DeviceRunner::cast(RayTask& task) {
-    if (task.rays.size() < fewest_rays_.value_or(fewest_rays(*device_)) || task.rays.empty() || state_->has_copies()) return false;
     const auto table = [&](Table one) { return &buffer(one); };
-    const RayCaster::Tables tables{table(Table::parameters), table(Table::properties),      table(Table::poses),
-                                   table(Table::hulls),      table(Table::sleep_states),    state_->fixed().bodies,
-                                   !state_->filters.empty(), state_->reordered(), buffers_made_};
+    const RayCaster::Tables tables{table(Table::parameters), table(Table::properties),   table(Table::poses),
+                                   table(Table::hulls),      table(Table::sleep_states), state_->fixed().bodies,
+                                   !state_->filters.empty(), state_->reordered(),        buffers_made_};
     if (!rays_) rays_ = std::make_unique<RayCaster>(device_, group_size());
     if (!rays_->takes(tables)) return false;
     send_parameters();

@@ -42,7 +42,8 @@ public:
     void keep(std::size_t slot, const TableRanges& ranges) override;
     void bring_back(std::size_t slot) override;
     void drop_kept() override { kept_.clear(); }
-    bool cast(RayTask& task) override;  // throws host::DeviceError if memory is short
+    bool casts(std::size_t rays) const override;
+    bool cast(RayTask& task) override;                              // throws host::DeviceError if memory is short
     void cast_rays_from(std::size_t rays) { fewest_rays_ = rays; }  // batches of fewer rays are cast on the host
     void set_profiling(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }

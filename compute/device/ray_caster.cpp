@@ -12,7 +12,7 @@ namespace scree {
 
 namespace {
 
-constexpr std::uint32_t bindings = 13;      // shaders/queries/tables.glsl
+constexpr std::uint32_t bindings = 13;       // shaders/queries/tables.glsl
 constexpr std::uint32_t rows_of_a_leaf = 4;  // likewise, to `head`
 constexpr std::uint32_t rows_of_a_run = 32;
 constexpr std::uint32_t digit_values = 16;

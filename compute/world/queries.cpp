@@ -11,6 +11,7 @@
 #include "compute/scene/shape_geometry.h"
 #include "compute/scene/validator.h"
 #include "compute/step/threads.h"
+#include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/compound.h"
@@ -24,18 +25,6 @@ namespace {
 
 constexpr float touching = 1e-4f;  // m, at which a cast shape has arrived
 constexpr int most_advances = 64;
-
-[[noreturn]] void refuse_query(const char* kind, std::size_t index, const std::string& reason) {
-    throw std::invalid_argument(std::string(kind) + " " + std::to_string(index) + ": " + reason);
-}
-
-bool is_unit(vec3 v) {
-    const float squared = glm::dot(v, v);
-    return std::isfinite(squared) && std::abs(squared - 1) < 2e-3f;
-}
-bool is_finite(vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 void check_shape(const char* kind, std::size_t index, const SimpleShape& shape) {
     if (std::holds_alternative<Plane>(shape) || std::holds_alternative<Hull>(shape))
@@ -62,16 +51,14 @@ vec4 checked_turn(const char* kind, std::size_t index, vec4 q) {
     return std::abs(squared - 1) <= 2.5e-7 ? q : vec4(glm::dvec4(q) / std::sqrt(squared));
 }
 
-float reach_of(const RayQuery& ray) {
+}  // namespace
+
+float QueryScene::reach_of(const RayQuery& ray) {
     return std::min(ray.reach, physics::LONGEST_RAY);
 }
-
-// Of two hits the one that counts.
-bool nearer(const QueryHit& x, const QueryHit& y) {
+bool QueryScene::nearer(const QueryHit& x, const QueryHit& y) {
     return std::tie(x.distance, x.body, x.part) < std::tie(y.distance, y.body, y.part);
 }
-
-}  // namespace
 
 // ---- the bodies as a tree
 QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), state_(state) {
@@ -250,56 +237,6 @@ const QueryScene& World::Impl::query_scene() const {
     return *queried;
 }
 
-namespace {
-
-void check_copy(const char* kind, std::size_t i, std::size_t copy, std::size_t copies) {
-    if (copy >= copies)
-        refuse_query(kind, i, "there is no copy " + std::to_string(copy) + " of the scene, of " + std::to_string(copies));
-}
-void check_ray(const RayQuery& ray, std::size_t i, std::size_t copies) {
-    check_copy("ray", i, ray.copy, copies);
-    if (!is_finite(ray.from)) refuse_query("ray", i, "its origin must be finite");
-    if (!is_unit(ray.along)) refuse_query("ray", i, "its direction must be of length 1");
-    if (!(ray.reach > 0)) refuse_query("ray", i, "its reach must be above 0 m");
-}
-
-template <class Item>
-QueryLists<Item> joined_lists(std::vector<std::vector<Item>>&& lists) {
-    QueryLists<Item> made;
-    made.starts.push_back(0);
-    for (const std::vector<Item>& list : lists) made.starts.push_back(made.starts.back() + list.size());
-    made.items.reserve(made.starts.back());
-    for (const std::vector<Item>& list : lists) made.items.insert(made.items.end(), list.begin(), list.end());
-    return made;
-}
-
-}  // namespace
-
-std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
-    const QueryScene& bodies = interior_->query_scene();
-    std::vector<std::optional<QueryHit>> hits(rays.size());
-    interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) { hits[i] = bodies.nearest(rays[i], false); });
-    return hits;
-}
-
-std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
-    const QueryScene& bodies = interior_->query_scene();
-    std::vector<std::uint8_t> hits(rays.size());
-    interior_->runner->threads().for_each(rays.size(),
-                                          [&](std::size_t i) { hits[i] = bodies.nearest(rays[i], true).has_value(); });
-    return hits;
-}
-
-QueryLists<QueryHit> World::cast_rays_through(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
-    const QueryScene& bodies = interior_->query_scene();
-    std::vector<std::vector<QueryHit>> lists(rays.size());
-    interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) { lists[i] = bodies.all(rays[i]); });
-    return joined_lists(std::move(lists));
-}
-
 std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCast> casts) const {
     std::vector<vec4> turns;
     for (std::size_t i = 0; i < casts.size(); ++i) {
@@ -343,16 +280,6 @@ QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> queries) con
     interior_->runner->threads().for_each(queries.size(),
                                           [&](std::size_t i) { lists[i] = bodies.overlapping(queries[i], turns[i]); });
     return joined_lists(std::move(lists));
-}
-
-std::optional<RayHit> World::cast_ray(const Ray& ray) const {
-    const float length = glm::length(ray.along);
-    if (!std::isfinite(glm::dot(ray.from, ray.from)) || !std::isfinite(length) || !(std::abs(length - 1) < 1e-3f))
-        throw std::invalid_argument("ray: it must be finite, and its direction of length 1");
-    const RayQuery query{.from = ray.from, .along = ray.along, .solid = false};
-    const std::optional<QueryHit> hit = cast_rays({&query, 1}).front();
-    if (!hit) return std::nullopt;
-    return RayHit{hit->body, hit->distance, hit->point, hit->normal};
 }
 
 }  // namespace scree

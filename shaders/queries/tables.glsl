@@ -86,10 +86,10 @@ push;
 const uint HAS_FILTERS = 1u;
 const uint IS_REORDERED = 2u;
 const uint LEAF_ROWS = 4u;
-const uint RUN = 32u;          // rows that a thread sorts one by one
-const uint DIGIT_VALUES = 16u; // of four bits
-const uint HEAD = 8u;          // words before the counts: bounds of all centres, the number of planes
-const uint PLANES = 6u;        // place of the latter
+const uint RUN = 32u;           // rows that a thread sorts one by one
+const uint DIGIT_VALUES = 16u;  // of four bits
+const uint HEAD = 8u;           // words before the counts: bounds of all centres, the number of planes
+const uint PLANES = 6u;         // place of the latter
 const uint KEY_OF_PLANES = 0u;
 const uint KEY_OF_NONE = 0xFFFFFFFFu;
 

@@ -15,10 +15,10 @@
 
 LAWS_BEGIN
 
-CONSTANT float RAY_FAR = 1.0e30f;    // m, beyond what any ray reaches
-CONSTANT float LONGEST_RAY = 1.0e29f; // m, longer ones are cut to
-CONSTANT float RAY_MISSES = -1.0f;   // as a distance
-CONSTANT float BOX_SLACK = 1.0e-5f;  // of extents and, in the next two, distances: with less, rounding loses boxes
+CONSTANT float RAY_FAR = 1.0e30f;      // m, beyond what any ray reaches
+CONSTANT float LONGEST_RAY = 1.0e29f;  // m, longer ones are cut to
+CONSTANT float RAY_MISSES = -1.0f;     // as a distance
+CONSTANT float BOX_SLACK = 1.0e-5f;    // of extents and, in the next two, distances: with less, rounding loses boxes
 CONSTANT float BOX_EARLIER = 0.99999f;
 CONSTANT float BOX_LATER = 1.00001f;
 CONSTANT float EDGE_SLACK = 1.0e-6f;  // of an edge's length: with less, rays slip between neighbouring triangles
