@@ -24,11 +24,17 @@ bool DeviceRunner::cast(RayTask& task) {
     const RayCaster::Tables tables{table(Table::parameters), table(Table::properties),   table(Table::poses),
                                    table(Table::hulls),      table(Table::sleep_states), state_->fixed().bodies,
                                    !state_->filters.empty(), state_->reordered(),        buffers_made_};
-    if (!rays_) rays_ = std::make_unique<RayCaster>(device_, group_size());
-    if (!rays_->takes(tables)) return false;
-    send_parameters();
-    rays_->cast(tables, task);
-    return true;
+    try {
+        if (!rays_) rays_ = std::make_unique<RayCaster>(device_, group_size());
+        if (!rays_->takes(tables)) return false;
+        send_parameters();
+        rays_->cast(tables, task);
+        return true;
+    } catch (const host::DeviceError&) {
+        // Short of memory; or lost, which the host notices as it reads the bodies.
+        rays_.reset();
+        return false;
+    }
 }
 
 }  // namespace scree

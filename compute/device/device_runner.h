@@ -43,7 +43,7 @@ public:
     void bring_back(std::size_t slot) override;
     void drop_kept() override { kept_.clear(); }
     bool casts(std::size_t rays) const override;
-    bool cast(RayTask& task) override;                              // throws host::DeviceError if memory is short
+    bool cast(RayTask& task) override;
     void cast_rays_from(std::size_t rays) { fewest_rays_ = rays; }  // batches of fewer rays are cast on the host
     void set_profiling(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }

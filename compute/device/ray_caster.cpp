@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numeric>
 
 #include "host/vulkan/transfer.h"
 #include "shaders/embedded.h"
@@ -20,8 +19,10 @@ constexpr std::uint32_t digits_of_a_key = 8;
 constexpr std::uint32_t head = 8;
 constexpr std::size_t bytes_of_a_box = 32;
 constexpr std::size_t most_at_once = std::size_t{1} << 20;  // rays: 48 MiB
-// Rounds that a thread may take. A software device ends a shader's loops after 65,535, those of eight rays together.
-constexpr std::uint32_t rounds_of_a_processor = 7000, rounds_of_a_gpu = 1u << 24;
+// Rounds after which a thread begins none. A software device ends a shader's loops after 65,535, those of eight rays
+// together; a round takes up to 1,000 more, by four hulls of 124 faces.
+constexpr std::uint32_t rounds_of_a_processor = 7000, rounds_of_a_gpu = 1u << 20;
+constexpr std::uint32_t most_hits_at_once = 1u << 20;  // of lists of all hits: 32 MiB
 
 enum Step : std::uint32_t { nearest, any, count, all };
 
@@ -57,9 +58,9 @@ bool RayCaster::takes(const Tables& tables) const {
 
 void RayCaster::make_room(host::Buffer& buffer, const char* name, std::size_t bytes) {
     if (buffer && buffer.bytes() >= bytes) return;
+    bound_ = nullptr;
     buffer = {};  // freed before the new one is allocated
     buffer = host::Buffer(device_, name, bytes);
-    bound_ = nullptr;
 }
 
 void RayCaster::bind() {
@@ -74,9 +75,13 @@ void RayCaster::bind() {
 }
 
 void RayCaster::run(host::CommandBuffer& commands, const char* shader, std::uint32_t threads, std::uint32_t items,
-                    std::uint32_t step) {
-    const Push push{items, leaves_, step, (tables_->filters ? 1u : 0u) | (tables_->reordered ? 2u : 0u),
-                    device_->report().is_processor ? rounds_of_a_processor : rounds_of_a_gpu};
+                    std::uint32_t step, std::uint32_t first) {
+    const Push push{items,
+                    leaves_,
+                    step,
+                    (tables_->filters ? 1u : 0u) | (tables_->reordered ? 2u : 0u),
+                    device_->report().is_processor ? rounds_of_a_processor : rounds_of_a_gpu,
+                    first};
     commands.bind(pipelines_.at(shader), *bound_);
     commands.push(&push, sizeof push);
     commands.dispatch((threads + group_size_ - 1) / group_size_);
@@ -112,46 +117,51 @@ void RayCaster::build(const Tables& tables) {
     device_->submit_and_wait({commands.handle()});
 }
 
-void RayCaster::submit_cast(std::uint32_t rays, std::uint32_t step) {
+void RayCaster::submit_cast(std::uint32_t first, std::uint32_t end, std::uint32_t step) {
     bind();
     host::CommandBuffer commands(device_);
-    run(commands, "cast_rays", rays, rays, step);
+    run(commands, "cast_rays", end - first, end, step, first);
     commands.end();
     device_->submit_and_wait({commands.handle()});
 }
 
-void RayCaster::cast_some(std::span<const physics::QueryRay> rays, RayTask& task, std::size_t first) {
-    const auto number = static_cast<std::uint32_t>(rays.size());
-    const auto bytes_of = [](auto& list, std::size_t begin) { return std::as_writable_bytes(std::span(list).subspan(begin)); };
-    make_room(rays_, "rays", rays.size_bytes());
-    host::upload(device_, std::vector{host::Upload{std::as_bytes(rays), &rays_}});
-    if (task.wanted != RayTask::Hits::all) {
-        make_room(meetings_, "ray hits", rays.size() * sizeof(physics::QueryMeeting));
-        submit_cast(number, task.wanted == RayTask::Hits::any ? any : nearest);
-        task.meetings.resize(first + number);
-        host::download(device_, std::vector{host::Download{bytes_of(task.meetings, first), &meetings_}});
-        for (std::size_t i = first; i < task.meetings.size(); ++i)
-            if (task.meetings[i].distance == physics::RAY_TOO_LONG) task.left.push_back(static_cast<std::uint32_t>(i));
-        return;
+void RayCaster::cast_nearest(std::uint32_t rays, RayTask& task, std::size_t first) {
+    make_room(meetings_, "ray hits", rays * sizeof(physics::QueryMeeting));
+    submit_cast(0, rays, task.wanted == RayTask::Hits::any ? any : nearest);
+    task.meetings.resize(first + rays);
+    const std::span<physics::QueryMeeting> made = std::span(task.meetings).subspan(first);
+    host::download(device_, std::vector{host::Download{std::as_writable_bytes(made), &meetings_}});
+    for (std::size_t i = 0; i < rays; ++i)
+        if (made[i].distance == physics::RAY_TOO_LONG) task.left.push_back(static_cast<std::uint32_t>(first + i));
+}
+
+// Counts first, then as many rays at once as have room for their hits.
+void RayCaster::cast_through(std::uint32_t rays, RayTask& task, std::size_t first) {
+    make_room(starts_, "ray hit starts", (rays + 1) * sizeof(std::uint32_t));
+    submit_cast(0, rays, count);
+    std::vector<std::uint32_t> counts(rays), starts(rays + 1);
+    host::download(device_, std::vector{host::Download{std::as_writable_bytes(std::span(counts)), &starts_}});
+    for (std::uint32_t begin = 0, end = 0; begin < rays; begin = end) {
+        std::uint32_t hits = 0;
+        for (; end < rays; ++end) {
+            const bool too_many = counts[end] > most_hits_at_once;  // or NONE: it took too long
+            if (!too_many && hits + counts[end] > most_hits_at_once) break;
+            if (too_many) task.left.push_back(static_cast<std::uint32_t>(first + end));
+            starts[end] = hits;
+            hits += too_many ? 0 : counts[end];
+        }
+        starts[end] = hits;
+        const std::size_t before = task.meetings.size();
+        for (std::uint32_t i = begin; i < end; ++i) task.starts.push_back(before + starts[i]);
+        if (hits == 0) continue;
+        make_room(meetings_, "ray hits", hits * sizeof(physics::QueryMeeting));
+        const auto of_these = std::as_bytes(std::span(starts).subspan(begin, end - begin + 1));
+        host::upload(device_, std::vector{host::Upload{of_these, &starts_, begin * sizeof(std::uint32_t)}});
+        submit_cast(begin, end, all);
+        task.meetings.resize(before + hits);
+        const auto made = std::as_writable_bytes(std::span(task.meetings).subspan(before));
+        host::download(device_, std::vector{host::Download{made, &meetings_}});
     }
-    make_room(starts_, "ray hit starts", (number + 1) * sizeof(std::uint32_t));
-    submit_cast(number, count);
-    std::vector<std::uint32_t> counts(number + 1);
-    host::download(device_, std::vector{host::Download{std::as_writable_bytes(std::span(counts).first(number)), &starts_}});
-    for (std::size_t i = 0; i < number; ++i) {
-        if (counts[i] != physics::NONE) continue;
-        counts[i] = 0;
-        task.left.push_back(static_cast<std::uint32_t>(first + i));
-    }
-    std::exclusive_scan(counts.begin(), counts.end(), counts.begin(), 0u);
-    const std::uint32_t hits = counts.back();
-    const auto before = static_cast<std::uint32_t>(task.meetings.size());
-    make_room(meetings_, "ray hits", std::max<std::size_t>(1, hits) * sizeof(physics::QueryMeeting));
-    host::upload(device_, std::vector{host::Upload{std::as_bytes(std::span(counts)), &starts_}});
-    submit_cast(number, all);
-    task.meetings.resize(before + hits);
-    if (hits > 0) host::download(device_, std::vector{host::Download{bytes_of(task.meetings, before), &meetings_}});
-    for (std::size_t i = 0; i < number; ++i) task.starts.push_back(before + counts[i]);
 }
 
 void RayCaster::cast(const Tables& tables, RayTask& task) {
@@ -160,9 +170,16 @@ void RayCaster::cast(const Tables& tables, RayTask& task) {
         build(tables);
         built_at_ = task.moment;
     }
-    for (std::size_t first = 0; first < task.rays.size(); first += most_at_once)
-        cast_some(task.rays.subspan(first, std::min(most_at_once, task.rays.size() - first)), task, first);
-    if (task.wanted == RayTask::Hits::all) task.starts.push_back(static_cast<std::uint32_t>(task.meetings.size()));
+    const bool through = task.wanted == RayTask::Hits::all;
+    for (std::size_t first = 0; first < task.rays.size(); first += most_at_once) {
+        const std::span<const physics::QueryRay> rays =
+            task.rays.subspan(first, std::min(most_at_once, task.rays.size() - first));
+        make_room(rays_, "rays", rays.size_bytes());
+        host::upload(device_, std::vector{host::Upload{std::as_bytes(rays), &rays_}});
+        const auto number = static_cast<std::uint32_t>(rays.size());
+        through ? cast_through(number, task, first) : cast_nearest(number, task, first);
+    }
+    if (through) task.starts.push_back(task.meetings.size());
 }
 
 }  // namespace scree

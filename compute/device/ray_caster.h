@@ -30,19 +30,22 @@ public:
     };
     // Whether a device has room for that many rows and all hits may be bound.
     bool takes(const Tables& tables) const;
-    // Throws host::DeviceError when memory is short.
+    // Throws host::DeviceError when memory is short; it is then good for nothing more.
     void cast(const Tables& tables, RayTask& task);
 
 private:
     struct Push {
-        std::uint32_t items, leaves, step, flags, rounds;
+        std::uint32_t items, leaves, step, flags, rounds, first;
     };
     void make_room(host::Buffer& buffer, const char* name, std::size_t bytes);
     void build(const Tables& tables);
     void bind();
-    void run(host::CommandBuffer& commands, const char* shader, std::uint32_t threads, std::uint32_t items, std::uint32_t step);
-    void cast_some(std::span<const physics::QueryRay> rays, RayTask& task, std::size_t first);
-    void submit_cast(std::uint32_t rays, std::uint32_t step);
+    void run(host::CommandBuffer& commands, const char* shader, std::uint32_t threads, std::uint32_t items, std::uint32_t step,
+             std::uint32_t first = 0);
+    void submit_cast(std::uint32_t first, std::uint32_t end, std::uint32_t step);
+    // Of the uploaded rays; the first of them is that ray of the task.
+    void cast_nearest(std::uint32_t rays, RayTask& task, std::size_t first);
+    void cast_through(std::uint32_t rays, RayTask& task, std::size_t first);
 
     std::shared_ptr<host::Device> device_;
     std::uint32_t group_size_;

@@ -19,7 +19,7 @@ struct RayTask {
 
     // Found: one per ray; of all hits, in any order, those of ray i from starts[i] to starts[i + 1].
     std::vector<physics::QueryMeeting> meetings;
-    std::vector<std::uint32_t> starts;
+    std::vector<std::size_t> starts;
     std::vector<std::uint32_t> left;  // rays that are to be cast on the host, ascending
 };
 

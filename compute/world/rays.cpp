@@ -112,7 +112,7 @@ QueryLists<QueryHit> World::cast_rays_through(std::span<const RayQuery> rays) co
             const std::vector<std::size_t> first_parts = first_part_rows();
             const RayTask& task = there.task();
             threads.for_each(rays.size(), [&](std::size_t i) {
-                for (std::uint32_t k = task.starts[i]; k < task.starts[i + 1]; ++k)
+                for (std::size_t k = task.starts[i]; k < task.starts[i + 1]; ++k)
                     lists[i].push_back(*there.hit(i, task.meetings[k], in.state, first_parts));
                 std::sort(lists[i].begin(), lists[i].end(), QueryScene::nearer);
             });

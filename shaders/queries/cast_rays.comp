@@ -9,6 +9,7 @@ const uint NEAREST = 0u;
 const uint ANY = 1u;
 const uint COUNT = 2u;
 const uint ALL = 3u;
+const uint TRIANGLE_EDGES = 3u;
 
 Hulls hulls;
 QueryRay ray;
@@ -33,6 +34,7 @@ void offer(uint row, float near) {
     if ((category & ray.mask) == 0u) return;
     BodyProperties body = properties.at[row];
     if (body.shape == SHAPE_HULL) rounds += 2u * hull_head(hulls, body.shape_data).faces;
+    if (body.shape == SHAPE_TRIANGLE) rounds += 2u + TRIANGLE_EDGES;
     RayMeeting met = met_in_box(meet_row(body, poses.at[row], ray.from, ray.along, ray.solid != 0u, hulls), near, ray.reach);
     if (met.distance < 0.0f) return;
     QueryMeeting meeting = QueryMeeting(met.normal, met.distance, row, 0u, 0u, 0u);
@@ -44,7 +46,7 @@ void offer(uint row, float near) {
 }
 
 void main() {
-    uint i = gl_GlobalInvocationID.x;
+    uint i = push.first + gl_GlobalInvocationID.x;
     if (i >= push.items) return;
     ray = rays.at[i];
     hulls.bound = 0u;
@@ -56,7 +58,7 @@ void main() {
     if (push.step == ALL && found == starts.at[i + 1u]) return;
 
     uint planes = digits.at[PLANES];
-    for (uint k = 0u; k < planes; ++k) {
+    for (uint k = 0u; k < planes && rounds < push.rounds; ++k) {
         rounds += 1u;
         if (reach >= 0.0f) offer(row_boxes.at[k].row, 0.0f);
     }

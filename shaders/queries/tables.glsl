@@ -75,11 +75,12 @@ layout(std430, set = 0, binding = 12) buffer Starts {
 starts;
 
 layout(push_constant) uniform Push {
-    uint items;   // rows, or rays
+    uint items;   // rows; or rays, from `first` on
     uint leaves;  // a power of two
     uint step;    // which part of the work
     uint flags;   // HAS_FILTERS, IS_REORDERED
     uint rounds;  // that a thread may take
+    uint first;
 }
 push;
 

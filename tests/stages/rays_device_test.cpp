@@ -1,4 +1,5 @@
 // Rays cast on a device: the same bits as on the CPU, in every kind of scene and after edits.
+#include <algorithm>
 #include <catch2/catch.hpp>
 #include <cstdio>
 #include <cstring>
@@ -143,21 +144,68 @@ TEST_CASE("rays on a device meet every shape, and nothing in an empty scene", "[
     REQUIRE_FALSE(empty.world.cast_rays(std::vector{RayQuery{}})[0]);
 }
 
-TEST_CASE("a ray through more bodies than a device's thread may visit is cast to the end", "[vulkan]") {
-    Watched watched;
+namespace {
+
+// Bodies of one shape in a line along -z, and rays side by side along it.
+Scene line_of(const Shape& shape, std::size_t count) {
     Scene scene;
-    for (int i = 0; i < 20000; ++i) {
+    for (std::size_t i = 0; i < count; ++i) {
         Body body;
-        body.shape = Sphere{0.01f};
+        body.shape = shape;
         body.position = {0, 0, -0.05f * static_cast<float>(i + 1)};
         body.motion = Motion::fixed;
         scene.bodies.push_back(body);
     }
-    World cpu(scene, {}, 1);
+    return scene;
+}
+std::vector<RayQuery> rays_beside(std::size_t count, float apart) {
+    std::vector<RayQuery> rays(count);
+    for (std::size_t i = 1; i < count; ++i) rays[i].from.x = apart * static_cast<float>(i);
+    return rays;
+}
+
+}  // namespace
+
+TEST_CASE("a ray through more bodies than a device's thread may visit is cast to the end", "[vulkan]") {
+    Watched watched;
+    const Scene spheres = line_of(Sphere{0.01f}, 20000);
+    World cpu(spheres, {}, 1);
+    CastingWorld there(spheres, watched.device);
+    REQUIRE(require_equal(cpu, there.world, rays_beside(9, 0.003f)) == 4 * 20000);
+    // The largest hulls take the most rounds each.
+    Hull ball;
+    tests::Noise noise(3);
+    while (ball.points.size() < 64)
+        if (const vec3 point = noise.vector(); glm::length(point) > 0.1f) ball.points.push_back(glm::normalize(point) * 0.02f);
+    const Scene hulls = line_of(ball, 600);
+    World hulls_on_cpu(hulls, {}, 1);
+    CastingWorld hulls_there(hulls, watched.device);
+    REQUIRE(hulls_on_cpu.scene().bodies.size() == 600);
+    REQUIRE(require_equal(hulls_on_cpu, hulls_there.world, rays_beside(16, 0.001f)) == 16 * 600);
+    Scene planes;
+    for (int i = 0; i < 9000; ++i) {
+        Body plane;
+        plane.shape = Plane{vec3(0, 0, 1), -0.01f * static_cast<float>(i)};
+        plane.motion = Motion::fixed;
+        planes.bodies.push_back(plane);
+    }
+    World planes_on_cpu(planes, {}, 1);
+    CastingWorld planes_there(planes, watched.device);
+    std::vector<RayQuery> above = rays_beside(9, 1);
+    for (RayQuery& ray : above) ray.from.z = 1;
+    REQUIRE(require_equal(planes_on_cpu, planes_there.world, above) == 9 * 9000);
+}
+
+TEST_CASE("more hits than a device lists at once are listed all the same", "[vulkan]") {
+    Watched watched;
+    const Scene scene = line_of(Sphere{0.02f}, 1500);
+    World cpu(scene, {}, 2);
     CastingWorld there(scene, watched.device);
-    std::vector<RayQuery> rays(9);
-    for (std::size_t i = 1; i < rays.size(); ++i) rays[i].from.x = 0.003f * static_cast<float>(i);
-    REQUIRE(require_equal(cpu, there.world, rays) == 4 * 20000);
+    const std::vector<RayQuery> rays = rays_beside(1000, 1e-5f);
+    const auto all = cpu.cast_rays_through(rays), all_there = there.world.cast_rays_through(rays);
+    REQUIRE(all.items.size() == 1500 * 1000);
+    REQUIRE(all.starts == all_there.starts);
+    REQUIRE(std::equal(all.items.begin(), all.items.end(), all_there.items.begin(), same));
 }
 
 TEST_CASE("a device leaves few rays, and those of copies of a scene, to the host", "[vulkan]") {

@@ -270,7 +270,7 @@ LAW float offset_from(float centre, float from, float way, float along) {
 // Of a ray with the row of a body, part or triangle. `solid`: a shape in which it begins is met at 0, else not at all.
 LAW RayMeeting meet_row(BodyProperties properties, Pose pose, vec3 from, vec3 along, bool solid, Hulls hulls) {
     if (properties.shape == SHAPE_PLANE) {
-        float above = dot3(from - pose.position, properties.size), down = -dot3(along, properties.size);
+        float above = flush_tiny(dot3(from - pose.position, properties.size)), down = -dot3(along, properties.size);
         if (above <= 0.0f) return ray_meeting(solid ? 0.0f : RAY_MISSES, -along);
         return ray_meeting(down > 1.0e-6f ? above * reciprocal(down) : RAY_MISSES, properties.size);
     }
@@ -281,12 +281,12 @@ LAW RayMeeting meet_row(BodyProperties properties, Pose pose, vec3 from, vec3 al
     vec3 at = flush_tiny(rotate_back(pose.orientation, nearest));
     vec3 ahead = flush_tiny(rotate_back(pose.orientation, along));
     RaySpan span = span_in_shape(properties.shape, properties.size, properties.shape_data, at, ahead, hulls);
-    float enter = way + span.enter;
+    float enter = flush_tiny(way + span.enter);
     if (span.enter > span.leave || way + span.leave < 0.0f) return ray_meeting(RAY_MISSES, -along);
     if (enter <= 0.0f) return ray_meeting(solid && properties.shape != SHAPE_TRIANGLE ? 0.0f : RAY_MISSES, -along);
     vec3 normal =
         normal_of_shape(properties.shape, properties.size, properties.shape_data, at + ahead * span.enter, ahead, hulls);
-    return ray_meeting(enter, rotate(pose.orientation, normal));
+    return ray_meeting(enter, flush_tiny(rotate(pose.orientation, normal)));
 }
 // A hit within the row's box, which is entered at `near`, m, and within reach; else a miss.
 LAW RayMeeting met_in_box(RayMeeting met, float near, float reach) {
