@@ -7,7 +7,7 @@ namespace scree {
 
 namespace {
 
-// Fewer rays are cast sooner on the host.
+// Fewer rays are cast sooner on the host. On lavapipe all are: 20 times as fast (scree_peers_rays --device).
 std::size_t fewest_rays(const host::Device& device) {
     return device.report().is_processor ? std::numeric_limits<std::size_t>::max() : 4096;
 }
