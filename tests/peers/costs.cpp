@@ -10,9 +10,11 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compute/device/make_device_runner.h"
+#include "compute/timeline.h"
 #include "compute/world.h"
 #include "tests/world/heaps.h"
 
@@ -43,9 +45,21 @@ double processor_milliseconds_of(const auto& work) {
     return now() - begin;
 }
 
+// How long each step looks for events, ms: it is too short to be interrupted often.
+struct EventTimes : Timeline {
+    std::vector<double> times;
+    void slice(Track, std::string_view name, Time begin, Time end, Values) override {
+        if (name == "events") times.push_back(1e3 * std::chrono::duration<double>(end - begin).count());
+    }
+    void instant(std::string_view, Time, Values) override {}
+    void counter(std::string_view, Time, double) override {}
+    bool wants_stages() const override { return false; }
+};
+
 struct Variant {
     std::string name;
     std::unique_ptr<World> world;
+    std::shared_ptr<EventTimes> times = std::make_shared<EventTimes>();
 };
 
 // What each variant costs more than the first: steps of equal worlds by turns, in changing order; of the differences within
@@ -53,6 +67,7 @@ struct Variant {
 void compare(const std::vector<Variant>& variants, int rounds) {
     std::vector<std::vector<double>> more(variants.size());
     std::vector<double> base;
+    for (const Variant& one : variants) one.world->set_timeline(one.times);
     for (int i = 0; i < rounds + 3; ++i) {
         std::vector<double> times(variants.size());
         for (std::size_t k = 0; k < variants.size(); ++k) {
@@ -72,6 +87,8 @@ void compare(const std::vector<Variant>& variants, int rounds) {
         for (const double one : more[k]) deviations.push_back(std::abs(one - middle));
         const double error = 1.2533 * 1.4826 * median(deviations) / std::sqrt(static_cast<double>(rounds));
         fmt::print(", {} {:+.1f} +- {:.1f} %", variants[k].name, 100 * middle / step, 100 * error / step);
+        const std::vector<double>& told = variants[k].times->times;
+        if (!told.empty()) fmt::print(" ({:.2f} ms, {:.2f} %, by the clock)", median(told), 100 * median(told) / step);
     }
     fmt::print(" ({} turns)\n", rounds);
 }
