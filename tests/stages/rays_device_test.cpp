@@ -208,6 +208,51 @@ TEST_CASE("more hits than a device lists at once are listed all the same", "[vul
     REQUIRE(std::equal(all.items.begin(), all.items.end(), all_there.items.begin(), same));
 }
 
+TEST_CASE("rays on a device follow bodies reordered in memory, buffers that grow, states brought back and quarantine",
+          "[vulkan]") {
+    Watched watched;
+    Scene scene = tests::heap(300);
+    Body wild = scene.bodies.back(), anchor = wild;  // on a spring that no float can hold
+    wild.position = {40, 20, 0};
+    anchor.position = {42, 20, 0};
+    scene.bodies.insert(scene.bodies.end(), {wild, anchor});
+    Joint spring;
+    Slider slider;
+    slider.slide.spring = Spring{.stiffness = 1e12f, .damping = 10, .rest = 1e6f};
+    spring.kind = slider;
+    spring.a = 301, spring.b = 302;
+    scene.joints.push_back(spring);
+    World cpu(scene, {}, 2);
+    CastingWorld there(scene, watched.device);
+    const auto both = [&](const auto& act) { act(cpu), act(there.world); };
+    const auto compare = [&](std::uint32_t seed) {
+        REQUIRE(cpu.state_hash() == there.world.state_hash());
+        return require_equal(cpu, there.world, rays_around(cpu, 600, seed));
+    };
+    both([](World& one) { one.step(10); });
+    REQUIRE_FALSE(cpu.quarantines().empty());
+    REQUIRE(compare(1) > 100);
+    there.world.reorder();
+    both([](World& one) { one.step(10); });
+    REQUIRE(there.world.reorderings() == 1);
+    REQUIRE(compare(2) > 100);
+    both([](World& one) { one.keep_state(); });
+    const std::vector<std::byte> mark = cpu.save();
+    std::vector<Body> many = tests::heap(1500, 7).bodies;
+    std::erase_if(many, [](const Body& body) { return body.motion == Motion::fixed; });
+    for (Body& body : many) body.position += vec3(0, 40, 0);
+    both([&](World& one) { one.add_bodies(many); });
+    REQUIRE(compare(3) > 100);
+    both([](World& one) { one.step(3); });
+    REQUIRE(compare(4) > 100);
+    both([](World& one) { one.roll_back(3); });
+    REQUIRE(compare(5) > 100);
+    both([](World& one) { one.step(40); });
+    REQUIRE(compare(6) > 100);
+    both([&](World& one) { one.restore(mark); });
+    REQUIRE(compare(7) > 100);
+}
+
 TEST_CASE("a device leaves few rays, and those of copies of a scene, to the host", "[vulkan]") {
     const auto device = host::Device::open();
     World world(tests::heap(50), {}, make_device_runner(device));
