@@ -7,6 +7,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <functional>
 #include <memory>
 #include <string>
@@ -151,6 +152,7 @@ int main(int argc, char** argv) {
     app.add_option("--steps", steps, "after a world was restored (600)");
     app.add_flag("--cpu-only", cpu_only, "no Vulkan device");
     CLI11_PARSE(app, argc, argv);
+    std::setvbuf(stdout, nullptr, _IOLBF, 0);
     const auto device = cpu_only ? nullptr : host::Device::open();
     if (for_events > 0) {
         const Scene scene = tests::packed(for_events);
