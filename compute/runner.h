@@ -14,6 +14,7 @@ namespace scree {
 struct State;       // compute/step/state.h
 class Threads;      // compute/step/threads.h
 struct TableRange;  // compute/step/table_ranges.h
+struct RayTask;     // compute/step/ray_task.h
 class Timeline;     // compute/timeline.h
 
 using StageTimes = std::vector<std::pair<std::string, double>>;  // stage, milliseconds per step; in the order of the plan
@@ -59,6 +60,11 @@ public:
     virtual void keep(std::size_t /* slot */, const std::vector<TableRange>& /* ranges */) {}
     virtual void bring_back(std::size_t /* slot */) {}
     virtual void drop_kept() {}
+
+    // Whether batches of so many rays are to be cast by it, not on the host.
+    virtual bool casts(std::size_t /* rays */) const { return false; }
+    // Casts rays at the present poses of the bodies in its tables. False: it cannot, and the host is to.
+    virtual bool cast(RayTask& /* task */) { return false; }
 
     // Whether later steps are timed stage by stage. Off at first on devices: on a software device a timestamp between
     // two stages of a small world takes longer than the stages. On the CPU always on, at no cost.

@@ -12,6 +12,7 @@
 #include "compute/device/body_lease.h"
 #include "compute/device/make_device_runner.h"
 #include "compute/device/queue_clock.h"
+#include "compute/device/ray_caster.h"
 #include "compute/runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
@@ -41,6 +42,9 @@ public:
     void keep(std::size_t slot, const TableRanges& ranges) override;
     void bring_back(std::size_t slot) override;
     void drop_kept() override { kept_.clear(); }
+    bool casts(std::size_t rays) const override;
+    bool cast(RayTask& task) override;
+    void cast_rays_from(std::size_t rays) { fewest_rays_ = rays; }  // batches of fewer rays are cast on the host
     void set_profiling(bool on) override { timed_ = on; }
     StageTimes stage_times() const override { return clock_.means(); }
     StageTimes last_stage_times() const override { return clock_.last(); }
@@ -93,6 +97,7 @@ private:
     host::Submission::Moment next_ready();
     void wait_for_returned();  // on the host
     void send_inputs();
+    void send_parameters();
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
 
@@ -125,6 +130,8 @@ private:
         std::vector<host::Buffer> buffers;
     };
     std::map<std::size_t, Kept> kept_;
+    std::unique_ptr<RayCaster> rays_;  // once asked for
+    std::optional<std::size_t> fewest_rays_;
     // Leases: signalled by each step, once asked for; what the next step waits for; how often buffers were made.
     host::Submission::Moment ready_, returned_;
     std::uint64_t buffers_made_ = 0;

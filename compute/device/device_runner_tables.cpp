@@ -146,12 +146,16 @@ void DeviceRunner::upload_all() {
     sent_ = state_->fixed();
 }
 
-void DeviceRunner::send_inputs() {
+void DeviceRunner::send_parameters() {
     const physics::Parameters& p = state_->fixed();
-    if (std::memcmp(&p, &sent_, sizeof p) != 0) {
-        buffer(Table::parameters).write(&p, sizeof p);
-        sent_ = p;
-    }
+    if (std::memcmp(&p, &sent_, sizeof p) == 0) return;
+    buffer(Table::parameters).write(&p, sizeof p);
+    sent_ = p;
+}
+
+void DeviceRunner::send_inputs() {
+    send_parameters();
+    const physics::Parameters& p = state_->fixed();
     if (p.actions) buffer(Table::actions).write(state_->actions.data(), p.actions * sizeof(physics::Action));
 }
 

@@ -9,6 +9,8 @@
 #include <glm/glm.hpp>
 #include <vector>
 
+#include "shaders/physics/collide/ray.h"
+
 namespace scree {
 
 struct BoundingBox {
@@ -37,8 +39,8 @@ public:
                 if (overlap(boxes_[k], around)) visit(items_[k]);
         }
     }
-    // Calls visit(box) for the boxes that a ray may meet within `reach`, near ones first as far as the tree knows; visit
-    // may lower `reach`. Boxes are extended by `grow`.
+    // Calls visit(box, near) for the boxes that a ray meets within `reach`, near ones first as far as the tree knows; `near`
+    // is where it enters the box, m, and visit may lower `reach`. Boxes are extended by `grow`.
     template <class Visit>
     void for_each_met(glm::vec3 from, glm::vec3 along, glm::vec3 grow, const float& reach, const Visit& visit) const {
         if (nodes_.empty()) return;
@@ -51,7 +53,7 @@ public:
             const Node& node = nodes_[index];
             if (node.count > 0) {
                 for (std::uint32_t k = node.first; k < node.first + node.count; ++k)
-                    if (slabs.enter(boxes_[k], reach) <= reach) visit(items_[k]);
+                    if (const float at = slabs.enter(boxes_[k], reach); at <= reach) visit(items_[k], at);
                 continue;
             }
             const float one = slabs.enter(nodes_[node.first].box, reach), other = slabs.enter(nodes_[node.first + 1].box, reach);
@@ -78,23 +80,12 @@ private:
         void push(std::uint32_t node, float near) { entries[size++] = {node, near}; }
         Entry pop() { return entries[--size]; }
     };
-    // Entry of a ray into boxes. A little too early, so that rounding loses none.
+    // Entry of a ray into boxes, as on a device.
     struct Slabs {
         glm::vec3 from, inverse, grow;
-        Slabs(glm::vec3 f, glm::vec3 along, glm::vec3 g) : from(f), grow(g) {
-            for (int k = 0; k < 3; ++k)
-                inverse[k] = 1 / (std::abs(along[k]) < 1e-20f ? (along[k] < 0 ? -1e-20f : 1e-20f) : along[k]);
-        }
+        Slabs(glm::vec3 f, glm::vec3 along, glm::vec3 g) : from(f), inverse(physics::ray_inverse3(along)), grow(g) {}
         float enter(const BoundingBox& box, float reach) const {
-            float near = 0, far = reach;
-            for (int k = 0; k < 3; ++k) {
-                const float one = (box.lower[k] - grow[k] - from[k]) * inverse[k];
-                const float other = (box.upper[k] + grow[k] - from[k]) * inverse[k];
-                near = std::max(near, std::min(one, other));
-                far = std::min(far, std::max(one, other));
-            }
-            constexpr float slack = 1e-5f;
-            return near * (1 - slack) <= far * (1 + slack) ? near * (1 - slack) : 2e38f;
+            return physics::entry_into_box(box.lower - grow, box.upper + grow, from, inverse, reach);
         }
     };
     static bool overlap(const BoundingBox& a, const BoundingBox& b) {

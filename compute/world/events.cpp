@@ -81,7 +81,7 @@ void Events::after_step(const Scene& scene, const State& state, const std::vecto
     if (settings_.contacts) {
         if (arrangement != arrangement_ || state.fixed().first_part != first_part_) rearrange(state);
         arrangement_ = arrangement;
-        list_contacts(seen);
+        list_contacts(seen, threads);
         match(seen);
         before_.swap(now_);
     }
@@ -118,7 +118,7 @@ void Events::rearrange(const State& state) {
     find_parts(state);
 }
 
-void Events::list_contacts(const Seen& seen) {
+void Events::list_contacts(const Seen& seen, const Threads& threads) {
     const State& state = seen.state;
     const std::uint32_t sleep_steps = state.fixed().sleep_steps, contacts = state.counted().contacts;
     if (part_numbers_.size() != state.fixed().bodies - state.fixed().first_part) find_parts(state);
@@ -127,7 +127,8 @@ void Events::list_contacts(const Seen& seen) {
         return physics::is_movable(state.properties[body].motion, state.sleep_states[body], sleep_steps);
     };
     now_.resize(contacts);
-    for (std::uint32_t row = 0; row < state.fixed().bodies; ++row) {
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        const auto row = static_cast<std::uint32_t>(i);
         for (std::uint32_t k = state.first_contacts[row]; k < std::min(contacts, state.first_contacts[row + 1]); ++k) {
             const physics::Contact& contact = state.contacts[k];
             Entry& entry = now_[k];
@@ -140,7 +141,7 @@ void Events::list_contacts(const Seen& seen) {
             entry.touches = entry.pressed;
             entry.contact = k;
         }
-    }
+    });
 }
 
 // Both lists ascend by place. A contact whose owner has changed is in both under other places.
@@ -177,6 +178,16 @@ void Events::match(const Seen& seen) {
     for (const std::size_t j : pressing) hit(pair_of(now_[j], seen.state), now_[j], seen);
     for (const std::size_t k : lost)
         if (before_[k].touches) drop(pair_of(before_[k], seen.state), seen.generations, seen.step);
+}
+
+// Two rounds of the mixing of SplitMix64 (Steele, Lea, Flood 2014).
+std::size_t Events::HashOfPair::operator()(const Pair& pair) const {
+    std::uint64_t mixed = std::uint64_t{pair.a} << 32 | pair.b;
+    for (const std::uint64_t more : {std::uint64_t{0}, std::uint64_t{pair.part_a} << 32 | pair.part_b}) {
+        mixed = (mixed ^ more ^ (mixed >> 30)) * 0xBF58476D1CE4E5B9u;
+        mixed ^= mixed >> 27;
+    }
+    return static_cast<std::size_t>(mixed);
 }
 
 Events::Pair Events::pair_of(const Entry& entry, const State& state) const {
@@ -345,7 +356,9 @@ void Events::put(ByteWriter& out) const {
     for (const Event& event : events_) for_each_value(event, [&](const auto& value) { out.put(value); });
     out.put_list(std::span(before_));
     out.put(std::uint64_t{pairs_.size()});
-    for (const auto& [pair, contacts] : pairs_) out.put(pair), out.put(contacts);
+    std::vector<std::pair<Pair, std::uint32_t>> in_order(pairs_.begin(), pairs_.end());
+    std::sort(in_order.begin(), in_order.end());
+    for (const auto& [pair, contacts] : in_order) out.put(pair), out.put(contacts);
     out.put_list(std::span(bodies_));
     out.put_list(std::span(joints_));
     out.put(settings_.any() ? first_part_ : 0u);

@@ -3,7 +3,7 @@
 
 #include <compare>
 #include <cstdint>
-#include <map>
+#include <unordered_map>
 #include <vector>
 
 #include "compute/events.h"
@@ -52,9 +52,12 @@ private:
         std::uint32_t a = 0, b = 0, part_a = 0, part_b = 0;
         auto operator<=>(const Pair&) const = default;
     };
+    struct HashOfPair {
+        std::size_t operator()(const Pair& pair) const;
+    };
     struct Seen;  // what after_step sees
 
-    void list_contacts(const Seen& seen);
+    void list_contacts(const Seen& seen, const Threads& threads);
     void rearrange(const State& state);
     void match(const Seen& seen);
     void compare_bodies(const Seen& seen);
@@ -72,10 +75,10 @@ private:
     EventSettings settings_;
     std::vector<Event> events_;
     std::vector<Entry> before_, now_;
-    std::map<Pair, std::uint32_t> pairs_;        // that touch, and in how many contacts
-    std::vector<physics::Velocity> velocities_;  // before the step
-    std::vector<std::uint8_t> bodies_;           // by id
-    std::vector<std::uint8_t> joints_;           // by joint of the scene: broken
+    std::unordered_map<Pair, std::uint32_t, HashOfPair> pairs_;  // that touch, and in how many contacts
+    std::vector<physics::Velocity> velocities_;                  // before the step
+    std::vector<std::uint8_t> bodies_;                           // by id
+    std::vector<std::uint8_t> joints_;                           // by joint of the scene: broken
     std::vector<SensorOverlap> sensed_;
     std::vector<std::uint32_t> part_numbers_;  // by part row behind the first
     std::uint32_t first_part_ = 0;

@@ -8,16 +8,16 @@
 #include <tuple>
 
 #include "compute/scene/bounds_tree.h"
-#include "compute/scene/mesh.h"
 #include "compute/scene/shape_geometry.h"
-#include "compute/scene/surface_normal.h"
 #include "compute/scene/validator.h"
 #include "compute/step/threads.h"
+#include "compute/world/query_check.h"
 #include "compute/world/query_scene.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/collide/compound.h"
 #include "shaders/physics/collide/distance.h"
 #include "shaders/physics/collide/grid.h"
+#include "shaders/physics/collide/ray.h"
 
 namespace scree {
 
@@ -25,18 +25,6 @@ namespace {
 
 constexpr float touching = 1e-4f;  // m, at which a cast shape has arrived
 constexpr int most_advances = 64;
-
-[[noreturn]] void refuse_query(const char* kind, std::size_t index, const std::string& reason) {
-    throw std::invalid_argument(std::string(kind) + " " + std::to_string(index) + ": " + reason);
-}
-
-bool is_unit(vec3 v) {
-    const float squared = glm::dot(v, v);
-    return std::isfinite(squared) && std::abs(squared - 1) < 2e-3f;
-}
-bool is_finite(vec3 v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
 
 void check_shape(const char* kind, std::size_t index, const SimpleShape& shape) {
     if (std::holds_alternative<Plane>(shape) || std::holds_alternative<Hull>(shape))
@@ -63,36 +51,34 @@ vec4 checked_turn(const char* kind, std::size_t index, vec4 q) {
     return std::abs(squared - 1) <= 2.5e-7 ? q : vec4(glm::dvec4(q) / std::sqrt(squared));
 }
 
-// Of two hits the one that counts.
-bool nearer(const QueryHit& x, const QueryHit& y) {
+}  // namespace
+
+float QueryScene::reach_of(const RayQuery& ray) {
+    return std::min(ray.reach, physics::LONGEST_RAY);
+}
+bool QueryScene::nearer(const QueryHit& x, const QueryHit& y) {
     return std::tie(x.distance, x.body, x.part) < std::tie(y.distance, y.body, y.part);
 }
-
-}  // namespace
 
 // ---- the bodies as a tree
 QueryScene::QueryScene(const Scene& scene, const State& state) : scene_(scene), state_(state) {
     of_.resize(state.fixed().copies);
     std::vector<std::vector<BoundingBox>> boxes(of_.size());
+    const physics::Parameters& p = state.fixed();
     const auto add = [&](std::uint32_t row, std::uint32_t body, std::uint32_t part) {
         const physics::BodyProperties& properties = state.properties[row];
         const vec3 centre = state.poses[row].position, half = physics::half_extents_of(properties, state.poses[row].orientation);
-        if (physics::is_apart(properties)) return;
+        if (!physics::is_seen(properties, centre, row < p.first_part)) return;
         const std::uint32_t copy = state.copy_of(row);
         if (properties.shape == physics::SHAPE_PLANE) {
             of_[copy].planes.push_back({row, body, part});
-        } else if (is_finite(centre)) {
-            const vec3 slack = 1e-5f * (glm::abs(centre) + half) + 1e-6f;
-            boxes[copy].push_back({centre - half - slack, centre + half + slack});
+        } else {
+            const vec3 reach = physics::half_box_of_query(centre, half);
+            boxes[copy].push_back({centre - reach, centre + reach});
             of_[copy].leaves.push_back({row, body, part});
         }
     };
-    const physics::Parameters& p = state.fixed();
-    for (std::uint32_t id = 0; id < state.body_count; ++id) {
-        const std::uint32_t row = state.row_of(id);
-        if (!physics::is_absent(state.properties[row].motion) && state.properties[row].shape != physics::SHAPE_NONE)
-            add(row, id, 0);
-    }
+    for (std::uint32_t id = 0; id < state.body_count; ++id) add(state.row_of(id), id, 0);
     std::uint32_t owner = physics::NONE, part = 0;
     for (std::uint32_t row = p.first_part; row < p.bodies; ++row) {
         if (!physics::is_part(state.properties[row])) continue;
@@ -108,70 +94,43 @@ bool QueryScene::sees(const Leaf& leaf, std::uint32_t mask) const {
     return (category & mask) != 0;
 }
 
-std::optional<QueryHit> QueryScene::hit(const Leaf& leaf, const RayQuery& ray) const {
+std::optional<QueryHit> QueryScene::hit(const Leaf& leaf, const RayQuery& ray, float near) const {
     if (!sees(leaf, ray.mask)) return std::nullopt;
-    const Shape& shape = scene_.bodies[leaf.body].shape;
-    QueryHit found{leaf.body, leaf.part, 0, ray.from, -ray.along};
-    const auto* compound = std::get_if<Compound>(&shape);
-    const physics::Pose& pose = state_.poses[compound ? leaf.row : state_.row_of(leaf.body)];
-    std::optional<float> at;
-    if (const MeshForm* form = mesh_form_of(shape)) {
-        at = ray_distance(*form, leaf.part, pose.position, pose.orientation, ray.from, ray.along);
-    } else {
-        const auto inside = [&](const auto& one) { return contains(one, pose.position, pose.orientation, ray.from); };
-        if (ray.solid && (compound ? inside(compound->parts[leaf.part].shape) : inside(shape))) return found;
-        at = compound ? ray_distance(compound->parts[leaf.part].shape, pose.position, pose.orientation, ray.from, ray.along)
-                      : ray_distance(shape, pose.position, pose.orientation, ray.from, ray.along);
-    }
-    if (!at || *at > ray.reach) return std::nullopt;
-    found.distance = *at;
-    return found;
-}
-
-// Point and normal, of the hits that are given back.
-void QueryScene::complete(QueryHit& hit, const RayQuery& ray) const {
-    if (hit.distance == 0) return;
-    hit.point = ray.from + ray.along * hit.distance;
-    const Shape& shape = scene_.bodies[hit.body].shape;
-    const physics::Pose& pose = state_.poses[state_.row_of(hit.body)];
-    const Ray line{ray.from, ray.along};
-    if (const MeshForm* form = mesh_form_of(shape)) {
-        hit.normal = physics::rotate(pose.orientation, form->triangles[hit.part].normal);
-    } else if (const auto* compound = std::get_if<Compound>(&shape)) {
-        const Part& part = compound->parts[hit.part];
-        hit.normal = surface_normal(part.shape, pose.position + physics::rotate(pose.orientation, part.position),
-                                    physics::compose(pose.orientation, part.orientation), line, hit.point);
-    } else {
-        hit.normal = surface_normal(shape, pose.position, pose.orientation, line, hit.point);
-    }
+    const physics::RayMeeting met = physics::met_in_box(physics::meet_row(state_.properties[leaf.row], state_.poses[leaf.row],
+                                                                          ray.from, ray.along, ray.solid, state_.hull_table()),
+                                                        near, reach_of(ray));
+    if (met.distance < 0) return std::nullopt;
+    return QueryHit{leaf.body, leaf.part, met.distance, met.distance > 0 ? ray.from + ray.along * met.distance : ray.from,
+                    met.normal};
 }
 
 std::optional<QueryHit> QueryScene::nearest(const RayQuery& ray, bool any) const {
     const Bodies& in = of_[ray.copy];
     std::optional<QueryHit> best;
-    float reach = ray.reach;
-    const auto offer = [&](const Leaf& leaf) {
-        const std::optional<QueryHit> found = hit(leaf, ray);
+    float reach = reach_of(ray);
+    const auto offer = [&](const Leaf& leaf, float near) {
+        const std::optional<QueryHit> found = hit(leaf, ray, near);
         if (!found || (best && !nearer(*found, *best))) return;
         best = found;
         reach = any ? -1 : found->distance;  // equally near ones are still met
     };
-    for (const Leaf& plane : in.planes) offer(plane);
+    for (const Leaf& plane : in.planes) offer(plane, 0);
     if (!(any && best))
-        in.tree.for_each_met(ray.from, ray.along, vec3(0), reach, [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
+        in.tree.for_each_met(ray.from, ray.along, vec3(0), reach,
+                             [&](std::uint32_t leaf, float near) { offer(in.leaves[leaf], near); });
     return best;
 }
 
 std::vector<QueryHit> QueryScene::all(const RayQuery& ray) const {
     const Bodies& in = of_[ray.copy];
     std::vector<QueryHit> found;
-    const auto offer = [&](const Leaf& leaf) {
-        if (const std::optional<QueryHit> one = hit(leaf, ray)) found.push_back(*one);
+    const auto offer = [&](const Leaf& leaf, float near) {
+        if (const std::optional<QueryHit> one = hit(leaf, ray, near)) found.push_back(*one);
     };
-    for (const Leaf& plane : in.planes) offer(plane);
-    in.tree.for_each_met(ray.from, ray.along, vec3(0), ray.reach, [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
+    for (const Leaf& plane : in.planes) offer(plane, 0);
+    in.tree.for_each_met(ray.from, ray.along, vec3(0), reach_of(ray),
+                         [&](std::uint32_t leaf, float near) { offer(in.leaves[leaf], near); });
     std::sort(found.begin(), found.end(), nearer);
-    for (QueryHit& one : found) complete(one, ray);
     return found;
 }
 
@@ -265,7 +224,7 @@ std::optional<QueryHit> QueryScene::nearest(const ShapeCast& cast, vec4 orientat
     };
     for (const Leaf& plane : in.planes) offer(plane);
     in.tree.for_each_met(cast.from, cast.along, physics::half_extents_of(probe, orientation) + touching, reach,
-                         [&](std::uint32_t leaf) { offer(in.leaves[leaf]); });
+                         [&](std::uint32_t leaf, float) { offer(in.leaves[leaf]); });
     return best;
 }
 
@@ -276,59 +235,6 @@ const QueryScene& World::Impl::query_scene() const {
     queried = std::make_shared<const QueryScene>(scene, state);
     queried_at = {steps, changes};
     return *queried;
-}
-
-namespace {
-
-void check_copy(const char* kind, std::size_t i, std::size_t copy, std::size_t copies) {
-    if (copy >= copies)
-        refuse_query(kind, i, "there is no copy " + std::to_string(copy) + " of the scene, of " + std::to_string(copies));
-}
-void check_ray(const RayQuery& ray, std::size_t i, std::size_t copies) {
-    check_copy("ray", i, ray.copy, copies);
-    if (!is_finite(ray.from)) refuse_query("ray", i, "its origin must be finite");
-    if (!is_unit(ray.along)) refuse_query("ray", i, "its direction must be of length 1");
-    if (!(ray.reach > 0)) refuse_query("ray", i, "its reach must be above 0 m");
-}
-
-template <class Item>
-QueryLists<Item> joined_lists(std::vector<std::vector<Item>>&& lists) {
-    QueryLists<Item> made;
-    made.starts.push_back(0);
-    for (const std::vector<Item>& list : lists) made.starts.push_back(made.starts.back() + list.size());
-    made.items.reserve(made.starts.back());
-    for (const std::vector<Item>& list : lists) made.items.insert(made.items.end(), list.begin(), list.end());
-    return made;
-}
-
-}  // namespace
-
-std::vector<std::optional<QueryHit>> World::cast_rays(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
-    const QueryScene& bodies = interior_->query_scene();
-    std::vector<std::optional<QueryHit>> hits(rays.size());
-    interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) {
-        hits[i] = bodies.nearest(rays[i], false);
-        if (hits[i]) bodies.complete(*hits[i], rays[i]);
-    });
-    return hits;
-}
-
-std::vector<std::uint8_t> World::rays_hit(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
-    const QueryScene& bodies = interior_->query_scene();
-    std::vector<std::uint8_t> hits(rays.size());
-    interior_->runner->threads().for_each(rays.size(),
-                                          [&](std::size_t i) { hits[i] = bodies.nearest(rays[i], true).has_value(); });
-    return hits;
-}
-
-QueryLists<QueryHit> World::cast_rays_through(std::span<const RayQuery> rays) const {
-    for (std::size_t i = 0; i < rays.size(); ++i) check_ray(rays[i], i, copies());
-    const QueryScene& bodies = interior_->query_scene();
-    std::vector<std::vector<QueryHit>> lists(rays.size());
-    interior_->runner->threads().for_each(rays.size(), [&](std::size_t i) { lists[i] = bodies.all(rays[i]); });
-    return joined_lists(std::move(lists));
 }
 
 std::vector<std::optional<QueryHit>> World::cast_shapes(std::span<const ShapeCast> casts) const {
@@ -374,16 +280,6 @@ QueryLists<QueryPart> World::overlaps(std::span<const ShapeOverlap> queries) con
     interior_->runner->threads().for_each(queries.size(),
                                           [&](std::size_t i) { lists[i] = bodies.overlapping(queries[i], turns[i]); });
     return joined_lists(std::move(lists));
-}
-
-std::optional<RayHit> World::cast_ray(const Ray& ray) const {
-    const float length = glm::length(ray.along);
-    if (!std::isfinite(glm::dot(ray.from, ray.from)) || !std::isfinite(length) || !(std::abs(length - 1) < 1e-3f))
-        throw std::invalid_argument("ray: it must be finite, and its direction of length 1");
-    const RayQuery query{.from = ray.from, .along = ray.along, .solid = false};
-    const std::optional<QueryHit> hit = cast_rays({&query, 1}).front();
-    if (!hit) return std::nullopt;
-    return RayHit{hit->body, hit->distance, hit->point, hit->normal};
 }
 
 }  // namespace scree

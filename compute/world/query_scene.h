@@ -17,9 +17,10 @@ public:
     // Refers to both, whose poses must be up to date.
     QueryScene(const Scene& scene, const State& state);
 
-    // Without point and normal; `any`: not always the nearest one.
+    static float reach_of(const RayQuery& ray);                // m
+    static bool nearer(const QueryHit& x, const QueryHit& y);  // of two hits the one that counts
+    // `any`: not always the nearest one.
     std::optional<QueryHit> nearest(const RayQuery& ray, bool any) const;
-    void complete(QueryHit& hit, const RayQuery& ray) const;
     std::vector<QueryHit> all(const RayQuery& ray) const;
     std::optional<QueryHit> nearest(const ShapeCast& cast, vec4 orientation) const;
     std::optional<QueryHit> closest(const ClosestQuery& query) const;
@@ -30,7 +31,8 @@ private:
         std::uint32_t row, body, part;
     };
     bool sees(const Leaf& leaf, std::uint32_t mask) const;
-    std::optional<QueryHit> hit(const Leaf& leaf, const RayQuery& ray) const;
+    // `near`: where the ray enters the leaf's box, m.
+    std::optional<QueryHit> hit(const Leaf& leaf, const RayQuery& ray, float near) const;
     std::optional<QueryHit> cast_at(const Leaf& leaf, const ShapeCast& cast, const physics::BodyProperties& probe,
                                     vec4 orientation, float reach) const;
     // Distance of a shape from a leaf, m: at most the true one, and not positive if they overlap; normal from the leaf.

@@ -138,6 +138,7 @@ void World::Impl::step() {
     ++steps;
     note_stillness();
     if (watched) {
+        const TimedSlice slice(timeline.get(), "events");
         runner->download(events.needed(scene, state));
         events.after_step(scene, state, generations, arrangements, steps, runner->threads());
     }

@@ -32,7 +32,7 @@ def closing(text, start):
 
 def declarations(text):
     """One line each, with the scopes around it; bodies of functions and what is private are left out."""
-    text = without_comments(text)
+    text = re.sub(r"(#define SCREE_VERSION_\w+) \d+", r"\1", without_comments(text))  # raising it changes no declaration
     found = [" ".join(line.split()) for line in re.findall(r"^#define (?:[^\n]*\\\n)*[^\n]*", text, flags=re.M)]
     text = re.sub(r"^[ \t]*#(?:[^\n]*\\\n)*[^\n]*", "", text, flags=re.M)
     scopes, statement, parentheses, hidden, i = [], "", 0, [False], 0
@@ -109,7 +109,7 @@ def main():
     now = listed()
     kept_lines = KEPT.read_text().splitlines() if KEPT.exists() else ["version 0.1.0"]
     kept_version = tuple(int(one) for one in kept_lines[0].split()[-1].split("."))
-    kept = kept_lines[1:]
+    kept = [re.sub(r"(#define SCREE_VERSION_\w+) \d+", r"\1", line) for line in kept_lines[1:]]
     gone = [one for one in kept if one not in set(now)]
     added = [one for one in now if one not in set(kept)]
     moved = not gone and not added and kept != now

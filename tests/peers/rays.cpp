@@ -17,7 +17,7 @@
 #include <stdexcept>
 #include <vector>
 
-#include "compute/device/make_device_runner.h"
+#include "compute/device/device_runner.h"
 #include "compute/queries.h"
 #include "compute/scene/shape_geometry.h"
 #include "compute/world.h"
@@ -167,6 +167,40 @@ std::size_t differing(const Hits& a, const Hits& b) {
     return count;
 }
 
+// A world on the first device.
+struct OnDevice {
+    DeviceRunner* runner;
+    World world;
+    OnDevice(const Scene& scene, const std::vector<std::byte>& mark)
+        : OnDevice(scene, std::make_unique<DeviceRunner>(host::Device::open())) {
+        world.restore(mark);
+    }
+
+private:
+    OnDevice(const Scene& scene, std::unique_ptr<DeviceRunner> made)
+        : runner(made.get()), world(scene, {}, std::unique_ptr<Runner>(std::move(made))) {}
+};
+
+// Milliseconds: of the first batch of 1 ray after a change, trees included, then medians by batch length.
+void print_batches(OnDevice& there, const std::vector<std::byte>& mark, std::span<const RayQuery> rays) {
+    constexpr std::size_t never = std::numeric_limits<std::size_t>::max();
+    fmt::print("{}: ms of a batch, cast on the host and on the device\n", there.runner->device());
+    const auto measured = [&](std::size_t from, std::size_t batch, bool first) {
+        there.runner->cast_rays_from(from);
+        std::vector<double> times;
+        for (int k = 0; k < (batch > 100000 ? 3 : 7); ++k) {
+            if (first) there.world.restore(mark);
+            times.push_back(1e3 * seconds_of([&] { (void)there.world.cast_rays(rays.first(batch)); }));
+        }
+        std::ranges::nth_element(times, times.begin() + std::ssize(times) / 2);
+        return times[times.size() / 2];
+    };
+    for (const bool first : {true, false})
+        for (std::size_t batch = 1; batch <= rays.size(); batch *= batch < 10000 ? 100 : 10)
+            fmt::print("  {:8} rays{} {:10.3f} {:10.3f}\n", batch, first ? ", first after a change" : "                       ",
+                       measured(never, batch, first), measured(1, batch, first));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -178,7 +212,7 @@ int main(int argc, char** argv) {
     app.add_option("--rays", count, "how many (1000000)");
     app.add_option("--steps", steps, "before the rays (20)");
     app.add_option("--check", checked, "rays that brute force is to find, too (all)");
-    app.add_flag("--device", on_device, "compare with a world on the first Vulkan device");
+    app.add_flag("--device", on_device, "compare with rays cast on the first Vulkan device, and time both");
     CLI11_PARSE(app, argc, argv);
     checked = std::min(checked, count);
     std::setvbuf(stdout, nullptr, _IOLBF, 0);
@@ -208,11 +242,12 @@ int main(int argc, char** argv) {
     std::size_t wrong = differing(hits, of_one);
     fmt::print("1 and 2 threads differ on {} rays\n", wrong);
     if (on_device) {
-        World there(scene, {}, make_device_runner(host::Device::open()));
-        there.restore(mark);
-        const std::size_t differ = differing(hits, there.cast_rays(rays));
-        fmt::print("{} differs on {} rays\n", there.runner().device(), differ);
+        OnDevice there(scene, mark);
+        there.runner->cast_rays_from(1);
+        const std::size_t differ = differing(hits, there.world.cast_rays(rays));
+        fmt::print("{} differs on {} rays\n", there.runner->device(), differ);
         wrong += differ;
+        print_batches(there, mark, rays);
     }
     const Brute brute(world.scene(), states);
     std::atomic<std::size_t> missed = 0;

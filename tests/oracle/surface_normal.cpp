@@ -1,5 +1,5 @@
 // Surface normals of each kind of shape, in double precision.
-#include "compute/scene/surface_normal.h"
+#include "tests/oracle/surface_normal.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,10 +7,10 @@
 
 #include "compute/scene/hull.h"
 #include "compute/scene/mesh.h"
-#include "compute/scene/shape_geometry.h"
 #include "shaders/physics/base/arithmetic.h"
+#include "tests/oracle/ray_cast.h"
 
-namespace scree {
+namespace scree::oracle {
 
 namespace {
 
@@ -158,4 +158,4 @@ vec3 surface_normal(const SimpleShape& shape, vec3 position, vec4 orientation, c
     return normal_at(shape, position, orientation, ray, point);
 }
 
-}  // namespace scree
+}  // namespace scree::oracle
