@@ -130,6 +130,28 @@ double measured_top(const Lab& lab, double across) {
     return angle / world.time();
 }
 
+// Energy left after 2 s, of the start's, of bodies of three shapes that spin about any axis in empty space: the greatest change.
+double measured_tumbling(const Lab& lab, double spin) {
+    double worst = 1;
+    for (const Shape& shape : {Shape(Box{{0.5f, 0.3f, 0.2f}}), Shape(Capsule{0.25f, 0.5f}), Shape(Cylinder{0.4f, 0.05f})}) {
+        for (int i = 0; i < 12; ++i) {
+            const double rise = 1 - (2 * i + 1) / 12.0, turn = 2.4 * i, level = std::sqrt(1 - rise * rise);
+            Scene scene;
+            scene.gravity = vec3(0);
+            Body body;
+            body.shape = shape;
+            body.angular_velocity = vec3(spin * glm::dvec3(level * std::cos(turn), rise, level * std::sin(turn)));
+            scene.bodies.push_back(body);
+            World world = lab.world(scene);
+            const double before = world.statistics().kinetic_energy;
+            world.step(lab.steps(2));
+            const double left = world.statistics().kinetic_energy / before;
+            if (std::abs(left - 1) > std::abs(worst - 1)) worst = left;
+        }
+    }
+    return worst;
+}
+
 }  // namespace
 
 std::vector<Experiment> rotation_experiments() {
@@ -178,6 +200,17 @@ std::vector<Experiment> rotation_experiments() {
          {0.5, 1, 2, 4},
          [](double across) { return top_of(across).rate(); },
          measured_top},
+        {"tumble",
+         "free boxes, capsules and discs keep their energy however fast they spin",
+         "energy after = energy before",
+         "Euler's equations, no torque",
+         "spin, rad/s",
+         "energy after 2 s, of before",
+         0,
+         0.002,
+         {5, 20, 60, 150, 300},
+         [](double) { return 1.0; },
+         measured_tumbling},
     };
 }
 
