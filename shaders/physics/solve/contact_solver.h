@@ -72,8 +72,7 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
     bool bounces = c.restitution > 0.0f;
     vec4 striking = vec4(0.0f);
     if (none(bounces)) {
-        impulse.impact = vec4(0.0f);
-        impulse.impact_weight = 0.0f;
+        impulse = with_impact(impulse, impulse, false);  // also of an impact that lasts while restitution is taken away
     } else {
         impulse = with_impact(impulse, impact_in_progress(c, impulse, v, state, parameters), bounces && !gone);
         striking = choose(bounces, impact_velocities(c, impulse, v, a, b, state, parameters), vec4(0.0f));
