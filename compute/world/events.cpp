@@ -175,7 +175,8 @@ void Events::match(const Seen& seen) {
         }
     }
     for (const std::size_t j : found) add(pair_of(now_[j], seen.state), now_[j], seen);
-    for (const std::size_t j : pressing) hit(pair_of(now_[j], seen.state), now_[j], seen);
+    Pairs told;
+    for (const std::size_t j : pressing) hit(pair_of(now_[j], seen.state), now_[j], seen, told);
     for (const std::size_t k : lost)
         if (before_[k].touches) drop(pair_of(before_[k], seen.state), seen.generations, seen.step);
 }
@@ -240,16 +241,12 @@ void Events::add(const Pair& pair, const Entry& entry, const Seen& seen) {
 }
 
 // Of the triangles of a mesh that a body hits at once the first counts.
-void Events::hit(const Pair& pair, const Entry& entry, const Seen& seen) {
+void Events::hit(const Pair& pair, const Entry& entry, const Seen& seen, Pairs& told) {
     if (!(settings_.hit_speed < unlimited)) return;
     Event event = event_of(EventKind::hit, pair, seen.generations, seen.step);
     describe(event, entry, seen.state);
     if (event.speed < settings_.hit_speed) return;
-    bool repeated = false;
-    for (auto e = events_.rbegin(); e != events_.rend() && e->step == seen.step && !repeated; ++e)
-        repeated = e->kind == EventKind::hit && e->a == event.a && e->b == event.b && e->part_a == event.part_a &&
-                   e->part_b == event.part_b;
-    if (!repeated) events_.push_back(event);
+    if (told.insert(pair).second) events_.push_back(event);
 }
 
 void Events::drop(const Pair& pair, const std::vector<std::uint32_t>& generations, std::uint64_t step) {

@@ -4,6 +4,7 @@
 #include <compare>
 #include <cstdint>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "compute/events.h"
@@ -55,6 +56,7 @@ private:
     struct HashOfPair {
         std::size_t operator()(const Pair& pair) const;
     };
+    using Pairs = std::unordered_set<Pair, HashOfPair>;
     struct Seen;  // what after_step sees
 
     void list_contacts(const Seen& seen, const Threads& threads);
@@ -67,7 +69,7 @@ private:
     Pair pair_of(const Entry& entry, const State& state) const;
     void add(const Pair& pair, const Entry& entry, const Seen& seen);
     void drop(const Pair& pair, const std::vector<std::uint32_t>& generations, std::uint64_t step);
-    void hit(const Pair& pair, const Entry& entry, const Seen& seen);
+    void hit(const Pair& pair, const Entry& entry, const Seen& seen, Pairs& told);
     Event event_of(EventKind kind, const Pair& pair, const std::vector<std::uint32_t>& generations, std::uint64_t step) const;
     void describe(Event& event, const Entry& entry, const State& state) const;
     void find_parts(const State& state);
