@@ -241,7 +241,7 @@ DemoScene pendulums(const DemoOptions&) {
     const vec3 low(-3, 0, -3.6f), high(3, 5, 3.6f);
     const Indices watched = every_body(scene);
     return awake({std::move(scene), view_of(low, high, 40, 12), low, high, 60,
-                  Promise(periods_as_theory(all, 0.0035), swings_keep_energy(all, 0.006), gaps_below("", 9e-6))
+                  Promise(periods_as_theory(all, 0.003), swings_keep_energy(all, 0.006), gaps_below("", 9e-6))
                       .watching(watched, every_step)});
 }
 

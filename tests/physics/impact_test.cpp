@@ -178,6 +178,7 @@ TEST_CASE("what is driven out of the bounds of its neighbours' search is stopped
 TEST_CASE("a tumbling body that waits keeps its energy of rotation and the direction of its angular momentum") {
     BodyProperties body{};
     body.motion = MOTION_DYNAMIC;
+    body.joints = NONE;
     body.inverse_inertia = vec3(8, 3, 2.5f);
     Pose there = pose_at({1, 0, 0});
     there.orientation = glm::normalize(vec4(0.3f, -0.2f, 0.5f, 0.7f));
