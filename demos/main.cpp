@@ -75,6 +75,12 @@ int tell_no_memory() {
     std::abort();
 }
 
+// From the first static object on: those of libraries allocate before main.
+struct EndAtOnce {
+    EndAtOnce() { std::set_terminate(end_at_once); }
+};
+const EndAtOnce from_the_start __attribute__((init_priority(101)));
+
 int run(int argc, char** argv) {
     namespace demos = scree::demos;
     int status = demos::done;
@@ -119,7 +125,6 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    std::set_terminate(end_at_once);
     occupy_closed_streams();
     scree::demos::listen_for_interrupt();
     try {
