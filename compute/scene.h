@@ -122,6 +122,9 @@ struct Axis {
     std::optional<Spring> spring;
     std::optional<Motor> motor;
     float friction = 0;  // dry friction, N or N m
+    // Inertia of a rotor that turns with the axis (armature): adds to the axis's own inertia and to nothing else, kg or
+    // kg m^2, 0 to 1e9. Of a rotor behind a gear of ratio n: n^2 times its inertia. Below 1e-9: none.
+    float armature = 0;
 };
 
 struct Ball {            // anchors coincide; rotation is free

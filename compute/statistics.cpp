@@ -14,6 +14,7 @@
 #include "compute/step/memory_order.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
+#include "shaders/physics/solve/joint_axis.h"
 
 namespace scree {
 
@@ -85,11 +86,34 @@ void add_contacts(const State& state, std::optional<std::uint32_t> copy, Statist
     if (inside) s.penetration_mean = depth / static_cast<double>(inside);
 }
 
+// Kinetic energy of the rotors of a joint's motors, at the speeds of its axes.
+double rotor_energy(const State& state, const physics::Joint& joint) {
+    using namespace physics;
+    if (joint.broken || std::none_of(joint.axes, joint.axes + 6, [](const auto& axis) { return has_rotor(axis); })) return 0;
+    const auto pose = [&](uint body) { return body == NONE ? Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body]; };
+    const auto velocity = [&](uint body) { return body == NONE ? Velocity{} : state.velocities[body]; };
+    const JointConfiguration at =
+        joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
+    const VelocityPair v{velocity(joint.a), velocity(joint.b)};
+    double energy = 0;
+    for (uint k = 0; k < 6; ++k) {
+        if (!has_rotor(joint.axes[k])) continue;
+        const int axis = static_cast<int>(k);
+        const float h = state.fixed().h;
+        const JointRow row = is_linear(k) ? linear_row({}, at, axis, joint.flags, v, h)  //
+                                          : angular_row({}, at, axis - 3, joint.flags, v, h);
+        const double speed = row_speed(row, is_linear(k), v);
+        energy += 0.5 * static_cast<double>(joint.rotors[k].inertia) * speed * speed;
+    }
+    return energy;
+}
+
 void add_joints(const State& state, std::size_t first, std::size_t count, Statistics& s) {
     s.joints = count;
     for (std::size_t i = first; i < first + count; ++i) {
         const physics::Joint& joint = state.joints[state.joint_records[i]];
         s.joints_broken += joint.broken != 0;
+        s.kinetic_energy += rotor_energy(state, joint);
         s.joint_force_max = std::max(s.joint_force_max, static_cast<double>(joint.max_force));
         s.joint_torque_max = std::max(s.joint_torque_max, static_cast<double>(joint.max_torque));
     }

@@ -112,7 +112,7 @@ void JointBlock::place(Joint& joint) {
         if (joint.axes[k].mode != 0)
             joint.rows[k] =
                 physics::placed_row(joint.rows[k], at, k, joint.flags, v, mass(joint.block_body_a), mass(joint.block_body_b),
-                                    joint.block_body_a != NONE, joint.block_body_b != NONE, p_.h);
+                                    joint.block_body_a != NONE, joint.block_body_b != NONE, joint.rotors[k].inertia, p_.h);
 }
 
 void JointBlock::place_rows(JointRoom& room, std::span<JointBlock> blocks) {
@@ -123,6 +123,18 @@ void JointBlock::place_rows(JointRoom& room, std::span<JointBlock> blocks) {
         return;
     }
     for (JointBlock& block : blocks) block.for_each_whole([&](Joint& joint) { block.place(joint); });
+}
+
+void JointBlock::take_rotor_speeds() {
+    for_each_whole([&](Joint& joint) {
+        JointLanes speed;
+        bool known = false;
+        for_each_rotor(joint, [&](physics::uint k, physics::JointRotor& rotor) {
+            if (!known) speeds_of_rows(joint, speed);
+            known = true;
+            rotor.speed = speed[k];
+        });
+    });
 }
 
 // ---- impulses
@@ -146,7 +158,7 @@ void JointBlock::push(const Joint& joint, physics::uint axes, const JointLanes& 
 vec3 JointBlock::impulse_of(const Joint& joint, physics::uint from) {
     vec3 sum(0);
     for (physics::uint k = from; k < from + 3; ++k)
-        if (joint.axes[k].mode != 0) sum += physics::row_push(joint.rows[k]);
+        if (joint.axes[k].mode != 0) sum += physics::row_push(joint.rows[k], joint.rotors[k]);
     return sum;
 }
 void JointBlock::note_pressing() {
@@ -207,8 +219,8 @@ void JointBlock::demand(Joint& joint, bool biased) {
     WideJoint* const lanes = wide(joint);
     if (lanes) lanes->unknowns = joint.solved_axes;
     for_each_unknown(joint, [&](physics::uint k) {
-        const physics::RowTarget wants =
-            physics::row_demand(joint.axes[k], joint.rows[k], k, physics::active_set_of(joint.active_set, k), biased, p_);
+        const physics::RowTarget wants = physics::row_demand(joint.axes[k], joint.rows[k], joint.rotors[k], k,
+                                                             physics::active_set_of(joint.active_set, k), biased, p_);
         const float side = physics::right_hand_side(speed[k], wants.bias);
         if (lanes) {
             lanes->solution[k] = side;
@@ -247,9 +259,10 @@ bool JointBlock::other_bounds(Joint& joint, bool biased, bool settling) {
         const physics::uint active_flags = physics::active_set_of(joint.active_set, k);
         const bool solved = unknown(joint, k);
         const float solution = !solved ? 0 : lanes ? lanes->solution[k] : equations(joint).solution[k];
-        const physics::RowAfter after =
-            physics::row_after_round(axis, row, k, active_flags, solved, solution, speed[k], biased, settling, p_);
+        const physics::RowAfter after = physics::row_after_round(axis, row, joint.rotors[k], k, active_flags, solved, solution,
+                                                                 speed[k], biased, settling, p_);
         row = after.row;
+        if (physics::has_rotor(axis)) joint.rotors[k].change = after.rotor_change;
         joint.active_set = physics::with_active_set(joint.active_set, k, after.active_flags);
     });
     return joint.active_set != before;

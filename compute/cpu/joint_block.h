@@ -63,9 +63,16 @@ public:
     void solve(bool biased);
     // The whole bodies' velocity changes by the impulses handed out.
     void gather(bool warms) {
-        gather_by([&](const JointRow& row) { return physics::handed_impulse(row, warms); });
+        gather_by(
+            [&](const JointRow& row, const physics::JointRotor& rotor) { return physics::handed_impulse(row, rotor, warms); });
     }
-    void gather_warm_start() { gather_by(physics::row_impulse); }
+    void gather_warm_start() {
+        gather_by(physics::row_impulse);
+        for_each_whole([](Joint& joint) {
+            for_each_rotor(
+                joint, [](physics::uint, physics::JointRotor& rotor) { rotor = physics::rotor_slowed(rotor, rotor.impulse); });
+        });
+    }
     // Writes them to the bodies' slots.
     void hand_out(float weight, bool with_normal_impulse) {
         for (const BlockBody& body : members_)
@@ -76,9 +83,18 @@ public:
 
     static vec3 impulse_of(const Joint& joint, physics::uint from);
     void note_pressing();
-    static void commit(Joint& joint) {
+    static void commit(Joint& joint, bool warms) {
         for (JointRow& row : joint.rows) row = physics::committed(row);
+        for_each_rotor(joint,
+                       [&](physics::uint, physics::JointRotor& rotor) { rotor = physics::rotor_after_pass(rotor, warms); });
     }
+    // Clears the impulses of a joint.
+    static void tear(Joint& joint) {
+        for (JointRow& row : joint.rows) row = physics::torn(row);
+        for (physics::JointRotor& rotor : joint.rotors) rotor = physics::torn_rotor(rotor);
+    }
+    // The rotors' speeds as a step begins, those of their axes. After place_rows().
+    void take_rotor_speeds();
 
 private:
     static bool unknown(const Joint& joint, physics::uint k) { return (joint.solved_axes >> k & 1) != 0; }
@@ -88,6 +104,11 @@ private:
     static void for_each_axis(Joint& joint, const Visit& visit) {
         for (physics::uint k = 0; k < 6; ++k)
             if (physics::row_acts(joint.axes[k], joint.rows[k])) visit(k, joint.axes[k], joint.rows[k]);
+    }
+    template <class Visit>
+    static void for_each_rotor(Joint& joint, const Visit& visit) {
+        for (physics::uint k = 0; k < 6; ++k)
+            if (physics::has_rotor(joint.axes[k])) visit(k, joint.rotors[k]);
     }
     template <class Visit>
     static void for_each_unknown(const Joint& joint, const Visit& visit) {
@@ -122,7 +143,7 @@ private:
             JointLanes impulses{};
             physics::uint axes = 0;
             for_each_axis(joint, [&](physics::uint k, const physics::JointAxis&, const JointRow& row) {
-                impulses[k] = impulse(row);
+                impulses[k] = impulse(row, joint.rotors[k]);
                 if (impulses[k] != 0) axes |= 1u << k;
             });
             if (axes != 0) push(joint, axes, impulses);

@@ -75,7 +75,7 @@ void take_stock(Joint& joint, const State& state) {
     if (!physics::joint_tears(joint.force, joint.break_force, joint.torque, joint.break_torque)) return;
     joint.broken = 1;
     joint.active_set = 0;
-    for (JointRow& row : joint.rows) row = physics::torn(row);
+    JointBlock::tear(joint);
 }
 
 float least_quiet_in(JointBlock& block, const State& state) {
@@ -182,6 +182,7 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
     };
     pass_over_blocks(state, threads, begin, [](JointBlock& block) {
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
+        block.take_rotor_speeds();
         block.gather_warm_start();
         block.hand_out(1, true);
     });
@@ -192,7 +193,7 @@ void solve_joints(State& state, const Threads& threads, std::uint32_t) {
     pass_over_blocks(state, threads, begin, [](JointBlock& block) {
         block.solve(true);
         block.gather(/* warms */ false);
-        block.for_each_whole(JointBlock::commit);
+        block.for_each_whole([](Joint& joint) { JointBlock::commit(joint, /* warms */ false); });
         block.hand_out(0, false);
     });
 }
@@ -205,14 +206,14 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
     pass_over_blocks(state, threads, begin, [&](JointBlock& block) {
         block.solve(false);
         const bool struck = block.struck();  // the impulses of an impact must not warm start the next substep
-        block.gather(/* warms */ !last && !struck);
+        const bool warms = !last && !struck;
+        block.gather(warms);
         block.for_each_whole([&](Joint& joint) {
-            JointBlock::commit(joint);
+            JointBlock::commit(joint, warms);
             joint.force += JointBlock::impulse_of(joint, 0);
             joint.torque += JointBlock::impulse_of(joint, 3);
             if (last) take_stock(joint, state);
-            if (struck)
-                for (JointRow& row : joint.rows) row = physics::torn(row);
+            if (struck) JointBlock::tear(joint);
         });
         block.note_pressing();
         block.hand_out(1, true);

@@ -36,8 +36,8 @@ struct Rules {
         require_order(at, distance.least, distance.greatest);
     }
     void operator()(const Examination& at, const Axis& axis, Direction) const {
-        if (axis.locked && (axis.limits || axis.spring || axis.motor || axis.friction != 0))
-            refuse(at, "a locked axis has no limits, spring, motor or friction; leave them out, or \"locked\"");
+        if (axis.locked && (axis.limits || axis.spring || axis.motor || axis.friction != 0 || axis.armature != 0))
+            refuse(at, "a locked axis has no limits, spring, motor, friction or armature; leave them out, or \"locked\"");
         if (axis.motor && axis.friction != 0)
             refuse(at, "an axis has at most one of motor and friction; lower the motor's max_force by the friction");
         if (axis.spring && axis.spring->max_force < unlimited && (axis.motor || axis.friction != 0))

@@ -125,7 +125,10 @@ physics::Joint record_of(const Joint& joint) {
     record.frame_b = joint.frame_b;
     const JointAxes axes = axes_of_kind(joint.kind);
     record.flags = axes.flags | (joint.collide ? physics::JOINT_COLLIDES : 0u);
-    for (std::size_t k = 0; k < 6; ++k) record.axes[k] = axis_record(axes.axes[k]);
+    for (std::size_t k = 0; k < 6; ++k) {
+        record.axes[k] = axis_record(axes.axes[k]);
+        record.rotors[k] = rotor_record(axes.axes[k]);
+    }
     record.break_force = joint.break_force;
     record.break_torque = joint.break_torque;
     record.broken = joint.broken;
@@ -229,7 +232,11 @@ physics::JointAxis axis_record(const Axis& axis) {
         record.mode |= physics::AXIS_MOTOR;
         record.most = axis.friction;
     }
+    if (axis.armature >= least_armature) record.mode |= physics::AXIS_ROTOR;
     return record;
+}
+physics::JointRotor rotor_record(const Axis& axis) {
+    return {(axis_record(axis).mode & physics::AXIS_ROTOR) != 0 ? axis.armature : 0, 0, 0, 0};
 }
 
 JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties) {

@@ -99,11 +99,13 @@ TableRanges StateEditor::tune(vec3 gravity, const Settings& settings) {
         state_.impulses[i] = scaled(state_.impulses[i], factor);
         state_.contacts[i].load *= factor;
     }
-    for (physics::Joint& joint : state_.joints)
+    for (physics::Joint& joint : state_.joints) {
         for (physics::JointRow& row : joint.rows) {
             row.motor_impulse *= factor;
             row.limit_impulse *= factor;
         }
+        for (physics::JointRotor& rotor : joint.rotors) rotor.impulse *= factor;
+    }
     return changed;
 }
 
@@ -373,6 +375,7 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         const physics::Joint& was = before[j];
         std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with their warm start
+        for (std::size_t k = 0; k < 6; ++k) now.rotors[k].impulse = was.rotors[k].impulse;
         now.active_set = was.active_set;
         now.broken = was.broken;
         now.force = was.force;

@@ -81,7 +81,9 @@ void World::Impl::set_axis(std::size_t index, JointAxis axis, const std::functio
     const TableRange range{Table::joints, record, 1};
     runner->download({range});
     const auto k = static_cast<std::size_t>(axis);
-    state.joints[record].axes[k] = axis_record(axes_of_kind(joint.kind).axes[k]);
+    const Axis now = axes_of_kind(joint.kind).axes[k];
+    state.joints[record].axes[k] = axis_record(now);
+    state.joints[record].rotors[k].inertia = rotor_record(now).inertia;
     runner->upload({range});
     wake(joint);
 }

@@ -18,9 +18,13 @@ void main() {
         joints.at[j].force = vec3(0.0f);
         joints.at[j].torque = vec3(0.0f);
         place_rows(j);
+        take_rotor_speeds(j);
     }
     begin_shares();
-    for (uint j = block_first_joint; j < block_joints_end; ++j)
-        if (holds(j)) share_out_warm_start(j);
+    for (uint j = block_first_joint; j < block_joints_end; ++j) {
+        if (!holds(j)) continue;
+        share_out_warm_start(j);
+        warm_start_rotors(j);
+    }
     hand_out(1.0f, true);
 }

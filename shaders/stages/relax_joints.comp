@@ -21,7 +21,7 @@ void take_stock(uint j) {
         if (joint_tears(load.force, joints.at[j].break_force, load.torque, joints.at[j].break_torque)) {
             joints.at[j].broken = 1u;
             joints.at[j].active_set = 0u;
-            for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
+            tear(j);
         }
     }
     joints.at[j].force = load.force;
@@ -48,11 +48,11 @@ void end_pass() {
     bool struck = is_struck();  // the impulses of an impact must not warm start the next substep
     for (uint j = block_first_joint; j < block_joints_end; ++j) {
         if (!holds(j)) continue;
-        share_out(j, !is_last_substep() && !struck);
-        commit(j);
+        bool warms = !is_last_substep() && !struck;
+        share_out(j, warms);
+        commit(j, warms);
         take_stock(j);
-        if (struck)
-            for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
+        if (struck) tear(j);
     }
     note_pressing();
     hand_out(1.0f, true);

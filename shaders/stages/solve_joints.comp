@@ -14,7 +14,7 @@ void end_pass() {
     for (uint j = block_first_joint; j < block_joints_end; ++j) {
         if (holds(j)) {
             share_out(j, false);
-            commit(j);
+            commit(j, false);
         }
     }
     hand_out(0.0f, false);

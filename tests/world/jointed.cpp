@@ -20,6 +20,8 @@ Scene all_kinds() {
     wheel.y.limits = Limits{-0.1f, 0.1f};
     wheel.twist.motor = Motor{5, 1};
     wheel.swing_y.spring = Spring{50, 2, 0.2f};
+    wheel.twist.armature = damped.slide.armature = 0.5f;
+    limited.turn.armature = sprung.turn.armature = 0.02f;
     const std::vector<std::vector<JointKind>> rows = {
         {Ball{}, Ball{0.5f}, limited, ConeTwist{0.4f, {-0.2f, 0.2f}, 0.1f}, driven, Fixed{}},
         {Ball{}, damped, sprung, wheel, Distance{0.1f, 0.3f, Spring{1000, 1, 0.2f}}, limited},

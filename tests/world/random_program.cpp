@@ -24,6 +24,7 @@ public:
     float between(float low, float high) { return low + (high - low) * static_cast<float>(bits_() >> 8) / 16777216.0f; }
     vec3 vector(float most) { return {between(-most, most), between(-most, most), between(-most, most)}; }
     std::uint32_t seed() { return static_cast<std::uint32_t>(bits_()); }
+    bool rotors = false;  // axes of joints have armature
 
 private:
     std::mt19937 bits_;
@@ -109,6 +110,7 @@ Axis axis(Dice& dice) {
     if (dice.one_in(3)) made.spring = Spring{dice.between(0, 5000), dice.between(0, 100), dice.between(-0.5f, 0.5f)};
     if (dice.one_in(4)) made.motor = Motor{dice.between(-4, 4), dice.between(0, 300)};
     if (!made.motor && dice.one_in(4)) made.friction = dice.between(0, 20);
+    if (dice.rotors && dice.one_in(3)) made.armature = dice.between(0, 4);
     return made;
 }
 
@@ -284,6 +286,7 @@ RandomProgram random_program(std::uint32_t seed) {
     RandomProgram made;
     for (std::uint32_t attempt = 0;; ++attempt) {
         Dice dice(seed * 977 + attempt * 31);
+        dice.rotors = seed % 2 == 0;
         made.scene = random_scene(dice);
         try {
             (void)checked(made.scene);  // flat hulls, joints whose frames do not fit

@@ -29,6 +29,7 @@ struct Placement {
 };
 static_assert(sizeof(Placement) == offsetof(Joint, axes));
 constexpr size_t axes_at = offsetof(Joint, axes) / sizeof(Words), rows_at = offsetof(Joint, rows) / sizeof(Words);
+constexpr size_t rotors_at = offsetof(Joint, rotors) / sizeof(Words), words_of_rotor = sizeof(JointRotor) / sizeof(Words);
 constexpr size_t words_of_axis = sizeof(JointAxis) / sizeof(Words), words_of_row = sizeof(JointRow) / sizeof(Words);
 
 struct AxisHead {
@@ -91,8 +92,11 @@ void place(const WideJoint* joints, size_t count, float h) {
             const Bool used = gather_at<AxisHead>(record, axes_at + k * words_of_axis).mode != 0u;
             if (none(used)) continue;
             const size_t row_at = rows_at + k * words_of_row;
+            Float inertia;
+            for (size_t lane = 0; lane < lanes; ++lane)
+                inertia.v[lane] = __builtin_bit_cast(float, record[lane][rotors_at + k * words_of_rotor]);
             const JointRow row =
-                placed_row(gather_at<JointRow>(record, row_at), at, k, joint.flags, v, a, b, has_a, has_b, Float(h));
+                placed_row(gather_at<JointRow>(record, row_at), at, k, joint.flags, v, a, b, has_a, has_b, inertia, Float(h));
             uint32_t* to[lanes];
             for (size_t lane = 0; lane < lanes; ++lane) {
                 const WideJoint& one = joints[first + lane < count ? first + lane : count - 1];

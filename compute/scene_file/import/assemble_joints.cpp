@@ -51,6 +51,7 @@ Axis axis_of(const ModelJoint& joint, double sign, Notes& notes) {
     }
     if (joint.motor) axis.motor = Motor{static_cast<float>(sign) * joint.motor->speed, joint.motor->max_force};
     axis.friction = static_cast<float>(joint.friction);
+    axis.armature = static_cast<float>(joint.armature);
     if (axis.friction > 0 && (axis.motor || (axis.spring && bounded))) {
         axis.friction = 0;
         notes.add(joint.origin, "friction", "is left out beside a motor of limited force");
@@ -75,10 +76,10 @@ Made ball_of(const ModelJoint& joint, const Placed& body, Notes& notes) {
         const auto most = static_cast<float>(std::min(joint.limits->second, half_turn));
         if (most < 0) refuse(joint.origin, "the greatest angle of a ball joint is negative");
         notes.add(joint.origin, "range", "of a ball joint bounds its swing and its twist, each to that angle");
-        if (joint.damping > 0 || joint.stiffness > 0)
-            notes.add(joint.origin, "damping", "and stiffness of a ball joint with a range are left out");
+        if (joint.damping > 0 || joint.stiffness > 0 || joint.armature > 0)
+            notes.add(joint.origin, "damping", "stiffness and armature of a ball joint with a range are left out");
         made.kind = ConeTwist{most, {-most, most}, static_cast<float>(joint.friction)};
-    } else if (joint.damping > 0 || joint.stiffness > 0) {
+    } else if (joint.damping > 0 || joint.stiffness > 0 || joint.armature > 0) {
         ModelJoint each = joint;
         each.kind = ModelJoint::Kind::hinge;
         each.rest = 0;

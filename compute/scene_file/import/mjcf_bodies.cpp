@@ -244,11 +244,10 @@ void Mjcf::read_joint(const host::XmlElement& tree, const Where& where) {
     joint.stiffness = springs_ ? element.number("stiffness", 0) : element.number("stiffness", 0) * 0;
     joint.damping = element.number("damping", 0) * (dampers_ ? 1 : 0);
     joint.friction = element.number("frictionloss", 0) * (frictions_ ? 1 : 0);
+    joint.armature = element.number("armature", 0);
     for (const auto& [key, value] : {std::pair{"stiffness", joint.stiffness}, std::pair{"damping", joint.damping},
-                                     std::pair{"frictionloss", joint.friction}})
+                                     std::pair{"frictionloss", joint.friction}, std::pair{"armature", joint.armature}})
         if (value < 0) element.refuse(key, "must not be below 0");
-    if (element.number("armature", 0) != 0)
-        element.note("armature", "is left out: scree's joints have no rotors, whose inertia would slow them");
     element.ignore({"springdamper"}, "is left out; say stiffness and damping");
     element.ignore({"solreflimit", "solimplimit", "solreffriction", "solimpfriction", "margin"},
                    "is of MuJoCo's solver; scree has its own");

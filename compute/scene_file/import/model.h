@@ -37,6 +37,7 @@ struct ModelJoint {
     double stiffness = 0, damping = 0, rest = 0;
     double greatest_force = static_cast<double>(unlimited);  // of its springs
     double friction = 0;
+    double armature = 0;  // kg or kg m^2
     std::optional<Motor> motor{};
     double reference = 0;          // what the file calls the coordinate where it is 0 here
     double start = 0;              // coordinate at the beginning, m or rad

@@ -285,6 +285,7 @@ CONSTANT uint AXIS_LOCKED = 1u;
 CONSTANT uint AXIS_LIMITED = 2u;
 CONSTANT uint AXIS_MOTOR = 4u;   // velocity motor; friction is a motor of speed 0
 CONSTANT uint AXIS_SPRING = 8u;  // spring, damper or both
+CONSTANT uint AXIS_ROTOR = 16u;  // armature: the inertia of a rotor
 struct JointAxis {
     uint mode;           // AXIS_*
     float lower, upper;  // limits of the coordinate, m or rad
@@ -306,6 +307,13 @@ struct JointRow {
         limit_impulse;   // of a substep: of lock, motor or spring; of the limit (> 0: the lower), N s or N m s
     float motor_change;  // in this pass
     float limit_change;
+};
+// The rotor of a motor as it turns with an axis (armature): its inertia adds to that of the axis alone.
+struct JointRotor {
+    float inertia;  // kg m^2 (kg along an axis), as felt at the joint; 0: none
+    float speed;    // of the axis, rad/s or m/s, by its own momentum
+    float impulse;  // on the axis, of a substep, N m s or N s
+    float change;   // in this pass
 };
 
 CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's; its coordinate is their distance
@@ -342,6 +350,7 @@ struct Joint {
     float max_force;
     vec3 torque;  // as force, N m
     float max_torque;
+    JointRotor rotors[6];
     JointRow rows[6];
 };
 // Joints that one thread solves together, and their dynamic bodies.

@@ -1,7 +1,8 @@
 // Joint axes: locks, motors, springs and limits as targets of a Jacobian row, and the active set of their bounds.
 //
 // The impulse of a row is that of its motor (or lock or spring) plus that of its limit. Springs are implicit and rigid
-// rows have a compliance: J v + bias + compliance * change = 0 (Catto, Soft Constraints, GDC 2011). Limits are
+// rows have a compliance: J v + bias + compliance * change = 0 (Catto, Soft Constraints, GDC 2011). A rotor (armature)
+// is a body of one degree of freedom whose speed is the axis's: such a row too, of compliance 1 / inertia. Limits are
 // complementarity conditions and motors box constraints; rows found to be at a bound, or to leave one, change their
 // state and the block is solved again (block principal pivoting: Cottle, Pang, Stone, The Linear Complementarity
 // Problem, 1992, ch. 4).
@@ -202,9 +203,16 @@ LAW bool row_acts(JointAxis axis, JointRow row) {
 LAW bool is_stopped(uint active_flags) {
     return (active_flags & (LIMIT_LOWER | LIMIT_UPPER)) != 0u;
 }
-// Whether the row is an unknown of the block's equations.
-LAW bool row_is_unknown(JointAxis axis, JointRow row, uint active_flags, bool biased, Parameters parameters) {
+LAW bool has_rotor(JointAxis axis) {
+    return (axis.mode & AXIS_ROTOR) != 0u;
+}
+// Whether the lock, motor, spring or limit of the row is an unknown.
+LAW bool axis_is_solved(JointAxis axis, JointRow row, uint active_flags, bool biased, Parameters parameters) {
     return is_stopped(active_flags) || motor_is_solved(axis, row, active_flags, biased, parameters);
+}
+// Whether the row is an unknown of the block's equations: a rotor always answers to the axis's speed.
+LAW bool row_is_unknown(JointAxis axis, JointRow row, uint active_flags, bool biased, Parameters parameters) {
+    return has_rotor(axis) || axis_is_solved(axis, row, active_flags, biased, parameters);
 }
 // The row with the changes of those impulses that are given, not unknowns. `speed`: of the row as the pass begins.
 LAW JointRow row_given(JointAxis axis, JointRow row, uint active_flags, float speed, bool biased, Parameters parameters) {
@@ -215,9 +223,44 @@ LAW JointRow row_given(JointAxis axis, JointRow row, uint active_flags, float sp
             flush_tiny(saturated_motor_impulse(axis, row, active_flags, speed, biased, parameters)) - row.motor_impulse;
     return row;
 }
-LAW RowTarget row_demand(JointAxis axis, JointRow row, uint index, uint active_flags, bool biased, Parameters parameters) {
-    if (is_stopped(active_flags)) return limit_target(axis, row, index, (active_flags & LIMIT_LOWER) != 0u, biased, parameters);
-    return motor_target(axis, row, index, biased, parameters);
+// The equation of a row's impulse and its rotor's together: both meet the axis's speed, like springs side by side.
+LAW RowTarget with_rotor(RowTarget demand, JointRotor rotor) {
+    float share = reciprocal(1.0f + demand.compliance * rotor.inertia);
+    demand.bias = (demand.bias - (rotor.speed * rotor.inertia) * demand.compliance) * share;
+    demand.compliance = demand.compliance * share;
+    return demand;
+}
+LAW RowTarget row_demand(JointAxis axis, JointRow row, JointRotor rotor, uint index, uint active_flags, bool biased,
+                         Parameters parameters) {
+    RowTarget demand;
+    if (has_rotor(axis) && !axis_is_solved(axis, row, active_flags, biased, parameters)) {
+        demand.bias = -rotor.speed;
+        demand.compliance = reciprocal(rotor.inertia);
+        return demand;
+    }
+    if (is_stopped(active_flags))
+        demand = limit_target(axis, row, index, (active_flags & LIMIT_LOWER) != 0u, biased, parameters);
+    else
+        demand = motor_target(axis, row, index, biased, parameters);
+    if (has_rotor(axis)) return with_rotor(demand, rotor);
+    return demand;
+}
+// The rotor's part of a row's solution. `speed`: of the row afterwards; `alone`: nothing else of the row was unknown.
+LAW float rotor_impulse(JointRotor rotor, bool alone, float solution, float speed) {
+    return alone ? solution : flush_tiny(rotor.inertia * (rotor.speed - speed));
+}
+// The rotor after its impulse on the axis.
+LAW JointRotor rotor_slowed(JointRotor rotor, float impulse) {
+    rotor.speed = flush_tiny(rotor.speed - impulse * reciprocal(rotor.inertia));
+    return rotor;
+}
+// Adds the change of the pass to the impulse, which warm starts the next substep if it `warms`.
+LAW JointRotor rotor_after_pass(JointRotor rotor, bool warms) {
+    rotor = rotor_slowed(rotor, rotor.change);
+    rotor.impulse = flush_tiny(rotor.impulse + rotor.change);
+    rotor.change = 0.0f;
+    if (warms) rotor = rotor_slowed(rotor, rotor.impulse);
+    return rotor;
 }
 
 LAWS_END

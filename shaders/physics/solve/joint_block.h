@@ -54,33 +54,40 @@ LAW int shared_ends(uint a, uint b, uint other_a, uint other_b) {
 struct RowAfter {
     JointRow row;
     uint active_flags;
+    float rotor_change;
     uint pad0;
     uint pad1;
-    uint pad2;
 };
-// The row's impulse changes after a solution, within their bounds, and the active set of the next round. `speed`: of the
-// row afterwards.
-LAW RowAfter row_after_round(JointAxis axis, JointRow row, uint index, uint active_flags, bool solved, float solution,
-                             float speed, bool biased, bool settling, Parameters parameters) {
+// The impulse changes of a row and its rotor after a solution, within their bounds, and the active set of the next round.
+// `speed`: of the row afterwards.
+LAW RowAfter row_after_round(JointAxis axis, JointRow row, JointRotor rotor, uint index, uint active_flags, bool solved,
+                             float solution, float speed, bool biased, bool settling, Parameters parameters) {
     RowAfter after;
+    after.rotor_change = 0.0f;
+    if (has_rotor(axis) && solved) {
+        solved = axis_is_solved(axis, row, active_flags, biased, parameters);
+        after.rotor_change = rotor_impulse(rotor, !solved, solution, speed);
+        solution = solution - after.rotor_change;
+    }
     after.row = row_after(row, axis, active_flags, solved, solution, parameters);
     after.active_flags = active_set_after(axis, row, index, active_flags, solved, solution, speed, biased, settling, parameters);
     after.pad0 = 0u;
     after.pad1 = 0u;
-    after.pad2 = 0u;
     return after;
 }
 
 LAW float given_change(JointRow row) {
     return row.motor_change + row.limit_change;
 }
-LAW float row_impulse(JointRow row) {
-    return row.motor_impulse + row.limit_impulse;
+LAW float row_impulse(JointRow row, JointRotor rotor) {
+    float impulse = row.motor_impulse + row.limit_impulse;
+    return rotor.inertia > 0.0f ? impulse + rotor.impulse : impulse;
 }
 // The impulse applied to whole bodies after a pass: the change, plus the whole impulse where it warm starts a substep.
-LAW float handed_impulse(JointRow row, bool warms) {
+LAW float handed_impulse(JointRow row, JointRotor rotor, bool warms) {
     float change = given_change(row);
-    return warms ? (row_impulse(row) + change) + change : change;
+    if (rotor.inertia > 0.0f) change = change + rotor.change;
+    return warms ? (row_impulse(row, rotor) + change) + change : change;
 }
 // Adds the changes of the pass to the impulses.
 LAW JointRow committed(JointRow row) {
@@ -94,9 +101,13 @@ LAW JointRow torn(JointRow row) {
     row.limit_impulse = 0.0f;
     return row;
 }
+LAW JointRotor torn_rotor(JointRotor rotor) {
+    rotor.impulse = 0.0f;
+    return rotor;
+}
 // The impulse on B along or about the row.
-LAW vec3 row_push(JointRow row) {
-    return row.direction * row_impulse(row);
+LAW vec3 row_push(JointRow row, JointRotor rotor) {
+    return row.direction * row_impulse(row, rotor);
 }
 
 // Load of a joint: sums of impulses within a step (N s, N m s), then their means over it and the maxima so far (N, N

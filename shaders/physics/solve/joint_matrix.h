@@ -77,16 +77,21 @@ LAW float inverse_effective_mass(JointRow row, uint axis, Mass a, Mass b, bool h
     return flush_least(choose(has_a, choose(has_b, of_a + of_b, of_a), choose(has_b, of_b, 0.0f)));
 }
 
+// The inverse effective mass of an axis that turns a rotor, too (armature).
+LAW float with_rotor_inertia(float inverse_mass, float rotor_inertia) {
+    return inverse_mass * reciprocal(1.0f + inverse_mass * rotor_inertia);
+}
+
 // The row of axis k at the present poses with its inverse effective mass (`a`, `b`: split bodies).
 LAW JointRow placed_row(JointRow row, JointConfiguration at, int k, uint flags, VelocityPair v, Mass a, Mass b, bool has_a,
-                        bool has_b, float h) {
+                        bool has_b, float rotor_inertia, float h) {
     if (k < 3)
         row = linear_row(row, at, k, flags, v, h);
     else
         row = angular_row(row, at, k - 3, flags, v, h);
     row.coordinate = flush_tiny(row.coordinate);
     row.drift = flush_tiny(row.drift);
-    row.inverse_effective_mass = inverse_effective_mass(row, uint(k), a, b, has_a, has_b);
+    row.inverse_effective_mass = with_rotor_inertia(inverse_effective_mass(row, uint(k), a, b, has_a, has_b), rotor_inertia);
     row.motor_change = 0.0f;
     row.limit_change = 0.0f;
     return row;

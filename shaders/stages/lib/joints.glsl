@@ -96,9 +96,16 @@ void place_rows(uint j) {
     Mass mass_a = mass_of(side_a), mass_b = mass_of(side_b);
     for (uint k = 0u; k < 6u; ++k) {
         if (joints.at[j].axes[k].mode == 0u) continue;
-        joints.at[j].rows[k] =
-            placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE, side_b != NONE, PARAMETERS.h);
+        joints.at[j].rows[k] = placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE,
+                                          side_b != NONE, joints.at[j].rotors[k].inertia, PARAMETERS.h);
     }
+}
+
+// The rotors' speeds as a step begins, those of their axes.
+void take_rotor_speeds(uint j) {
+    VelocityPair v = couple_of(j);
+    for (uint k = 0u; k < 6u; ++k)
+        if (has_rotor(joints.at[j].axes[k])) joints.at[j].rotors[k].speed = row_speed(joints.at[j].rows[k], is_linear(k), v);
 }
 
 void push_row(uint j, uint k, float impulse) {
@@ -153,7 +160,8 @@ float entry_of(uint i, uint n, RowResponse to, uint block_body_a, uint block_bod
 
 void set_up_equation(uint j, uint k, VelocityPair v, bool biased) {
     JointRow row = joints.at[j].rows[k];
-    RowTarget demand = row_demand(joints.at[j].axes[k], row, k, active_set_of(joints.at[j].active_set, k), biased, PARAMETERS);
+    RowTarget demand = row_demand(joints.at[j].axes[k], row, joints.at[j].rotors[k], k, active_set_of(joints.at[j].active_set, k),
+                                  biased, PARAMETERS);
     joint_equations.at[j].solution[k] = right_hand_side(row_speed(row, is_linear(k), v), demand.bias);
     uint block_body_a = joints.at[j].block_body_a, block_body_b = joints.at[j].block_body_b;
     RowResponse response = row_response(row, k, mass_of(block_body_a), mass_of(block_body_b));
@@ -297,8 +305,9 @@ bool look_at_bounds(uint j, bool biased, bool settling) {
         uint active_flags = active_set_of(joints.at[j].active_set, k);
         bool solved = unknown(j, k);
         float solution = solved ? joint_equations.at[j].solution[k] : 0.0f;
-        RowAfter after = row_after_round(axis, row, k, active_flags, solved, solution, row_speed(row, is_linear(k), v), biased,
-                                         settling, PARAMETERS);
+        RowAfter after = row_after_round(axis, row, joints.at[j].rotors[k], k, active_flags, solved, solution,
+                                         row_speed(row, is_linear(k), v), biased, settling, PARAMETERS);
+        if (has_rotor(axis)) joints.at[j].rotors[k].change = after.rotor_change;
         joints.at[j].rows[k] = after.row;
         if (after.active_flags == active_flags) continue;
         joints.at[j].active_set = with_active_set(joints.at[j].active_set, k, after.active_flags);
@@ -367,7 +376,7 @@ void share_out(uint j, bool warms) {
     for (uint k = 0u; k < 6u; ++k) {
         JointRow row = joints.at[j].rows[k];
         if (!row_acts(joints.at[j].axes[k], row)) continue;
-        float impulse = handed_impulse(row, warms);
+        float impulse = handed_impulse(row, joints.at[j].rotors[k], warms);
         if (impulse != 0.0f) push_row(j, k, impulse);
     }
 }
@@ -375,26 +384,42 @@ void share_out_warm_start(uint j) {
     for (uint k = 0u; k < 6u; ++k) {
         JointRow row = joints.at[j].rows[k];
         if (!row_acts(joints.at[j].axes[k], row)) continue;
-        float impulse = row_impulse(row);
+        float impulse = row_impulse(row, joints.at[j].rotors[k]);
         if (impulse != 0.0f) push_row(j, k, impulse);
     }
 }
-void commit(uint j) {
-    for (uint k = 0u; k < 6u; ++k) joints.at[j].rows[k] = committed(joints.at[j].rows[k]);
+void commit(uint j, bool warms) {
+    for (uint k = 0u; k < 6u; ++k) {
+        joints.at[j].rows[k] = committed(joints.at[j].rows[k]);
+        if (has_rotor(joints.at[j].axes[k])) joints.at[j].rotors[k] = rotor_after_pass(joints.at[j].rotors[k], warms);
+    }
+}
+
+void warm_start_rotors(uint j) {
+    for (uint k = 0u; k < 6u; ++k)
+        if (has_rotor(joints.at[j].axes[k]))
+            joints.at[j].rotors[k] = rotor_slowed(joints.at[j].rotors[k], joints.at[j].rotors[k].impulse);
+}
+// Clears the impulses of a joint.
+void tear(uint j) {
+    for (uint k = 0u; k < 6u; ++k) {
+        joints.at[j].rows[k] = torn(joints.at[j].rows[k]);
+        joints.at[j].rotors[k] = torn_rotor(joints.at[j].rotors[k]);
+    }
 }
 
 // A joint's linear impulse on B.
 vec3 force_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 0u; k < 3u; ++k)
-        if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k]);
+        if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k], joints.at[j].rotors[k]);
     return sum;
 }
 // A joint's angular impulse on B.
 vec3 torque_impulse(uint j) {
     vec3 sum = vec3(0.0f);
     for (uint k = 3u; k < 6u; ++k)
-        if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k]);
+        if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k], joints.at[j].rotors[k]);
     return sum;
 }
 
