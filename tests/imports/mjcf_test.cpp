@@ -90,18 +90,20 @@ TEST_CASE("imports: a mesh's mass is of what it encloses, an unjointed body is o
     CHECK(of.centre.z == Approx(0.5 * 0.25 + 0.5 * 3).margin(1e-5));
 }
 
-TEST_CASE("imports: a hinge of an MJCF file swings with the period of theory, up turned or not") {
+TEST_CASE("imports: a hinge of an MJCF file swings with the period of theory, up turned or not, with armature and without") {
     Case file;
-    const std::string model =
-        "<mujoco><option timestep='0.005'/><worldbody><body pos='0 0 2'><joint axis='0 1 0' pos='0 0 0'/>"
-        "<geom type='box' size='0.05 0.05 0.5' pos='0 0 -0.5' mass='2'/></body></worldbody>"
-        "<keyframe><key name='out' qpos='0.1'/></keyframe></mujoco>";
-    for (const ImportedAxes axes : {ImportedAxes::file, ImportedAxes::y_up}) {
+    for (const auto& [axes, armature] :
+         {std::pair{ImportedAxes::file, 0.0}, {ImportedAxes::y_up, 0.0}, {ImportedAxes::y_up, 0.4}}) {
+        const std::string model =
+            "<mujoco><option timestep='0.005'/><worldbody><body pos='0 0 2'><joint axis='0 1 0' pos='0 0 0' armature='" +
+            std::to_string(armature) + "'/>" +
+            "<geom type='box' size='0.05 0.05 0.5' pos='0 0 -0.5' mass='2'/></body></worldbody>"
+            "<keyframe><key name='out' qpos='0.1'/></keyframe></mujoco>";
         const SceneDocument document = file.load("a.xml", model, {.axes = axes, .keyframe = "out"});
         CHECK(file.notes.empty());
         CHECK(document.settings->rate == Approx(200));
         World world(document.scene, *document.settings);
-        const double about = 2.0 / 3 * (0.25 + 0.0025) + 2 * 0.25;  // hinge at the top
+        const double about = 2.0 / 3 * (0.25 + 0.0025) + 2 * 0.25 + armature;  // hinge at the top
         const double wanted = 2 * pi * std::sqrt(about / (2 * 9.81 * 0.5)) * (1 + 0.01 / 16);
         CHECK(world.joint(0).coordinates[3] == Approx(0.1).margin(1e-5));
         double first = -1, last = -1, before = 0.1;
@@ -187,6 +189,9 @@ TEST_CASE("imports: actuators become springs, dampers and motors") {
     turn = axis("<position joint='j' kp='100' dampratio='1'/>");  // critically damped: 2 sqrt(k I)
     const double inertia = 0.4 * (4.0 / 3 * pi * 1e-3 * 1000) * 0.01;
     CHECK(turn.spring->damping == Approx(2 * std::sqrt(100 * inertia)).epsilon(1e-4));
+    turn = axis("<position joint='j' kp='100' dampratio='1'/>", "armature='0.3'");
+    CHECK(turn.armature == 0.3f);
+    CHECK(turn.spring->damping == Approx(2 * std::sqrt(100 * (inertia + 0.3))).epsilon(1e-4));
     turn = axis("<position joint='j' kp='50' forcerange='-7 7'/>", "frictionloss='1'");
     CHECK(turn.friction == 0);
     CHECK(file.noted("friction: is left out beside a motor of limited force"));

@@ -40,7 +40,7 @@ double Mjcf::reflected_inertia(const JointPlace& place) const {
     const Placed& at = zero[place.body].placed;
     const dvec3 axis = at.turn * glm::normalize(joint.axis), anchor = at * joint.anchor;
     std::vector<bool> hangs(model_.bodies.size());
-    double sum = 0;
+    double sum = joint.armature;
     for (std::size_t b = place.body; b < model_.bodies.size(); ++b) {
         hangs[b] = b == place.body || hangs[model_.bodies[b].parent];
         if (!hangs[b]) continue;
