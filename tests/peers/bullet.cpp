@@ -60,11 +60,12 @@ public:
         return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100) + ", 1 thread";
     }
     void step() override { world_.stepSimulation(step_seconds, 1, step_seconds); }
-    std::vector<vec3> positions() const override {
-        std::vector<vec3> all;
+    std::vector<Pose> poses() const override {
+        std::vector<Pose> all;
         for (const auto& body : bodies_) {
             const btVector3& place = body->getWorldTransform().getOrigin();
-            all.emplace_back(place.x(), place.y(), place.z());
+            const btQuaternion turn = body->getWorldTransform().getRotation();
+            all.push_back({vec3(place.x(), place.y(), place.z()), {turn.x(), turn.y(), turn.z(), turn.w()}});
         }
         return all;
     }

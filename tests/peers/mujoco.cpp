@@ -102,10 +102,12 @@ public:
         mj_step(model_.get(), data_.get());
         if (overflowed()) throw Unsupported("more contacts than it was given room for");
     }
-    std::vector<vec3> positions() const override {
-        std::vector<vec3> all;
-        for (int i = 1; i < model_->nbody; ++i)  // body 0 is the world
-            all.emplace_back(data_->xpos[3 * i], data_->xpos[3 * i + 1], data_->xpos[3 * i + 2]);
+    std::vector<Pose> poses() const override {
+        std::vector<Pose> all;
+        for (int i = 1; i < model_->nbody; ++i) {  // body 0 is the world
+            const mjtNum *place = data_->xpos + 3 * i, *turn = data_->xquat + 4 * i;
+            all.push_back({vec3(place[0], place[1], place[2]), vec4(turn[1], turn[2], turn[3], turn[0])});
+        }
         return all;
     }
     std::size_t points() const override { return static_cast<std::size_t>(data_->ncon); }

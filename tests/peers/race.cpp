@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <chrono>
 #include <functional>
+#include <numeric>
 
 #include "demos/program/table.h"
 
@@ -25,11 +26,11 @@ Entrant entrant(const std::string& name, const std::function<std::unique_ptr<Eng
 }
 
 // Displacements of dynamic bodies.
-void measure_ways(const Scene& scene, const std::vector<vec3>& now, Lap& lap) {
+void measure_ways(const Scene& scene, const std::vector<Pose>& now, Lap& lap) {
     std::vector<double> ways;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
         if (scene.bodies[i].motion == Motion::dynamic)
-            ways.push_back(static_cast<double>(glm::length(now[i] - scene.bodies[i].position)));
+            ways.push_back(static_cast<double>(glm::length(now[i].position - scene.bodies[i].position)));
     }
     if (ways.empty()) return;
     std::sort(ways.begin(), ways.end());
@@ -56,16 +57,33 @@ void turn(Entrant& entrant, Lap& lap, int steps, bool counts) {
 
 }  // namespace
 
-std::vector<Entrant> entrants(const Scene& scene, int threads) {
+std::vector<std::string> program_keys() {
+    std::vector<std::string> keys = {"bullet", "scree", "scree1", "vulkan", "mujoco"};
+#ifdef SCREE_PEER_BOX3D
+    keys.insert(keys.begin() + 1, "box3d");
+#endif
+    return keys;
+}
+
+std::vector<Entrant> entrants(const Scene& scene, const Field& field) {
     std::vector<Entrant> all;
-    all.push_back(entrant("Bullet", [&] { return make_bullet(scene); }));
-    if (threads != 1) all.push_back(entrant("scree cpu", [&] { return make_scree_on_processor(scene, threads); }));
-    all.push_back(entrant("scree cpu", [&] { return make_scree_on_processor(scene, 1); }));
-    all.push_back(entrant("scree vulkan", [&] { return make_scree_on_device(scene); }));
+    const auto invite = [&](const char* key, const char* name, const std::function<std::unique_ptr<Engine>()>& make) {
+        if (field.programs.empty() || std::ranges::find(field.programs, key) != field.programs.end())
+            all.push_back(entrant(name, make));
+    };
+    invite("bullet", "Bullet", [&] { return make_bullet(scene); });
+#ifdef SCREE_PEER_BOX3D
+    invite("box3d", "Box3D", [&] { return make_box3d(scene, field.box3d_substeps); });
+#endif
+    if (field.threads != 1)
+        invite("scree", "scree cpu", [&] { return make_scree_on_processor(scene, field.threads, field.substeps); });
+    invite("scree1", "scree cpu", [&] { return make_scree_on_processor(scene, 1, field.substeps); });
+    invite("vulkan", "scree vulkan", [&] { return make_scree_on_device(scene, field.substeps); });
 #ifdef SCREE_PEER_MUJOCO
-    all.push_back(entrant("MuJoCo", [&] { return make_mujoco(scene); }));
+    invite("mujoco", "MuJoCo", [&] { return make_mujoco(scene); });
 #else
-    all.push_back({"MuJoCo", nullptr, "not in this build: libmujoco-dev was not there"});
+    invite("mujoco", "MuJoCo",
+           []() -> std::unique_ptr<Engine> { throw Unsupported("not in this build: libmujoco-dev was not there"); });
 #endif
     return all;
 }
@@ -85,7 +103,7 @@ std::vector<Lap> race(const Scene& scene, std::vector<Entrant> entrants, const C
     for (std::size_t k = 0; k < n; ++k) {
         if (!entrants[k].engine) continue;
         laps[k].points = entrants[k].engine->points();
-        measure_ways(scene, entrants[k].engine->positions(), laps[k]);
+        measure_ways(scene, entrants[k].engine->poses(), laps[k]);
     }
     return laps;
 }
@@ -93,24 +111,26 @@ std::vector<Lap> race(const Scene& scene, std::vector<Entrant> entrants, const C
 Quartiles quartiles_of(std::vector<double> ms) {
     std::sort(ms.begin(), ms.end());
     const std::size_t n = ms.size();
-    return {ms[n / 4], (ms[(n - 1) / 2] + ms[n / 2]) / 2, ms[n - 1 - n / 4]};
+    const double sum = std::accumulate(ms.begin(), ms.end(), 0.0);
+    return {ms[n / 4], (ms[(n - 1) / 2] + ms[n / 2]) / 2, ms[n - 1 - n / 4], sum / static_cast<double>(n)};
 }
 
 std::string table_of(const std::vector<Lap>& laps) {
-    const double first = laps.empty() || laps.front().ms.empty() ? 0 : quartiles_of(laps.front().ms).median;
+    const Quartiles first = laps.empty() || laps.front().ms.empty() ? Quartiles{} : quartiles_of(laps.front().ms);
     const std::string first_name = laps.empty() ? "" : laps.front().name.substr(0, laps.front().name.find(','));
     std::vector<demos::Cells> rows = {
-        {"program", "ms/step", "25%", "75%", "ratio to " + first_name, "points", "moved mm", "at most"}};
+        {"program", "ms/step", "25%", "75%", "ratio to " + first_name, "mean", "ratio", "points", "moved mm", "at most"}};
     std::string left_out;
     for (const Lap& lap : laps) {
         if (lap.ms.empty()) {
-            rows.push_back({lap.name, "", "", "", "", "", "", ""});
+            rows.push_back({lap.name, "", "", "", "", "", "", "", "", ""});
             left_out += fmt::format("{}: left out: {}\n", lap.name, lap.why_not);
             continue;
         }
         const Quartiles ms = quartiles_of(lap.ms);
         rows.push_back({lap.name, fmt::format("{:.2f}", ms.median), fmt::format("{:.2f}", ms.low), fmt::format("{:.2f}", ms.high),
-                        first > 0 ? fmt::format("{:.2f}", ms.median / first) : "-", std::to_string(lap.points),
+                        first.median > 0 ? fmt::format("{:.2f}", ms.median / first.median) : "-", fmt::format("{:.2f}", ms.mean),
+                        first.mean > 0 ? fmt::format("{:.2f}", ms.mean / first.mean) : "-", std::to_string(lap.points),
                         fmt::format("{:.2f}", lap.moved_median * 1e3), fmt::format("{:.1f}", lap.moved_max * 1e3)});
     }
     return demos::table(rows) + left_out;
@@ -118,12 +138,13 @@ std::string table_of(const std::vector<Lap>& laps) {
 
 std::vector<std::vector<std::string>> csv_rows(const std::string& scene, std::size_t bodies, const std::vector<Lap>& laps) {
     std::vector<std::vector<std::string>> rows;
-    const double first = laps.empty() || laps.front().ms.empty() ? 0 : quartiles_of(laps.front().ms).median;
+    const Quartiles first = laps.empty() || laps.front().ms.empty() ? Quartiles{} : quartiles_of(laps.front().ms);
     for (const Lap& lap : laps) {
         if (lap.ms.empty()) continue;
         const Quartiles ms = quartiles_of(lap.ms);
         rows.push_back({scene, std::to_string(bodies), lap.name, fmt::format("{:.4f}", ms.median), fmt::format("{:.4f}", ms.low),
-                        fmt::format("{:.4f}", ms.high), first > 0 ? fmt::format("{:.4f}", ms.median / first) : "",
+                        fmt::format("{:.4f}", ms.high), first.median > 0 ? fmt::format("{:.4f}", ms.median / first.median) : "",
+                        fmt::format("{:.4f}", ms.mean), first.mean > 0 ? fmt::format("{:.4f}", ms.mean / first.mean) : "",
                         std::to_string(lap.points), fmt::format("{:.6f}", lap.moved_median),
                         fmt::format("{:.6f}", lap.moved_max)});
     }

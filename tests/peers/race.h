@@ -22,6 +22,9 @@ struct Course {
     int settle = 300;  // further steps of the other engines, for which the scene is not at rest yet
     int rounds = 5;    // every engine has one turn per round, in rotating order
     int steps = 12;    // per turn
+
+    // The scene as it begins, falling and settling: every engine steps it from the first step, and all steps count.
+    static Course from_start(int rounds, int steps) { return {0, 0, rounds, steps}; }
 };
 
 struct Lap {
@@ -32,18 +35,27 @@ struct Lap {
     double moved_max = 0;
 };
 
-// All engines that can run `scene` here; the first, Bullet, is the reference of the ratios.
-std::vector<Entrant> entrants(const Scene& scene, int threads);
+struct Field {
+    int threads = 2;                    // of scree on the processor, which runs with one as well
+    int substeps = 0;                   // of scree; 0: its default
+    int box3d_substeps = 4;             // of Box3D, if it is in the build
+    std::vector<std::string> programs;  // keys of those that take part; none: all
+};
+// Keys of programs: bullet, box3d, scree (with Field::threads), scree1, vulkan, mujoco.
+std::vector<std::string> program_keys();
+
+// All engines that can run `scene` here; the first, Bullet unless it was not asked for, is the reference of the ratios.
+std::vector<Entrant> entrants(const Scene& scene, const Field& field);
 
 std::vector<Lap> race(const Scene& scene, std::vector<Entrant> entrants, const Course& course);
 
-// Median and quartiles of step times. `ms` must not be empty.
+// Median, quartiles and mean of step times. `ms` must not be empty.
 struct Quartiles {
-    double low = 0, median = 0, high = 0;  // ms
+    double low = 0, median = 0, high = 0, mean = 0;  // ms
 };
 Quartiles quartiles_of(std::vector<double> ms);
 
-// The results as text, and as CSV with a row per engine. The ratio is that of medians, to the first lap's.
+// The results as text, and as CSV with a row per engine. The ratios are those of medians and of means, to the first lap's.
 std::string table_of(const std::vector<Lap>& laps);
 std::vector<std::vector<std::string>> csv_rows(const std::string& scene, std::size_t bodies, const std::vector<Lap>& laps);
 

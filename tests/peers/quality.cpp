@@ -1,0 +1,188 @@
+// How well engines keep a scene.
+#include "tests/peers/quality.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "demos/program/table.h"
+
+namespace scree::peers {
+
+namespace {
+
+using dvec3 = glm::dvec3;
+
+struct Cuboid {
+    dvec3 centre, half;
+    std::array<dvec3, 3> axes;
+    bool moves;
+
+    double reach_along(dvec3 direction) const {
+        double reach = 0;
+        for (int k = 0; k < 3; ++k) reach += half[k] * std::abs(glm::dot(axes[static_cast<std::size_t>(k)], direction));
+        return reach;
+    }
+};
+
+dvec3 turned(vec4 q, dvec3 v) {
+    const dvec3 u(q.x, q.y, q.z);
+    return v + 2.0 * glm::cross(u, glm::cross(u, v) + static_cast<double>(q.w) * v);
+}
+
+// Depth in m by the axis of least overlap; at most 0: apart.
+double depth_of(const Cuboid& a, const Cuboid& b) {
+    const dvec3 between = b.centre - a.centre;
+    double least = std::numeric_limits<double>::max();
+    const auto along = [&](dvec3 axis) {
+        const double length = glm::length(axis);
+        if (length < 1e-3) return;  // of edges that are all but parallel; faces tell as much
+        axis /= length;
+        least = std::min(least, a.reach_along(axis) + b.reach_along(axis) - std::abs(glm::dot(between, axis)));
+    };
+    for (const dvec3& axis : a.axes) along(axis);
+    for (const dvec3& axis : b.axes) along(axis);
+    for (const dvec3& first : a.axes)
+        for (const dvec3& second : b.axes) along(glm::cross(first, second));
+    return least;
+}
+
+std::optional<Cuboid> cuboid_of(const Body& body, const Pose& pose) {
+    const auto* box = std::get_if<Box>(&body.shape);
+    if (!box) return std::nullopt;
+    const auto axis = [&](dvec3 v) { return turned(pose.orientation, v); };
+    return Cuboid{dvec3(pose.position),
+                  dvec3(box->half_extents),
+                  {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})},
+                  body.motion == Motion::dynamic};
+}
+
+double horizontal(vec3 a, vec3 b) {
+    return std::hypot(static_cast<double>(a.x) - static_cast<double>(b.x), static_cast<double>(a.z) - static_cast<double>(b.z));
+}
+
+// The greatest of `way` over the dynamic bodies.
+double greatest_way(const Scene& scene, const std::vector<Pose>& from, const std::vector<Pose>& to, auto way) {
+    double most = 0;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (scene.bodies[i].motion == Motion::dynamic)
+            most = std::max(most, static_cast<double>(way(from[i].position, to[i].position)));
+    return most;
+}
+
+}  // namespace
+
+Overlaps overlaps_of(const Scene& scene, const std::vector<Pose>& poses) {
+    Overlaps found;
+    double sum = 0;
+    const auto count = [&](double depth) {
+        if (depth <= 0) return;
+        ++found.pairs;
+        sum += depth;
+        found.greatest = std::max(found.greatest, depth);
+    };
+    std::vector<Cuboid> cuboids;
+    for (std::size_t i = 0; i < scene.bodies.size(); ++i)
+        if (const auto cuboid = cuboid_of(scene.bodies[i], poses[i])) cuboids.push_back(*cuboid);
+    for (std::size_t i = 0; i < cuboids.size(); ++i) {
+        const Cuboid& a = cuboids[i];
+        for (std::size_t k = i + 1; k < cuboids.size(); ++k) {
+            const Cuboid& b = cuboids[k];
+            if ((a.moves || b.moves) && glm::length(a.centre - b.centre) < glm::length(a.half) + glm::length(b.half))
+                count(depth_of(a, b));
+        }
+        for (const Body& body : scene.bodies) {
+            const auto* plane = std::get_if<Plane>(&body.shape);
+            if (plane && a.moves)
+                count(static_cast<double>(plane->offset) + a.reach_along(dvec3(plane->normal)) -
+                      glm::dot(a.centre, dvec3(plane->normal)));
+        }
+    }
+    if (found.pairs > 0) found.mean = sum / static_cast<double>(found.pairs);
+    return found;
+}
+
+std::vector<Keeping> keep(const Scene& scene, const std::vector<std::unique_ptr<Engine>>& engines, int steps) {
+    const std::size_t n = engines.size();
+    const int last_second = std::max(0, steps - static_cast<int>(std::lround(1 / step_seconds)));
+    std::vector<Keeping> all(n);
+    std::vector<std::vector<Pose>> start(n), middle(n), before(n);
+    for (std::size_t k = 0; k < n; ++k) start[k] = middle[k] = engines[k]->poses();
+    for (int i = 0; i < steps; ++i) {
+        for (std::size_t turn = 0; turn < n; ++turn) {
+            const std::size_t k = (turn + static_cast<std::size_t>(i)) % n;
+            if (i >= last_second) before[k] = engines[k]->poses();
+            if (i == steps / 2) middle[k] = engines[k]->poses();
+            const auto begin = std::chrono::steady_clock::now();
+            engines[k]->step();
+            const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - begin;
+            all[k].ms += taken.count() / steps;
+            if (i < last_second) continue;
+            const double way =
+                greatest_way(scene, before[k], engines[k]->poses(), [](vec3 a, vec3 b) { return glm::length(a - b); });
+            all[k].end_speed = std::max(all[k].end_speed, way / static_cast<double>(step_seconds));
+        }
+    }
+    for (std::size_t k = 0; k < n; ++k) {
+        const std::vector<Pose> end = engines[k]->poses();
+        all[k].name = engines[k]->name();
+        all[k].drift = greatest_way(scene, start[k], end, horizontal);
+        all[k].late_drift = greatest_way(scene, middle[k], end, horizontal);
+        all[k].sinking = greatest_way(scene, start[k], end, [](vec3 a, vec3 b) { return a.y - b.y; });
+        all[k].overlaps = overlaps_of(scene, end);
+    }
+    return all;
+}
+
+std::vector<std::unique_ptr<Engine>> keepers(const Scene& scene) {
+    std::vector<std::unique_ptr<Engine>> engines;
+#ifdef SCREE_PEER_BOX3D
+    for (const int substeps : {4, 8}) engines.push_back(make_box3d(scene, substeps));
+#endif
+    for (const int substeps : {4, 6, 8}) engines.push_back(make_scree_on_processor(scene, 1, substeps));
+    return engines;
+}
+
+std::string table_of(const std::vector<Keeping>& all) {
+    std::vector<demos::Cells> rows = {{"program", "ms/step", "ratio", "drift mm", "second half mm", "sinking mm",
+                                       "penetration mm", "greatest mm", "end speed mm/s"}};
+    for (const Keeping& one : all)
+        rows.push_back({one.name, fmt::format("{:.2f}", one.ms), fmt::format("{:.2f}", one.ms / all.front().ms),
+                        fmt::format("{:.2f}", one.drift * 1e3), fmt::format("{:.2f}", one.late_drift * 1e3),
+                        fmt::format("{:.2f}", one.sinking * 1e3), fmt::format("{:.3f}", one.overlaps.mean * 1e3),
+                        fmt::format("{:.2f}", one.overlaps.greatest * 1e3), fmt::format("{:.2f}", one.end_speed * 1e3)});
+    return demos::table(rows);
+}
+
+std::vector<std::string> keeping_heading() {
+    return {"scene",
+            "bodies",
+            "program",
+            "ms_mean",
+            "ratio",
+            "drift_m",
+            "drift_second_half_m",
+            "sinking_m",
+            "penetrations",
+            "penetration_mean_m",
+            "penetration_max_m",
+            "end_speed_m_per_s"};
+}
+
+std::vector<std::vector<std::string>> csv_rows(const std::string& scene, std::size_t bodies, const std::vector<Keeping>& all) {
+    std::vector<std::vector<std::string>> rows;
+    for (const Keeping& one : all)
+        rows.push_back({scene, std::to_string(bodies), one.name, fmt::format("{:.4f}", one.ms),
+                        fmt::format("{:.4f}", one.ms / all.front().ms), fmt::format("{:.6f}", one.drift),
+                        fmt::format("{:.6f}", one.late_drift), fmt::format("{:.6f}", one.sinking),
+                        std::to_string(one.overlaps.pairs), fmt::format("{:.6f}", one.overlaps.mean),
+                        fmt::format("{:.6f}", one.overlaps.greatest), fmt::format("{:.6f}", one.end_speed)});
+    return rows;
+}
+
+}  // namespace scree::peers
