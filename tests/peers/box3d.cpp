@@ -29,10 +29,11 @@ vec4 turn_to(vec3 normal) {
 
 class Box3d : public Engine {
 public:
-    Box3d(const Scene& scene, int substeps) : substeps_(substeps) {
+    Box3d(const Scene& scene, int substeps, float contact_hertz) : substeps_(substeps), contact_hertz_(contact_hertz) {
         b3WorldDef world = b3DefaultWorldDef();
         world.gravity = vector_of(scene.gravity);
         world.enableSleep = false;
+        if (contact_hertz > 0) world.contactHertz = contact_hertz;
         world.workerCount = 1;
         world_ = b3CreateWorld(&world);
         try {
@@ -50,7 +51,8 @@ public:
     std::string name() const override {
         const b3Version version = b3GetVersion();
         return "Box3D " + std::to_string(version.major) + "." + std::to_string(version.minor) + ", 1 thread, " +
-               std::to_string(substeps_) + " substeps";
+               std::to_string(substeps_) + " substeps" +
+               (contact_hertz_ > 0 ? ", contacts of " + std::to_string(std::lround(contact_hertz_)) + " Hz" : "");
     }
     void step() override { b3World_Step(world_, step_seconds, substeps_); }
     std::vector<Pose> poses() const override {
@@ -127,14 +129,15 @@ private:
 
     b3WorldId world_{};
     int substeps_;
-    float reach_ = 50;  // m, half its width
+    float contact_hertz_;  // 0: the default
+    float reach_ = 50;     // m, half its width
     std::vector<b3BodyId> bodies_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps) {
-    return std::make_unique<Box3d>(scene, substeps);
+std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps, float contact_hertz) {
+    return std::make_unique<Box3d>(scene, substeps, contact_hertz);
 }
 
 }  // namespace scree::peers

@@ -33,7 +33,8 @@ struct Unsupported : std::runtime_error {
 };
 
 // `scene` must be validated (compute/scene.h). Throw Unsupported for scenes that cannot be translated exactly.
-// substeps 0: scree's default.
+// substeps 0: scree's default. contact_hertz: stiffness of contacts, at most an eighth of the substep rate; 0: Box3D's
+// default.
 std::unique_ptr<Engine> make_scree_on_processor(const Scene& scene, int threads, int substeps = 0);
 std::unique_ptr<Engine> make_scree_on_device(const Scene& scene, int substeps = 0);  // the first Vulkan device
 std::unique_ptr<Engine> make_bullet(const Scene& scene);
@@ -41,7 +42,7 @@ std::unique_ptr<Engine> make_bullet(const Scene& scene);
 std::unique_ptr<Engine> make_mujoco(const Scene& scene);
 #endif
 #ifdef SCREE_PEER_BOX3D
-std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps = 4);
+std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps = 4, float contact_hertz = 0);
 #endif
 
 }  // namespace scree::peers

@@ -82,9 +82,7 @@ int main(int argc, char** argv) {
     CLI11_PARSE(program, argc, argv);
     if (from_start) course = peers::Course::from_start(course.rounds, course.steps);
     try {
-        Rows rows = {{"scene", "bodies", "program", "ms_median", "ms_25", "ms_75", "ratio", "ms_mean", "ratio_of_means", "points",
-                      "moved_median_m", "moved_max_m"}};
-        if (quality > 0) rows = {peers::keeping_heading()};
+        Rows rows = {quality > 0 ? peers::keeping_heading() : peers::lap_heading()};
         for (const std::string& file : files) {
             const Scene scene = checked(scene_from_json(host::read_text(file)).scene);
             const std::string name = std::filesystem::path(file).stem().string();

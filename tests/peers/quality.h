@@ -21,7 +21,7 @@ Overlaps overlaps_of(const Scene& scene, const std::vector<Pose>& poses);
 // All ways are of dynamic bodies.
 struct Keeping {
     std::string name;
-    double ms = 0;          // mean of all steps
+    double ms = 0;          // processor time of a step, the mean of all
     double drift = 0;       // m, greatest horizontal way from start to end
     double late_drift = 0;  // m, greatest horizontal way in the second half
     double sinking = 0;     // m, greatest way down from start to end
@@ -32,7 +32,8 @@ struct Keeping {
 // Every engine takes `steps` steps, by turns of one.
 std::vector<Keeping> keep(const Scene& scene, const std::vector<std::unique_ptr<Engine>>& engines, int steps);
 
-// scree at 4, 6 and 8 substeps, and Box3D at 4 and 8 if the build has it; one thread each.
+// scree at 4, 6 and 8 substeps, and Box3D at 4 and 8 if the build has it, at 8 also with contacts as stiff as they then can be;
+// one thread each.
 std::vector<std::unique_ptr<Engine>> keepers(const Scene& scene);
 
 std::string table_of(const std::vector<Keeping>& all);  // the ratio of times is that to the first

@@ -2,6 +2,7 @@
 #include "tests/peers/race.h"
 
 #include <fmt/format.h>
+#include <time.h>
 
 #include <algorithm>
 #include <chrono>
@@ -43,10 +44,13 @@ void turn(Entrant& entrant, Lap& lap, int steps, bool counts) {
     if (!entrant.engine) return;
     try {
         for (int i = 0; i < steps; ++i) {
+            const double cpu_start = processor_ms();
             const auto start = std::chrono::steady_clock::now();
             entrant.engine->step();
             const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-            if (counts) lap.ms.push_back(taken.count());
+            if (!counts) continue;
+            lap.ms.push_back(taken.count());
+            lap.cpu_ms += processor_ms() - cpu_start;
         }
     } catch (const std::exception& error) {
         entrant.engine.reset();
@@ -55,7 +59,18 @@ void turn(Entrant& entrant, Lap& lap, int steps, bool counts) {
     }
 }
 
+// The mean processor time of a step; 0 without steps.
+double cpu_of(const Lap& lap) {
+    return lap.ms.empty() ? 0 : lap.cpu_ms / static_cast<double>(lap.ms.size());
+}
+
 }  // namespace
+
+double processor_ms() {
+    timespec time{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+    return 1e3 * static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_nsec);
+}
 
 std::vector<std::string> program_keys() {
     std::vector<std::string> keys = {"bullet", "scree", "scree1", "vulkan", "mujoco"};
@@ -117,34 +132,44 @@ Quartiles quartiles_of(std::vector<double> ms) {
 
 std::string table_of(const std::vector<Lap>& laps) {
     const Quartiles first = laps.empty() || laps.front().ms.empty() ? Quartiles{} : quartiles_of(laps.front().ms);
+    const double first_cpu = laps.empty() ? 0 : cpu_of(laps.front());
     const std::string first_name = laps.empty() ? "" : laps.front().name.substr(0, laps.front().name.find(','));
-    std::vector<demos::Cells> rows = {
-        {"program", "ms/step", "25%", "75%", "ratio to " + first_name, "mean", "ratio", "points", "moved mm", "at most"}};
+    std::vector<demos::Cells> rows = {{"program", "ms/step", "25%", "75%", "ratio to " + first_name, "mean", "ratio", "cpu ms",
+                                       "ratio", "points", "moved mm", "at most"}};
+    const auto ratio = [](double ms, double of) { return of > 0 ? fmt::format("{:.2f}", ms / of) : "-"; };
     std::string left_out;
     for (const Lap& lap : laps) {
         if (lap.ms.empty()) {
-            rows.push_back({lap.name, "", "", "", "", "", "", "", "", ""});
+            rows.push_back(demos::Cells(rows.front().size()));
+            rows.back().front() = lap.name;
             left_out += fmt::format("{}: left out: {}\n", lap.name, lap.why_not);
             continue;
         }
         const Quartiles ms = quartiles_of(lap.ms);
         rows.push_back({lap.name, fmt::format("{:.2f}", ms.median), fmt::format("{:.2f}", ms.low), fmt::format("{:.2f}", ms.high),
-                        first.median > 0 ? fmt::format("{:.2f}", ms.median / first.median) : "-", fmt::format("{:.2f}", ms.mean),
-                        first.mean > 0 ? fmt::format("{:.2f}", ms.mean / first.mean) : "-", std::to_string(lap.points),
+                        ratio(ms.median, first.median), fmt::format("{:.2f}", ms.mean), ratio(ms.mean, first.mean),
+                        fmt::format("{:.2f}", cpu_of(lap)), ratio(cpu_of(lap), first_cpu), std::to_string(lap.points),
                         fmt::format("{:.2f}", lap.moved_median * 1e3), fmt::format("{:.1f}", lap.moved_max * 1e3)});
     }
     return demos::table(rows) + left_out;
 }
 
+std::vector<std::string> lap_heading() {
+    return {"scene",   "bodies",         "program", "ms_median", "ms_25",  "ms_75",          "ratio",
+            "ms_mean", "ratio_of_means", "cpu_ms",  "ratio_cpu", "points", "moved_median_m", "moved_max_m"};
+}
+
 std::vector<std::vector<std::string>> csv_rows(const std::string& scene, std::size_t bodies, const std::vector<Lap>& laps) {
     std::vector<std::vector<std::string>> rows;
     const Quartiles first = laps.empty() || laps.front().ms.empty() ? Quartiles{} : quartiles_of(laps.front().ms);
+    const double first_cpu = laps.empty() ? 0 : cpu_of(laps.front());
+    const auto ratio = [](double ms, double of) { return of > 0 ? fmt::format("{:.4f}", ms / of) : ""; };
     for (const Lap& lap : laps) {
         if (lap.ms.empty()) continue;
         const Quartiles ms = quartiles_of(lap.ms);
         rows.push_back({scene, std::to_string(bodies), lap.name, fmt::format("{:.4f}", ms.median), fmt::format("{:.4f}", ms.low),
-                        fmt::format("{:.4f}", ms.high), first.median > 0 ? fmt::format("{:.4f}", ms.median / first.median) : "",
-                        fmt::format("{:.4f}", ms.mean), first.mean > 0 ? fmt::format("{:.4f}", ms.mean / first.mean) : "",
+                        fmt::format("{:.4f}", ms.high), ratio(ms.median, first.median), fmt::format("{:.4f}", ms.mean),
+                        ratio(ms.mean, first.mean), fmt::format("{:.4f}", cpu_of(lap)), ratio(cpu_of(lap), first_cpu),
                         std::to_string(lap.points), fmt::format("{:.6f}", lap.moved_median),
                         fmt::format("{:.6f}", lap.moved_max)});
     }

@@ -30,6 +30,7 @@ struct Course {
 struct Lap {
     std::string name, why_not;  // as the entrant's; engines that failed are excluded too
     std::vector<double> ms;     // of each measured step
+    double cpu_ms = 0;          // of them, in sum: processor time, of all threads
     std::size_t points = 0;     // contact points at the end
     double moved_median = 0;    // m, median displacement of bodies from start to end
     double moved_max = 0;
@@ -49,14 +50,19 @@ std::vector<Entrant> entrants(const Scene& scene, const Field& field);
 
 std::vector<Lap> race(const Scene& scene, std::vector<Entrant> entrants, const Course& course);
 
+// ms of processor time that all threads of this process have taken. The wall clock also counts what other programs take.
+double processor_ms();
+
 // Median, quartiles and mean of step times. `ms` must not be empty.
 struct Quartiles {
     double low = 0, median = 0, high = 0, mean = 0;  // ms
 };
 Quartiles quartiles_of(std::vector<double> ms);
 
-// The results as text, and as CSV with a row per engine. The ratios are those of medians and of means, to the first lap's.
+// The results as text, and as CSV with a row per engine. The ratios are those of medians, means and processor times, to the first
+// lap's.
 std::string table_of(const std::vector<Lap>& laps);
+std::vector<std::string> lap_heading();  // of csv_rows
 std::vector<std::vector<std::string>> csv_rows(const std::string& scene, std::size_t bodies, const std::vector<Lap>& laps);
 
 }  // namespace scree::peers

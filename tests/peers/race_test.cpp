@@ -95,7 +95,7 @@ TEST_CASE("the race gives every engine its row, and each keeps a settled pile ly
         REQUIRE(lap.moved_median < 0.03);
         REQUIRE(lap.moved_max < 0.5);
     }
-    REQUIRE(csv_rows("mix", scene.bodies.size(), laps).front().size() == 12);
+    REQUIRE(csv_rows("mix", scene.bodies.size(), laps).front().size() == lap_heading().size());
 }
 
 TEST_CASE("Bullet in the race is told shapes, masses, friction, restitution, damping and gravity as scree has them") {
