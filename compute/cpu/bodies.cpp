@@ -255,6 +255,7 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
         if (motion == physics::MOTION_FIXED || physics::is_part(state.properties[i]) || physics::is_out_of_play(motion) ||
             asleep(state, i) || !state.is_stepped(i))
             return;
+        if (motion == physics::MOTION_KINEMATIC && !physics::in_motion(state.velocities[i])) return;
         if (!wide || !moved_by_contacts(state, i)) move(state, i);
     });
     if (!wide) return;
