@@ -86,7 +86,7 @@ void add_contacts(const State& state, std::optional<std::uint32_t> copy, Statist
     if (inside) s.penetration_mean = depth / static_cast<double>(inside);
 }
 
-// Kinetic energy of the rotors of a joint's motors, at the speeds of its axes.
+// Kinetic energy of the rotors of a joint's motors.
 double rotor_energy(const State& state, const physics::Joint& joint) {
     using namespace physics;
     if (joint.broken || std::none_of(joint.axes, joint.axes + 6, [](const auto& axis) { return has_rotor(axis); })) return 0;
@@ -95,6 +95,9 @@ double rotor_energy(const State& state, const physics::Joint& joint) {
     const JointConfiguration at =
         joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
     const VelocityPair v{velocity(joint.a), velocity(joint.b)};
+    const auto restarts_beside = [&](uint body) {
+        return body != NONE && restarts(state.sleep_states[body], state.fixed().sleep_steps);
+    };
     double energy = 0;
     for (uint k = 0; k < 6; ++k) {
         if (!has_rotor(joint.axes[k])) continue;
@@ -102,7 +105,8 @@ double rotor_energy(const State& state, const physics::Joint& joint) {
         const float h = state.fixed().h;
         const JointRow row = is_linear(k) ? linear_row({}, at, axis, joint.flags, v, h)  //
                                           : angular_row({}, at, axis - 3, joint.flags, v, h);
-        const double speed = row_speed(row, is_linear(k), v);
+        const bool follows = rotor_follows(joint.rotors[k], restarts_beside(joint.a) || restarts_beside(joint.b));
+        const double speed = follows ? row_speed(row, is_linear(k), v) : joint.rotors[k].speed;
         energy += 0.5 * static_cast<double>(joint.rotors[k].inertia) * speed * speed;
     }
     return energy;

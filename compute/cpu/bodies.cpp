@@ -141,7 +141,8 @@ void begin_step(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.fixed().bodies, [&](std::size_t i) {
         state.forces[i] = physics::gravity_forces(state.properties[i], felt_by(state, static_cast<std::uint32_t>(i)));
     });
-    if (state.fixed().wake_all) std::fill(state.sleep_states.begin(), state.sleep_states.end(), 0u);
+    if (state.fixed().wake_all)
+        for (physics::uint& rest : state.sleep_states) rest = physics::roused(rest, state.fixed().sleep_steps);
     state.counted() = physics::emptied(state.counted(), state.fixed());
 }
 
@@ -154,7 +155,10 @@ void apply_actions(State& state, const Threads&, std::uint32_t) {
         const physics::Mass mass = physics::mass_in_world(state.properties[body], state.poses[body].orientation);
         if (!state.fixed().redo)
             state.velocities[body] = physics::apply_impulses(state.velocities[body], action, mass, state.fixed());
-        state.sleep_states[body] = 0;
+        const bool sets =
+            (action.flags & physics::ACTION_SETS_VELOCITY) != 0 && state.properties[body].motion == physics::MOTION_DYNAMIC;
+        physics::uint& rest = state.sleep_states[body];
+        rest = sets ? physics::RESTARTS : physics::roused(rest, state.fixed().sleep_steps);
         state.forces[body] = physics::apply_forces(state.forces[body], action, mass);
     }
 }
@@ -255,6 +259,7 @@ void move_bodies(State& state, const Threads& threads, std::uint32_t) {
         if (motion == physics::MOTION_FIXED || physics::is_part(state.properties[i]) || physics::is_out_of_play(motion) ||
             asleep(state, i) || !state.is_stepped(i))
             return;
+        if (motion == physics::MOTION_KINEMATIC && !physics::in_motion(state.velocities[i])) return;
         if (!wide || !moved_by_contacts(state, i)) move(state, i);
     });
     if (!wide) return;

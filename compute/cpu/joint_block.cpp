@@ -3,6 +3,8 @@
 
 #include <cstddef>
 
+#include "shaders/physics/extra/sleep.h"
+
 namespace scree::reference {
 
 using physics::BlockBody;
@@ -126,10 +128,14 @@ void JointBlock::place_rows(JointRoom& room, std::span<JointBlock> blocks) {
 }
 
 void JointBlock::take_rotor_speeds() {
+    const auto restarts = [&](physics::uint body) {
+        return body != NONE && physics::restarts(state_.sleep_states[body], p_.sleep_steps);
+    };
     for_each_whole([&](Joint& joint) {
         JointLanes speed;
         bool known = false;
         for_each_rotor(joint, [&](physics::uint k, physics::JointRotor& rotor) {
+            if (!physics::rotor_follows(rotor, restarts(joint.a) || restarts(joint.b))) return;
             if (!known) speeds_of_rows(joint, speed);
             known = true;
             rotor.speed = speed[k];

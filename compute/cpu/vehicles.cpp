@@ -28,7 +28,7 @@ void drive_vehicles(State& state, const Threads& threads, std::uint32_t) {
             physics::Joint& joint = state.joints[wheel.joint];
             const float spin = physics::dot3(axle, state.velocities[wheel.body].angular - state.velocities[chassis].angular);
             joint.axes[3] = physics::wheel_motor(joint.axes[3], dynamics, wheel, spin);
-            if (joint.axes[3].mode == 0) {
+            if ((joint.axes[3].mode & physics::AXIS_MOTOR) == 0) {
                 joint.rows[3].motor_impulse = 0;
                 joint.active_set = physics::with_active_set(joint.active_set, 3, 0);
             }

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "compute/step/state.h"
+#include "shaders/physics/solve/joint_axis.h"
 
 namespace scree {
 
@@ -236,7 +237,7 @@ physics::JointAxis axis_record(const Axis& axis) {
     return record;
 }
 physics::JointRotor rotor_record(const Axis& axis) {
-    return {(axis_record(axis).mode & physics::AXIS_ROTOR) != 0 ? axis.armature : 0, 0, 0, 0};
+    return {(axis_record(axis).mode & physics::AXIS_ROTOR) != 0 ? axis.armature : 0, physics::ROTOR_AT_FIRST, 0, 0};
 }
 
 JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties) {

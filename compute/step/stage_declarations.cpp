@@ -179,7 +179,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
                                        physics::FEATURE_SURFACES | felt;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
-        {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}},
+        {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}, {births}, {ids}},
@@ -210,11 +210,11 @@ void declare_solver(std::vector<StageDeclaration>& all) {
 std::vector<StageDeclaration> declare() {
     std::vector<StageDeclaration> all;
     all.push_back({"begin_step", DispatchDomain::buckets, begin_step,
-        {{counts}, {properties, A::bodies, 1}, {gravities}, {ids}},
+        {{counts}, {properties, A::bodies, 1}, {gravities}, {ids}, {sleep_states}},
         {{cell_ends, A::buckets}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {forces, A::bodies}, some_only({sleep_states}), {copy_states}, {counts}},
         physics::FEATURE_REORDERED | physics::FEATURE_COPIES | physics::FEATURE_GRAVITIES});
     all.push_back({"apply_actions", DispatchDomain::actions, apply_actions,
-        {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {forces, A::actions}},
+        {{counts}, {actions, A::actions}, {properties, A::actions}, {poses, A::actions}, {velocities, A::actions}, {sleep_states, A::actions}, {forces, A::actions}},
         {{velocities, A::actions}, some_only({sleep_states, A::actions}), {forces, A::actions}}});
     all.push_back({"apply_fields", DispatchDomain::bodies, apply_fields,
         {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}, {gravities}},

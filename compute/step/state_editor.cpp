@@ -375,7 +375,10 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
         physics::Joint& now = state_.joints[state_.joint_records[j]];
         const physics::Joint& was = before[j];
         std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with their warm start
-        for (std::size_t k = 0; k < 6; ++k) now.rotors[k].impulse = was.rotors[k].impulse;
+        for (std::size_t k = 0; k < 6; ++k) {
+            now.rotors[k].impulse = was.rotors[k].impulse;
+            now.rotors[k].speed = was.rotors[k].speed;
+        }
         now.active_set = was.active_set;
         now.broken = was.broken;
         now.force = was.force;

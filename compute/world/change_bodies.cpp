@@ -12,6 +12,7 @@
 #include "compute/step/state_editor.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/extra/quarantine.h"
+#include "shaders/physics/extra/sleep.h"
 
 namespace scree {
 
@@ -99,7 +100,7 @@ void World::Impl::set(std::span<const BodyChange> bodies) {
         if (change.orientation) pose.orientation = physics::flush_tiny(unit(*change.orientation));
         if (change.velocity) velocity.linear = physics::flush_tiny(*change.velocity);
         if (change.angular_velocity) velocity.angular = physics::flush_tiny(*change.angular_velocity);
-        state.sleep_states[row] = 0;
+        state.sleep_states[row] = scene.bodies[change.body].motion == Motion::dynamic ? physics::RESTARTS : 0;
         arrivals.erase(change.body);
         const Body& body = scene.bodies[change.body];
         if (body.motion == Motion::dynamic || !(change.position || change.orientation)) continue;

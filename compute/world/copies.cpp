@@ -12,6 +12,7 @@
 #include "compute/step/scene_compiler.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
+#include "shaders/physics/solve/joint_axis.h"
 
 namespace scree {
 
@@ -106,6 +107,7 @@ void World::Impl::reset_joints(std::size_t copy, TableRanges& changed) {
     for (std::size_t i = copy * records; i < (copy + 1) * records; ++i) {
         physics::Joint& joint = state.joints[i];
         for (physics::JointRow& row : joint.rows) row = {};
+        for (physics::JointRotor& rotor : joint.rotors) rotor = {rotor.inertia, physics::ROTOR_AT_FIRST, 0, 0};
         joint.active_set = joint.broken = joint.solved_axes = 0;
         joint.force = joint.torque = vec3(0);
         joint.max_force = joint.max_torque = 0;

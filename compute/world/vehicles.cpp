@@ -7,6 +7,7 @@
 
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
+#include "shaders/physics/extra/sleep.h"
 
 namespace scree {
 
@@ -131,7 +132,7 @@ void World::reset_upright(std::size_t vehicle) {
         const std::uint32_t row = in.state.row_of(body);
         in.state.poses[row] = {position, 0, orientation};
         in.state.velocities[row] = {};
-        in.state.sleep_states[row] = 0;
+        in.state.sleep_states[row] = physics::RESTARTS;
         append(changed, {{Table::poses, row, 1}, {Table::velocities, row, 1}, {Table::sleep_states, row, 1}});
     };
     put(v.chassis, place, upright);

@@ -4,6 +4,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/extra/quarantine.h"
+#include "shaders/physics/extra/sleep.h"
 #include "shaders/stages/lib/stage.glsl"
 
 void main() {
@@ -13,6 +14,7 @@ void main() {
     if (is_out_of_play(READ(properties, action.body).motion)) return;
     Mass mass = mass_in_world(READ(properties, action.body), READ(poses, action.body).orientation);
     if (PARAMETERS.redo == 0u) velocities.at[action.body] = apply_impulses(velocities.at[action.body], action, mass, PARAMETERS);
-    WORD(sleep_states, action.body) = 0u;
+    bool sets = (action.flags & ACTION_SETS_VELOCITY) != 0u && READ(properties, action.body).motion == MOTION_DYNAMIC;
+    WORD(sleep_states, action.body) = sets ? RESTARTS : roused(WORD(sleep_states, action.body), PARAMETERS.sleep_steps);
     forces.at[action.body] = apply_forces(forces.at[action.body], action, mass);
 }

@@ -2,6 +2,7 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/solve/motion.h"
 #include "shaders/stages/lib/copies.glsl"
 
@@ -19,7 +20,7 @@ void main() {
             forces.at[i] = gravity_forces(body, felt_by(body.owner));
         else
             forces.at[i] = gravity_forces(body, PARAMETERS);
-        if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = 0u;
+        if (PARAMETERS.wake_all != 0u) WORD(sleep_states, i) = roused(WORD(sleep_states, i), PARAMETERS.sleep_steps);
     }
     // Rows by different threads: a software device repeats what a single thread does for every vector of threads.
     Counts empty = emptied(COUNTS, PARAMETERS);

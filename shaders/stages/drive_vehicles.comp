@@ -30,7 +30,7 @@ void main() {
         float spin = dot3(axle, READ(velocities, wheel.body).angular - turning);
         JointAxis motor = wheel_motor(joints.at[wheel.joint].axes[3], v, wheel, spin);
         joints.at[wheel.joint].axes[3] = motor;
-        if (motor.mode == 0u) {
+        if ((motor.mode & AXIS_MOTOR) == 0u) {
             joints.at[wheel.joint].rows[3].motor_impulse = 0.0f;
             joints.at[wheel.joint].active_set = with_active_set(joints.at[wheel.joint].active_set, 3u, 0u);
         }

@@ -8,6 +8,10 @@
 // after the declarations of the tables
 #include "shaders/stages/lib/joints.glsl"
 
+bool body_restarts(uint body) {
+    return body != NONE && restarts(READ_WORD(sleep_states, body), PARAMETERS.sleep_steps);
+}
+
 void main() {
     if (!enter_block(thread())) return;
     note_pressing();
@@ -18,7 +22,7 @@ void main() {
         joints.at[j].force = vec3(0.0f);
         joints.at[j].torque = vec3(0.0f);
         place_rows(j);
-        take_rotor_speeds(j);
+        take_rotor_speeds(j, body_restarts(joints.at[j].a) || body_restarts(joints.at[j].b));
     }
     begin_shares();
     for (uint j = block_first_joint; j < block_joints_end; ++j) {

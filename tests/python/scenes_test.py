@@ -58,7 +58,7 @@ class Building(unittest.TestCase):
         scene = scree.Scene()
         scene.add(scree.Plane())
         door = scene.add(scree.Box((.5, 1, .05)), position=(.5, 1.2, 0), name="door")
-        hinge = scene.add_joint(scree.Hinge(limits=(-.1, 1.5), friction=.1), None, "door", anchor=(0, 1.2, 0), axis=(0, 1, 0))
+        hinge = scene.add_joint(scree.Hinge(limits=(-.1, 1.5), friction=.1, armature=2), None, "door", anchor=(0, 1.2, 0), axis=(0, 1, 0))
         car = scene.add_car((5, 0, 0))
         scene.at(.5, impulse={"body": door, "impulse": [0, 0, -200], "offset": [.4, 0, 0]})
         self.assertEqual((hinge, car), (0, 0))

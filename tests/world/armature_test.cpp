@@ -237,6 +237,53 @@ TEST_CASE("velocities that are set hold for rotors, too, and two bodies with a r
     CHECK(pair.body(1).angular_velocity.y - pair.body(0).angular_velocity.y > 0.1f);
 }
 
+TEST_CASE("an arm with a rotor that strikes a box gains no energy, and ends as if a flywheel turned with it") {
+    for (const float ratio : {10.0f, 100.0f, 1000.0f}) {
+        const auto struck = [&](bool flywheel) {
+            Scene scene;
+            scene.gravity = vec3(0);
+            scene.bodies.push_back({.shape = Box{{0.5f, 0.05f, 0.05f}}, .position = {0.5f, 0, 0}, .density = 100});
+            scene.bodies.push_back({.shape = Box{vec3(0.1f)}, .position = {0.8f, 0.4f, 0}, .density = 125});
+            for (Body& body : scene.bodies) body.friction = 0.3f;
+            scene.bodies[0].velocity = {0, 1.5f, 0};
+            scene.bodies[0].angular_velocity = {0, 0, 3};
+            const float inertia = ratio / 3;
+            scene.joints.push_back(
+                joint_at(scene, Hinge{{.armature = flywheel ? 0 : inertia}}, the_world, 0, vec3(0), {0, 0, 1}));
+            if (flywheel) {
+                Body wheel{.shape = Sphere{0.1f}, .angular_velocity = {0, 0, 3}};
+                wheel.inertial = Inertial{.mass = 10, .inertia = vec3(inertia)};
+                wheel.filter = Filter{1, 0, 0};
+                scene.bodies.push_back(wheel);
+                scene.joints.push_back(joint_at(scene, Fixed{}, 2, 0, vec3(0)));
+            }
+            World world(scene, {.sleeping = false});
+            const double before = energy(world);
+            double greatest = 0;
+            for (int n = 0; n < 120; ++n) {
+                world.step();
+                greatest = std::max(greatest, energy(world));
+            }
+            CHECK(greatest < 1.01 * before);
+            return world.body(1).velocity.y;
+        };
+        INFO("rotor of " << ratio << " times the arm's inertia");
+        const float with_flywheel = struck(true), with_rotor = struck(false);
+        CHECK(with_rotor == Approx(with_flywheel).epsilon(0.02));
+    }
+}
+
+TEST_CASE("an impulse turns the rotor of an axis, too") {
+    World world(slider({.armature = 400}, 2));
+    world.step(3);
+    world.apply_impulse(0, vec3(40.2f, 0, 0));
+    world.step(3);
+    CHECK(world.body(0).velocity.x == Approx(0.1f).epsilon(1e-3));
+    world.set_velocity(0, vec3(2, 0, 0), vec3(0));
+    world.step(3);
+    CHECK(world.body(0).velocity.x == Approx(2).epsilon(1e-3));
+}
+
 TEST_CASE("scene files hold the armature of an axis, and refuse it on one that is locked") {
     const auto read = [](const std::string& axis) {
         return checked(scene_from_json(R"({"bodies": [{"shape": {"sphere": {"radius": 1}}}],

@@ -117,6 +117,23 @@ TEST_CASE("a copy that is reset begins again as the scene does, and the others g
     }
 }
 
+TEST_CASE("rotors of joints begin again with the copy that is reset") {
+    Scene scene;
+    Body arm;
+    arm.shape = Box{{0.5f, 0.1f, 0.1f}};
+    arm.position = {0.5f, 0, 0};
+    scene.bodies = {arm};
+    scene.joints.push_back(joint_at(scene, Hinge{{.friction = 0.3f, .armature = 2}}, the_world, 0, vec3(0), {0, 0, 1}));
+    World world = copies_of(scene, 2), fresh(scene, {}, 1);
+    world.step(30);
+    world.reset_copy(1);
+    for (int i = 0; i < 10; ++i) {
+        world.step();
+        fresh.step();
+        REQUIRE(world.state_hash_of(1) == fresh.state_hash());
+    }
+}
+
 TEST_CASE("copies with poses, masses, friction and gravity of their own are those scenes alone", "[world]") {
     const VaryCopy vary = [](std::size_t copy, Scene& scene) {
         const auto k = static_cast<float>(copy);

@@ -124,6 +124,43 @@ TEST_CASE("steps in which all sleep are passed over with the bits of steps that 
     }
 }
 
+// To normalise this orientation again turns its last bits to and fro, for ever.
+TEST_CASE("a kinematic body at rest keeps every bit of its orientation") {
+    Scene scene;
+    scene.bodies = {ground(), at(Box{}, vec3(0, 3, 0), Motion::kinematic)};
+    scene.bodies[1].orientation = {0.28101205825805664f, 0.3397909998893738f, 0.6460282206535339f, 0.623074471950531f};
+    Settings settings;
+    settings.substeps = 1;
+    World always(scene, settings, std::make_unique<Restless>());
+    const BodyState before = always.body(1);
+    for (int i = 0; i < 8; ++i) {
+        always.step();
+        REQUIRE(same_pose(always.body(1), before));
+    }
+}
+
+TEST_CASE("a parked car whose wheels turn slowly stays awake until they are where they are steered") {
+    Scene scene = parked_car();
+    scene.vehicles[0].steering.time = 10;
+    Settings settings;
+    settings.sleep_time = 0.1f;
+    int taken = 0;
+    World world(scene, settings, std::make_unique<Counting>(taken));
+    World always(scene, settings, std::make_unique<Restless>());
+    for (World* each : {&world, &always}) {
+        each->step(200);
+        each->drive(0, {.steer = 0.5f, .hand_brake = 1});
+        each->step(100);
+        REQUIRE(!asleep(*each, 1));
+        each->step(500);
+        REQUIRE(asleep(*each, 1));
+        each->step(100);
+    }
+    REQUIRE(taken < 900);
+    REQUIRE(world.vehicle(0).curvature == always.vehicle(0).curvature);
+    REQUIRE(world.save() == always.save());
+}
+
 TEST_CASE("steps that are passed over count: time, events, checkpoints and states kept") {
     int taken = 0;
     World world(stack(3), {}, std::make_unique<Counting>(taken));

@@ -105,6 +105,23 @@ TEST_CASE("a car does what its driver is told, and wakes for it") {
     REQUIRE_THROWS_AS(world.drive_by_route(0), std::invalid_argument);
 }
 
+TEST_CASE("a rotor behind a wheel (armature) slows a car like a mass of its inertia over the radius squared") {
+    const auto speed_with = [](float armature) {
+        Scene scene = one_car();
+        for (const Wheel& wheel : scene.vehicles[0].wheels)
+            std::get<SixDof>(scene.joints[wheel.joint].kind).twist.armature = armature;
+        World world(scene);
+        world.step(60);
+        const float before = world.vehicle(0).speed;
+        world.drive(0, {.throttle = 0.2f});
+        world.step(60);
+        return world.vehicle(0).speed - before;
+    };
+    const float radius = 0.33f, mass = 1250;
+    const float rotor = 4 * 30 / (radius * radius);
+    CHECK(speed_with(30) == Approx(speed_with(0) * mass / (mass + rotor)).epsilon(0.08));
+}
+
 TEST_CASE("a car drives on while joints come and go, and keeps those of its wheels") {
     const auto swinging = [](float x) {
         Body ball;

@@ -44,13 +44,17 @@ def _limits(given: AnyLimits) -> Optional[Limits]:
 
 @dataclass(frozen=True)
 class Axis(_Described):
-    """Motion along or about one axis: free, locked, or within limits, (lower, upper); with a spring, a motor or friction."""
+    """Motion along or about one axis: free, locked, or within limits, (lower, upper); with a spring, a motor or friction.
+
+    armature: kg m^2 or kg, the inertia of a rotor that turns with the axis.
+    """
 
     locked: Optional[bool] = None
     limits: AnyLimits = None
     spring: Optional[Spring] = None
     motor: Optional[Motor] = None
     friction: Optional[float] = None
+    armature: Optional[float] = None
 
     def to_dict(self) -> Dict[str, Any]:
         given = super().to_dict()
@@ -84,10 +88,11 @@ class _OneAxis(JointKind):
     spring: Optional[Spring] = None
     motor: Optional[Motor] = None
     friction: Optional[float] = None
+    armature: Optional[float] = None
 
     def to_dict(self) -> Dict[str, Any]:
         """As in a scene file: {"hinge": {"limits": {...}}}."""
-        return {self._key: Axis(None, self.limits, self.spring, self.motor, self.friction).to_dict()}
+        return {self._key: Axis(None, self.limits, self.spring, self.motor, self.friction, self.armature).to_dict()}
 
 
 class Hinge(_OneAxis):

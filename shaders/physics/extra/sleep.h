@@ -22,6 +22,7 @@ LAWS_BEGIN
 // A body's sleep state: quiet steps at the start of the step in the low 12 bits. Waking in this step sets bits, in any
 // order: WOKEN, and one for each depth (in contacts, 1 to DEEPEST) to which the body shakes others; the highest counts.
 CONSTANT uint QUIET_BITS = 0xFFFu;  // Settings::sleep_time is limited to fewer steps
+CONSTANT uint RESTARTS = 0x80000u;  // for one step: its velocity is not what the last one left (restarts())
 CONSTANT uint WOKEN = 0x100000u;
 CONSTANT uint SHAKING_SHIFT = 21u;
 CONSTANT uint NO_SLEEP = 0xFFFFFFFFu;  // for Parameters.sleep_steps: no body sleeps
@@ -47,6 +48,15 @@ LAW uint quiet_steps(uint sleep_state) {
 // Whether the body was asleep as the step began; being woken does not change it.
 LAW bool has_slept(uint sleep_state, uint sleep_steps) {
     return quiet_steps(sleep_state) >= sleep_steps;
+}
+// Whether a body's velocity as a step begins is not what the last one left: it was set, or the body slept. Then the rotors of
+// its joints take their speeds from it (take_rotor_speeds).
+LAW bool restarts(uint sleep_state, uint sleep_steps) {
+    return (sleep_state & RESTARTS) != 0u || has_slept(sleep_state, sleep_steps);
+}
+// The sleep state of a body that is woken from outside. The same again if the step is repeated.
+LAW uint roused(uint sleep_state, uint sleep_steps) {
+    return restarts(sleep_state, sleep_steps) ? RESTARTS : 0u;
 }
 LAW bool is_asleep(uint sleep_state, uint sleep_steps) {
     return sleep_state < WOKEN && has_slept(sleep_state, sleep_steps);

@@ -138,12 +138,17 @@ LAW JointAxis wheel_motor(JointAxis axis, VehicleDynamics v, VehicleWheel wheel,
         axis.speed = is_track ? fastest * abs(throttle) : fastest;
         axis.most = is_track ? torque : torque * abs(throttle);
     }
-    axis.mode = axis.most > 0.0f ? AXIS_MOTOR : 0u;
+    axis.mode = (axis.mode & AXIS_ROTOR) | (axis.most > 0.0f ? AXIS_MOTOR : 0u);
     return axis;
 }
 
+// Whether its wheels still turn towards what is steered.
+LAW bool is_turning_wheels(VehicleDynamics v) {
+    return v.curvature != v.steer * tightest_now(v);
+}
 // Whether the vehicle keeps its bodies awake.
 LAW bool is_under_way(VehicleDynamics v) {
+    if (is_turning_wheels(v)) return true;
     if (v.by_route != 0u && v.points != 0u) return !has_arrived(v);
     return v.throttle != 0.0f || (v.steer != 0.0f && v.brake <= 0.0f && v.hand_brake <= 0.0f);
 }

@@ -101,11 +101,12 @@ void place_rows(uint j) {
     }
 }
 
-// The rotors' speeds as a step begins, those of their axes.
-void take_rotor_speeds(uint j) {
+// As a step begins, those of their axes for rotors that follow them.
+void take_rotor_speeds(uint j, bool restart) {
     VelocityPair v = couple_of(j);
     for (uint k = 0u; k < 6u; ++k)
-        if (has_rotor(joints.at[j].axes[k])) joints.at[j].rotors[k].speed = row_speed(joints.at[j].rows[k], is_linear(k), v);
+        if (has_rotor(joints.at[j].axes[k]) && rotor_follows(joints.at[j].rotors[k], restart))
+            joints.at[j].rotors[k].speed = row_speed(joints.at[j].rows[k], is_linear(k), v);
 }
 
 void push_row(uint j, uint k, float impulse) {

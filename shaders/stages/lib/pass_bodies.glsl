@@ -38,6 +38,8 @@ void move_body(uint i) {
     BodyProperties body = READ(properties, i);
     if (body.motion == MOTION_FIXED || is_part(body) || is_out_of_play(body.motion)) return;
     Velocity velocity = READ(velocities, i);
+    // At rest it keeps every bit: to normalise some quaternions again changes them for ever.
+    if (body.motion == MOTION_KINEMATIC && !in_motion(velocity)) return;
     if (body.motion == MOTION_DYNAMIC) {
         Gathered sum = gather(i);
         velocity.linear = velocity.linear + sum.change.linear;
