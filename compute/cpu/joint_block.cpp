@@ -233,7 +233,7 @@ void JointBlock::demand(Joint& joint, bool biased) {
             lanes->compliance[k] = wants.compliance;
         } else {
             equations(joint).solution[k] = side;
-            equations(joint).diagonal[7 * k] = wants.compliance;
+            equations(joint).tiles[7 * k] = wants.compliance;
         }
     });
 }
@@ -287,56 +287,57 @@ void JointBlock::set_up(const Joint& joint) {
     for_each_unknown(joint, [&](physics::uint k) {
         const physics::RowResponse to =
             physics::row_response(joint.rows[k], k, mass(joint.block_body_a), mass(joint.block_body_b));
-        const float compliance = own.diagonal[7 * k];
+        const float compliance = own.tiles[7 * k];
         for (physics::uint n = k; n < 6; ++n)
             if (unknown(joint, n)) {
                 if (n == k)
-                    own.diagonal[7 * k] = physics::softened(entry(joint, n, joint, to), compliance);
+                    own.tiles[7 * k] = physics::softened(entry(joint, n, joint, to), compliance);
                 else
-                    own.diagonal[6 * n + k] = entry(joint, n, joint, to);
+                    own.tiles[6 * n + k] = entry(joint, n, joint, to);
             }
         for (physics::uint l = 0; l < joint.fill_in; ++l)
             for_each_unknown(all_[joint.fill_in_of[l]], [&](physics::uint n) {
-                own.coupling[36 * l + 6 * n + k] = entry(all_[joint.fill_in_of[l]], n, joint, to);
+                own.tiles[36 + 36 * l + 6 * n + k] = entry(all_[joint.fill_in_of[l]], n, joint, to);
             });
     });
 }
 
 float* JointBlock::coupling(const Joint& joint, physics::uint with) const {
     const std::span fill_in(joint.fill_in_of, joint.fill_in);
-    return equations(joint).coupling + 36 * (std::find(fill_in.begin(), fill_in.end(), with) - fill_in.begin());
+    return equations(joint).tiles + 36 + 36 * (std::find(fill_in.begin(), fill_in.end(), with) - fill_in.begin());
 }
 
 void JointBlock::eliminate(const Joint& joint, physics::uint k) {
     physics::JointEquations& own = equations(joint);
-    const float inverse = physics::reciprocal(own.diagonal[7 * k]);
-    own.diagonal[7 * k] = inverse;
+    const float inverse = physics::reciprocal(own.tiles[7 * k]);
+    own.tiles[7 * k] = inverse;
     for (physics::uint n = k + 1; n < 6; ++n) {
         if (!unknown(joint, n)) continue;
-        const float multiplier = physics::multiplier_of(own.diagonal[6 * n + k], inverse);
+        const float multiplier = physics::multiplier_of(own.tiles[6 * n + k], inverse);
         own.solution[n] = physics::less_multiple(own.solution[n], multiplier, own.solution[k]);
         for (physics::uint c = k + 1; c <= n; ++c)
             if (unknown(joint, c))
-                own.diagonal[6 * n + c] = physics::less_multiple(own.diagonal[6 * n + c], multiplier, own.diagonal[6 * c + k]);
+                own.tiles[6 * n + c] = physics::less_multiple(own.tiles[6 * n + c], multiplier, own.tiles[6 * c + k]);
     }
     for (physics::uint l = 0; l < joint.fill_in; ++l) {
         const Joint& later = all_[joint.fill_in_of[l]];
         physics::JointEquations& theirs = equations(later);
-        float* link = own.coupling + 36 * l;
+        float* link = own.tiles + 36 + 36 * l;
         for_each_unknown(later, [&](physics::uint n) {
             const float multiplier = physics::multiplier_of(link[6 * n + k], inverse);
             theirs.solution[n] = physics::less_multiple(theirs.solution[n], multiplier, own.solution[k]);
             for (physics::uint c = k + 1; c < 6; ++c)
                 if (unknown(joint, c))
-                    link[6 * n + c] = physics::less_multiple(link[6 * n + c], multiplier, own.diagonal[6 * c + k]);
+                    link[6 * n + c] = physics::less_multiple(link[6 * n + c], multiplier, own.tiles[6 * c + k]);
             for (physics::uint c = 0; c <= n; ++c)
                 if (unknown(later, c))
-                    theirs.diagonal[6 * n + c] = physics::less_multiple(theirs.diagonal[6 * n + c], multiplier, link[6 * c + k]);
+                    theirs.tiles[6 * n + c] = physics::less_multiple(theirs.tiles[6 * n + c], multiplier, link[6 * c + k]);
             for (physics::uint e = 0; e < l; ++e) {
                 const Joint& middle = all_[joint.fill_in_of[e]];
                 float* between = coupling(middle, joint.fill_in_of[l]);
                 for_each_unknown(middle, [&](physics::uint c) {
-                    between[6 * n + c] = physics::less_multiple(between[6 * n + c], multiplier, own.coupling[36 * e + 6 * c + k]);
+                    between[6 * n + c] =
+                        physics::less_multiple(between[6 * n + c], multiplier, own.tiles[36 + 36 * e + 6 * c + k]);
                 });
             }
         });
@@ -347,14 +348,14 @@ void JointBlock::substitute(const Joint& joint, physics::uint k) {
     physics::JointEquations& own = equations(joint);
     float sum = own.solution[k];
     for (physics::uint n = k + 1; n < 6; ++n)
-        if (unknown(joint, n)) sum = physics::less_multiple(sum, own.diagonal[6 * n + k], own.solution[n]);
+        if (unknown(joint, n)) sum = physics::less_multiple(sum, own.tiles[6 * n + k], own.solution[n]);
     for (physics::uint l = 0; l < joint.fill_in; ++l) {
         const Joint& later = all_[joint.fill_in_of[l]];
         for_each_unknown(later, [&](physics::uint n) {
-            sum = physics::less_multiple(sum, own.coupling[36 * l + 6 * n + k], equations(later).solution[n]);
+            sum = physics::less_multiple(sum, own.tiles[36 + 36 * l + 6 * n + k], equations(later).solution[n]);
         });
     }
-    own.solution[k] = physics::substituted(sum, own.diagonal[7 * k]);
+    own.solution[k] = physics::substituted(sum, own.tiles[7 * k]);
 }
 
 }  // namespace scree::reference

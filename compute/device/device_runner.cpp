@@ -130,8 +130,9 @@ std::uint32_t DeviceRunner::fused_group_size() const {
 }
 
 std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const {
-    return {stage.reference ? group_size() : fused_group_size(), stage.features, is_one_subgroup() ? 1u : 0u,
-            shaders::variant_of(stage.name)};
+    const std::uint32_t threads = stage.reference ? group_size() : fused_group_size();
+    return {stage.threads_an_item > 0 ? stage.threads_an_item : threads, stage.features, is_one_subgroup() ? 1u : 0u,
+            shaders::variant_of(stage.name + stage.way)};
 }
 
 void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
@@ -140,26 +141,28 @@ void DeviceRunner::make_pipelines(const std::vector<Stage>& stages) {
     // In parallel: drivers take up to a tenth of a second per pipeline on one core.
     std::vector<std::pair<const Stage*, std::optional<host::Pipeline>>> missing;
     for (const Stage& stage : stages)
-        if (!pipelines_.contains({stage.name, stage.features}) &&
-            std::none_of(missing.begin(), missing.end(), [&](const auto& other) {
-                return other.first->name == stage.name && other.first->features == stage.features;
+        if (!pipelines_.contains(pipeline_of(stage)) && std::none_of(missing.begin(), missing.end(), [&](const auto& other) {
+                return pipeline_of(*other.first) == pipeline_of(stage);
             }))
             missing.emplace_back(&stage, std::nullopt);
     tbb::parallel_for(std::size_t{0}, missing.size(), [&](std::size_t i) {
         const Stage& stage = *missing[i].first;
-        missing[i].second.emplace(layout_, stage.name.c_str(), shaders::find(stage.name + variant), constants_of(stage));
+        const std::string shader = stage.name + stage.way;
+        missing[i].second.emplace(layout_, shader.c_str(), shaders::find(shader + variant), constants_of(stage));
     });
-    for (auto& [stage, pipeline] : missing) pipelines_.emplace(std::pair{stage->name, stage->features}, std::move(*pipeline));
+    for (auto& [stage, pipeline] : missing) pipelines_.emplace(pipeline_of(*stage), std::move(*pipeline));
 }
 
 // A grown world may no longer be small.
 void DeviceRunner::fuse() {
     std::vector<Stage> recorded;
-    joint_rounds_ = joint_rounds_at_once(state_->joints, std::span(state_->joint_blocks).first(state_->fixed().joint_blocks));
+    joint_dispatches_ = joint_dispatches(state_->joints, std::span(state_->joint_blocks).first(state_->fixed().joint_blocks),
+                                         is_one_subgroup() ? device_->report().subgroup : 0);
     for (const Stage& stage : fused(plan_, state_->fixed(), fused_group_size()))
-        for (Stage& dispatch : dispatches_of(stage, joint_rounds_)) recorded.push_back(std::move(dispatch));
-    const bool as_before = std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),
-                                      [](const Stage& a, const Stage& b) { return a.name == b.name && a.pass == b.pass; });
+        for (Stage& dispatch : dispatches_of(stage, joint_dispatches_)) recorded.push_back(std::move(dispatch));
+    const bool as_before =
+        std::equal(recorded.begin(), recorded.end(), recorded_.begin(), recorded_.end(),
+                   [](const Stage& a, const Stage& b) { return a.name == b.name && a.way == b.way && a.pass == b.pass; });
     recorded_ = std::move(recorded);
     if (!as_before) clock_ = StageClock(recorded_);
     make_pipelines(recorded_);
@@ -167,7 +170,7 @@ void DeviceRunner::fuse() {
 
 void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stage) const {
     const physics::Parameters& p = state_->fixed();
-    commands.bind(pipelines_.at({stage.name, stage.features}), *tables_[parity_]);
+    commands.bind(pipelines_.at(pipeline_of(stage)), *tables_[parity_]);
     commands.push(&stage.pass, sizeof(stage.pass));
     const auto indirect = [&](physics::uint row) {
         commands.dispatch_indirect(buffers_[buffer_of(Table::counts)], argument_offset(row));
@@ -219,7 +222,9 @@ void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stag
             indirect(physics::WORK_CCD_PAIRS);
             break;
         case DispatchDomain::joint_blocks:
-            commands.dispatch(std::max(1u, physics::work_for(p.joint_blocks, p).x));
+            // Workgroups take further blocks in turn where there are more than a dispatch may have groups.
+            commands.dispatch(std::max(
+                1u, stage.threads_an_item > 0 ? std::min(p.joint_blocks, 65535u) : physics::work_for(p.joint_blocks, p).x));
             break;
         case DispatchDomain::vehicles:
             commands.dispatch(std::max(1u, physics::work_for(p.vehicles, p).x));
@@ -316,10 +321,13 @@ bool DeviceRunner::steps(int count, std::uint64_t& done) {
 void DeviceRunner::run_stage(std::size_t index) {
     std::vector<std::unique_ptr<host::CommandBuffer>>& alone = alone_[parity_];
     if (alone.empty()) {
-        make_pipelines(plan_);
+        std::vector<Stage> unfused;
+        for (const Stage& stage : plan_)
+            for (Stage& dispatch : dispatches_of(stage, joint_dispatches_)) unfused.push_back(std::move(dispatch));
+        make_pipelines(unfused);
         for (const Stage& stage : plan_) {
             auto commands = std::make_unique<host::CommandBuffer>(device_, 0);
-            for (const Stage& dispatch : dispatches_of(stage, joint_rounds_)) {
+            for (const Stage& dispatch : dispatches_of(stage, joint_dispatches_)) {
                 record_stage(*commands, dispatch);
                 commands->barrier();
             }

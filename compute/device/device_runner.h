@@ -16,6 +16,7 @@
 #include "compute/runner.h"
 #include "compute/step/plan.h"
 #include "compute/step/stage_clock.h"
+#include "compute/step/stage_fusion.h"
 #include "compute/step/table_layout.h"
 #include "compute/step/table_ranges.h"
 #include "host/vulkan/buffer.h"
@@ -105,13 +106,17 @@ private:
     State* state_ = nullptr;
     std::vector<Stage> plan_;
     Threads threads_{0};
-    std::vector<Stage> recorded_;     // the plan, with stages fused in a small world
-    std::uint32_t joint_rounds_ = 1;  // per dispatch
+    std::vector<Stage> recorded_;  // the plan, with stages fused in a small world
+    JointDispatches joint_dispatches_;
     int planned_substeps_ = 0;
     SceneFeatures planned_features_;
     StageClock clock_;
     std::shared_ptr<host::BindingSetLayout> layout_;
-    std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;  // by stage name and features
+    // By shader and features.
+    static std::pair<std::string, std::uint32_t> pipeline_of(const Stage& stage) {
+        return {stage.name + stage.way, stage.features};
+    }
+    std::map<std::pair<std::string, std::uint32_t>, host::Pipeline> pipelines_;
     TableOffsets offsets_;
     std::vector<host::Buffer> buffers_;        // by binding; contacts and contacts_before are swapped with the parity
     std::array<host::Buffer, 2> counts_back_;  // per parity

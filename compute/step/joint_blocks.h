@@ -11,8 +11,8 @@ namespace scree {
 
 // All joints connected through dynamic bodies form one block, which the step solves directly. A block of more joints
 // than this, or one whose elimination of a joint would fill in more than MAX_FILL_IN others, is cut in two; the parts
-// share bodies like contacts (mass splitting). One thread works on a block, so larger ones would keep the others
-// waiting.
+// share bodies like contacts (mass splitting). The joints of a block are eliminated one after the other, so larger ones
+// would keep the others waiting.
 constexpr std::size_t most_joints_of_block = physics::MAX_BLOCK_JOINTS;
 
 struct JointTables {

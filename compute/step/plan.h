@@ -20,6 +20,8 @@ struct Stage : StageDeclaration {
     std::uint32_t features = 0;  // the stage's tested features that the scene has
     bool barrier_after = true;   // a barrier follows
     std::vector<Compared> compared = {};
+    std::string way = {};               // of several shaders of the stage the one that this dispatch runs: NAME.way; empty: NAME
+    std::uint32_t threads_an_item = 0;  // a workgroup of so many threads works on an item; 0: a thread does
 };
 
 // The stages of one step, without those for features that the scene lacks, which would cost compile time and time per

@@ -34,10 +34,12 @@ std::uint32_t substeps_at_once(const physics::Parameters& p, std::uint32_t threa
     return std::max(1u, most_rounds / rounds);
 }
 
-// Loop rounds left for a joint block (shaders/stages/lib/joints.glsl) if its bodies have some thousand contacts.
+// Loop rounds left for a joint block (shaders/stages/lib/pass_joints.glsl) if its bodies have some thousand contacts.
 constexpr std::uint32_t most_joint_rounds = 50000;
 // Rounds of a loop over the axes of a joint, with that of the enclosing loop over joints.
 constexpr std::uint32_t axis_rounds = 7;
+// Rounds of the loops over a joint's own six rows in its elimination: loading, factoring and storing them.
+constexpr std::uint32_t own_rounds = 190;
 
 using Names = std::vector<std::string>;
 
@@ -122,39 +124,55 @@ std::vector<Stage> fused(const std::vector<Stage>& plan, const physics::Paramete
     return stages;
 }
 
-std::uint32_t joint_rounds_at_once(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks) {
-    // Greatest fill-in at each position in a block, from its first and from its last joint: one vector of threads steps
-    // through several blocks in parallel.
-    std::vector<std::uint32_t> from_first, from_last;
-    std::uint32_t members = 0;
+JointDispatches joint_dispatches(std::span<const physics::Joint> joints, std::span<const physics::JointBlock> blocks,
+                                 std::uint32_t subgroup) {
+    constexpr std::uint32_t most_threads = 128, few_threads = 32;
+    JointDispatches found;
+    const std::uint32_t threads = subgroup > 0 ? subgroup : most_threads;
+    std::uint32_t most = 0;  // loop rounds of a round of a block
+    std::uint32_t once = 0;
     for (const physics::JointBlock& block : blocks) {
-        const auto order = joints.subspan(block.first_joint, block.joints);
-        members = std::max(members, block.bodies);
-        from_first.resize(std::max(from_first.size(), order.size()));
-        from_last.resize(from_first.size());
-        for (std::size_t j = 0; j < order.size(); ++j) {
-            from_first[j] = std::max(from_first[j], order[j].fill_in);
-            from_last[j] = std::max(from_last[j], order[order.size() - 1 - j].fill_in);
+        if (block.joints <= physics::SMALL_BLOCK_JOINTS) {
+            found.threads_a_small_block = subgroup > 0 ? 1 : few_threads;
+            continue;
         }
+        found.threads_a_block = threads;
+        const auto shared = [&](std::uint32_t items) { return (items + threads - 1) / threads; };
+        std::uint32_t each = (2 * axis_rounds + axis_rounds) * shared(block.joints) + 2 * shared(block.bodies);
+        for (const physics::Joint& joint : joints.subspan(block.first_joint, block.joints)) {
+            const std::uint32_t links = joint.fill_in, pairs = links * (links + 1) / 2;
+            each += 4 * axis_rounds;                                // pushes to both bodies, twice
+            each += own_rounds;                                     // its own rows
+            each += (2 + 3 * axis_rounds) * shared(6 * links);      // rows of the joints linked with it
+            each += (8 + 9 * axis_rounds) * shared(6 * pairs);      // and between two of them
+            each += 6 * (axis_rounds + (links + 1) * axis_rounds);  // substitution
+        }
+        each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
+        most = std::max(most, each);
+        once = std::max(once, 8 * block.bodies + 12 * block.joints + 8 * axis_rounds * shared(block.joints));
     }
-    const auto longest = static_cast<std::uint32_t>(from_first.size());
-    std::uint32_t each = members + 6 * axis_rounds * longest;                             // six loops over the axes of each joint
-    for (const std::uint32_t links : from_first) each += 12 * links + 3 * links * links;  // equations, elimination
-    for (const std::uint32_t links : from_last) each += 6 * links;                        // substitution
-    const std::uint32_t once = 6 * members + 7 * axis_rounds * longest;
-    return std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, each), 1u, physics::JOINT_ROUNDS);
+    found.rounds_at_once =
+        std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, most), 1u, physics::JOINT_ROUNDS);
+    return found;
 }
 
-std::vector<Stage> dispatches_of(const Stage& stage, std::uint32_t joint_rounds) {
+std::vector<Stage> dispatches_of(const Stage& stage, const JointDispatches& joints) {
     if (stage.domain != DispatchDomain::joint_blocks || (stage.name != "solve_joints" && stage.name != "relax_joints"))
         return {stage};
     std::vector<Stage> dispatches;
-    for (std::uint32_t done = 0; done < physics::JOINT_ROUNDS; done += joint_rounds) {
-        dispatches.push_back(stage);
-        dispatches.back().pass |= done << 8 | std::min(joint_rounds, physics::JOINT_ROUNDS - done) << 16;
-        dispatches.back().barrier_after = true;
+    if (joints.threads_a_small_block > 0 || joints.threads_a_block == 0) {
+        Stage& small = dispatches.emplace_back(stage);
+        const bool singly = joints.threads_a_small_block <= 1;
+        small.way = singly ? ".singly" : ".small";
+        small.threads_an_item = singly ? 0 : joints.threads_a_small_block;
+        small.barrier_after = joints.threads_a_block == 0 && stage.barrier_after;
     }
-    dispatches.back().barrier_after = stage.barrier_after;
+    for (std::uint32_t done = 0; joints.threads_a_block > 0 && done < physics::JOINT_ROUNDS; done += joints.rounds_at_once) {
+        dispatches.push_back(stage);
+        dispatches.back().threads_an_item = joints.threads_a_block;
+        dispatches.back().pass |= done << 8 | std::min(joints.rounds_at_once, physics::JOINT_ROUNDS - done) << 16;
+        dispatches.back().barrier_after = done + joints.rounds_at_once < physics::JOINT_ROUNDS || stage.barrier_after;
+    }
     return dispatches;
 }
 

@@ -1,4 +1,4 @@
-// Joint warm starts of the first substep.
+// Joint warm starts of the first substep, a thread a block.
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
@@ -8,27 +8,93 @@
 // after the declarations of the tables
 #include "shaders/stages/lib/joints.glsl"
 
+Velocity velocity_of(uint body, uint block_body) {
+    if (block_body != NONE) return block_bodies.at[block_body].velocity;
+    return velocity_at_first(body);
+}
+Mass mass_of(uint block_body) {
+    if (block_body != NONE) return block_bodies.at[block_body].mass;
+    return Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+}
+
+// Sums the warm start impulses of the block's joints on each body: their weight in mass splitting.
+void note_pressing(uint j) {
+    vec3 sum = vec3(0.0f);
+    for (uint k = 0u; k < 3u; ++k)
+        if (joints.at[j].axes[k].mode != 0u) sum = sum + row_push(joints.at[j].rows[k], joints.at[j].rotors[k]);
+    float normal_impulse = length3(sum);
+    uint a = joints.at[j].block_body_a, b = joints.at[j].block_body_b;
+    if (a != NONE) block_bodies.at[a].normal_sum = block_bodies.at[a].normal_sum + normal_impulse;
+    if (b != NONE) block_bodies.at[b].normal_sum = block_bodies.at[b].normal_sum + normal_impulse;
+}
+
 bool body_restarts(uint body) {
     return body != NONE && restarts(READ_WORD(sleep_states, body), PARAMETERS.sleep_steps);
 }
 
+// Jacobian rows at the present poses, and as a step begins the speeds of rotors that follow their axes.
+void place_rows(uint j) {
+    bool restart = body_restarts(joints.at[j].a) || body_restarts(joints.at[j].b);
+    JointConfiguration at = configuration_of(j);
+    uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b, flags = joints.at[j].flags;
+    VelocityPair v;
+    v.a = velocity_of(joints.at[j].a, side_a);
+    v.b = velocity_of(joints.at[j].b, side_b);
+    Mass mass_a = mass_of(side_a), mass_b = mass_of(side_b);
+    for (uint k = 0u; k < 6u; ++k) {
+        if (joints.at[j].axes[k].mode == 0u) continue;
+        JointRow row = placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE, side_b != NONE,
+                                  joints.at[j].rotors[k].inertia, PARAMETERS.h);
+        joints.at[j].rows[k] = row;
+        if (has_rotor(joints.at[j].axes[k]) && rotor_follows(joints.at[j].rotors[k], restart))
+            joints.at[j].rotors[k].speed = row_speed(row, is_linear(k), v);
+    }
+}
+
+void share_out(uint j) {
+    uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b;
+    for (uint k = 0u; k < 6u; ++k) {
+        JointRow row = joints.at[j].rows[k];
+        if (!row_acts(joints.at[j].axes[k], row)) continue;
+        float impulse = row_impulse(row, joints.at[j].rotors[k]);
+        if (impulse == 0.0f) continue;
+        if (side_a != NONE)
+            block_bodies.at[side_a].velocity = row_pushed(block_bodies.at[side_a].velocity, row.direction, row.angular_a,
+                                                          -impulse, is_linear(k), block_bodies.at[side_a].mass);
+        if (side_b != NONE)
+            block_bodies.at[side_b].velocity = row_pushed(block_bodies.at[side_b].velocity, row.direction, row.angular_b, impulse,
+                                                          is_linear(k), block_bodies.at[side_b].mass);
+    }
+    for (uint k = 0u; k < 6u; ++k)
+        if (has_rotor(joints.at[j].axes[k]))
+            joints.at[j].rotors[k] = rotor_slowed(joints.at[j].rotors[k], joints.at[j].rotors[k].impulse);
+}
+
 void main() {
-    if (!enter_block(thread())) return;
-    note_pressing();
-    lend(true);
-    take_velocities(false);
-    for (uint j = block_first_joint; j < block_joints_end; ++j) {
-        if (!holds(j)) continue;
+    if (thread() >= PARAMETERS.joint_blocks || COUNTS.overflow != 0u || !enter_block(thread())) return;
+    uint bodies_end = block_first_body + block_size, joints_end = block_first_joint + block_joints;
+    for (uint m = block_first_body; m < bodies_end; ++m) block_bodies.at[m].normal_sum = 0.0f;
+    for (uint j = block_first_joint; j < joints_end; ++j)
+        if (joints.at[j].broken == 0u) note_pressing(j);
+    for (uint m = block_first_body; m < bodies_end; ++m) {
+        block_bodies.at[m].mass = lent_mass(m, true);
+        Velocity velocity = velocities.at[block_bodies.at[m].body];
+        block_bodies.at[m].velocity_before = velocity;
+        block_bodies.at[m].velocity = velocity;
+    }
+    for (uint j = block_first_joint; j < joints_end; ++j) {
+        if (joints.at[j].broken != 0u) continue;
         joints.at[j].force = vec3(0.0f);
         joints.at[j].torque = vec3(0.0f);
         place_rows(j);
-        take_rotor_speeds(j, body_restarts(joints.at[j].a) || body_restarts(joints.at[j].b));
     }
-    begin_shares();
-    for (uint j = block_first_joint; j < block_joints_end; ++j) {
-        if (!holds(j)) continue;
-        share_out_warm_start(j);
-        warm_start_rotors(j);
+    for (uint m = block_first_body; m < bodies_end; ++m) {
+        block_bodies.at[m].velocity = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+        block_bodies.at[m].mass.split = 1.0f;
     }
-    hand_out(1.0f, true);
+    for (uint j = block_first_joint; j < joints_end; ++j)
+        if (joints.at[j].broken == 0u) share_out(j);
+    for (uint m = block_first_body; m < bodies_end; ++m)
+        if (block_bodies.at[m].slot != NONE)
+            slots.at[block_bodies.at[m].slot] = velocity_delta(block_bodies.at[m].velocity, 1.0f, block_bodies.at[m].normal_sum);
 }

@@ -1,40 +1,85 @@
 // The relax pass over all joint blocks in parallel. It also writes the next substep's warm start, or in the last
 // substep (first bit of push.pass) the least quiet steps of the block; it sums the joints' loads and breaks overloaded
 // joints.
+// variants: relax_joints
+// variants: relax_joints.small -DSCREE_SMALL_BLOCKS
+// variants: relax_joints.singly -DSCREE_SMALL_BLOCKS -DSCREE_SINGLY
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/solve/contact_solver.h"
-#include "shaders/stages/lib/stage.glsl"
 
-// after the declarations of the tables
-#include "shaders/stages/lib/joints.glsl"
+#define BIASED false
+#include "shaders/stages/lib/pass_joints.glsl"
+
+// Clears the impulses of a joint.
+void tear(uint j) {
+    for (uint k = 0u; k < 6u; ++k) {
+        JOINT(j).rows[k].motor_impulse = 0.0f;
+        JOINT(j).rows[k].limit_impulse = 0.0f;
+        JOINT(j).rotors[k].impulse = 0.0f;
+    }
+}
 
 // Adds the substep's impulses to the joint's load; in the last substep, breaks it past its limits.
 void take_stock(uint j) {
-    JointLoad load = JointLoad(joints.at[j].force + force_impulse(j), joints.at[j].max_force,
-                               joints.at[j].torque + torque_impulse(j), joints.at[j].max_torque);
+    vec3 push_sum = vec3(0.0f), turn_sum = vec3(0.0f);
+    for (uint k = 0u; k < 6u; ++k) {
+        JointAxis axis = axis_of(j, k);
+        if (axis.mode == 0u) continue;
+        JointRow row = row_of(j, k);
+        row.direction = row_vector(j, k, DIRECTION);
+        vec3 pushed = row_push(row, rotor_of(j, k, axis));
+        if (is_linear(k))
+            push_sum = push_sum + pushed;
+        else
+            turn_sum = turn_sum + pushed;
+    }
+    JointLoad load = JointLoad(JOINT(j).force + push_sum, JOINT(j).max_force, JOINT(j).torque + turn_sum, JOINT(j).max_torque);
+    float normal_impulse = length3(push_sum);
+    bool tears = false;
     if (is_last_substep()) {
         load = mean_load(load, PARAMETERS);
-        joints.at[j].max_force = load.max_force;
-        joints.at[j].max_torque = load.max_torque;
-        if (joint_tears(load.force, joints.at[j].break_force, load.torque, joints.at[j].break_torque)) {
-            joints.at[j].broken = 1u;
-            joints.at[j].active_set = 0u;
-            tear(j);
-        }
+        JOINT(j).max_force = load.max_force;
+        JOINT(j).max_torque = load.max_torque;
+        tears = joint_tears(load.force, JOINT(j).break_force, load.torque, JOINT(j).break_torque);
     }
-    joints.at[j].force = load.force;
-    joints.at[j].torque = load.torque;
+    JOINT(j).force = load.force;
+    JOINT(j).torque = load.torque;
+    given_impulses[6u * j] = normal_impulse;
+    if (!tears) return;
+    JOINT(j).broken = 1u;
+    JOINT(j).active_set = 0u;
+    facts[j] &= ~HOLDS;
+    tear(j);
+}
+
+// The sum of the impulses of the block's joints on each body: its weight in mass splitting.
+void note_pressing(bool struck) {
+    FOR_LANES(m, block_size) {
+        float sum = 0.0f;
+        for (uint w = 0u; w < MASK_WORDS; ++w) {
+            uint left = hanging[MASK_WORDS * m + w];
+            while (left != 0u) {
+                uint j = 32u * w + uint(findLSB(left));
+                left &= left - 1u;
+                if (!holds(j)) continue;
+                float normal_impulse = struck ? 0.0f : given_impulses[6u * j];
+                if (side_a(j) == m) sum = sum + normal_impulse;
+                if (side_b(j) == m) sum = sum + normal_impulse;
+            }
+        }
+        MEMBER(m).normal_sum = sum;
+    }
 }
 
 // The least quiet steps of all bodies of the block.
 float least_quiet_in_block() {
     float quiet = FOREVER;
-    for (uint j = block_first_joint; j < block_joints_end; ++j) {
+    for (uint j = 0u; j < block_joints; ++j) {
         if (!holds(j)) continue;
         for (uint side = 0u; side < 2u; ++side) {
-            uint body = side == 0u ? joints.at[j].a : joints.at[j].b;
+            uint body = side == 0u ? JOINT(j).a : JOINT(j).b;
             if (body != NONE)
                 quiet = smaller(quiet, quiet_steps_shown(READ(properties, body).motion, READ(velocities, body),
                                                          READ_WORD(sleep_states, body)));
@@ -44,26 +89,24 @@ float least_quiet_in_block() {
 }
 
 void end_pass() {
-    begin_shares();
     bool struck = is_struck();  // the impulses of an impact must not warm start the next substep
-    for (uint j = block_first_joint; j < block_joints_end; ++j) {
+    bool warms = !is_last_substep() && !struck;
+    FOR_LANES(j, block_joints) {
+        pushing[j] = 0u;
+        if (holds(j)) commit(j, warms);
+    }
+    end_part();
+    push_bodies(FROM_REST);
+    end_part();
+    FOR_LANES(j, block_joints) {
         if (!holds(j)) continue;
-        bool warms = !is_last_substep() && !struck;
-        share_out(j, warms);
-        commit(j, warms);
         take_stock(j);
         if (struck) tear(j);
     }
-    note_pressing();
+    end_part();
+    note_pressing(struck);
     hand_out(1.0f, true);
     if (!is_last_substep()) return;
     float quiet = least_quiet_in_block();
-    for (uint m = block_first_body; m < block_bodies_end; ++m)
-        if (block_bodies.at[m].slot != NONE) SET_FLOAT(neighbours_quiet, block_bodies.at[m].slot, quiet);
-}
-
-void main() {
-    if (!enter_block(thread())) return;
-    solve_block(false);
-    if (is_last_dispatch()) end_pass();
+    FOR_LANES(m, block_size) if (MEMBER(m).slot != NONE) SET_FLOAT(neighbours_quiet, MEMBER(m).slot, quiet);
 }

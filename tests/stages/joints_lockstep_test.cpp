@@ -29,7 +29,7 @@ void require_equal(const Scene& scene, int steps) {
 
 std::uint32_t rounds_at_once(const Scene& scene) {
     const State state(checked(scene), {}, 64, true);
-    return joint_rounds_at_once(state.joints, state.joint_blocks);
+    return joint_dispatches(state.joints, state.joint_blocks, 8).rounds_at_once;
 }
 
 }  // namespace

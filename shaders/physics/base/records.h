@@ -353,7 +353,7 @@ struct Joint {
     JointRotor rotors[6];
     JointRow rows[6];
 };
-// Joints that one thread solves together, and their dynamic bodies.
+// Joints that are solved together, and their dynamic bodies.
 struct JointBlock {
     uint first_joint, joints;  // in the table of joints
     uint first_body, bodies;   // in the table of block bodies
@@ -362,6 +362,8 @@ struct JointBlock {
     uint pad0, pad1;
 };
 CONSTANT uint MAX_BLOCK_JOINTS = 128u;
+// A small block: on a device 16 KiB hold its bodies, rows and equations, whatever their fill-in.
+CONSTANT uint SMALL_BLOCK_JOINTS = 11u;
 // A dynamic body in a block; one of several if blocks share the body.
 struct BlockBody {
     uint body;
@@ -375,9 +377,9 @@ struct BlockBody {
 CONSTANT uint MAX_FILL_IN = 8u;
 // The equations of a joint within a pass.
 struct JointEquations {
-    float solution[8];    // right-hand sides, then solutions; 6 in use
-    float diagonal[40];   // 6 x 6
-    float coupling[288];  // per fill-in entry, 6 rows of the later joint x 6 of this one
+    float solution[8];  // right-hand sides, then solutions; 6 in use
+    float tiles[324];   // 6 x 6 entries of its own, and per fill-in entry 6 rows of the later joint x 6 of this one
+    float rows[92];     // per row: direction, angular parts and what they do to both bodies, 15; 90 in use
 };
 CONSTANT uint OF_JOINT = 0x80000000u;  // flag in slot_sides: the rest is the index of a BlockBody
 

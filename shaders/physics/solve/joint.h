@@ -164,11 +164,14 @@ LAW float row_speed(JointRow row, bool linear, VelocityPair v) {
     float turning = dot3(row.angular_b, v.b.angular) - dot3(row.angular_a, v.a.angular);
     return choose(linear, dot3(row.direction, v.b.linear - v.a.linear) + turning, turning);
 }
-// The velocity after an impulse along (linear) or about the row.
-LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
+// The velocity after an impulse along (linear) or about the row. `turn`: I^-1 of its angular part, not yet split.
+LAW Velocity row_turned(Velocity v, vec3 direction, vec3 turn, float impulse, bool linear, Mass mass) {
     v.linear = choose(linear, flush_tiny(v.linear + direction * (impulse * mass.inverse_mass * mass.split)), v.linear);
-    v.angular = flush_tiny(v.angular + turned_by(mass, arm) * (impulse * mass.split));
+    v.angular = flush_tiny(v.angular + turn * (impulse * mass.split));
     return v;
+}
+LAW Velocity row_pushed(Velocity v, vec3 direction, vec3 arm, float impulse, bool linear, Mass mass) {
+    return row_turned(v, direction, turned_by(mass, arm), impulse, linear, mass);
 }
 
 LAWS_END

@@ -1,0 +1,675 @@
+// A pass over blocks of joints: rows, equations, elimination, substitution, active set.
+//
+// A workgroup solves a block. Its threads share the bodies, the joints, the rows of the matrix and, within a pivot joint,
+// the rows that its elimination changes; each entry is changed by the pivots in the same order as on the CPU. Compiled
+// for blocks of every size, whose equations are in memory, for small ones (SCREE_SMALL_BLOCKS), whose equations are
+// shared by the workgroup, and for small ones with a thread a block (SCREE_SINGLY), for software devices, whose threads
+// are lanes of a vector: there an array of a thread's own costs least.
+//
+// lavapipe silently ends a shader's loops after 65,535 rounds in all: rounds of a block that would exceed it go to
+// further dispatches (compute/step/stage_fusion.h, which knows how many rounds each loop here takes). Loops are not
+// unrolled in the source: drivers took minutes and gigabytes to compile that.
+#ifndef SCREE_STAGES_PASS_JOINTS_GLSL
+#define SCREE_STAGES_PASS_JOINTS_GLSL
+
+#extension GL_KHR_shader_subgroup_basic : require
+
+#ifndef SCREE_SMALL_BLOCKS
+#define SCREE_FUSED  // threads read from memory what others wrote before a barrier
+#endif
+#include "shaders/stages/lib/stage.glsl"
+
+// after the declarations of the tables
+#include "shaders/stages/lib/joints.glsl"
+
+layout(constant_id = 2) const bool ONE_SUBGROUP = false;
+
+#ifdef SCREE_SMALL_BLOCKS
+const uint JOINT_ROOM = SMALL_BLOCK_JOINTS, BODY_ROOM = 2u * SMALL_BLOCK_JOINTS, MASK_WORDS = 1u;
+const uint TILE_ROOM = 63u;  // of 11 joints: one of its own and MAX_FILL_IN, as far as joints follow
+#else
+const uint JOINT_ROOM = MAX_BLOCK_JOINTS, BODY_ROOM = 2u * MAX_BLOCK_JOINTS, MASK_WORDS = MAX_BLOCK_JOINTS >> 5;
+#endif
+
+#ifdef SCREE_SINGLY
+#define BLOCK_SHARED
+#define FOR_LANES(i, count) for (uint i = 0u; i < (count); ++i)
+#define JOIN(to, bits) to |= bits
+bool leads() {
+    return true;
+}
+void end_part() {}
+#else
+#define BLOCK_SHARED shared
+#define FOR_LANES(i, count) for (uint i = gl_LocalInvocationID.x; i < (count); i += gl_WorkGroupSize.x)
+#define JOIN(to, bits) atomicOr(to, bits)
+bool leads() {
+    return gl_LocalInvocationID.x == 0u;
+}
+void end_part() {
+    if (ONE_SUBGROUP) {
+        subgroupMemoryBarrier();
+        subgroupBarrier();
+    } else {
+        memoryBarrierShared();
+#ifndef SCREE_SMALL_BLOCKS
+        memoryBarrierBuffer();
+#endif
+        barrier();
+    }
+}
+#endif
+
+// ---- the block: its joints and bodies are numbered from 0
+BLOCK_SHARED uint sides[JOINT_ROOM];                 // bodies A and B, 16 bits each
+BLOCK_SHARED uint links[2u * JOINT_ROOM];            // later joints whose equations the elimination changes, 8 bits each
+BLOCK_SHARED uint facts[JOINT_ROOM];                 // number of links from bit 16 on, HOLDS
+BLOCK_SHARED uint unknowns[JOINT_ROOM];              // axes that are unknowns
+BLOCK_SHARED uint pushing[JOINT_ROOM];               // axes whose impulses are to be applied
+BLOCK_SHARED uint hanging[MASK_WORDS * BODY_ROOM];   // joints of each body
+BLOCK_SHARED float given_impulses[6u * JOINT_ROOM];  // to be applied; in equations the compliances
+BLOCK_SHARED float solutions[6u * JOINT_ROOM];
+BLOCK_SHARED float pivots[6u * JOINT_ROOM];  // reciprocals
+BLOCK_SHARED uint unsettled;                 // not 0: an active set has changed
+
+const uint NOBODY = 0xFFFFu, HOLDS = 0x80000000u;
+
+// t / 6, of t below 98,304.
+uint sixth_of(uint t) {
+    return t * 43691u >> 18;
+}
+bool has(uint axes, uint k) {
+    return (axes >> k & 1u) != 0u;
+}
+bool holds(uint j) {
+    return (facts[j] & HOLDS) != 0u;
+}
+uint links_of(uint j) {
+    return facts[j] >> 16 & 15u;
+}
+uint link_of(uint j, uint l) {
+    return links[2u * j + (l >> 2)] >> (8u * (l & 3u)) & 255u;
+}
+// The record of a body of the block that this is a side of; NONE: it cannot move.
+uint side_a(uint j) {
+    uint side = sides[j] & 0xFFFFu;
+    return side == NOBODY ? NONE : side;
+}
+uint side_b(uint j) {
+    uint side = sides[j] >> 16;
+    return side == NOBODY ? NONE : side;
+}
+
+// ---- what small blocks keep with their threads, and others in memory
+#ifdef SCREE_SMALL_BLOCKS
+BLOCK_SHARED uint first_tiles[JOINT_ROOM];
+BLOCK_SHARED float tiles[36u * TILE_ROOM];
+BLOCK_SHARED float rows[90u * JOINT_ROOM];
+BLOCK_SHARED float states[14u * BODY_ROOM];  // Velocity and Mass, without padding
+
+uint tile_at(uint j, uint slot) {
+    return 36u * (first_tiles[j] + slot);
+}
+#define TILE(j, x) tiles[x]
+#define ROWS(j, x) rows[90u * (j) + (x)]
+
+vec3 three_of(uint at) {
+    return vec3(states[at], states[at + 1u], states[at + 2u]);
+}
+void put_three(uint at, vec3 v) {
+    states[at] = v.x;
+    states[at + 1u] = v.y;
+    states[at + 2u] = v.z;
+}
+Velocity velocity_now(uint m) {
+    return Velocity(three_of(14u * m), 0.0f, three_of(14u * m + 3u), 0.0f);
+}
+void put_velocity(uint m, Velocity v) {
+    put_three(14u * m, v.linear);
+    put_three(14u * m + 3u, v.angular);
+}
+Mass mass_now(uint m) {
+    uint at = 14u * m + 6u;
+    return Mass(states[at], states[at + 1u], states[at + 2u], states[at + 3u], states[at + 4u], states[at + 5u], states[at + 6u],
+                states[at + 7u]);
+}
+void put_mass(uint m, Mass mass) {
+    uint at = 14u * m + 6u;
+    states[at] = mass.xx;
+    states[at + 1u] = mass.xy;
+    states[at + 2u] = mass.xz;
+    states[at + 3u] = mass.yy;
+    states[at + 4u] = mass.yz;
+    states[at + 5u] = mass.zz;
+    states[at + 6u] = mass.inverse_mass;
+    states[at + 7u] = mass.split;
+}
+#else
+uint tile_at(uint j, uint slot) {
+    return 36u * slot;
+}
+#define TILE(j, x) joint_equations.at[block_first_joint + (j)].tiles[x]
+#define ROWS(j, x) joint_equations.at[block_first_joint + (j)].rows[x]
+
+Velocity velocity_now(uint m) {
+    return block_bodies.at[block_first_body + m].velocity;
+}
+void put_velocity(uint m, Velocity v) {
+    block_bodies.at[block_first_body + m].velocity = v;
+}
+Mass mass_now(uint m) {
+    return block_bodies.at[block_first_body + m].mass;
+}
+void put_mass(uint m, Mass mass) {
+    block_bodies.at[block_first_body + m].mass = mass;
+}
+#endif
+
+// Vectors of row k of a joint, in world axes: its direction, the angular parts, and what they do to the bodies' turning.
+const uint DIRECTION = 0u, ANGULAR_A = 3u, ANGULAR_B = 6u, TURN_A = 9u, TURN_B = 12u;
+vec3 row_vector(uint j, uint k, uint which) {
+    uint at = 15u * k + which;
+    return vec3(ROWS(j, at), ROWS(j, at + 1u), ROWS(j, at + 2u));
+}
+void put_row_vector(uint j, uint k, uint which, vec3 v) {
+    uint at = 15u * k + which;
+    ROWS(j, at) = v.x;
+    ROWS(j, at + 1u) = v.y;
+    ROWS(j, at + 2u) = v.z;
+}
+
+#define JOINT(j) joints.at[block_first_joint + (j)]
+#define MEMBER(m) block_bodies.at[block_first_body + (m)]
+
+// Of a lock the laws look at the coordinate of rest alone.
+JointAxis axis_of(uint j, uint k) {
+    JointAxis axis;
+    axis.mode = JOINT(j).axes[k].mode;
+    axis.lower = axis.upper = axis.stiffness = axis.damping = axis.rest = axis.speed = axis.most = 0.0f;
+    if (axis.mode == AXIS_LOCKED)
+        axis.rest = JOINT(j).axes[k].rest;
+    else if (axis.mode != 0u)
+        axis = JOINT(j).axes[k];
+    return axis;
+}
+JointRotor rotor_of(uint j, uint k, JointAxis axis) {
+    JointRotor rotor;
+    rotor.inertia = rotor.speed = rotor.impulse = rotor.change = 0.0f;
+    if (has_rotor(axis)) rotor = JOINT(j).rotors[k];
+    return rotor;
+}
+// A row without its vectors, and without the changes.
+JointRow row_of(uint j, uint k) {
+    JointRow row;
+    row.direction = row.angular_a = row.angular_b = vec3(0.0f);
+    row.coordinate = JOINT(j).rows[k].coordinate;
+    row.drift = JOINT(j).rows[k].drift;
+    row.inverse_effective_mass = JOINT(j).rows[k].inverse_effective_mass;
+    row.motor_impulse = JOINT(j).rows[k].motor_impulse;
+    row.limit_impulse = JOINT(j).rows[k].limit_impulse;
+    row.motor_change = row.limit_change = 0.0f;
+    return row;
+}
+JointRow row_with_changes(uint j, uint k) {
+    JointRow row = row_of(j, k);
+    row.motor_change = JOINT(j).rows[k].motor_change;
+    row.limit_change = JOINT(j).rows[k].limit_change;
+    return row;
+}
+void put_changes(uint j, uint k, JointRow row) {
+    JOINT(j).rows[k].motor_change = row.motor_change;
+    JOINT(j).rows[k].limit_change = row.limit_change;
+}
+float speed_of(uint j, uint k, VelocityPair v) {
+    JointRow row = row_of(j, k);
+    row.direction = row_vector(j, k, DIRECTION);
+    row.angular_a = row_vector(j, k, ANGULAR_A);
+    row.angular_b = row_vector(j, k, ANGULAR_B);
+    return row_speed(row, is_linear(k), v);
+}
+Velocity velocity_of_side(uint body, uint side) {
+    if (side != NONE) return velocity_now(side);
+    return velocity_at_first(body);
+}
+VelocityPair couple_of(uint j) {
+    VelocityPair v;
+    v.a = velocity_of_side(JOINT(j).a, side_a(j));
+    v.b = velocity_of_side(JOINT(j).b, side_b(j));
+    return v;
+}
+Mass mass_of_side(uint side) {
+    if (side != NONE) return mass_now(side);
+    return Mass(0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+}
+
+// ---- a pass begins
+void describe_block() {
+    FOR_LANES(i, MASK_WORDS * block_size) hanging[i] = 0u;
+    end_part();
+    FOR_LANES(j, block_joints) {
+        uint a = JOINT(j).block_body_a, b = JOINT(j).block_body_b, count = JOINT(j).fill_in;
+        a = a == NONE ? NOBODY : a - block_first_body;
+        b = b == NONE ? NOBODY : b - block_first_body;
+        sides[j] = a | b << 16;
+        facts[j] = count << 16 | (JOINT(j).broken == 0u ? HOLDS : 0u);
+        links[2u * j] = links[2u * j + 1u] = 0u;
+        for (uint l = 0u; l < count; ++l)
+            links[2u * j + (l >> 2)] |= (JOINT(j).fill_in_of[l] - block_first_joint) << (8u * (l & 3u));
+        if (a != NOBODY) JOIN(hanging[MASK_WORDS * a + (j >> 5)], 1u << (j & 31u));
+        if (b != NOBODY) JOIN(hanging[MASK_WORDS * b + (j >> 5)], 1u << (j & 31u));
+        unknowns[j] = 0u;
+    }
+#ifdef SCREE_SMALL_BLOCKS
+    end_part();
+    FOR_LANES(j, block_joints) {
+        uint first = j;
+        for (uint i = 0u; i < j; ++i) first += links_of(i);
+        first_tiles[j] = first;
+    }
+#endif
+}
+
+// Whether a body of the block has an impact in this substep: then joints are relaxed after the contacts as well.
+bool is_struck() {
+    bool struck = false;
+    for (uint m = 0u; m < block_size && !struck; ++m) struck = forces.at[MEMBER(m).body].impacts != 0.0f;
+    return struck;
+}
+
+// Masses and velocities of the block's bodies; after the contacts with this pass's changes by them, in the slots before
+// those of joints.
+void take_bodies(bool after_contacts) {
+    FOR_LANES(m, block_size) {
+        put_mass(m, lent_mass(block_first_body + m, after_contacts));
+        uint body = MEMBER(m).body;
+        Velocity velocity = velocities.at[body];
+        if (after_contacts && MEMBER(m).slot != NONE) {
+            uint last = WORD(slot_ends, body) - MEMBER(m).blocks;
+            for (uint k = body == 0u ? 0u : WORD(slot_ends, body - 1u); k < last; ++k)
+                velocity = changed_by(velocity, slots.at[k]);
+        }
+        MEMBER(m).velocity_before = velocity;
+        put_velocity(m, velocity);
+    }
+}
+
+// Jacobian rows of a joint at the present poses.
+void place_rows(uint j) {
+    JointConfiguration at = configuration_of(block_first_joint + j);
+    VelocityPair v = couple_of(j);
+    uint flags = JOINT(j).flags;
+    Mass mass_a = mass_of_side(side_a(j)), mass_b = mass_of_side(side_b(j));
+    bool has_a = side_a(j) != NONE, has_b = side_b(j) != NONE;
+    for (uint k = 0u; k < 6u; ++k) {
+        uint mode = JOINT(j).axes[k].mode;
+        if (mode == 0u) continue;
+        float inertia = 0.0f;
+        if ((mode & AXIS_ROTOR) != 0u) inertia = JOINT(j).rotors[k].inertia;
+        JointRow row;
+        row.motor_impulse = JOINT(j).rows[k].motor_impulse;
+        row.limit_impulse = JOINT(j).rows[k].limit_impulse;
+        row = placed_row(row, at, int(k), flags, v, mass_a, mass_b, has_a, has_b, inertia, PARAMETERS.h);
+        JOINT(j).rows[k] = row;
+        put_row_vector(j, k, DIRECTION, row.direction);
+        put_row_vector(j, k, ANGULAR_A, row.angular_a);
+        put_row_vector(j, k, ANGULAR_B, row.angular_b);
+        put_row_vector(j, k, TURN_A, turned_by(mass_a, row.angular_a));
+        put_row_vector(j, k, TURN_B, turned_by(mass_b, row.angular_b));
+    }
+}
+
+// ---- impulses
+// Applies `given_impulses` of the axes `pushing` to the bodies, each body's in the order of the joints.
+const uint FROM_BEFORE = 0u, FROM_NOW = 1u, FROM_REST = 2u;
+void push_bodies(uint from) {
+    FOR_LANES(m, block_size) {
+        Velocity v = Velocity(vec3(0.0f), 0.0f, vec3(0.0f), 0.0f);
+        Mass mass = mass_now(m);
+        if (from == FROM_REST) {  // whole bodies
+            mass.split = 1.0f;
+            put_mass(m, mass);
+        } else if (from == FROM_NOW) {
+            v = velocity_now(m);
+        } else {
+            v = MEMBER(m).velocity_before;
+        }
+        for (uint w = 0u; w < MASK_WORDS; ++w) {
+            uint left = hanging[MASK_WORDS * m + w];
+            while (left != 0u) {
+                uint j = 32u * w + uint(findLSB(left)), axes = pushing[j];
+                bool is_a = side_a(j) == m, is_b = side_b(j) == m;
+                left &= left - 1u;
+                for (uint k = 0u; k < 6u; ++k) {
+                    if (!has(axes, k)) continue;
+                    vec3 direction = row_vector(j, k, DIRECTION);
+                    float impulse = given_impulses[6u * j + k];
+                    if (is_a) v = row_turned(v, direction, row_vector(j, k, TURN_A), -impulse, is_linear(k), mass);
+                    if (is_b) v = row_turned(v, direction, row_vector(j, k, TURN_B), impulse, is_linear(k), mass);
+                }
+            }
+        }
+        put_velocity(m, v);
+    }
+}
+
+// ---- a round
+// Chooses the axes that are unknowns; the impulses of the others are given.
+void choose_unknowns(uint j) {
+    uint found = 0u, given = 0u, active_set = JOINT(j).active_set;
+    for (uint k = 0u; k < 6u; ++k) {
+        JointAxis axis = axis_of(j, k);
+        JointRow row = row_of(j, k);
+        if (!row_acts(axis, row)) continue;
+        uint active_flags = active_set_of(active_set, k);
+        if (row_is_unknown(axis, row, active_flags, BIASED, PARAMETERS)) found |= 1u << k;
+        float speed = 0.0f;
+        if (!motor_is_solved(axis, row, active_flags, BIASED, PARAMETERS)) {
+            VelocityPair v;
+            v.a = velocity_at_first(JOINT(j).a);
+            v.b = velocity_at_first(JOINT(j).b);
+            speed = speed_of(j, k, v);
+        }
+        row = row_given(axis, row, active_flags, speed, BIASED, PARAMETERS);
+        put_changes(j, k, row);
+        float change = given_change(row);
+        given_impulses[6u * j + k] = change;
+        if (change != 0.0f) given |= 1u << k;
+    }
+    unknowns[j] = found;
+    pushing[j] = given;
+}
+
+// Right-hand sides and compliances.
+void set_up_sides(uint j) {
+    VelocityPair v = couple_of(j);
+    uint active_set = JOINT(j).active_set;
+    for (uint k = 0u; k < 6u; ++k) {
+        if (!has(unknowns[j], k)) continue;
+        JointAxis axis = axis_of(j, k);
+        RowTarget demand =
+            row_demand(axis, row_of(j, k), rotor_of(j, k, axis), k, active_set_of(active_set, k), BIASED, PARAMETERS);
+        solutions[6u * j + k] = right_hand_side(speed_of(j, k, v), demand.bias);
+        given_impulses[6u * j + k] = demand.compliance;
+    }
+}
+
+// The entries of unknown k of joint j: those of its own and those of the joints linked with it.
+void set_up_column(uint j, uint k) {
+    uint a = side_a(j), b = side_b(j);
+    Mass mass_a = mass_of_side(a), mass_b = mass_of_side(b);
+    RowResponse to;
+    to.direction = row_vector(j, k, DIRECTION);
+    to.axis = k;
+    to.turn_a = row_vector(j, k, TURN_A);
+    to.inverse_mass_a = mass_a.inverse_mass;
+    to.turn_b = row_vector(j, k, TURN_B);
+    to.inverse_mass_b = mass_b.inverse_mass;
+    to.split_a = mass_a.split;
+    to.split_b = mass_b.split;
+    to.pad0 = to.pad1 = 0.0f;
+    float compliance = given_impulses[6u * j + k];
+    uint slots_end = links_of(j) + 1u;
+    for (uint slot = 0u; slot < slots_end; ++slot) {
+        uint i = slot == 0u ? j : link_of(j, slot - 1u), at = tile_at(j, slot);
+        int ends = shared_ends(side_a(i), side_b(i), a, b);
+        for (uint n = slot == 0u ? k : 0u; n < 6u; ++n) {
+            if (!has(unknowns[i], n)) continue;
+            vec3 direction = vec3(0.0f), angular_a = vec3(0.0f), angular_b = vec3(0.0f);
+            if (is_linear(k) && is_linear(n)) direction = row_vector(i, n, DIRECTION);
+            if ((ends & (ENDS_A_A | ENDS_A_B)) != 0) angular_a = row_vector(i, n, ANGULAR_A);
+            if ((ends & (ENDS_B_A | ENDS_B_B)) != 0) angular_b = row_vector(i, n, ANGULAR_B);
+            float entry = row_entry(direction, angular_a, angular_b, n, to, ends);
+            if (slot == 0u && n == k) entry = softened(entry, compliance);
+            TILE(j, at + 6u * n + k) = entry;
+        }
+    }
+}
+
+// Eliminates the unknowns of joint j from all later equations. Each thread factors the joint's own rows. Loops over six
+// have fixed ends, so that drivers can keep the six in registers.
+void eliminate(uint j) {
+    uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
+    float own[36], known[6], inverse[6];
+    for (uint n = 0u; n < 6u; ++n) {
+        known[n] = solutions[6u * j + n];
+        for (uint c = 0u; c < 6u; ++c) own[6u * n + c] = TILE(j, own_at + 6u * n + c);
+    }
+    end_part();
+#define FACTOR_FROM(k)                                                                                              \
+    if (has(own_axes, k)) {                                                                                         \
+        inverse[k] = reciprocal(own[7u * k]);                                                                       \
+        for (uint n = 0u; n < 6u; ++n) {                                                                            \
+            if (n <= k) continue;                                                                                   \
+            float multiplier = multiplier_of(own[6u * n + k], inverse[k]);                                          \
+            known[n] = less_multiple(known[n], multiplier, known[k]);                                               \
+            for (uint c = 0u; c < 6u; ++c)                                                                          \
+                if (c > k && c <= n) own[6u * n + c] = less_multiple(own[6u * n + c], multiplier, own[6u * c + k]); \
+        }                                                                                                           \
+    }
+    FACTOR_FROM(0u)
+    FACTOR_FROM(1u) FACTOR_FROM(2u) FACTOR_FROM(3u) FACTOR_FROM(4u) FACTOR_FROM(5u) if (leads()) for (uint n = 0u; n < 6u; ++n) {
+        solutions[6u * j + n] = known[n];
+        pivots[6u * j + n] = inverse[n];
+        for (uint c = 0u; c < 6u; ++c)
+            if (c < n) TILE(j, own_at + 6u * n + c) = own[6u * n + c];
+    }
+    FOR_LANES(t, 6u * count) {
+        uint l = sixth_of(t), n = t - 6u * l, i = link_of(j, l), at = tile_at(j, 1u + l) + 6u * n;
+        if (!has(unknowns[i], n)) continue;
+        float row[6], sum = solutions[6u * i + n];
+        for (uint k = 0u; k < 6u; ++k) row[k] = TILE(j, at + k);
+        for (uint k = 0u; k < 6u; ++k) {
+            if (!has(own_axes, k)) continue;
+            float multiplier = multiplier_of(row[k], inverse[k]);
+            sum = less_multiple(sum, multiplier, known[k]);
+            for (uint c = 0u; c < 6u; ++c)
+                if (c > k) row[c] = less_multiple(row[c], multiplier, own[6u * c + k]);
+        }
+        solutions[6u * i + n] = sum;
+        for (uint k = 0u; k < 6u; ++k) TILE(j, at + k) = row[k];
+    }
+    end_part();
+    // The equations of the joints linked with it, and those between two of them: entries [n][c] of a tile.
+    float column[36];
+    FOR_LANES(t, 3u * count * (count + 1u)) {
+        uint pair = sixth_of(t), n = t - 6u * pair;
+        uint l = (pair >= 1u ? 1u : 0u) + (pair >= 3u ? 1u : 0u) + (pair >= 6u ? 1u : 0u) + (pair >= 10u ? 1u : 0u) +
+                 (pair >= 15u ? 1u : 0u) + (pair >= 21u ? 1u : 0u) + (pair >= 28u ? 1u : 0u);
+        uint e = pair - (l * (l + 1u) >> 1), later = link_of(j, l), middle = link_of(j, e), slot = 0u;
+#ifdef SCREE_SINGLY
+        if (n == 0u)
+#endif
+            for (uint c = 0u; c < 6u; ++c)
+                for (uint k = 0u; k < 6u; ++k) column[6u * c + k] = TILE(j, tile_at(j, 1u + e) + 6u * c + k);
+        if (!has(unknowns[later], n)) continue;
+        if (e != l) {
+            uint all = links_of(middle);
+            slot = 1u;
+            for (uint s = 0u; s < all; ++s)
+                if (link_of(middle, s) < later) ++slot;
+        }
+        uint at = tile_at(middle, slot) + 6u * n, row_at = tile_at(j, 1u + l) + 6u * n;
+        float target[6];
+        for (uint c = 0u; c < 6u; ++c) target[c] = TILE(middle, at + c);
+        for (uint k = 0u; k < 6u; ++k) {
+            if (!has(own_axes, k)) continue;
+            float multiplier = multiplier_of(TILE(j, row_at + k), inverse[k]);
+            for (uint c = 0u; c < 6u; ++c) target[c] = less_multiple(target[c], multiplier, column[6u * c + k]);
+        }
+        for (uint c = 0u; c < 6u; ++c) TILE(middle, at + c) = target[c];
+    }
+    end_part();
+}
+
+void substitute(uint j) {
+    uint own_axes = unknowns[j], count = links_of(j), own_at = tile_at(j, 0u);
+    for (uint k = 6u; k-- > 0u;) {
+        if (!has(own_axes, k)) continue;
+        float sum = solutions[6u * j + k];
+        for (uint n = k + 1u; n < 6u; ++n)
+            if (has(own_axes, n)) sum = less_multiple(sum, TILE(j, own_at + 6u * n + k), solutions[6u * j + n]);
+        for (uint l = 0u; l < count; ++l) {
+            uint i = link_of(j, l), at = tile_at(j, 1u + l), theirs = unknowns[i];
+            for (uint n = 0u; n < 6u; ++n)
+                if (has(theirs, n)) sum = less_multiple(sum, TILE(j, at + 6u * n + k), solutions[6u * i + n]);
+        }
+        sum = substituted(sum, pivots[6u * j + k]);
+        solutions[6u * j + k] = sum;
+        given_impulses[6u * j + k] = sum;
+    }
+    pushing[j] = own_axes;
+}
+
+void solve_equations() {
+    FOR_LANES(j, block_joints) set_up_sides(j);
+    end_part();
+    FOR_LANES(t, 6u * block_joints) {
+        uint j = sixth_of(t), k = t - 6u * j;
+        if (has(unknowns[j], k)) set_up_column(j, k);
+    }
+    end_part();
+    for (uint j = 0u; j < block_joints; ++j) eliminate(j);
+    if (leads())
+        for (uint j = block_joints; j-- > 0u;) substitute(j);
+}
+
+// Updates the active set after a solution; true if it changed.
+bool look_at_bounds(uint j, bool settling) {
+    VelocityPair v = couple_of(j);
+    uint before = JOINT(j).active_set, active_set = before;
+    for (uint k = 0u; k < 6u; ++k) {
+        JointAxis axis = axis_of(j, k);
+        JointRow row = row_with_changes(j, k);
+        if (!row_acts(axis, row)) continue;
+        bool solved = has(unknowns[j], k);
+        float solution = 0.0f;
+        if (solved) solution = solutions[6u * j + k];
+        RowAfter after = row_after_round(axis, row, rotor_of(j, k, axis), k, active_set_of(before, k), solved, solution,
+                                         speed_of(j, k, v), BIASED, settling, PARAMETERS);
+        if (has_rotor(axis)) JOINT(j).rotors[k].change = after.rotor_change;
+        put_changes(j, k, after.row);
+        active_set = with_active_set(active_set, k, after.active_flags);
+    }
+    JOINT(j).active_set = active_set;
+    return active_set != before;
+}
+
+// push.pass: bit 0 in the last substep; from bit 8 the first round of this dispatch, from bit 16 the number of its
+// rounds (dispatches_of() in compute/step/stage_fusion.cpp).
+uint first_round() {
+#ifdef SCREE_SMALL_BLOCKS
+    return 0u;
+#else
+    return push.pass >> 8 & 255u;
+#endif
+}
+uint rounds_end() {
+#ifdef SCREE_SMALL_BLOCKS
+    return JOINT_ROUNDS;
+#else
+    return first_round() + (push.pass >> 16);
+#endif
+}
+bool is_last_substep() {
+    return (push.pass & 1u) != 0u;
+}
+
+void solve_block() {
+    describe_block();
+    if (first_round() == 0u) {
+        take_bodies(BIASED || is_struck());
+        end_part();
+        FOR_LANES(j, block_joints) {
+            JOINT(j).solved_axes = 0u;
+            if (holds(j)) place_rows(j);
+        }
+        if (leads()) unsettled = 1u;
+    } else if (leads()) {
+        unsettled = joint_blocks.at[block].unsettled;
+    }
+    end_part();
+    for (uint round = first_round(); round < rounds_end() && unsettled != 0u; ++round) {
+        FOR_LANES(j, block_joints) {
+            pushing[j] = 0u;
+            if (holds(j)) choose_unknowns(j);
+        }
+        end_part();
+        push_bodies(FROM_BEFORE);
+        end_part();
+        solve_equations();
+        if (leads()) unsettled = 0u;
+        end_part();
+        push_bodies(FROM_NOW);
+        end_part();
+        FOR_LANES(j, block_joints) {
+            if (!holds(j)) continue;
+            JOINT(j).solved_axes = unknowns[j];
+            if (look_at_bounds(j, round >= SETTLING_ROUND)) JOIN(unsettled, 1u);
+        }
+        end_part();
+    }
+    if (leads()) joint_blocks.at[block].unsettled = unsettled;
+}
+
+// ---- a pass ends
+// The impulses that whole bodies get: those of this pass, and of the next warm start if it `warms`. Commits them.
+void commit(uint j, bool warms) {
+    uint given = 0u;
+    for (uint k = 0u; k < 6u; ++k) {
+        JointAxis axis = axis_of(j, k);
+        if (axis.mode == 0u) continue;
+        JointRow row = row_with_changes(j, k);
+        JointRotor rotor = rotor_of(j, k, axis);
+        if (row_acts(axis, row)) {
+            float impulse = handed_impulse(row, rotor, warms);
+            given_impulses[6u * j + k] = impulse;
+            if (impulse != 0.0f) given |= 1u << k;
+        }
+        row = committed(row);
+        JOINT(j).rows[k].motor_impulse = row.motor_impulse;
+        JOINT(j).rows[k].limit_impulse = row.limit_impulse;
+        if (has_rotor(axis)) JOINT(j).rotors[k] = rotor_after_pass(rotor, warms);
+    }
+    pushing[j] = given;
+}
+
+// Velocity changes of whole bodies, in their slots.
+void hand_out(float weight, bool with_normal_impulse) {
+    FOR_LANES(m, block_size) {
+        Velocity v = velocity_now(m);
+#ifdef SCREE_SMALL_BLOCKS
+        MEMBER(m).mass = mass_now(m);
+        MEMBER(m).velocity = v;
+#endif
+        if (MEMBER(m).slot != NONE)
+            slots.at[MEMBER(m).slot] = velocity_delta(v, weight, with_normal_impulse ? MEMBER(m).normal_sum : 0.0f);
+    }
+}
+
+// Whether a block is of the size that this shader is for.
+bool is_ours(uint index) {
+#ifdef SCREE_SMALL_BLOCKS
+    return joint_blocks.at[index].joints <= SMALL_BLOCK_JOINTS;
+#else
+    return joint_blocks.at[index].joints > SMALL_BLOCK_JOINTS;
+#endif
+}
+
+void end_pass();
+
+void main() {
+    if (COUNTS.overflow != 0u) return;
+#ifdef SCREE_SINGLY
+    uint first = thread(), stride = gl_NumWorkGroups.x * gl_WorkGroupSize.x;
+#else
+    uint first = gl_WorkGroupID.x, stride = gl_NumWorkGroups.x;
+#endif
+    for (uint index = first; index < PARAMETERS.joint_blocks; index += stride) {
+        if (!is_ours(index) || !enter_block(index)) continue;
+        solve_block();
+        if (rounds_end() >= JOINT_ROUNDS) end_pass();
+        end_part();
+    }
+}
+
+#endif
