@@ -93,7 +93,7 @@ public:
         for (JointRow& row : joint.rows) row = physics::torn(row);
         for (physics::JointRotor& rotor : joint.rotors) rotor = physics::torn_rotor(rotor);
     }
-    // As a step begins, those of their axes for rotors that follow them. After place_rows().
+    // As a step begins, sets the speeds of rotors that take over those of their axes (rotor_follows). After place_rows().
     void take_rotor_speeds();
 
 private:

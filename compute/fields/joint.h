@@ -31,16 +31,15 @@ inline constexpr auto table<Motor> =
              field("max_force", &Motor::max_force, any_force, "N or N m", "Greatest force").required());
 
 template <>
-inline constexpr auto table<Axis> = table_of("axis",
-                                             "Behaviour along or about one axis of a joint; at most one of motor and friction",
-                                             field("locked", &Axis::locked,
-                                                   "No motion at all; without limits, spring, motor, friction and armature"),
-                                             field("limits", &Axis::limits, "Limits of the motion; left out: it is free"),
-                                             field("spring", &Axis::spring, "A spring along or about the axis"),
-                                             field("motor", &Axis::motor, "A motor along or about the axis"),
-                                             field("friction", &Axis::friction, any_force, "N or N m", "Dry friction"),
-                                             field("armature", &Axis::armature, between(0, 1e9), "kg or kg m^2",
-                                                   "Inertia of a rotor that turns with the axis (gear ratio squared)"));
+inline constexpr auto table<Axis> =
+    table_of("axis", "Behaviour along or about one axis of a joint; at most one of motor and friction",
+             field("locked", &Axis::locked, "No motion at all; without limits, spring, motor, friction and armature"),
+             field("limits", &Axis::limits, "Limits of the motion; left out: it is free"),
+             field("spring", &Axis::spring, "A spring along or about the axis"),
+             field("motor", &Axis::motor, "A motor along or about the axis"),
+             field("friction", &Axis::friction, any_force, "N or N m", "Dry friction"),
+             field("armature", &Axis::armature, between(0, 1e9), "kg or kg m^2",
+                   "Inertia of a rotor that turns with the axis, times the square of its gear ratio"));
 
 template <>
 inline constexpr auto table<Ball> = table_of("ball_joint", "Anchors coincide; rotation is free",

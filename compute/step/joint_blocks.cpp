@@ -205,6 +205,7 @@ JointAxes axes_of_kind(const JointKind& kind) {
 }
 
 physics::JointAxis axis_record(const Axis& axis) {
+    constexpr float least_armature = 1e-9f;  // kg or kg m^2: below, there is no rotor
     physics::JointAxis record{};
     record.lower = -unlimited;
     record.upper = unlimited;

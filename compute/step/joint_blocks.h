@@ -33,7 +33,6 @@ struct JointAxes {
 };
 JointAxes axes_of_kind(const JointKind& kind);
 physics::JointAxis axis_record(const Axis& axis);
-constexpr float least_armature = 1e-9f;
 physics::JointRotor rotor_record(const Axis& axis);
 
 }  // namespace scree

@@ -446,12 +446,19 @@ void eliminate(uint j) {
                 if (c > k && c <= n) own[6u * n + c] = less_multiple(own[6u * n + c], multiplier, own[6u * c + k]); \
         }                                                                                                           \
     }
-    FACTOR_FROM(0u)
-    FACTOR_FROM(1u) FACTOR_FROM(2u) FACTOR_FROM(3u) FACTOR_FROM(4u) FACTOR_FROM(5u) if (leads()) for (uint n = 0u; n < 6u; ++n) {
-        solutions[6u * j + n] = known[n];
-        pivots[6u * j + n] = inverse[n];
-        for (uint c = 0u; c < 6u; ++c)
-            if (c < n) TILE(j, own_at + 6u * n + c) = own[6u * n + c];
+    FACTOR_FROM(0u);
+    FACTOR_FROM(1u);
+    FACTOR_FROM(2u);
+    FACTOR_FROM(3u);
+    FACTOR_FROM(4u);
+    FACTOR_FROM(5u);
+    if (leads()) {
+        for (uint n = 0u; n < 6u; ++n) {
+            solutions[6u * j + n] = known[n];
+            pivots[6u * j + n] = inverse[n];
+            for (uint c = 0u; c < 6u; ++c)
+                if (c < n) TILE(j, own_at + 6u * n + c) = own[6u * n + c];
+        }
     }
     FOR_LANES(t, 6u * count) {
         uint l = sixth_of(t), n = t - 6u * l, i = link_of(j, l), at = tile_at(j, 1u + l) + 6u * n;
