@@ -64,18 +64,38 @@ void find_runs(State& state) {
     }
 }
 
+constexpr std::size_t words_of_contact = (sizeof(physics::Constraint) + sizeof(physics::Impulse)) / sizeof(std::uint32_t);
+std::size_t groups_of(std::size_t contacts, const WideStages& wide) {
+    const auto lanes = static_cast<std::size_t>(wide.lanes);
+    return (contacts + lanes - 1) / lanes;
+}
+
+// Room for the groups of all contacts to solve; runs of copies end with a group of their own.
+void make_room_for_groups(State& state, const WideStages& wide) {
+    const std::size_t groups = groups_of(state.counted().solver_contacts, wide) + state.solver_runs.size();
+    const std::size_t words = groups * words_of_contact * static_cast<std::size_t>(wide.lanes);
+    const std::size_t lines = words * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
+    if (state.lane_contacts.size() < lines) state.lane_contacts.resize(lines + lines / 4);
+}
+
 using WidePass = void (*)(const WideTables&, std::size_t first, std::size_t last);
-void for_each_group(State& state, const Threads& threads, const WideTables& tables, WidePass pass) {
+void for_each_group(State& state, const Threads& threads, const WideTables& tables, const WideStages& wide, WidePass pass) {
+    const auto lanes = static_cast<std::size_t>(wide.lanes);
     if (state.gravities.empty()) {
-        threads.for_ranges(state.counted().solver_contacts,
-                           [&](std::size_t first, std::size_t last) { pass(tables, first, last); });
+        const std::size_t contacts = state.counted().solver_contacts;
+        const auto range = [&](std::size_t first, std::size_t last) {
+            pass(tables, first * lanes, std::min(last * lanes, contacts));
+        };
+        threads.for_ranges(groups_of(contacts, wide), range, Threads::grain / lanes);
         return;
     }
     threads.for_each(state.solver_runs.size(), [&](std::size_t k) {
         const State::Run& run = state.solver_runs[k];
         WideTables own = tables;
         own.parameters = reinterpret_cast<const std::uint32_t*>(&state.felt[run.copy]);
-        pass(own, run.first, run.last);
+        own.items += run.first;
+        own.groups += (run.first / lanes + k) * lanes * words_of_contact;
+        pass(own, 0, run.last - run.first);
     });
 }
 
@@ -210,12 +230,13 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         hand_out(state, c, share.change, share.weight, prepared.impulse.normal_sum);
     });
     if (!wide) return;
-    for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), wide->hand_out);
+    make_room_for_groups(state, *wide);
+    for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), *wide, wide->hand_out);
 }
 
 void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
     if (const WideStages* wide = wide_stages(threads.lanes())) {
-        for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), wide->solve);
+        for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), *wide, wide->solve);
         return;
     }
     threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
@@ -242,7 +263,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         if (felt) tables.carried = state.carried.data();
         tables.first = first;
         tables.last = last;
-        for_each_group(state, threads, tables, wide->relax);
+        for_each_group(state, threads, tables, *wide, wide->relax);
         return;
     }
     threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {

@@ -68,6 +68,7 @@ LockstepResult compare_flushing(const Scene& scene, const Settings& settings, in
     const Threads threads(1);
     const Scene ready = checked(scene);
     State keeping(ready, checked(settings), group_size, true), flushing(ready, checked(settings), group_size, true);
+    keeping.is_watched = flushing.is_watched = true;
     const std::vector<Stage> stages = plan(keeping.substeps, keeping.features());
     LockstepResult result;
     const auto run_equal = [&](const Stage& stage) {

@@ -272,6 +272,12 @@ struct State {
     };
     std::vector<physics::Parameters> felt;
     std::vector<Run> solver_runs;
+    // Likewise: constraints and impulses of contacts_to_solve, one per lane, from the first warm start to the last pass.
+    struct alignas(64) CacheLine {
+        std::uint32_t words[16];
+    };
+    std::vector<CacheLine> lane_contacts;
+    bool is_watched = false;  // tables are read after every stage
 
     ShapePlaces shape_places;
     // Records of removed bodies, for new ones: runs of part rows (offset behind first_part, count), fractures.

@@ -73,7 +73,7 @@ Threads::Threads(int count, int lanes)
 Threads::~Threads() = default;
 
 // One slice for each thread, from its first item to its last; a thread may have waited in between.
-void Threads::share_out_watched(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
+void Threads::share_out_watched(std::size_t n, std::size_t least, const RangeBody& range) const {
     struct Work {
         Timeline::Time begin{}, end{};
         std::chrono::duration<double> busy{0};
@@ -81,7 +81,7 @@ void Threads::share_out_watched(std::size_t n, const std::function<void(std::siz
     };
     std::vector<Work> works(static_cast<std::size_t>(arena_->arena.max_concurrency()));
     arena_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain), [&](const tbb::blocked_range<std::size_t>& part) {
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, least), [&](const tbb::blocked_range<std::size_t>& part) {
             Work& work = works[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
             const Timeline::Time begin = Timeline::Clock::now();
             range(part.begin(), part.end());
@@ -97,10 +97,10 @@ void Threads::share_out_watched(std::size_t n, const std::function<void(std::siz
                              {{"items", static_cast<double>(works[k].items)}, {"busy_us", 1e6 * works[k].busy.count()}});
 }
 
-void Threads::share_out(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const {
-    if (timeline_) return share_out_watched(n, range);
+void Threads::share_out(std::size_t n, std::size_t least, const RangeBody& range) const {
+    if (timeline_) return share_out_watched(n, least, range);
     arena_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, grain),
+        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, least),
                           [&](const tbb::blocked_range<std::size_t>& part) { range(part.begin(), part.end()); });
     });
 }

@@ -13,6 +13,7 @@ class Timeline;
 class Threads {
 public:
     static constexpr int most_lanes = 16;
+    static constexpr std::size_t grain = 64;              // least items per task
     explicit Threads(int count, int lanes = most_lanes);  // 0: one per core
     ~Threads();
     int count() const { return count_; }
@@ -26,13 +27,13 @@ public:
             for (std::size_t i = first; i < last; ++i) body(i);
         });
     }
-    // Calls range(first, last) for a partition of [0, n).
+    // Calls range(first, last) for a partition of [0, n) into ranges of `least` items or more.
     template <typename Range>
-    void for_ranges(std::size_t n, const Range& range) const {
-        if (count_ == 1 || n < 2 * grain)
+    void for_ranges(std::size_t n, const Range& range, std::size_t least = grain) const {
+        if (count_ == 1 || n < 2 * least)
             range(std::size_t{0}, n);
         else
-            share_out(n, range);
+            share_out(n, least, range);
     }
     // Tells the timeline what each thread does in later loops, by this name; null: nothing. Not while a loop runs.
     void watch(Timeline* timeline, const std::string& name) {
@@ -43,9 +44,9 @@ public:
     void run(const std::function<void()>& work) const;
 
 private:
-    static constexpr std::size_t grain = 64;  // least items per task
-    void share_out(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const;
-    void share_out_watched(std::size_t n, const std::function<void(std::size_t, std::size_t)>& range) const;
+    using RangeBody = std::function<void(std::size_t, std::size_t)>;
+    void share_out(std::size_t n, std::size_t least, const RangeBody& range) const;
+    void share_out_watched(std::size_t n, std::size_t least, const RangeBody& range) const;
 
     struct Arena;
     std::unique_ptr<Arena> arena_;

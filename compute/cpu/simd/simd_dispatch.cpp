@@ -12,6 +12,10 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
                       words(state.slot_ends), words(state.poses),      words(state.velocities), words(state.masses),
                       words(state.forces),    words(state.impulses),   words(state.slots)};
     tables.impact_debts = state.impact_debts.data();
+    tables.groups = state.lane_contacts.empty() ? nullptr : state.lane_contacts.front().words;
+    tables.watched = state.is_watched;
+    const SceneFeatures has = state.features();
+    tables.plain = !has.bounces && !has.rolls && !has.tyres && !has.surfaces;
     return tables;
 }
 

@@ -38,9 +38,36 @@ SCREE_INLINE Bool living(std::size_t first, std::size_t last) {
     return Uint(lane_numbers()) < Uint(static_cast<std::uint32_t>(last - first < lanes ? last - first : lanes));
 }
 
+// What the passes of a step keep of a group of contacts.
+struct Kept {
+    Constraint c;
+    Impulse impulse;
+};
+SCREE_INLINE Kept& kept(const WideTables& tables, std::size_t first) {
+    return reinterpret_cast<Kept*>(tables.groups)[first / lanes];
+}
+
+// Specialisation by the features of a scene, as for devices (shaders/stages/lib/features.glsl): the compiler removes the
+// code of what is constant. Replaces only members that are compared, or keep the sign of a zero.
+template <bool plain>
+SCREE_INLINE Constraint narrowed(Constraint c) {
+    if (!plain) return c;
+    c.restitution = c.rolling_resistance = c.tyre_slip = 0.0f;
+    c.drive1 = c.drive2 = c.static_friction = c.restitution_threshold = 0.0f;
+    return c;
+}
+template <bool plain>
+SCREE_INLINE Impulse narrowed(Impulse impulse) {
+    if (!plain) return impulse;
+    impulse.impact = vec4(0.0f);
+    impulse.rebound_energy = impulse.impact_energy = impulse.impact_weight = impulse.flight_energy = 0.0f;
+    return impulse;
+}
+
 // A group of contacts, one per lane, with solver data and bodies.
+template <bool plain>
 struct Group {
-    Indices contacts;
+    Kept& kept_;
     Bool live;  // false in lanes beyond the end
     Constraint c;
     Impulse impulse;
@@ -48,10 +75,10 @@ struct Group {
     VelocityPair before;
 
     SCREE_INLINE Group(const WideTables& tables, std::size_t first, std::size_t last)
-        : contacts(listed(tables.items, first, last)),
+        : kept_(kept(tables, first)),
           live(living(first, last)),
-          c(gather<Constraint>(tables.constraints, contacts)),
-          impulse(gather<Impulse>(tables.impulses, contacts)),
+          c(narrowed<plain>(kept_.c)),
+          impulse(narrowed<plain>(kept_.impulse)),
           a(c.a),
           b(c.b),
           before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
@@ -65,13 +92,22 @@ struct Group {
         scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, weight, normal_impulse));
         scatter(tables.slots, Indices(choose(live, c.slot_b, Uint(NONE))), velocity_delta(share.b, weight, normal_impulse));
     }
+    SCREE_INLINE void keep(const Impulse& after) const { kept_.impulse = after; }
+    // The table of impulses from what is kept.
+    SCREE_INLINE void give_back(const WideTables& tables, std::size_t first, std::size_t last) const {
+        scatter(tables.impulses, Indices(listed(tables.items, first, last)).only(live), kept_.impulse);
+    }
 };
 
 void hand_out(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
-        const Group group(tables, first, last);
+        const Indices contacts(listed(tables.items, first, last));
+        Kept& prepared = kept(tables, first);
+        prepared.c = gather<Constraint>(tables.constraints, contacts);
+        prepared.impulse = gather<Impulse>(tables.impulses, contacts);
+        const Group<false> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
         const Float weight = is_active(group.c, group.impulse, group.before, p);
@@ -80,18 +116,26 @@ void hand_out(const WideTables& tables, std::size_t first, std::size_t last) {
     }
 }
 
-void solve(const WideTables& tables, std::size_t first, std::size_t last) {
+template <bool plain>
+SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
-        const Group group(tables, first, last);
+        const Group<plain> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
         const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
-        scatter(tables.impulses, group.contacts.only(group.live), after.impulse);
+        group.keep(after.impulse);
+        if (tables.watched) group.give_back(tables, first, last);
         group.hand_out(tables, share, after.impulse.impact_weight, impact_debt(after.impulse));
     }
+}
+void solve(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (tables.plain)
+        solve_groups<true>(tables, first, last);
+    else
+        solve_groups<false>(tables, first, last);
 }
 
 // physics::impact_mass, reading forces only if a lane has an impact.
@@ -102,44 +146,53 @@ SCREE_INLINE Mass shared(const Impulse& impulse, const WideTables& tables, const
 }
 
 // physics::part_of_debts, likewise.
-SCREE_INLINE Float debts(const Impulse& impulse, const WideTables& tables, const Group& group, const Mass& a, const Mass& b) {
-    if (none(is_impact(impulse))) return 0.0f;
+template <bool plain>
+SCREE_INLINE Float debts(const WideTables& tables, const Group<plain>& group, const Mass& a, const Mass& b) {
+    if (none(is_impact(group.impulse))) return 0.0f;
     Float of_a, of_b;
     for (std::size_t lane = 0; lane < lanes; ++lane) {
         of_a.v[lane] = tables.impact_debts[group.a.of[lane]];
         of_b.v[lane] = tables.impact_debts[group.b.of[lane]];
     }
-    return part_of_debts(impulse, of_a, gather<BodyForces>(tables.forces, group.a), a, of_b,
+    return part_of_debts(group.impulse, of_a, gather<BodyForces>(tables.forces, group.a), a, of_b,
                          gather<BodyForces>(tables.forces, group.b), b);
 }
 
 // Adds this substep's normal impulses to the contacts' sums over the step.
-SCREE_INLINE void feel(const WideTables& tables, const Group& group, const Impulse& impulse, std::size_t items) {
+SCREE_INLINE void feel(const WideTables& tables, const Indices& contacts, const Impulse& impulse, std::size_t items) {
     const Float carried = solved_impulse(impulse);
     for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
-        float& sum = tables.carried[group.contacts.of[lane]];
+        float& sum = tables.carried[contacts.of[lane]];
         sum = tables.first ? carried.v[lane] : sum + carried.v[lane];
     }
 }
 
-void relax(const WideTables& tables, std::size_t first, std::size_t last) {
+template <bool plain>
+SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
-        const Group group(tables, first, last);
+        const Group<plain> group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
         const SolveResult after =
-            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), debts(was, tables, group, ma, mb), p);
-        if (tables.carried != nullptr) feel(tables, group, after.impulse, last - first);
+            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), debts(tables, group, ma, mb), p);
+        if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
         VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         const Float weight = is_active(group.c, impulse, after.pair_velocity, p);
         if (!tables.last) share = warm_start(group.c, impulse, share, ma, mb);
-        scatter(tables.impulses, group.contacts.only(group.live), impulse);
+        group.keep(impulse);
+        if (tables.last || tables.watched) group.give_back(tables, first, last);
         group.hand_out(tables, share, weight, impulse.normal_sum);
     }
+}
+void relax(const WideTables& tables, std::size_t first, std::size_t last) {
+    if (tables.plain)
+        relax_groups<true>(tables, first, last);
+    else
+        relax_groups<false>(tables, first, last);
 }
 
 // Sums each body's slots in their order. A slot is eight floats, added as one vector.
@@ -227,8 +280,11 @@ LAWS_END
 namespace scree::reference {
 
 #define SCREE_STAGES(count) SCREE_JOINED(wide_stages_, count)
-const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_NAMED(SCREE_LANES)::hand_out, SCREE_NAMED(SCREE_LANES)::begin,
-                                              SCREE_NAMED(SCREE_LANES)::solve, SCREE_NAMED(SCREE_LANES)::move,
+const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
+                                              SCREE_NAMED(SCREE_LANES)::hand_out,
+                                              SCREE_NAMED(SCREE_LANES)::begin,
+                                              SCREE_NAMED(SCREE_LANES)::solve,
+                                              SCREE_NAMED(SCREE_LANES)::move,
                                               SCREE_NAMED(SCREE_LANES)::relax};
 
 }  // namespace scree::reference

@@ -19,6 +19,9 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
+    std::uint32_t* groups = nullptr;      // constraints and impulses of the contacts in `items`, one per lane
+    bool plain = false;                   // no contact bounces or rolls, none has a tyre or a surface of its own
+    bool watched = false;                 // `impulses` is read after every stage, not after the last alone
     float* impact_debts = nullptr;        // of each body, J (restitution.h)
     float* carried = nullptr;             // normal impulse of each contact in the step, N s; null if no body may break
     std::uint32_t steps = 0;              // Counts::steps in the first substep, for the hysteresis of mass splitting
@@ -27,8 +30,11 @@ struct WideTables {
     bool last = false;                    // the last one
 };
 
-// The stages for items [first, last), bit-identical to the plain loops in contacts.cpp and bodies.cpp.
+// The stages for items [first, last), bit-identical to the plain loops in contacts.cpp and bodies.cpp; `first` of a contact
+// stage is a multiple of the lanes. The first warm start transposes constraints and impulses into `groups`, where the passes
+// of the step's substeps keep them; the last one transposes the impulses back.
 struct WideStages {
+    int lanes;
     void (*hand_out)(const WideTables&, std::size_t first, std::size_t last);  // first warm start (prepare_contacts)
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);

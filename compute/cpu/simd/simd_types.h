@@ -54,6 +54,9 @@ struct Bool {
     friend SCREE_INLINE Bool operator||(Bool a, Bool b) { return a.v | b.v; }
 };
 SCREE_INLINE bool none(Bool a) {
+    int32_t any = 0;
+    for (int lane = 0; lane < lanes; ++lane) any |= a.v[lane];
+    if (__builtin_constant_p(any)) return any == 0;  // an intrinsic would not fold
 #if defined(__AVX512F__) && SCREE_LANES == 16
     return _mm512_test_epi32_mask((__m512i)a.v, (__m512i)a.v) == 0;
 #elif defined(__AVX2__) && SCREE_LANES == 8
@@ -61,8 +64,6 @@ SCREE_INLINE bool none(Bool a) {
 #elif defined(__SSE2__) && SCREE_LANES == 4
     return _mm_movemask_ps((__m128)a.v) == 0;
 #else
-    int32_t any = 0;
-    for (int lane = 0; lane < lanes; ++lane) any |= a.v[lane];
     return any == 0;
 #endif
 }
