@@ -5,10 +5,12 @@
 #include <cstring>
 #include <numeric>
 
+#include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/filter.h"
 #include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/motion.h"
 #include "shaders/physics/solve/persistence.h"
 
 namespace scree::reference {
@@ -160,14 +162,31 @@ physics::Pair matched(const State& state, const physics::Candidate& candidate) {
         pair.pair_type = physics::PAIR_INACTIVE;
         return pair;
     }
-    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-    const std::uint32_t of_a = state.body_of(pair.a), of_b = state.body_of(pair.b);
-    const bool kept =
-        pair.previous != physics::NONE && physics::has_weight(felt_by(state, of_a)) &&
-        physics::is_persistent(state.contacts_before[pair.previous], state.impulses_before[pair.previous], ta, state.poses[of_a],
-                               state.velocities[of_a], tb, state.poses[of_b], state.velocities[of_b]);
-    pair.pair_type = kept ? physics::PAIR_PERSISTENT : physics::pair_type_of(ta.shape, tb.shape);
+    pair.pair_type = physics::pair_type_of(state.properties[pair.a].shape, state.properties[pair.b].shape);
     return pair;
+}
+
+// Whether the pair's contact of the last step may persist (persistence.h).
+bool may_persist(const State& state, const physics::Pair& pair) {
+    return pair.pair_type != physics::PAIR_INACTIVE && pair.previous != physics::NONE &&
+           physics::has_weight(felt_by(state, state.body_of(pair.a))) &&
+           physics::may_persist(state.impulses_before[pair.previous], state.properties[pair.a], state.properties[pair.b]);
+}
+bool persists(const State& state, const physics::Pair& pair) {
+    const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+    return physics::is_persistent(state.contacts_before[pair.previous], state.properties[pair.a], state.poses[a],
+                                  state.velocities[a], state.properties[pair.b], state.poses[b], state.velocities[b]);
+}
+
+// Makes those of the pairs [first, last) persistent whose contacts of the last step persist.
+void find_persistent(State& state, const WideStages* wide, std::size_t first, std::size_t last) {
+    std::vector<std::uint32_t> found;
+    found.reserve(last - first);
+    for (std::size_t i = first; i < last; ++i)
+        if (may_persist(state, state.pairs[i])) found.push_back(static_cast<std::uint32_t>(i));
+    if (wide) return wide->keep(wide_tables(state, found), 0, found.size());
+    for (const std::uint32_t i : found)
+        if (persists(state, state.pairs[i])) state.pairs[i].pair_type = physics::PAIR_PERSISTENT;
 }
 
 }  // namespace
@@ -228,12 +247,16 @@ void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
 
 void match_pairs(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
-    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const auto first = state.candidates.begin() + state.pair_starts[i];
-        const auto last = state.candidates.begin() + state.pair_starts[i + 1];
-        std::sort(first, last, [&](const auto& x, const auto& y) { return state.id_of(x.other) < state.id_of(y.other); });
-        std::transform(first, last, state.pairs.begin() + state.pair_starts[i],
-                       [&](const physics::Candidate& candidate) { return matched(state, candidate); });
+    const WideStages* wide = wide_stages(threads.lanes());
+    threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const auto first = state.candidates.begin() + state.pair_starts[i];
+            const auto last = state.candidates.begin() + state.pair_starts[i + 1];
+            std::sort(first, last, [&](const auto& x, const auto& y) { return state.id_of(x.other) < state.id_of(y.other); });
+            std::transform(first, last, state.pairs.begin() + state.pair_starts[i],
+                           [&](const physics::Candidate& candidate) { return matched(state, candidate); });
+        }
+        find_persistent(state, wide, state.pair_starts[begin], state.pair_starts[end]);
     });
 }
 

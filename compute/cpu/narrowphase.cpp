@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 
+#include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/collide_box_box.h"
@@ -103,6 +104,12 @@ void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
 
 void collide_persistent(State& state, const Threads& threads, std::uint32_t) {
     const std::size_t first = state.counted().pair_type_first[physics::PAIR_PERSISTENT];
+    if (const WideStages* wide = wide_stages(threads.lanes())) {
+        WideTables tables = wide_tables(state, state.pairs_by_type);
+        tables.items += first;
+        return threads.for_ranges(state.counted().pair_type_first[physics::PAIR_PERSISTENT + 1] - first,
+                                  [&](std::size_t begin, std::size_t end) { wide->persist(tables, begin, end); });
+    }
     threads.for_each(state.counted().pair_type_first[physics::PAIR_PERSISTENT + 1] - first, [&](std::size_t i) {
         const std::size_t index = state.pairs_by_type[first + i];
         const physics::Pair& pair = state.pairs[index];

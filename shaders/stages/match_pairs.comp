@@ -3,6 +3,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/collide/grid.h"
+#include "shaders/physics/solve/motion.h"
 #include "shaders/physics/solve/persistence.h"
 #include "shaders/stages/lib/copies.glsl"
 
@@ -45,9 +46,9 @@ void main() {
         BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
         uint of_a = body_of(pair.a), of_b = body_of(pair.b);
         bool kept = false;
-        if (pair.previous != NONE && has_weight(felt_by(of_a)))
-            kept = is_persistent(READ(contacts_before, pair.previous), READ(impulses_before, pair.previous), ta,
-                                 READ(poses, of_a), READ(velocities, of_a), tb, READ(poses, of_b), READ(velocities, of_b));
+        if (pair.previous != NONE && has_weight(felt_by(of_a)) && may_persist(READ(impulses_before, pair.previous), ta, tb))
+            kept = is_persistent(READ(contacts_before, pair.previous), ta, READ(poses, of_a), READ(velocities, of_a), tb,
+                                 READ(poses, of_b), READ(velocities, of_b));
         pair.pair_type = kept ? PAIR_PERSISTENT : pair_type_of(ta.shape, tb.shape);
     }
     pairs.at[place] = pair;

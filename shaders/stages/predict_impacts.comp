@@ -6,6 +6,7 @@
 #extension GL_GOOGLE_include_directive : require
 
 #include "shaders/physics/extra/time_of_impact.h"
+#include "shaders/physics/solve/contact.h"
 #include "shaders/stages/lib/shape_data.glsl"
 
 void main() {

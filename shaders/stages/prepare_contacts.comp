@@ -65,7 +65,7 @@ void main() {
         prepared.impulse = settled_impact(prepared.impulse, constraint, READ(impulses_before, pair.previous), before, now);
         impulses.at[i].rebound_energy = prepared.impulse.rebound_energy;
     }
-    prepared.contact.unrest = unrest_of(prepared, constraint, ta, tb, now, felt);
+    prepared.contact.unrest = unrest_of(prepared.contact, constraint, ta, tb, now, felt);
     contacts.at[i] = prepared.contact;
     constraint = with_unrest(constraint, prepared.contact.unrest);
     constraints.at[i] = constraint;

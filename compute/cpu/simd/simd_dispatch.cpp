@@ -8,9 +8,23 @@ namespace scree::reference {
 
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     const auto words = [](auto& table) { return reinterpret_cast<std::uint32_t*>(table.data()); };
-    WideTables tables{items.data(),           words(state.parameters), words(state.properties), words(state.constraints),
-                      words(state.slot_ends), words(state.poses),      words(state.velocities), words(state.masses),
-                      words(state.forces),    words(state.impulses),   words(state.slots)};
+    WideTables tables{};
+    tables.items = items.data();
+    tables.parameters = words(state.parameters);
+    tables.properties = words(state.properties);
+    tables.slot_ends = words(state.slot_ends);
+    tables.contacts_before = words(state.contacts_before);
+    tables.pairs = words(state.pairs);
+    tables.manifolds = words(state.manifolds);
+    tables.point_counts = words(state.point_counts);
+    tables.contacts = words(state.contacts);
+    tables.constraints = words(state.constraints);
+    tables.poses = words(state.poses);
+    tables.velocities = words(state.velocities);
+    tables.masses = words(state.masses);
+    tables.forces = words(state.forces);
+    tables.impulses = words(state.impulses);
+    tables.slots = words(state.slots);
     tables.impact_debts = state.impact_debts.data();
     tables.groups = state.lane_contacts.empty() ? nullptr : state.lane_contacts.front().words;
     tables.watched = state.is_watched;

@@ -1,12 +1,16 @@
-// The solver for SCREE_LANES contacts at once. The build compiles this file once per vector width
+// Contact preparation and the solver for SCREE_LANES contacts at once. The build compiles this file once per vector width
 // (compute/CMakeLists.txt); compute/cpu/simd/simd_dispatch.cpp picks the widest that the processor has.
 #include "compute/cpu/simd/simd_stages.h"
+
+#include <stddef.h>
 
 // Defines the types of the laws, so before them.
 #include "compute/cpu/simd/simd_types.h"
 
+#include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
+#include "shaders/physics/solve/persistence.h"
 #undef float
 #undef bool
 
@@ -99,14 +103,88 @@ struct Group {
     }
 };
 
-void hand_out(const WideTables& tables, std::size_t first, std::size_t last) {
+// Of each lane the record of one or the other.
+template <typename Record>
+SCREE_INLINE Record choose_record(Bool condition, const Record& a, const Record& b) {
+    Record chosen;
+    for (std::size_t word = 0; word < sizeof(Record) / sizeof(Words); ++word) {
+        AnyWords of_a, of_b;
+        __builtin_memcpy(&of_a, reinterpret_cast<const AnyWords*>(&a) + word, sizeof of_a);
+        __builtin_memcpy(&of_b, reinterpret_cast<const AnyWords*>(&b) + word, sizeof of_b);
+        reinterpret_cast<AnyWords*>(&chosen)[word] = condition.v ? of_a : of_b;
+    }
+    return chosen;
+}
+
+// A group of pairs whose contacts of the last step may persist.
+struct PairGroup {
+    Indices pairs;
+    Bool live;
+    Pair pair;
+    Contact contact;  // of the last step
+
+    SCREE_INLINE PairGroup(const WideTables& tables, std::size_t first, std::size_t last)
+        : pairs(listed(tables.items, first, last)),
+          live(living(first, last)),
+          pair(gather<Pair>(tables.pairs, pairs)),
+          contact(gather<Contact>(tables.contacts_before, Indices(pair.previous))) {}
+};
+SCREE_INLINE Indices body_of(Uint row, const BodyProperties& properties) {
+    return Indices(choose(is_part(properties), properties.owner, row));
+}
+
+void keep(const WideTables& tables, std::size_t first, std::size_t last) {
+    for (; first < last; first += lanes) {
+        const PairGroup group(tables, first, last);
+        const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(group.pair.a));
+        const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(group.pair.b));
+        const Indices a = body_of(group.pair.a, ta), b = body_of(group.pair.b, tb);
+        const Bool keeps = is_persistent(group.contact, ta, gather<Pose>(tables.poses, a), gather<Velocity>(tables.velocities, a),
+                                         tb, gather<Pose>(tables.poses, b), gather<Velocity>(tables.velocities, b));
+        Pair pair = group.pair;
+        pair.pair_type = choose(keeps, Uint(PAIR_PERSISTENT), pair.pair_type);
+        scatter(tables.pairs, group.pairs.only(group.live), pair);
+    }
+}
+
+void persist(const WideTables& tables, std::size_t first, std::size_t last) {
+    for (; first < last; first += lanes) {
+        const PairGroup group(tables, first, last);
+        const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(group.pair.a));
+        const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(group.pair.b));
+        const Pose a = gather<Pose>(tables.poses, body_of(group.pair.a, ta)),
+                   b = gather<Pose>(tables.poses, body_of(group.pair.b, tb));
+        scatter(tables.manifolds, group.pairs.only(group.live), persistent_manifold(group.contact, a, b));
+        for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+            tables.point_counts[group.pairs.of[lane]] = group.contact.count.v[lane];
+    }
+}
+
+void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
     Parameters p;
     broadcast(tables.parameters, p);
     for (; first < last; first += lanes) {
         const Indices contacts(listed(tables.items, first, last));
+        const Contact contact = gather<Contact>(tables.contacts, contacts);
         Kept& prepared = kept(tables, first);
         prepared.c = gather<Constraint>(tables.constraints, contacts);
         prepared.impulse = gather<Impulse>(tables.impulses, contacts);
+        const Bool waits = point_count(prepared.c) == 0u;
+        if (!none(waits)) {
+            const BodyProperties ta = gather<BodyProperties>(tables.properties, Indices(contact.a));
+            const BodyProperties tb = gather<BodyProperties>(tables.properties, Indices(contact.b));
+            const Constraint was = prepared.c;
+            const VelocityPair now{gather<Velocity>(tables.velocities, Indices(was.a)),
+                                   gather<Velocity>(tables.velocities, Indices(was.b))};
+            Constraint c = constraint_between(contact, was.pair, ta, was.a, was.slot_a, tb, was.b, was.slot_b, p);
+            const Float unrest = unrest_of(contact, c, ta, tb, now, p);
+            c = with_unrest(c, unrest);
+            prepared.c = none(!waits) ? c : choose_record(waits, c, was);
+            scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
+            constexpr std::size_t words = sizeof(Contact) / sizeof(Words), at = offsetof(Contact, unrest) / sizeof(Words);
+            for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
+                if (waits.v[lane] != 0) __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &unrest.v[lane], 4);
+        }
         const Group<false> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
@@ -281,7 +359,9 @@ namespace scree::reference {
 
 #define SCREE_STAGES(count) SCREE_JOINED(wide_stages_, count)
 const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
-                                              SCREE_NAMED(SCREE_LANES)::hand_out,
+                                              SCREE_NAMED(SCREE_LANES)::keep,
+                                              SCREE_NAMED(SCREE_LANES)::persist,
+                                              SCREE_NAMED(SCREE_LANES)::prepare,
                                               SCREE_NAMED(SCREE_LANES)::begin,
                                               SCREE_NAMED(SCREE_LANES)::solve,
                                               SCREE_NAMED(SCREE_LANES)::move,

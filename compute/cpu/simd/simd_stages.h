@@ -1,4 +1,5 @@
-// SIMD versions of the first warm start and of the four stages of a substep: one contact or body per lane.
+// SIMD versions of the persistence of contacts, of their preparation, and of the four stages of a substep: one contact or
+// body per lane.
 #pragma once
 
 #include <cstddef>
@@ -8,11 +9,16 @@ namespace scree::reference {
 
 // Tables of a State as 32-bit words.
 struct WideTables {
-    const std::uint32_t* items;  // indices of the contacts or bodies to process
+    const std::uint32_t* items;  // indices of the pairs, contacts or bodies to process
     const std::uint32_t* parameters;
     const std::uint32_t* properties;
-    const std::uint32_t* constraints;
     const std::uint32_t* slot_ends;
+    const std::uint32_t* contacts_before;  // of the last step
+    std::uint32_t* pairs;
+    std::uint32_t* manifolds;
+    std::uint32_t* point_counts;
+    std::uint32_t* contacts;
+    std::uint32_t* constraints;
     std::uint32_t* poses;
     std::uint32_t* velocities;
     std::uint32_t* masses;
@@ -30,12 +36,17 @@ struct WideTables {
     bool last = false;                    // the last one
 };
 
-// The stages for items [first, last), bit-identical to the plain loops in contacts.cpp and bodies.cpp; `first` of a contact
-// stage is a multiple of the lanes. The first warm start transposes constraints and impulses into `groups`, where the passes
-// of the step's substeps keep them; the last one transposes the impulses back.
+// The stages for items [first, last), bit-identical to the plain loops in broadphase.cpp, contacts.cpp and bodies.cpp; `first`
+// of a stage of contacts is a multiple of the lanes. Preparation transposes constraints and impulses into `groups`, where the
+// passes of the step's substeps keep them; the last pass transposes the impulses back.
 struct WideStages {
     int lanes;
-    void (*hand_out)(const WideTables&, std::size_t first, std::size_t last);  // first warm start (prepare_contacts)
+    // Pairs whose contacts of the last step may persist: makes those persistent that do (match_pairs).
+    void (*keep)(const WideTables&, std::size_t first, std::size_t last);
+    // Pairs whose contacts persist: their manifolds (collide_persistent).
+    void (*persist)(const WideTables&, std::size_t first, std::size_t last);
+    // Constraints of contacts that have none yet (point count 0), unrest, and the first warm start (prepare_contacts).
+    void (*prepare)(const WideTables&, std::size_t first, std::size_t last);
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);
     void (*solve)(const WideTables&, std::size_t first, std::size_t last);
     void (*move)(const WideTables&, std::size_t first, std::size_t last);

@@ -85,6 +85,8 @@ struct Uint {
     friend SCREE_INLINE Bool operator!=(Uint a, Uint b) { return a.v != b.v; }
     friend SCREE_INLINE Bool operator<(Uint a, Uint b) { return a.v < b.v; }
     friend SCREE_INLINE Bool operator>(Uint a, Uint b) { return a.v > b.v; }
+    friend SCREE_INLINE Bool operator<=(Uint a, Uint b) { return a.v <= b.v; }
+    friend SCREE_INLINE Bool operator>=(Uint a, Uint b) { return a.v >= b.v; }
 };
 
 struct Float {
@@ -92,6 +94,7 @@ struct Float {
     Float() = default;
     SCREE_INLINE constexpr Float(Floats floats) : v(floats) {}
     SCREE_INLINE constexpr Float(float x) : v(all<Floats>(x)) {}
+    SCREE_INLINE explicit Float(Uint x) : v(__builtin_convertvector((Masks)x.v, Floats)) {}  // below 2^31
     friend SCREE_INLINE Float operator+(Float a, Float b) { return a.v + b.v; }
     friend SCREE_INLINE Float operator-(Float a, Float b) { return a.v - b.v; }
     friend SCREE_INLINE Float operator*(Float a, Float b) { return a.v * b.v; }

@@ -204,6 +204,16 @@ struct Candidate {
     uint owner;  // the body whose search found the pair
     uint other;
 };
+// Pair types. The first four shapes in ascending order give 0 to 8 (plane-plane has none); general convex shapes share
+// collide_convex, but for planes, triangles and hull-hull. PAIR_PERSISTENT keeps its manifold (persistence.h),
+// PAIR_INACTIVE is a pair of inactive bodies.
+CONSTANT uint PAIR_PLANE_CONVEX = 9u;
+CONSTANT uint PAIR_CONVEX = 10u;
+CONSTANT uint PAIR_HULL_HULL = 11u;
+CONSTANT uint PAIR_SPHERE_TRIANGLE = 12u;
+CONSTANT uint PAIR_CONVEX_TRIANGLE = 13u;
+CONSTANT uint PAIR_PERSISTENT = 14u;
+CONSTANT uint PAIR_INACTIVE = 15u;
 struct Pair {
     uint a, b;       // rows of bodies or parts, the lower id first
     uint pair_type;  // PAIR_*

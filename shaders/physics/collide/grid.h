@@ -206,16 +206,6 @@ LAW bool can_touch(BodyProperties a, BodyProperties b) {
     return moves && (a.shape != SHAPE_PLANE || b.shape != SHAPE_PLANE) && a.owner != b.owner;
 }
 
-// The first four shapes in ascending order give pair types 0 to 8 (plane-plane has none); general convex shapes share
-// collide_convex, but for planes, triangles and hull-hull. PAIR_PERSISTENT keeps its manifold (persistence.h),
-// PAIR_INACTIVE is a pair of inactive bodies.
-CONSTANT uint PAIR_PLANE_CONVEX = 9u;
-CONSTANT uint PAIR_CONVEX = 10u;
-CONSTANT uint PAIR_HULL_HULL = 11u;
-CONSTANT uint PAIR_SPHERE_TRIANGLE = 12u;
-CONSTANT uint PAIR_CONVEX_TRIANGLE = 13u;
-CONSTANT uint PAIR_PERSISTENT = 14u;
-CONSTANT uint PAIR_INACTIVE = 15u;
 LAW uint pair_type_of(uint shape_a, uint shape_b) {
     uint low = shape_a < shape_b ? shape_a : shape_b;
     uint high = shape_a < shape_b ? shape_b : shape_a;

@@ -45,13 +45,6 @@ LAW Pose pose_ahead(Pose pose, Velocity velocity, float ahead) {
     return after;
 }
 
-// The anchor body of a contact: the one that rolls, or the thinner one. A ball rolls on, a small box slides over a
-// large one, and the contact goes with it.
-LAW bool stays_with_b(BodyProperties a, BodyProperties b) {
-    if (can_roll(a.shape) != can_roll(b.shape)) return can_roll(b.shape);
-    return min_half_width(b) < min_half_width(a);
-}
-
 LAW float speed_at(Manifold manifold, vec4 point, Velocity va, Velocity vb, vec3 d) {
     vec3 of_a = va.linear + cross3(va.angular, xyz(point));
     vec3 of_b = vb.linear + cross3(vb.angular, xyz(point) - d);

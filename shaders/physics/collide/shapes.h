@@ -22,8 +22,6 @@ CONSTANT uint SHAPE_HULL = 7u;       // size: half extents of a box about the ce
 CONSTANT uint SHAPE_TRIANGLE = 8u;   // of a mesh, solid behind its face; size: as of a hull. In the table of hulls: triangle.h
 CONSTANT uint SHAPE_NONE = 9u;       // only its parts collide. size: min_half_width of its thinnest part, bounding radius, - m
 
-#ifndef SCREE_LANES  // the solver does not depend on shapes
-
 // ---- classes of shapes
 // Sphere-swept point or segment: the contact of two follows the line between their cores as they move.
 LAW bool has_round_core(uint shape) {
@@ -64,12 +62,31 @@ LAW bool has_side(uint shape) {
 LAW bool has_curved_side(uint shape) {
     return shape == SHAPE_CYLINDER || shape == SHAPE_CONE || is_smooth(shape);
 }
+
+// ---- extents, m
+LAW float smallest_component(vec3 v) {
+    return smaller(v.x, smaller(v.y, v.z));
+}
+LAW float largest_component(vec3 v) {
+    return larger(v.x, larger(v.y, v.z));
+}
+// Smallest half width, the scale of tolerances on a body.
+LAW float min_half_width(uint shape, vec3 size) {
+    float width = size.x;
+    width = choose(shape == SHAPE_BOX || shape == SHAPE_ELLIPSOID, smallest_component(size), width);
+    width = choose(shape == SHAPE_HULL, 0.5f * smallest_component(size), width);
+    width = choose(shape == SHAPE_CYLINDER, smaller(size.x, size.y), width);
+    width = choose(shape == SHAPE_CONE, smaller(0.5f * size.x, 0.25f * size.y), width);
+    return choose(shape == SHAPE_PLANE || shape == SHAPE_TRIANGLE, 1.0e30f, width);
+}
+
+#ifndef SCREE_LANES  // the rest has branches
+
 // Number of flat faces that need no table.
 LAW uint flat_faces(uint shape) {
     return shape == SHAPE_BOX ? 6u : (shape == SHAPE_CYLINDER ? 2u : (shape == SHAPE_CONE ? 1u : 0u));
 }
 
-// ---- extents, m
 // A cone's centre of mass lies a quarter of its height above its base.
 LAW float cone_apex(vec3 size) {
     return 0.75f * size.y;
@@ -78,21 +95,6 @@ LAW float cone_base(vec3 size) {
     return -0.25f * size.y;
 }
 
-LAW float smallest_component(vec3 v) {
-    return smaller(v.x, smaller(v.y, v.z));
-}
-LAW float largest_component(vec3 v) {
-    return larger(v.x, larger(v.y, v.z));
-}
-
-// Smallest half width, the scale of tolerances on a body.
-LAW float min_half_width(uint shape, vec3 size) {
-    if (shape == SHAPE_PLANE || shape == SHAPE_TRIANGLE) return 1.0e30f;
-    if (shape == SHAPE_CYLINDER) return smaller(size.x, size.y);
-    if (shape == SHAPE_CONE) return smaller(0.5f * size.x, 0.25f * size.y);
-    if (shape == SHAPE_HULL) return 0.5f * smallest_component(size);
-    return shape == SHAPE_BOX || shape == SHAPE_ELLIPSOID ? smallest_component(size) : size.x;
-}
 // Radius of the bounding sphere about the centre; for a hull an upper bound.
 LAW float bounding_radius(uint shape, vec3 size) {
     if (is_polyhedron(shape)) return length3(size);

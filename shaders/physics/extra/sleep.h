@@ -13,6 +13,7 @@
 #ifndef SCREE_PHYSICS_SLEEP_H
 #define SCREE_PHYSICS_SLEEP_H
 
+#include "shaders/physics/extra/sweep.h"
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/mass_splitting.h"
 #include "shaders/physics/solve/surface.h"

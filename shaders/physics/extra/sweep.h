@@ -13,6 +13,7 @@
 #include "shaders/physics/base/arithmetic.h"
 #include "shaders/physics/base/inertia.h"
 #include "shaders/physics/base/records.h"
+#include "shaders/physics/collide/body_scale.h"
 
 LAWS_BEGIN
 
@@ -23,9 +24,6 @@ CONSTANT float NO_HIT = 2.0f;
 // so on: with fewer, bodies that fly in a row pass each other when the first of them is clamped.
 CONSTANT uint CCD_ROUNDS = 3u;
 
-LAW float min_half_width(BodyProperties properties) {
-    return min_half_width(properties.shape, properties.size);
-}
 LAW float bounding_radius(BodyProperties properties) {
     return bounding_radius(properties.shape, properties.size);
 }
@@ -47,18 +45,6 @@ LAW bool will_be_fast(BodyProperties properties, Velocity velocity, Parameters p
     if (!in_motion(velocity) || properties.joints != NONE) return false;
     float way = length3(velocity.linear) + length3(velocity.angular) * lever_of(properties);
     return properties.motion != MOTION_FIXED && way * parameters.dt > ccd_threshold(properties);
-}
-
-// Speculative distance relative to min_half_width: a box of 1 m has the default of Settings::speculative_distance, its
-// upper bound. With 2 cm for every size, a heap of 1 cm had ten times the contacts of one of 1 m, most of them between
-// bodies that never touch.
-CONSTANT float SPECULATIVE_PART = 0.04f;
-
-LAW float speculative_of(BodyProperties properties, Parameters parameters) {
-    return smaller(parameters.speculative, SPECULATIVE_PART * min_half_width(properties));
-}
-LAW float speculative_of(BodyProperties a, BodyProperties b, Parameters parameters) {
-    return smaller(speculative_of(a, parameters), speculative_of(b, parameters));
 }
 
 // Flags of Sweep.struck, of what is predicted for the step.

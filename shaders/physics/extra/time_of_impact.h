@@ -9,7 +9,7 @@
 
 #include "shaders/physics/collide/distance.h"
 #include "shaders/physics/extra/sweep.h"
-#include "shaders/physics/solve/contact.h"
+#include "shaders/physics/solve/motion.h"
 
 LAWS_BEGIN
 

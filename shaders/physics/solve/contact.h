@@ -1,36 +1,13 @@
-// Contacts: matching points across steps for the warm start, and the constraint that the solver reads.
+// Contacts: how a manifold becomes one, and matching of its points across steps for the warm start.
 #ifndef SCREE_PHYSICS_CONTACT_H
 #define SCREE_PHYSICS_CONTACT_H
 
-#include "shaders/physics/collide/compound.h"
-#include "shaders/physics/collide/rolling_contact.h"
-#include "shaders/physics/extra/sweep.h"
-#include "shaders/physics/solve/constraint.h"
-#include "shaders/physics/solve/motion.h"
+#include "shaders/physics/collide/body_scale.h"
 
 LAWS_BEGIN
 
 LAW uint feature_of(uint features, uint point) {
     return (features >> (8u * point)) & 0xFFu;
-}
-
-// Half width of a box or cylinder whose half extents or radii are `size` along the plane with that normal, m.
-LAW float width_across(vec3 size, vec4 orientation, vec3 normal) {
-    vec3 slant = absolute3(rotate_back(orientation, normal));
-    if (slant.x >= slant.y && slant.x >= slant.z) return smaller(size.y, size.z);
-    return slant.y >= slant.z ? smaller(size.x, size.z) : smaller(size.x, size.y);
-}
-// Half width of the body along the contact plane, m: a point that slides further has left its face.
-LAW float width_along(BodyProperties properties, vec4 orientation, vec3 normal) {
-    if (properties.shape != SHAPE_BOX || is_part(properties)) return min_half_width(properties);
-    return width_across(properties.size, orientation, normal);
-}
-// The same for flat faces of every shape, the scale of what a patch may slip: a coin's is its radius, not its thickness.
-LAW float patch_width(BodyProperties properties, vec4 orientation, vec3 normal) {
-    bool axial = properties.shape == SHAPE_CYLINDER || properties.shape == SHAPE_CONE;
-    if ((!axial && properties.shape != SHAPE_HULL) || is_part(properties)) return width_along(properties, orientation, normal);
-    vec3 size = axial ? vec3(properties.size.x, properties.size.y, properties.size.x) : properties.size * 0.5f;
-    return width_across(size, orientation, normal);
 }
 
 // How far a point may move on a body between steps and still match, m. Patches of three points or more keep nearly all:
@@ -145,123 +122,20 @@ LAW vec4 separations_of(Manifold manifold) {
     return vec4(manifold.points[0].w, manifold.points[1].w, manifold.points[2].w, manifold.points[3].w);
 }
 
-// Round bodies: in the contact of two, point and normal follow both; other points stay with one body
-// (rolling_contact.h).
-LAW bool is_round(BodyProperties properties) {
-    return has_round_core(properties.shape);
-}
-LAW bool rolls(BodyProperties properties) {
-    return can_roll(properties.shape);
-}
-// The same where the bodies touch in `points` points: with three and more a disc lies flat.
-LAW float face_half_width(BodyProperties properties, vec4 orientation, vec3 normal, uint points) {
-    bool disc = (properties.shape == SHAPE_CYLINDER || properties.shape == SHAPE_CONE) && !is_part(properties);
-    return disc && points > 2u ? properties.size.x : width_along(properties, orientation, normal);
-}
-// On three points and more nothing rolls, and the points are those of the smaller face, whichever body is thinner: on a
-// thin turntable the contact of a thick box turned about the table, and the box crept inwards by 0.3 mm/s.
-LAW uint anchor_of(Contact contact, BodyProperties a, BodyProperties b) {
-    if (is_round(a) && is_round(b) && contact.count == 1u) return CONSTRAINT_ROUND;
-    if (contact.count < 3u) return stays_with_b(a, b) ? CONSTRAINT_ON_B : 0u;
-    float width_a = face_half_width(a, contact.orientation_a, contact.normal, contact.count);
-    float width_b = face_half_width(b, contact.orientation_b, contact.normal, contact.count);
-    return width_b < width_a ? CONSTRAINT_ON_B : 0u;
-}
-
-// Radius of the patch of a single point, of the smaller min_half_width, for torsional friction: with 0, a box pinched
-// between two points swings about them for ever.
-CONSTANT float POINT_PATCH = 0.01f;
-
-// Mean distance of a patch of uniform pressure from its centre, of that of its contact points (quadrature): an edge's, a
-// triangle's, a square's (rectangles of 2:1 and 4:1: 0.53, 0.51) and a disc's, whose points lie on its rim.
-CONSTANT float EDGE_SPREAD = 0.5f, TRIANGLE_SPREAD = 0.46f, SQUARE_SPREAD = 0.54f, DISC_SPREAD = 0.6667f;
-
-LAW bool is_rim(BodyProperties properties, float reach) {
-    return (properties.shape == SHAPE_CYLINDER || properties.shape == SHAPE_CONE) && reach > 0.9f * properties.size.x;
-}
-// The twist arm of a patch whose points are `reach` from its centre, in the mean, m.
-LAW float twist_arm_of(BodyProperties a, BodyProperties b, uint count, float reach) {
-    if (count == 1u) return rolls(a) || rolls(b) ? 0.0f : POINT_PATCH * smaller(min_half_width(a), min_half_width(b));
-    if (count == 2u) return EDGE_SPREAD * reach;
-    if (is_rim(a, reach) || is_rim(b, reach)) return DISC_SPREAD * reach;
-    return (count == 3u ? TRIANGLE_SPREAD : SQUARE_SPREAD) * reach;
-}
-
-// The centre of the friction patch: points that are still apart weigh less, so it moves smoothly as a body tips.
-LAW vec3 patch_centre(Contact contact, float speculative) {
-    vec3 centre;
-    float weights = 0.0f;
-    float fade = reciprocal(speculative);
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= contact.count) break;
-        float weight = clamped(1.0f - contact.points[k].w * fade, 0.05f, 1.0f);
-        vec3 moment = xyz(contact.points[k]) * weight;
-        centre = k == 0u ? moment : centre + moment;
-        weights = weights + weight;
-    }
-    return centre * reciprocal(weights);
-}
-
-// The constraint of a contact between inactive bodies, read by statistics alone.
-LAW Constraint idle_constraint(Contact contact) {
-    Constraint c;
-    c.a = contact.a;
-    c.b = contact.b;
-    c.slot_a = NONE;
-    c.slot_b = NONE;
-    c.normal = contact.normal;
-    c.friction = 0.0f;
-    c.arms_x = vec4(0.0f);
-    c.arms_y = vec4(0.0f);
-    c.arms_z = vec4(0.0f);
-    c.drive1 = 0.0f;
-    c.drive2 = 0.0f;
-    c.static_friction = 0.0f;
-    c.restitution_threshold = 0.0f;
-    c.centre = vec3(0.0f);
-    c.twist_arm = 0.0f;
-    c.rolling_resistance = 0.0f;
-    c.restitution = 0.0f;
-    c.flags = contact.count;
-    c.tyre_slip = 0.0f;
-    c.radius_a = 0.0f;
-    c.radius_b = 0.0f;
-    c.pair = NONE;
-    c.slide_limit = 1.0e30f;
-    return c;
-}
-
-LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties tb, uint slot_a, uint slot_b,
-                             Parameters parameters) {
-    Constraint c = idle_constraint(contact);
-    c.slot_a = slot_a;
-    c.slot_b = slot_b;
-    c.friction = parameters.friction_factor * square_root(ta.friction * tb.friction);
-    c.rolling_resistance = larger(ta.rolling_resistance, tb.rolling_resistance);
-    c.restitution = larger(parameters.least_restitution, larger(ta.restitution, tb.restitution));
-    uint anchor = anchor_of(contact, ta, tb);
-    bool on_b = anchor == CONSTRAINT_ON_B, round = anchor == CONSTRAINT_ROUND;
-    c.flags = contact.count | anchor;
-    if (on_b) c.slide_limit = face_half_width(ta, contact.orientation_a, contact.normal, contact.count);
-    if (!on_b && !round) c.slide_limit = face_half_width(tb, contact.orientation_b, contact.normal, contact.count);
-    vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters));
-    float reach = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= contact.count) break;
-        vec3 arm = xyz(contact.points[k]);
-        c = with_lever_arm(c, int(k), on_b ? arm - contact.center_offset : arm);
-        reach = reach + length3(arm - centre);
-    }
-    c.twist_arm = twist_arm_of(ta, tb, contact.count, reach * reciprocal(float(contact.count)));
-    c.centre = on_b ? centre - contact.center_offset : centre;
-    if (round) {
-        c.radius_a = ta.size.x;
-        c.radius_b = tb.size.x;
-        vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
-        c = with_lever_arm(c, 0, centre - half_gap - contact.normal * c.radius_a);
-        c.centre = (centre - contact.center_offset) + half_gap + contact.normal * c.radius_b;
-    }
-    return c;
+// A contact that persists keeps its impulses.
+LAW Impulse carry_forward(Contact contact, Impulse was) {
+    Impulse impulse = no_impulse(contact.center_offset);
+    impulse.normal = was.normal;
+    impulse.solved_normal = was.solved_normal;
+    impulse.impact = was.impact;
+    impulse.rebound_energy = was.rebound_energy;
+    impulse.impact_energy = was.impact_energy;
+    impulse.friction = was.friction;
+    impulse.twist = was.twist;
+    impulse.rolling = was.rolling;
+    impulse.stretch = was.stretch;
+    impulse.turn = was.turn;
+    return impulse;
 }
 
 LAWS_END

@@ -5,10 +5,11 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/tyre.h"
+#include "shaders/physics/solve/contact.h"
+#include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/material.h"
 #include "shaders/physics/solve/persistence.h"
-#include "shaders/physics/solve/unrest.h"
 
 LAWS_BEGIN
 
@@ -64,22 +65,12 @@ LAW float load_since(Contact before, Impulse was, BodyProperties a, uint slot_a,
     return load_of(a_sleeps || b_sleeps, before, was);
 }
 
-// The constraint of a contact between two bodies; the properties are those of the rows in contact, which may be parts.
 LAW Constraint idle_between(Contact contact, uint body_a, uint body_b) {
     Constraint c = idle_constraint(contact);
     c.a = body_a;
     c.b = body_b;
     return c;
 }
-LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta, uint body_a, uint slot_a, BodyProperties tb,
-                                  uint body_b, uint slot_b, Parameters parameters) {
-    Constraint c = constraint_of(contact, ta, tb, slot_a, slot_b, parameters);
-    c.a = body_a;
-    c.b = body_b;
-    c.pair = pair;
-    return c;
-}
-
 // Half the sum of the last impulses of an impact times the present velocities, J.
 LAW float impact_work(Constraint c, vec4 impact, vec3 center_offset, VelocityPair now) {
     c = refresh_round_contact(c, center_offset);
@@ -100,17 +91,6 @@ LAW Impulse settled_impact(Impulse impulse, Constraint c, Impulse was, Constrain
         impact_work(c, impulse.impact, impulse.center_offset, now) - impact_work(before, was.impact, was.center_offset, now);
     impulse.rebound_energy = flush_least(impulse.rebound_energy + work);
     return impulse;
-}
-
-// The contact's unrest in this step, s. `now`: velocities as the step begins.
-LAW float unrest_of(PreparedContact prepared, Constraint c, BodyProperties ta, BodyProperties tb, VelocityPair now,
-                    Parameters parameters) {
-    float calm = calm_speed(smaller(min_half_width(ta), min_half_width(tb)), parameters);
-    return unrest_after(prepared.contact.unrest, c, prepared.contact.center_offset, now, calm, parameters);
-}
-LAW Constraint with_unrest(Constraint c, float unrest) {
-    if (is_restless_contact(unrest)) c.flags = c.flags | CONSTRAINT_RESTLESS;
-    return c;
 }
 
 // The contact's contribution before the first substep: its warm start, and 1 if it is active (counts in mass

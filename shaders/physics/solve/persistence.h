@@ -10,7 +10,7 @@
 #ifndef SCREE_PHYSICS_PERSISTENCE_H
 #define SCREE_PHYSICS_PERSISTENCE_H
 
-#include "shaders/physics/solve/contact.h"
+#include "shaders/physics/collide/body_scale.h"
 
 LAWS_BEGIN
 
@@ -38,7 +38,7 @@ CONSTANT float KEPT_SPIN_SQUARED = 0.00125f;   // (rad/s)^2 m
 CONSTANT float KEPT_TILT_SQUARED = 6.125e-6f;  // m
 
 // From the anchor of a point on A to its anchor on B at the present poses, world, m.
-LAW vec3 gap_between_marks(Contact contact, uint point, Pose a, Pose b) {
+LAW vec3 gap_between_marks(Contact contact, int point, Pose a, Pose b) {
     vec3 arm = xyz(contact.points[point]);
     vec3 half_gap = contact.normal * (0.5f * contact.points[point].w);
     vec3 mark_a = rotate(a.orientation, rotate_back(contact.orientation_a, arm - half_gap));
@@ -57,36 +57,40 @@ LAW vec4 turn_since(vec4 before, vec4 now) {
     return vec4(turn, now.w * before.w + dot3(to, from));
 }
 LAW bool turned_little(vec4 before, vec4 now, uint points) {
-    return cosine_between(before, now) > (points > 2u ? KEPT_TURN : KEPT_ROCKING);
+    return cosine_between(before, now) > choose(points > 2u, KEPT_TURN, KEPT_ROCKING);
 }
 
-// Whether last step's contact persists: it bore an impulse, neither body can roll on the other, rotations are below the
-// limits, and the anchors neither separate nor slide.
-LAW bool is_persistent(Contact contact, Impulse impulse, BodyProperties ta, Pose a, Velocity va, BodyProperties tb, Pose b,
-                       Velocity vb) {
-    if (touches_in_a_point(ta.shape) || touches_in_a_point(tb.shape) || (is_round(ta) && is_round(tb))) return false;
-    if ((impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) <= 0.0f) return false;
-    if (!turned_little(contact.orientation_a, a.orientation, contact.count)) return false;
-    if (!turned_little(contact.orientation_b, b.orientation, contact.count)) return false;
+// Whether a contact of the two rows may persist at all: it bore an impulse, and neither body can roll on the other.
+LAW bool may_persist(Impulse impulse, BodyProperties ta, BodyProperties tb) {
+    return (impulse.normal.x + impulse.normal.y) + (impulse.normal.z + impulse.normal.w) > 0.0f &&
+           !(touches_in_a_point(ta.shape) || touches_in_a_point(tb.shape) || (is_round(ta) && is_round(tb)));
+}
+// Whether last step's contact, which may, persists: rotations are below the limits, and the anchors neither separate nor
+// slide.
+LAW bool is_persistent(Contact contact, BodyProperties ta, Pose a, Velocity va, BodyProperties tb, Pose b, Velocity vb) {
+    bool keeps = turned_little(contact.orientation_a, a.orientation, contact.count) &&
+                 turned_little(contact.orientation_b, b.orientation, contact.count);
     vec4 since_a = turn_since(contact.orientation_a, a.orientation), since_b = turn_since(contact.orientation_b, b.orientation);
-    if (abs(dot3(xyz(since_a), contact.normal)) > KEPT_YAW || abs(dot3(xyz(since_b), contact.normal)) > KEPT_YAW) return false;
+    keeps = keeps && abs(dot3(xyz(since_a), contact.normal)) <= KEPT_YAW && abs(dot3(xyz(since_b), contact.normal)) <= KEPT_YAW;
+    if (none(keeps)) return keeps;
     vec3 tilt = xyz(since_a) - xyz(since_b);
     vec3 spin = vb.angular - va.angular;
     float size = smaller(patch_width(ta, a.orientation, contact.normal), patch_width(tb, b.orientation, contact.normal));
-    if (dot3(tilt, tilt) * size > KEPT_TILT_SQUARED || dot3(spin, spin) * size > KEPT_SPIN_SQUARED) return false;
+    keeps = keeps && dot3(tilt, tilt) * size <= KEPT_TILT_SQUARED && dot3(spin, spin) * size <= KEPT_SPIN_SQUARED;
     float tolerance = KEPT_SLIP * size;
     float fastest = KEPT_SPEED * size;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= contact.count) break;
+    for (int k = 0; k < 4; ++k) {
+        bool there = keeps && uint(k) < contact.count;
+        if (none(there)) break;
         vec3 slip = gap_between_marks(contact, k, a, b) - contact.normal * contact.points[k].w;
         slip = slip - contact.normal * dot3(slip, contact.normal);
-        if (dot3(slip, slip) > tolerance * tolerance) return false;
         vec3 arm = xyz(contact.points[k]);
         vec3 speed = (vb.linear + cross3(vb.angular, arm - contact.center_offset)) - (va.linear + cross3(va.angular, arm));
         speed = speed - contact.normal * dot3(speed, contact.normal);
-        if (dot3(speed, speed) > fastest * fastest) return false;
+        bool slides = dot3(slip, slip) > tolerance * tolerance || dot3(speed, speed) > fastest * fastest;
+        keeps = keeps && !(there && slides);
     }
-    return true;
+    return keeps;
 }
 
 // The contact's manifold with its separations updated from the anchors.
@@ -94,10 +98,12 @@ LAW Manifold persistent_manifold(Contact contact, Pose a, Pose b) {
     Manifold manifold;
     manifold.normal = contact.normal;
     manifold.features = contact.features;
-    for (uint k = 0u; k < 4u; ++k) {
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < contact.count;
         manifold.points[k] = vec4(0.0f);
-        if (k < contact.count)
-            manifold.points[k] = vec4(xyz(contact.points[k]), dot3(contact.normal, gap_between_marks(contact, k, a, b)));
+        if (none(there)) continue;
+        float separation = dot3(contact.normal, gap_between_marks(contact, k, a, b));
+        manifold.points[k] = choose(there, vec4(xyz(contact.points[k]), separation), manifold.points[k]);
     }
     return manifold;
 }
@@ -107,26 +113,10 @@ LAW Manifold resting_manifold(Contact contact, Impulse impulse) {
     Manifold manifold;
     manifold.normal = contact.normal;
     manifold.features = contact.features;
-    for (uint k = 0u; k < 4u; ++k) {
-        manifold.points[k] = vec4(0.0f);
-        if (k < contact.count) manifold.points[k] = vec4(xyz(contact.points[k]), impulse.separation[k]);
-    }
+    for (int k = 0; k < 4; ++k)
+        manifold.points[k] =
+            choose(uint(k) < contact.count, vec4(xyz(contact.points[k]), impulse.separation[k]), vec4(0.0f));
     return manifold;
-}
-
-LAW Impulse carry_forward(Contact contact, Impulse was) {
-    Impulse impulse = no_impulse(contact.center_offset);
-    impulse.normal = was.normal;
-    impulse.solved_normal = was.solved_normal;
-    impulse.impact = was.impact;
-    impulse.rebound_energy = was.rebound_energy;
-    impulse.impact_energy = was.impact_energy;
-    impulse.friction = was.friction;
-    impulse.twist = was.twist;
-    impulse.rolling = was.rolling;
-    impulse.stretch = was.stretch;
-    impulse.turn = was.turn;
-    return impulse;
 }
 
 LAWS_END

@@ -25,13 +25,14 @@ LAW float calm_speed(float half_width, Parameters parameters) {
 // A contact's unrest at the start of a step, s. `before`: in the last step; `v`: of both bodies.
 LAW float unrest_after(float before, Constraint c, vec3 center_offset, VelocityPair v, float calm, Parameters parameters) {
     float fastest = 0.0f;
-    for (uint k = 0u; k < 4u; ++k) {
-        if (k >= point_count(c)) break;
-        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, int(k)), center_offset), v));
-        fastest = larger(fastest, abs(speed));
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < point_count(c);
+        if (none(there)) break;
+        float speed = dot3(c.normal, velocity_at(lever_arms(c, lever_arm(c, k), center_offset), v));
+        fastest = choose(there, larger(fastest, abs(speed)), fastest);
     }
-    if (fastest < calm) return positive(before - CALMING * parameters.dt);
-    return before + parameters.dt < PATIENCE ? before + parameters.dt : LONGEST_UNREST;
+    float calmer = positive(before - CALMING * parameters.dt), longer = before + parameters.dt;
+    return choose(fastest < calm, calmer, choose(longer < PATIENCE, longer, LONGEST_UNREST));
 }
 LAW bool is_restless_contact(float unrest) {
     return unrest >= PATIENCE;

@@ -1,0 +1,146 @@
+// The constraint of a contact, which the solver reads: anchor body, lever arms, friction patch, materials.
+#ifndef SCREE_PHYSICS_CONTACT_CONSTRAINT_H
+#define SCREE_PHYSICS_CONTACT_CONSTRAINT_H
+
+#include "shaders/physics/collide/body_scale.h"
+#include "shaders/physics/solve/constraint.h"
+#include "shaders/physics/solve/unrest.h"
+
+LAWS_BEGIN
+
+// On three points and more nothing rolls, and the points are those of the smaller face, whichever body is thinner: on a
+// thin turntable the contact of a thick box turned about the table, and the box crept inwards by 0.3 mm/s.
+LAW uint anchor_of(Contact contact, BodyProperties a, BodyProperties b) {
+    bool few = contact.count < 3u;
+    float width_a = face_half_width(a, contact.orientation_a, contact.normal, contact.count);
+    float width_b = face_half_width(b, contact.orientation_b, contact.normal, contact.count);
+    bool on_b = (few && stays_with_b(a, b)) || (!few && width_b < width_a);
+    bool round = is_round(a) && is_round(b) && contact.count == 1u;
+    return choose(round, CONSTRAINT_ROUND, choose(on_b, CONSTRAINT_ON_B, 0u));
+}
+
+// Radius of the patch of a single point, of the smaller min_half_width, for torsional friction: with 0, a box pinched
+// between two points swings about them for ever.
+CONSTANT float POINT_PATCH = 0.01f;
+
+// Mean distance of a patch of uniform pressure from its centre, of that of its contact points (quadrature): an edge's, a
+// triangle's, a square's (rectangles of 2:1 and 4:1: 0.53, 0.51) and a disc's, whose points lie on its rim.
+CONSTANT float EDGE_SPREAD = 0.5f, TRIANGLE_SPREAD = 0.46f, SQUARE_SPREAD = 0.54f, DISC_SPREAD = 0.6667f;
+
+LAW bool is_rim(BodyProperties properties, float reach) {
+    return is_disc(properties) && reach > 0.9f * properties.size.x;
+}
+// The twist arm of a patch whose points are `reach` from its centre, in the mean, m.
+LAW float twist_arm_of(BodyProperties a, BodyProperties b, uint count, float reach) {
+    float spread = choose(count == 3u, TRIANGLE_SPREAD, SQUARE_SPREAD);
+    spread = choose(is_rim(a, reach) || is_rim(b, reach), DISC_SPREAD, spread);
+    spread = choose(count == 2u, EDGE_SPREAD, spread);
+    float of_point = choose(rolls(a) || rolls(b), 0.0f, POINT_PATCH * smaller(min_half_width(a), min_half_width(b)));
+    return choose(count == 1u, of_point, spread * reach);
+}
+
+// The centre of the friction patch: points that are still apart weigh less, so it moves smoothly as a body tips.
+LAW vec3 patch_centre(Contact contact, float speculative) {
+    vec3 centre = vec3(0.0f);
+    float weights = 0.0f;
+    float fade = reciprocal(speculative);
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < contact.count;
+        if (none(there)) break;
+        float weight = clamped(1.0f - contact.points[k].w * fade, 0.05f, 1.0f);
+        vec3 moment = xyz(contact.points[k]) * weight;
+        if (k > 0) moment = centre + moment;
+        centre = choose(there, moment, centre);
+        weights = choose(there, weights + weight, weights);
+    }
+    return centre * reciprocal(weights);
+}
+
+// The constraint of a contact between inactive bodies, read by statistics alone.
+LAW Constraint idle_constraint(Contact contact) {
+    Constraint c;
+    c.a = contact.a;
+    c.b = contact.b;
+    c.slot_a = NONE;
+    c.slot_b = NONE;
+    c.normal = contact.normal;
+    c.friction = 0.0f;
+    c.arms_x = vec4(0.0f);
+    c.arms_y = vec4(0.0f);
+    c.arms_z = vec4(0.0f);
+    c.drive1 = 0.0f;
+    c.drive2 = 0.0f;
+    c.static_friction = 0.0f;
+    c.restitution_threshold = 0.0f;
+    c.centre = vec3(0.0f);
+    c.twist_arm = 0.0f;
+    c.rolling_resistance = 0.0f;
+    c.restitution = 0.0f;
+    c.flags = contact.count;
+    c.tyre_slip = 0.0f;
+    c.radius_a = 0.0f;
+    c.radius_b = 0.0f;
+    c.pair = NONE;
+    c.slide_limit = 1.0e30f;
+    return c;
+}
+
+LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties tb, uint slot_a, uint slot_b,
+                             Parameters parameters) {
+    Constraint c = idle_constraint(contact);
+    c.slot_a = slot_a;
+    c.slot_b = slot_b;
+    c.friction = parameters.friction_factor * square_root(ta.friction * tb.friction);
+    c.rolling_resistance = larger(ta.rolling_resistance, tb.rolling_resistance);
+    c.restitution = larger(parameters.least_restitution, larger(ta.restitution, tb.restitution));
+    uint anchor = anchor_of(contact, ta, tb);
+    bool on_b = anchor == CONSTRAINT_ON_B, round = anchor == CONSTRAINT_ROUND;
+    c.flags = contact.count | anchor;
+    float limit_a = face_half_width(ta, contact.orientation_a, contact.normal, contact.count);
+    float limit_b = face_half_width(tb, contact.orientation_b, contact.normal, contact.count);
+    c.slide_limit = choose(on_b, limit_a, choose(round, c.slide_limit, limit_b));
+    vec3 centre = patch_centre(contact, speculative_of(ta, tb, parameters));
+    float reach = 0.0f;
+    for (int k = 0; k < 4; ++k) {
+        bool there = uint(k) < contact.count;
+        if (none(there)) break;
+        vec3 arm = xyz(contact.points[k]);
+        c = with_lever_arm(c, k, choose(there, choose(on_b, arm - contact.center_offset, arm), lever_arm(c, k)));
+        reach = choose(there, reach + length3(arm - centre), reach);
+    }
+    c.twist_arm = twist_arm_of(ta, tb, contact.count, reach * reciprocal(float(contact.count)));
+    c.centre = choose(on_b, centre - contact.center_offset, centre);
+    if (none(round)) return c;
+    c.radius_a = choose(round, ta.size.x, c.radius_a);
+    c.radius_b = choose(round, tb.size.x, c.radius_b);
+    vec3 half_gap = contact.normal * (0.5f * contact.points[0].w);
+    vec3 core_a = centre - half_gap - contact.normal * c.radius_a;
+    vec3 core_b = (centre - contact.center_offset) + half_gap + contact.normal * c.radius_b;
+    c = with_lever_arm(c, 0, choose(round, core_a, lever_arm(c, 0)));
+    c.centre = choose(round, core_b, c.centre);
+    return c;
+}
+
+// The constraint of a contact between two bodies; the properties are those of the rows in contact, which may be parts.
+LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta, uint body_a, uint slot_a, BodyProperties tb,
+                                  uint body_b, uint slot_b, Parameters parameters) {
+    Constraint c = constraint_of(contact, ta, tb, slot_a, slot_b, parameters);
+    c.a = body_a;
+    c.b = body_b;
+    c.pair = pair;
+    return c;
+}
+
+// The contact's unrest in this step, s. `now`: velocities as the step begins.
+LAW float unrest_of(Contact contact, Constraint c, BodyProperties ta, BodyProperties tb, VelocityPair now, Parameters parameters) {
+    float calm = calm_speed(smaller(min_half_width(ta), min_half_width(tb)), parameters);
+    return unrest_after(contact.unrest, c, contact.center_offset, now, calm, parameters);
+}
+LAW Constraint with_unrest(Constraint c, float unrest) {
+    c.flags = choose(is_restless_contact(unrest), c.flags | CONSTRAINT_RESTLESS, c.flags);
+    return c;
+}
+
+LAWS_END
+
+#endif
