@@ -42,6 +42,56 @@ physics::ManifoldBuffer touch_of(std::uint32_t pair_type, const physics::BodyPro
     return laws_of_convex[pair_type - laws.size()](ta, pa, tb, pb, margin, state.hull_table());
 }
 
+void set_manifold(State& state, std::size_t index, physics::ManifoldBuffer touch, const physics::Margin& margin) {
+    const std::size_t a = state.pairs[index].a, body = state.body_of(state.pairs[index].a);
+    touch = physics::within_margin(touch, margin);
+    if (a != body) touch = physics::from_body(touch, state.poses[a].position - state.poses[body].position);
+    state.manifolds[index] = touch.manifold;
+    state.point_counts[index] = touch.count;
+}
+
+void collide_pair(State& state, std::uint32_t pair_type, std::size_t index) {
+    const std::size_t a = state.pairs[index].a, b = state.pairs[index].b;
+    const physics::BodyProperties &ta = state.properties[a], &tb = state.properties[b];
+    const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
+    physics::Pose pa = state.poses[a], pb = state.poses[b];
+    const physics::Margin margin = physics::margin_of(ta, va, tb, vb, felt_by(state, state.pairs[index].a));
+    const float most = physics::greatest_margin(margin);
+    const float ahead = physics::time_ahead(ta, va, tb, vb, state.fixed());
+    if (ahead > 0) {
+        pa = physics::pose_ahead(pa, va, ahead);
+        pb = physics::pose_ahead(pb, vb, ahead);
+    }
+    physics::ManifoldBuffer touch =
+        ta.shape > tb.shape ? physics::flipped(touch_of(pair_type, tb, pb, ta, pa, most, state), pa.position - pb.position)
+                            : touch_of(pair_type, ta, pa, tb, pb, most, state);
+    if (ahead > 0) touch = physics::brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
+    set_manifold(state, index, touch, margin);
+}
+
+// Pairs of boxes, whose separating axes are found in SIMD lanes.
+void collide_boxes(State& state, const WideStages& wide, std::size_t first, std::size_t last) {
+    constexpr std::size_t at_once = 64;
+    std::array<physics::BoxPair, at_once> found;
+    WideTables tables = wide_tables(state, state.pairs_by_type);
+    tables.out = reinterpret_cast<std::uint32_t*>(found.data());
+    for (; first < last; first += at_once) {
+        tables.items = state.pairs_by_type.data() + first;
+        const std::size_t count = std::min(at_once, last - first);
+        wide.separate_boxes(tables, 0, count);
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t index = tables.items[k];
+            const physics::Pair& pair = state.pairs[index];
+            const float most = physics::greatest_margin(found[k].margin);
+            physics::ManifoldBuffer touch = physics::empty_manifold();
+            if (!physics::are_apart(found[k].axes, most))
+                touch = physics::manifold_of_boxes(state.properties[pair.a], state.poses[pair.a], state.properties[pair.b],
+                                                   state.poses[pair.b], found[k].axes, most);
+            set_manifold(state, index, touch, found[k].margin);
+        }
+    }
+}
+
 std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
     const std::size_t first = span * physics::PAIR_BLOCK;
     return std::span(state.pairs).subspan(first, std::min<std::size_t>(physics::PAIR_BLOCK, state.counted().pairs - first));
@@ -77,28 +127,11 @@ void fill_pair_types(State& state, const Threads& threads, std::uint32_t) {
 
 void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
     const std::size_t first = state.counted().pair_type_first[pair_type];
-    threads.for_each(state.counted().pair_type_first[pair_type + 1] - first, [&](std::size_t i) {
-        const std::size_t index = state.pairs_by_type[first + i];
-        const std::size_t a = state.pairs[index].a, b = state.pairs[index].b;
-        const physics::BodyProperties &ta = state.properties[a], &tb = state.properties[b];
-        const physics::Velocity &va = state.velocities[a], &vb = state.velocities[b];
-        physics::Pose pa = state.poses[a], pb = state.poses[b];
-        const physics::Margin margin = physics::margin_of(ta, va, tb, vb, felt_by(state, state.pairs[index].a));
-        const float most = physics::greatest_margin(margin);
-        const float ahead = physics::time_ahead(ta, va, tb, vb, state.fixed());
-        if (ahead > 0) {
-            pa = physics::pose_ahead(pa, va, ahead);
-            pb = physics::pose_ahead(pb, vb, ahead);
-        }
-        physics::ManifoldBuffer touch =
-            ta.shape > tb.shape ? physics::flipped(touch_of(pair_type, tb, pb, ta, pa, most, state), pa.position - pb.position)
-                                : touch_of(pair_type, ta, pa, tb, pb, most, state);
-        if (ahead > 0) touch = physics::brought_back(touch, ta, va, tb, vb, pb.position - pa.position, ahead);
-        touch = physics::within_margin(touch, margin);
-        const std::size_t body = state.body_of(state.pairs[index].a);
-        if (a != body) touch = physics::from_body(touch, state.poses[a].position - state.poses[body].position);
-        state.manifolds[index] = touch.manifold;
-        state.point_counts[index] = touch.count;
+    const WideStages* wide = wide_stages(threads.lanes());
+    const bool of_boxes = wide && pair_type == physics::PAIR_BOX_BOX && state.gravities.empty();
+    threads.for_ranges(state.counted().pair_type_first[pair_type + 1] - first, [&](std::size_t begin, std::size_t end) {
+        if (of_boxes) return collide_boxes(state, *wide, first + begin, first + end);
+        for (std::size_t i = first + begin; i < first + end; ++i) collide_pair(state, pair_type, state.pairs_by_type[i]);
     });
 }
 

@@ -7,6 +7,7 @@
 // Defines the types of the laws, so before them.
 #include "compute/cpu/simd/simd_types.h"
 
+#include "shaders/physics/collide/box_separation.h"
 #include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/contact_solver.h"
 #include "shaders/physics/solve/motion.h"
@@ -157,6 +158,23 @@ void persist(const WideTables& tables, std::size_t first, std::size_t last) {
         scatter(tables.manifolds, group.pairs.only(group.live), persistent_manifold(group.contact, a, b));
         for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
             tables.point_counts[group.pairs.of[lane]] = group.contact.count.v[lane];
+    }
+}
+
+void separate_boxes(const WideTables& tables, std::size_t first, std::size_t last) {
+    Parameters p;
+    broadcast(tables.parameters, p);
+    for (; first < last; first += lanes) {
+        const Indices pairs(listed(tables.items, first, last));
+        const Pair pair = gather<Pair>(tables.pairs, pairs);
+        const Indices a(pair.a), b(pair.b);
+        const BodyProperties ta = gather<BodyProperties>(tables.properties, a), tb = gather<BodyProperties>(tables.properties, b);
+        BoxPair found;
+        found.margin = margin_of(ta, gather<Velocity>(tables.velocities, a), tb, gather<Velocity>(tables.velocities, b), p);
+        found.axes =
+            box_axes(ta, gather<Pose>(tables.poses, a), tb, gather<Pose>(tables.poses, b), greatest_margin(found.margin));
+        const Uint places = Uint(lane_numbers()) + Uint(static_cast<std::uint32_t>(first));
+        scatter(tables.out, Indices(places).only(living(first, last)), found);
     }
 }
 
@@ -361,6 +379,7 @@ namespace scree::reference {
 const WideStages SCREE_STAGES(SCREE_LANES) = {SCREE_LANES,
                                               SCREE_NAMED(SCREE_LANES)::keep,
                                               SCREE_NAMED(SCREE_LANES)::persist,
+                                              SCREE_NAMED(SCREE_LANES)::separate_boxes,
                                               SCREE_NAMED(SCREE_LANES)::prepare,
                                               SCREE_NAMED(SCREE_LANES)::begin,
                                               SCREE_NAMED(SCREE_LANES)::solve,

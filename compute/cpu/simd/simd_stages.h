@@ -25,6 +25,7 @@ struct WideTables {
     std::uint32_t* forces;
     std::uint32_t* impulses;
     std::uint32_t* slots;
+    std::uint32_t* out = nullptr;         // of separate_boxes: a BoxPair for each of `items`
     std::uint32_t* groups = nullptr;      // constraints and impulses of the contacts in `items`, one per lane
     bool plain = false;                   // no contact bounces or rolls, none has a tyre or a surface of its own
     bool watched = false;                 // `impulses` is read after every stage, not after the last alone
@@ -45,6 +46,8 @@ struct WideStages {
     void (*keep)(const WideTables&, std::size_t first, std::size_t last);
     // Pairs whose contacts persist: their manifolds (collide_persistent).
     void (*persist)(const WideTables&, std::size_t first, std::size_t last);
+    // Pairs of boxes: their separating axes and margins (collide).
+    void (*separate_boxes)(const WideTables&, std::size_t first, std::size_t last);
     // Constraints of contacts that have none yet (point count 0), unrest, and the first warm start (prepare_contacts).
     void (*prepare)(const WideTables&, std::size_t first, std::size_t last);
     void (*begin)(const WideTables&, std::size_t first, std::size_t last);

@@ -207,6 +207,7 @@ struct Candidate {
 // Pair types. The first four shapes in ascending order give 0 to 8 (plane-plane has none); general convex shapes share
 // collide_convex, but for planes, triangles and hull-hull. PAIR_PERSISTENT keeps its manifold (persistence.h),
 // PAIR_INACTIVE is a pair of inactive bodies.
+CONSTANT uint PAIR_BOX_BOX = 7u;
 CONSTANT uint PAIR_PLANE_CONVEX = 9u;
 CONSTANT uint PAIR_CONVEX = 10u;
 CONSTANT uint PAIR_HULL_HULL = 11u;

@@ -1,48 +1,14 @@
-// Contact manifold of two boxes: SAT over fifteen axes (Gottschalk, Lin, Manocha 1996), then face clipping or an edge
-// pair.
+// Contact manifold of two boxes: SAT (box_separation.h), then face clipping or an edge pair.
 #ifndef SCREE_PHYSICS_COLLIDE_BOX_BOX_H
 #define SCREE_PHYSICS_COLLIDE_BOX_BOX_H
 
 #include "shaders/physics/collide/box_axes.h"
+#include "shaders/physics/collide/box_separation.h"
 #include "shaders/physics/collide/manifold.h"
 #include "shaders/physics/collide/manifold_reduction.h"
 
 LAWS_BEGIN
 
-// A box in another one's frame: its axes x, y, z and its centre d (m).
-struct BoxView {
-    vec3 x;
-    float pad_x;
-    vec3 y;
-    float pad_y;
-    vec3 z;
-    float pad_z;
-    vec3 d;
-    float pad_d;
-};
-
-LAW BoxView view_of(Pose from, Pose to) {
-    Axes axes = axes_of(compose(conjugate(from.orientation), to.orientation));
-    BoxView view;
-    view.x = axes.x;
-    view.y = axes.y;
-    view.z = axes.z;
-    view.d = rotate_back(from.orientation, to.position - from.position);
-    view.pad_x = 0.0f;
-    view.pad_y = 0.0f;
-    view.pad_z = 0.0f;
-    view.pad_d = 0.0f;
-    return view;
-}
-// The first box in the frame of the second.
-LAW BoxView reversed(BoxView view) {
-    BoxView back = view;
-    back.x = vec3(view.x.x, view.y.x, view.z.x);
-    back.y = vec3(view.x.y, view.y.y, view.z.y);
-    back.z = vec3(view.x.z, view.y.z, view.z.z);
-    back.d = -vec3(dot3(view.d, view.x), dot3(view.d, view.y), dot3(view.d, view.z));
-    return back;
-}
 // The view with the frame's coordinates rotated cyclically.
 LAW BoxView from_turned(BoxView view, uint k) {
     view.x = turned(view.x, k);
@@ -60,46 +26,6 @@ LAW BoxView of_turned(BoxView view, uint k) {
     view.y = y;
     view.z = z;
     return view;
-}
-
-// Separations (m) along the face normals of the box whose frame it is.
-LAW vec3 face_separations(BoxView view, vec3 own, vec3 other) {
-    vec3 reach = absolute3(view.x) * other.x + absolute3(view.y) * other.y + absolute3(view.z) * other.z;
-    return absolute3(view.d) - own - reach;
-}
-
-// The best of the nine edge-edge axes: edge i of A and edge j of B; k = 3i + j.
-struct EdgeAxis {
-    float separation;  // m
-    uint k;
-};
-
-// Edges closer to parallel than 0.005 rad are skipped; face normals are as good there.
-LAW EdgeAxis best_edge_axis(BoxView view, vec3 own, vec3 other) {
-    EdgeAxis best;
-    best.separation = -1.0e30f;
-    best.k = 0u;
-    for (uint i = 0u; i < 3u; ++i) {
-        for (uint j = 0u; j < 3u; ++j) {
-            // Axis: (1, 0, 0) x view.x.
-            float squared = view.x.y * view.x.y + view.x.z * view.x.z;
-            if (squared > 2.5e-5f) {
-                float own_reach = own.y * abs(view.x.z) + own.z * abs(view.x.y);
-                float other_reach = other.y * abs(view.z.x) + other.z * abs(view.y.x);
-                float along = abs(view.d.z * view.x.y - view.d.y * view.x.z);
-                float separation = (along - (own_reach + other_reach)) * inverse_square_root(squared);
-                if (separation > best.separation) {
-                    best.separation = separation;
-                    best.k = 3u * i + j;
-                }
-            }
-            view = of_turned(view, 1u);
-            other = turned(other, 1u);
-        }
-        view = from_turned(view, 1u);
-        own = turned(own, 1u);
-    }
-    return best;
 }
 
 // Edge contact: one point between the nearest points of the edges. If the edges of disjoint boxes end before they
@@ -181,26 +107,20 @@ LAW ManifoldBuffer manifold_of_faces(Pose pose, BoxView view, vec3 own, vec3 oth
     return touch;
 }
 
-// Faces of A are preferred to those of B, and both to edges, so that resting contacts do not alternate.
-LAW ManifoldBuffer collide_box_box(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
-    BoxView b_from_a = view_of(pose_a, pose_b);
-    BoxView a_from_b = reversed(b_from_a);
+// Of two boxes that are not apart. Faces of A are preferred to those of B, and both to edges, so that resting contacts do not
+// alternate.
+LAW ManifoldBuffer manifold_of_boxes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, BoxAxes axes, float margin) {
+    BoxView b_from_a = axes.b_from_a;
     float slop = smaller(slop_of(a.size), slop_of(b.size));
-    vec3 faces_a = face_separations(b_from_a, a.size, b.size);
-    vec3 faces_b = face_separations(a_from_b, b.size, a.size);
-    uint face_a = largest_of(faces_a);
-    uint face_b = largest_of(faces_b);
-    float best_a = coordinate(faces_a, face_a);
-    float best_b = coordinate(faces_b, face_b);
-    if (larger(best_a, best_b) >= margin) return empty_manifold();
-    EdgeAxis edge = best_edge_axis(b_from_a, a.size, b.size);
-    if (edge.separation >= margin) return empty_manifold();
-
+    uint face_a = largest_of(axes.faces_a);
+    uint face_b = largest_of(axes.faces_b);
+    float best_a = coordinate(axes.faces_a, face_a);
+    float best_b = coordinate(axes.faces_b, face_b);
     bool of_b = best_b > best_a + 0.1f * slop;
     float best_face = of_b ? best_b : best_a;
-    bool edge_serves = edge.separation > best_face - slop;
+    bool edge_serves = axes.edge.separation > best_face - slop;
     ManifoldBuffer touch = empty_manifold();
-    if (edge.separation <= best_face + slop) {
+    if (axes.edge.separation <= best_face + slop) {
         Pose reference = pose_a;
         BoxView view = b_from_a;
         vec3 own = a.size;
@@ -208,7 +128,7 @@ LAW ManifoldBuffer collide_box_box(BodyProperties a, Pose pose_a, BodyProperties
         uint face = face_a;
         if (of_b) {
             reference = pose_b;
-            view = a_from_b;
+            view = reversed(b_from_a);
             own = b.size;
             other = a.size;
             face = face_b;
@@ -218,10 +138,16 @@ LAW ManifoldBuffer collide_box_box(BodyProperties a, Pose pose_a, BodyProperties
     }
     // If the clipped patch is not as deep as the face planes say, use an edge axis that is no worse.
     if (edge_serves && deepest_of(touch) > best_face + slop) {
-        ManifoldBuffer by_edges = manifold_of_edges(pose_a, b_from_a, a.size, b.size, edge, margin);
+        ManifoldBuffer by_edges = manifold_of_edges(pose_a, b_from_a, a.size, b.size, axes.edge, margin);
         if (by_edges.count > 0u) touch = by_edges;
     }
     return touch;
+}
+
+LAW ManifoldBuffer collide_box_box(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float margin) {
+    BoxAxes axes = box_axes(a, pose_a, b, pose_b, margin);
+    if (are_apart(axes, margin)) return empty_manifold();
+    return manifold_of_boxes(a, pose_a, b, pose_b, axes, margin);
 }
 
 LAWS_END
