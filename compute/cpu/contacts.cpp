@@ -3,6 +3,9 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <numeric>
+#include <span>
+#include <tuple>
 
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
@@ -52,16 +55,53 @@ void show_quiet_steps(State& state, const physics::Constraint& c) {
     if (c.slot_b != physics::NONE) state.neighbours_quiet[c.slot_b] = shown_by(c.a);
 }
 
-// Where the gravity of copies differs, the SIMD stages take the contacts of one after those of the other.
-void find_runs(State& state) {
-    state.solver_runs.clear();
-    const std::uint32_t count = state.counted().solver_contacts;
-    std::sort(state.contacts_to_solve.begin(), state.contacts_to_solve.begin() + count);
-    for (std::uint32_t k = 0; k < count; ++k) {
-        const std::uint32_t copy = state.copy_of(state.pairs[state.constraints[state.contacts_to_solve[k]].pair].a);
-        if (k == 0 || state.solver_runs.back().copy != copy) state.solver_runs.push_back({k, k, copy});
-        state.solver_runs.back().last = k + 1;
+// Contacts that lanes take together, because they skip the same work: as many points, bearing or not, of round bodies or not.
+constexpr std::size_t solver_classes = 16;
+constexpr std::uint8_t not_solved = 0xFF;
+std::uint8_t class_of(const State& state, const physics::PreparedContact& prepared) {
+    const physics::Contact& contact = prepared.contact;
+    const bool round = physics::is_round(state.properties[contact.a]) && physics::is_round(state.properties[contact.b]);
+    const bool bears = prepared.impulse.normal_sum > 0;
+    return static_cast<std::uint8_t>(4 * (2 * round + !bears) + (4 - contact.count));
+}
+
+// Sorts contacts_to_solve by class and, where the gravity of copies differs, by copy before that.
+void sort_contacts_to_solve(State& state, const Threads& threads) {
+    const physics::Counts& counts = state.counted();
+    const auto solved = std::span(state.contacts_to_solve).first(counts.solver_contacts);
+    if (!state.gravities.empty()) {
+        const auto key = [&](std::uint32_t contact) {
+            const std::uint32_t copy = state.copy_of(state.pairs[state.constraints[contact].pair].a);
+            return std::tuple(copy, state.solver_classes[contact], contact);
+        };
+        std::sort(solved.begin(), solved.end(), [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+        state.solver_runs.clear();
+        for (std::uint32_t k = 0; k < solved.size(); ++k) {
+            const std::uint32_t copy = std::get<0>(key(solved[k]));
+            if (k == 0 || state.solver_runs.back().copy != copy) state.solver_runs.push_back({k, k, copy});
+            state.solver_runs.back().last = k + 1;
+        }
+        return;
     }
+    using Places = std::array<std::uint32_t, solver_classes>;
+    const auto counts_of = [&](std::size_t first, std::size_t last) {
+        Places found{};
+        for (std::size_t i = first; i < last; ++i)
+            if (state.solver_classes[i] != not_solved) ++found[state.solver_classes[i]];
+        return found;
+    };
+    Places next{};
+    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
+        const Places found = counts_of(first, last);
+        for (std::size_t k = 0; k < solver_classes; ++k) taken(next[k], found[k]);
+    });
+    std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
+    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
+        Places places = counts_of(first, last);
+        for (std::size_t k = 0; k < solver_classes; ++k) places[k] = taken(next[k], places[k]);
+        for (std::size_t i = first; i < last; ++i)
+            if (state.solver_classes[i] != not_solved) solved[places[state.solver_classes[i]]++] = static_cast<std::uint32_t>(i);
+    });
 }
 
 constexpr std::size_t words_of_contact = (sizeof(physics::Constraint) + sizeof(physics::Impulse)) / sizeof(std::uint32_t);
@@ -207,7 +247,6 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
         std::copy(solved.begin(), solved.end(),
                   state.contacts_to_solve.begin() + taken(counts.solver_contacts, static_cast<std::uint32_t>(solved.size())));
     });
-    if (!state.gravities.empty()) find_runs(state);
     counts.arguments[physics::WORK_SOLVER_CONTACTS].x = physics::work_for(counts.solver_contacts, state.fixed()).x;
 }
 
@@ -244,6 +283,7 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
 
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
+    if (wide) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         physics::Constraint& c = state.constraints[i];
         const physics::PreparedContact prepared = warm_started_contact(state, i);
@@ -252,7 +292,9 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         const physics::Pair& pair = state.pairs[c.pair];
         c.a = state.body_of(pair.a);
         c.b = state.body_of(pair.b);
-        if (physics::is_idle(c.slot_a, c.slot_b)) {
+        const bool idle = physics::is_idle(c.slot_a, c.slot_b);
+        if (wide) state.solver_classes[i] = idle ? not_solved : class_of(state, prepared);
+        if (idle) {
             c = physics::idle_between(prepared.contact, c.a, c.b);
         } else if (wide && is_ordinary(state, pair, prepared)) {
             c.flags = 0;
@@ -262,6 +304,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         }
     });
     if (!wide) return;
+    sort_contacts_to_solve(state, threads);
     make_room_for_groups(state, *wide);
     for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), *wide, wide->prepare);
 }

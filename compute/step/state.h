@@ -272,6 +272,8 @@ struct State {
     };
     std::vector<physics::Parameters> felt;
     std::vector<Run> solver_runs;
+    // Likewise: the order in which SIMD lanes take contacts to solve, by contact.
+    std::vector<std::uint8_t> solver_classes;
     // Likewise: constraints and impulses of contacts_to_solve, one per lane, from the first warm start to the last pass.
     struct alignas(64) CacheLine {
         std::uint32_t words[16];
