@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "shaders/physics/solve/mass_splitting.h"
+#include "shaders/physics/solve/contact.h"
+#include "shaders/physics/solve/contact_constraint.h"
 #include "shaders/physics/solve/persistence.h"
 
 using namespace scree;
