@@ -11,6 +11,7 @@
 #include <cstring>
 #include <glm/gtc/quaternion.hpp>
 
+#include "compute/step/joint_blocks.h"
 #include "compute/step/memory_order.h"
 #include "shaders/physics/extra/quarantine.h"
 #include "shaders/physics/extra/sleep.h"
@@ -90,24 +91,18 @@ void add_contacts(const State& state, std::optional<std::uint32_t> copy, Statist
 double rotor_energy(const State& state, const physics::Joint& joint) {
     using namespace physics;
     if (joint.broken || std::none_of(joint.axes, joint.axes + 6, [](const auto& axis) { return has_rotor(axis); })) return 0;
-    const auto pose = [&](uint body) { return body == NONE ? Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body]; };
-    const auto velocity = [&](uint body) { return body == NONE ? Velocity{} : state.velocities[body]; };
-    const JointConfiguration at =
-        joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
-    const VelocityPair v{velocity(joint.a), velocity(joint.b)};
-    const auto restarts_beside = [&](uint body) {
-        return body != NONE && restarts(state.sleep_states[body], state.fixed().sleep_steps);
+    const auto set = [&](uint body) { return body != NONE && was_set(state.sleep_states[body]); };
+    const auto at_rest = [&](uint body) {
+        return body == NONE || state.properties[body].motion != MOTION_DYNAMIC ||
+               was_at_rest(state.sleep_states[body], state.fixed().sleep_steps);
     };
     double energy = 0;
     for (uint k = 0; k < 6; ++k) {
         if (!has_rotor(joint.axes[k])) continue;
-        const int axis = static_cast<int>(k);
-        const float h = state.fixed().h;
-        const JointRow row = is_linear(k) ? linear_row({}, at, axis, joint.flags, v, h)  //
-                                          : angular_row({}, at, axis - 3, joint.flags, v, h);
-        const bool follows = rotor_follows(joint.rotors[k], restarts_beside(joint.a) || restarts_beside(joint.b));
-        const double speed = follows ? row_speed(row, is_linear(k), v) : joint.rotors[k].speed;
-        energy += 0.5 * static_cast<double>(joint.rotors[k].inertia) * speed * speed;
+        const JointRotor rotor = rotor_as_step_begins(joint.rotors[k], set(joint.a) || set(joint.b),
+                                                      at_rest(joint.a) && at_rest(joint.b), speed_of_axis(state, joint, k));
+        const double speed = rotor.speed;
+        energy += 0.5 * static_cast<double>(rotor.inertia) * speed * speed;
     }
     return energy;
 }

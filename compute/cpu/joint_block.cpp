@@ -128,17 +128,20 @@ void JointBlock::place_rows(JointRoom& room, std::span<JointBlock> blocks) {
 }
 
 void JointBlock::take_rotor_speeds() {
-    const auto restarts = [&](physics::uint body) {
-        return body != NONE && physics::restarts(state_.sleep_states[body], p_.sleep_steps);
+    const auto was_set = [&](physics::uint body) { return body != NONE && physics::was_set(state_.sleep_states[body]); };
+    const auto at_rest = [&](physics::uint body) {
+        return body == NONE || state_.properties[body].motion != physics::MOTION_DYNAMIC ||
+               physics::was_at_rest(state_.sleep_states[body], p_.sleep_steps);
     };
     for_each_whole([&](Joint& joint) {
-        JointLanes speed;
-        bool known = false;
+        const bool set = was_set(joint.a) || was_set(joint.b), rested = at_rest(joint.a) && at_rest(joint.b);
+        if (!set && !rested) return;
+        JointLanes speed{};
+        bool known = !set;
         for_each_rotor(joint, [&](physics::uint k, physics::JointRotor& rotor) {
-            if (!physics::rotor_follows(rotor, restarts(joint.a) || restarts(joint.b))) return;
             if (!known) speeds_of_rows(joint, speed);
             known = true;
-            rotor.speed = speed[k];
+            rotor = physics::rotor_as_step_begins(rotor, set, rested, speed[k]);
         });
     });
 }
@@ -211,7 +214,7 @@ void JointBlock::apply_given(Joint& joint, bool biased) {
         if (physics::row_is_unknown(axis, row, active_flags, biased, p_)) unknowns |= 1u << k;
         const float speed = lanes ? lanes->speed_before[k] : physics::row_speed(row, k < 3, before);
         row = physics::row_given(axis, row, active_flags, speed, biased, p_);
-        given[k] = physics::given_change(row);
+        given[k] = physics::given_push(axis, row);
         if (given[k] != 0) pushed |= 1u << k;
     });
     joint.solved_axes = unknowns;

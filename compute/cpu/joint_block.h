@@ -69,8 +69,9 @@ public:
     void gather_warm_start() {
         gather_by(physics::row_impulse);
         for_each_whole([](Joint& joint) {
-            for_each_rotor(
-                joint, [](physics::uint, physics::JointRotor& rotor) { rotor = physics::rotor_slowed(rotor, rotor.impulse); });
+            for_each_rotor(joint, [&](physics::uint k, physics::JointRotor& rotor) {
+                rotor = physics::rotor_slowed(rotor, physics::impulse_of_rotor(joint.rows[k], rotor));
+            });
         });
     }
     // Writes them to the bodies' slots.
@@ -85,15 +86,16 @@ public:
     void note_pressing();
     static void commit(Joint& joint, bool warms) {
         for (JointRow& row : joint.rows) row = physics::committed(row);
-        for_each_rotor(joint,
-                       [&](physics::uint, physics::JointRotor& rotor) { rotor = physics::rotor_after_pass(rotor, warms); });
+        for_each_rotor(joint, [&](physics::uint k, physics::JointRotor& rotor) {
+            rotor = physics::rotor_after_pass(rotor, joint.rows[k], warms);
+        });
     }
     // Clears the impulses of a joint.
     static void tear(Joint& joint) {
         for (JointRow& row : joint.rows) row = physics::torn(row);
         for (physics::JointRotor& rotor : joint.rotors) rotor = physics::torn_rotor(rotor);
     }
-    // As a step begins, sets the speeds of rotors that take over those of their axes (rotor_follows). After place_rows().
+    // As a step begins, sets the speeds of rotors whose bodies do not go on as they did. After place_rows().
     void take_rotor_speeds();
 
 private:

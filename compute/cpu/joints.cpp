@@ -78,9 +78,33 @@ void take_stock(Joint& joint, const State& state) {
     JointBlock::tear(joint);
 }
 
+// Whether a body of the block has an active contact.
+bool touches(const State& state, const BlockBody& member) {
+    if (member.slot == NONE) return false;
+    const std::size_t first = member.body == 0 ? 0 : state.slot_ends[member.body - 1];
+    const std::size_t contacts = state.slot_ends[member.body] - first - member.blocks;
+    return std::any_of(&state.slots[first], &state.slots[first] + contacts,
+                       [](const physics::VelocityDelta& slot) { return slot.weight > 0; });
+}
+
+bool sets_rotor_in_motion(const Joint& joint, const State& state) {
+    const auto burden = [&](physics::uint body, physics::uint k) {
+        if (body == NONE) return physics::IMMOVABLE_BURDEN;
+        return physics::burden_of(state.properties[body], state.forces[body], !physics::is_linear(k), state.fixed());
+    };
+    for (physics::uint k = 0; k < 6; ++k) {
+        if (!physics::has_rotor(joint.axes[k])) continue;
+        const float a = burden(joint.a, k), b = burden(joint.b, k);
+        if (physics::rotor_yields(physics::impulse_of_rotor(joint.rows[k], joint.rotors[k]), std::min(a, b)))
+            return !touches(state, state.block_bodies[a < b ? joint.block_body_a : joint.block_body_b]);
+    }
+    return false;
+}
+
 float least_quiet_in(JointBlock& block, const State& state) {
     float quiet = physics::FOREVER;
     block.for_each_whole([&](const Joint& joint) {
+        if (sets_rotor_in_motion(joint, state)) quiet = physics::BESIDE_MOVING;
         for (const physics::uint body : {joint.a, joint.b})
             if (body != NONE)
                 quiet = std::min(quiet, physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body],

@@ -238,7 +238,7 @@ physics::JointAxis axis_record(const Axis& axis) {
     return record;
 }
 physics::JointRotor rotor_record(const Axis& axis) {
-    return {(axis_record(axis).mode & physics::AXIS_ROTOR) != 0 ? axis.armature : 0, physics::ROTOR_AT_FIRST, 0, 0};
+    return {(axis_record(axis).mode & physics::AXIS_ROTOR) != 0 ? axis.armature : 0, 0, 0, 0};
 }
 
 JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties) {
@@ -271,6 +271,25 @@ void take_joint_tables(State& state, JointTables tables) {
     state.joint_blocks = std::move(tables.blocks);
     state.block_bodies = std::move(tables.bodies);
     state.joint_records = std::move(tables.record_of);
+}
+
+float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k) {
+    using namespace physics;
+    const auto pose = [&](uint body) { return body == NONE ? Pose{vec3(0), 0, vec4(0, 0, 0, 1)} : state.poses[body]; };
+    const auto velocity = [&](uint body) { return body == NONE ? Velocity{} : state.velocities[body]; };
+    const JointConfiguration at =
+        joint_configuration(joint.anchor_a, joint.frame_a, pose(joint.a), joint.anchor_b, joint.frame_b, pose(joint.b));
+    const VelocityPair v{velocity(joint.a), velocity(joint.b)};
+    const int axis = static_cast<int>(k);
+    const float h = state.fixed().h;
+    const JointRow row =
+        is_linear(k) ? linear_row({}, at, axis, joint.flags, v, h) : angular_row({}, at, axis - 3, joint.flags, v, h);
+    return row_speed(row, is_linear(k), v);
+}
+
+void start_rotors(const State& state, physics::Joint& joint) {
+    for (physics::uint k = 0; k < 6; ++k)
+        if (physics::has_rotor(joint.axes[k])) joint.rotors[k].speed = speed_of_axis(state, joint, k);
 }
 
 }  // namespace scree

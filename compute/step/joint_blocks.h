@@ -9,6 +9,8 @@
 
 namespace scree {
 
+struct State;
+
 // All joints connected through dynamic bodies form one block, which the step solves directly. A block of more joints
 // than this, or one whose elimination of a joint would fill in more than MAX_FILL_IN others, is cut in two; the parts
 // share bodies like contacts (mass splitting). The joints of a block are eliminated one after the other, so larger ones
@@ -23,7 +25,6 @@ struct JointTables {
 };
 // The tables of a checked scene; sets the head of each body's joint list in `properties`.
 JointTables joint_tables(const Scene& scene, std::vector<physics::BodyProperties>& properties);
-struct State;
 void take_joint_tables(State& state, JointTables tables);
 
 // The six axes of a joint kind: x, y, z, twist, swing_y, swing_z.
@@ -34,5 +35,9 @@ struct JointAxes {
 JointAxes axes_of_kind(const JointKind& kind);
 physics::JointAxis axis_record(const Axis& axis);
 physics::JointRotor rotor_record(const Axis& axis);
+// J v of axis k at the present poses and velocities.
+float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k);
+// Lets a joint's rotors turn with their axes.
+void start_rotors(const State& state, physics::Joint& joint);
 
 }  // namespace scree

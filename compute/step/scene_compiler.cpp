@@ -152,6 +152,7 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
         state_.strains[i] = start_strain_of(scene.bodies[i], properties[i]);
     }
     for (std::uint32_t i = n; i < rows; ++i) place(i);
+    for (physics::Joint& joint : state_.joints) start_rotors(state_, joint);
     state_.note_content(0, rows);
     state_.counted() = physics::emptied(state_.counted(), p);
 }

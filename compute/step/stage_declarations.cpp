@@ -179,7 +179,7 @@ void declare_solver(std::vector<StageDeclaration>& all) {
     constexpr std::uint32_t features = physics::FEATURE_BOUNCES | physics::FEATURE_ROLLS | physics::FEATURE_ROUND | physics::FEATURE_TYRES |
                                        physics::FEATURE_SURFACES | felt;
     all.push_back({"prepare_joints", DispatchDomain::joint_blocks, prepare_joints,
-        {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}},
+        {{counts}, {joint_blocks, A::joints}, {joints, A::joints}, {block_bodies, A::joints}, {poses, A::joints}, {velocities, A::joints}, {masses, A::joints}, {sleep_states, A::joints}, {properties, A::joints}},
         {{joints, A::joints}, {block_bodies, A::joints}, in_parts({slots, A::joints})}});
     all.push_back({"begin_substep", DispatchDomain::bodies, begin_substep,
         {{counts}, {sleep_states, A::bodies}, {properties, A::movers}, {slot_ends, A::movers}, {slots, A::slots}, {velocities, A::movers}, {poses}, {forces, A::movers}, {masses, A::movers, 1}, {births}, {ids}},
@@ -220,7 +220,7 @@ std::vector<StageDeclaration> declare() {
         {{counts}, {properties, A::bodies}, {sleep_states, A::bodies}, {poses, A::movers}, {velocities, A::movers}, {immersions, A::movers}, {ids}, {forces, A::movers}, {gravities}},
         {some_only({forces, A::movers})}, physics::FEATURE_REORDERED | physics::FEATURE_GRAVITIES});
     all.push_back({"drive_vehicles", DispatchDomain::vehicles, drive_vehicles,
-        {{counts}, {vehicles, A::vehicles}, {properties}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {way_points}},
+        {{counts}, {vehicles, A::vehicles}, {properties}, {poses, A::vehicles}, {velocities, A::joints}, {joints, A::joints, 2}, {sleep_states, A::joints}, {way_points}},
         {{vehicles, A::vehicles, 4}, {joints, A::joints, 2}, some_only({sleep_states, A::joints})}});
     all.push_back({"pose_parts", DispatchDomain::bodies, pose_parts,
         {{counts}, {properties, A::bodies}, {parts}, {poses, A::bodies}, {velocities, A::bodies}},

@@ -149,7 +149,7 @@ JointDispatches joint_dispatches(std::span<const physics::Joint> joints, std::sp
         }
         each += (1 + axis_rounds) * (physics::MAX_FILL_IN + 1) * shared(6 * block.joints);
         most = std::max(most, each);
-        once = std::max(once, 8 * block.bodies + 12 * block.joints + 8 * axis_rounds * shared(block.joints));
+        once = std::max(once, 8 * block.bodies + 20 * block.joints + 8 * axis_rounds * shared(block.joints));
     }
     found.rounds_at_once =
         std::clamp((most_joint_rounds - std::min(once, most_joint_rounds)) / std::max(1u, most), 1u, physics::JOINT_ROUNDS);

@@ -337,9 +337,15 @@ TableRanges StateEditor::filter(const Scene& scene) {
     return changed;
 }
 
-TableRanges StateEditor::needed_to_rejoin() const {
+TableRanges StateEditor::needed_to_rejoin(const Scene& scene, std::span<const std::size_t> fresh) const {
     TableRanges needed = joint_ranges(state_);
     append(needed, vehicle_ranges(state_));
+    for (std::size_t j = 0; j < scene.joints.size(); ++j) {  // rotors of new joints turn with their axes
+        if (j < state_.joint_records.size() && std::find(fresh.begin(), fresh.end(), j) == fresh.end()) continue;
+        for (const std::size_t body : {scene.joints[j].a, scene.joints[j].b})
+            if (body != the_world)
+                for (const Table table : {Table::poses, Table::velocities}) needed.push_back({table, state_.row_of(body), 1});
+    }
     if (state_.changes_motions()) needed.push_back({Table::properties, 0, state_.fixed().bodies});  // which bodies exist
     return needed;
 }
@@ -370,9 +376,12 @@ TableRanges StateEditor::rejoin(const Scene& scene, std::optional<std::size_t> w
             if (*body != physics::NONE) *body = state_.row_of(*body);
     for (physics::BlockBody& member : made.bodies) member.body = state_.row_of(member.body);
     take_joint_tables(state_, std::move(made));
-    for (std::size_t j = 0; j < std::min(before.size(), state_.joint_records.size()); ++j) {
-        if (std::find(fresh.begin(), fresh.end(), j) != fresh.end()) continue;
+    for (std::size_t j = 0; j < state_.joint_records.size(); ++j) {
         physics::Joint& now = state_.joints[state_.joint_records[j]];
+        if (j >= before.size() || std::find(fresh.begin(), fresh.end(), j) != fresh.end()) {
+            start_rotors(state_, now);
+            continue;
+        }
         const physics::Joint& was = before[j];
         std::copy(std::begin(was.rows), std::end(was.rows), now.rows);  // with their warm start
         for (std::size_t k = 0; k < 6; ++k) {

@@ -41,7 +41,7 @@ public:
     // The filters of all rows, and the excluded pairs.
     TableRanges filter(const Scene& scene);
     // Replaces the joints by the scene's: the present ones without `without`, but for `fresh` ones, which are new.
-    TableRanges needed_to_rejoin() const;
+    TableRanges needed_to_rejoin(const Scene& scene, std::span<const std::size_t> fresh) const;
     TableRanges rejoin(const Scene& scene, std::optional<std::size_t> without = std::nullopt,
                        std::span<const std::size_t> fresh = {});
 

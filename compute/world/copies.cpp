@@ -12,7 +12,7 @@
 #include "compute/step/scene_compiler.h"
 #include "compute/world/world_impl.h"
 #include "shaders/physics/base/arithmetic.h"
-#include "shaders/physics/solve/joint_axis.h"
+#include "shaders/physics/extra/sleep.h"
 
 namespace scree {
 
@@ -88,8 +88,10 @@ void World::Impl::wake_copy(std::size_t copy) {
         return;
     }
     const TableRanges ranges = rows_of_copies({&copy, 1}, {Table::sleep_states});
+    runner->download(ranges);
     for (const TableRange& range : ranges)
-        std::fill_n(state.sleep_states.begin() + static_cast<std::ptrdiff_t>(range.first), range.count, 0u);
+        for (std::size_t row = range.first; row < range.first + range.count; ++row)
+            state.sleep_states[row] = physics::roused(state.sleep_states[row], state.fixed().sleep_steps);
     runner->upload(ranges);
 }
 
@@ -107,7 +109,8 @@ void World::Impl::reset_joints(std::size_t copy, TableRanges& changed) {
     for (std::size_t i = copy * records; i < (copy + 1) * records; ++i) {
         physics::Joint& joint = state.joints[i];
         for (physics::JointRow& row : joint.rows) row = {};
-        for (physics::JointRotor& rotor : joint.rotors) rotor = {rotor.inertia, physics::ROTOR_AT_FIRST, 0, 0};
+        for (physics::JointRotor& rotor : joint.rotors) rotor = {rotor.inertia, 0, 0, 0};
+        start_rotors(state, joint);
         joint.active_set = joint.broken = joint.solved_axes = 0;
         joint.force = joint.torque = vec3(0);
         joint.max_force = joint.max_torque = 0;

@@ -167,7 +167,7 @@ void World::Impl::apply_joint_force(const JointForce& one) {
 void World::Impl::rejoin(std::optional<std::size_t> without, std::span<const std::size_t> fresh) {
     edits.clear();
     StateEditor editor(state);
-    runner->download(editor.needed_to_rejoin());
+    runner->download(editor.needed_to_rejoin(scene, fresh));
     const TableRanges changed = editor.rejoin(scene, without, fresh);
     runner->adapt();
     runner->upload(changed);

@@ -2,11 +2,17 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
 
+#include "shaders/physics/extra/sleep.h"
 #include "shaders/physics/extra/vehicle.h"
+#include "shaders/physics/solve/joint_axis.h"
 #include "shaders/stages/lib/stage.glsl"
 
 WayPoint way_point_at(Routes routes, uint place) {
     return READ_QUADS(way_points, place);
+}
+
+void rouse(uint body) {
+    WORD(sleep_states, body) = roused(WORD(sleep_states, body), PARAMETERS.sleep_steps);
 }
 
 void main() {
@@ -19,18 +25,20 @@ void main() {
         vehicles.at[i].dynamics = v;
     }
     bool awake = is_under_way(v);
-    if (awake) WORD(sleep_states, v.chassis) = 0u;
+    if (awake) rouse(v.chassis);
     vec3 axle = vehicle_axes(v, READ(poses, v.chassis).orientation).x;
     vec3 turning = READ(velocities, v.chassis).angular;
     for (uint k = 0u; k < v.wheels; ++k) {
         VehicleWheel wheel = vehicles.at[i].wheel[k];
         if (is_absent(READ(properties, wheel.body).motion)) continue;
-        if (awake) WORD(sleep_states, wheel.body) = 0u;
+        if (awake) rouse(wheel.body);
         if (PARAMETERS.redo != 0u) continue;
         float spin = dot3(axle, READ(velocities, wheel.body).angular - turning);
         JointAxis motor = wheel_motor(joints.at[wheel.joint].axes[3], v, wheel, spin);
         joints.at[wheel.joint].axes[3] = motor;
         if ((motor.mode & AXIS_MOTOR) == 0u) {
+            joints.at[wheel.joint].rotors[3] =
+                rotor_without_motor(joints.at[wheel.joint].rotors[3], joints.at[wheel.joint].rows[3]);
             joints.at[wheel.joint].rows[3].motor_impulse = 0.0f;
             joints.at[wheel.joint].active_set = with_active_set(joints.at[wheel.joint].active_set, 3u, 0u);
         }

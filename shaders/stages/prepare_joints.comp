@@ -28,13 +28,18 @@ void note_pressing(uint j) {
     if (b != NONE) block_bodies.at[b].normal_sum = block_bodies.at[b].normal_sum + normal_impulse;
 }
 
-bool body_restarts(uint body) {
-    return body != NONE && restarts(READ_WORD(sleep_states, body), PARAMETERS.sleep_steps);
+bool body_was_set(uint body) {
+    return body != NONE && was_set(READ_WORD(sleep_states, body));
+}
+bool body_was_at_rest(uint body) {
+    return body == NONE || READ(properties, body).motion != MOTION_DYNAMIC ||
+           was_at_rest(READ_WORD(sleep_states, body), PARAMETERS.sleep_steps);
 }
 
-// Jacobian rows at the present poses, and as a step begins the speeds of rotors that follow their axes.
+// Jacobian rows at the present poses, and the speeds of rotors whose bodies do not go on as they did.
 void place_rows(uint j) {
-    bool restart = body_restarts(joints.at[j].a) || body_restarts(joints.at[j].b);
+    bool were_set = body_was_set(joints.at[j].a) || body_was_set(joints.at[j].b);
+    bool at_rest = body_was_at_rest(joints.at[j].a) && body_was_at_rest(joints.at[j].b);
     JointConfiguration at = configuration_of(j);
     uint side_a = joints.at[j].block_body_a, side_b = joints.at[j].block_body_b, flags = joints.at[j].flags;
     VelocityPair v;
@@ -46,8 +51,9 @@ void place_rows(uint j) {
         JointRow row = placed_row(joints.at[j].rows[k], at, int(k), flags, v, mass_a, mass_b, side_a != NONE, side_b != NONE,
                                   joints.at[j].rotors[k].inertia, PARAMETERS.h);
         joints.at[j].rows[k] = row;
-        if (has_rotor(joints.at[j].axes[k]) && rotor_follows(joints.at[j].rotors[k], restart))
-            joints.at[j].rotors[k].speed = row_speed(row, is_linear(k), v);
+        if (has_rotor(joints.at[j].axes[k]))
+            joints.at[j].rotors[k] =
+                rotor_as_step_begins(joints.at[j].rotors[k], were_set, at_rest, row_speed(row, is_linear(k), v));
     }
 }
 
@@ -67,7 +73,8 @@ void share_out(uint j) {
     }
     for (uint k = 0u; k < 6u; ++k)
         if (has_rotor(joints.at[j].axes[k]))
-            joints.at[j].rotors[k] = rotor_slowed(joints.at[j].rotors[k], joints.at[j].rotors[k].impulse);
+            joints.at[j].rotors[k] =
+                rotor_slowed(joints.at[j].rotors[k], impulse_of_rotor(joints.at[j].rows[k], joints.at[j].rotors[k]));
 }
 
 void main() {

@@ -73,11 +73,34 @@ void note_pressing(bool struck) {
     }
 }
 
+float burden_of_body(uint body, bool turning) {
+    if (body == NONE) return IMMOVABLE_BURDEN;
+    return burden_of(READ(properties, body), forces.at[body], turning, PARAMETERS);
+}
+// Whether a body of the block has an active contact.
+bool touches(uint m) {
+    if (MEMBER(m).slot == NONE) return false;
+    uint body = MEMBER(m).body, last = WORD(slot_ends, body) - MEMBER(m).blocks;
+    for (uint k = body == 0u ? 0u : WORD(slot_ends, body - 1u); k < last; ++k)
+        if (slots.at[k].weight > 0.0f) return true;
+    return false;
+}
+bool sets_rotor_in_motion(uint j) {
+    for (uint k = 0u; k < 6u; ++k) {
+        if ((JOINT(j).axes[k].mode & AXIS_ROTOR) == 0u) continue;
+        float a = burden_of_body(JOINT(j).a, !is_linear(k)), b = burden_of_body(JOINT(j).b, !is_linear(k));
+        if (rotor_yields(impulse_of_rotor(JOINT(j).rows[k], JOINT(j).rotors[k]), smaller(a, b)))
+            return !touches(a < b ? side_a(j) : side_b(j));
+    }
+    return false;
+}
+
 // The least quiet steps of all bodies of the block.
 float least_quiet_in_block() {
     float quiet = FOREVER;
     for (uint j = 0u; j < block_joints; ++j) {
         if (!holds(j)) continue;
+        if (sets_rotor_in_motion(j)) quiet = BESIDE_MOVING;
         for (uint side = 0u; side < 2u; ++side) {
             uint body = side == 0u ? JOINT(j).a : JOINT(j).b;
             if (body != NONE)

@@ -64,7 +64,7 @@ TEST_CASE("a restored world goes on with the same bits, in the same world and in
 TEST_CASE("a world at rest sleeps on after it was restored, and its statistics are the same", "[world]") {
     const Scene scene = tests::heap(150);
     World world(scene, {}, 2);
-    world.step(500);
+    world.step(700);
     const Statistics before = world.statistics();
     REQUIRE(before.asleep > 50);
     const std::vector<std::byte> mark = world.save();

@@ -52,6 +52,26 @@ TEST_CASE("free collisions keep linear and angular momentum to 1e-5 of the scene
     }
 }
 
+TEST_CASE("a needle keeps its angular momentum and its energy as it tumbles, whatever it weighs about its axis") {
+    for (const float thin : {1e-2f, 1e-4f, 1e-6f}) {
+        Scene scene;
+        scene.gravity = vec3(0);
+        Body needle;
+        needle.shape = Capsule{0.01f, 1};
+        needle.inertial = Inertial{.mass = 1, .inertia = {thin, 1, 1}};
+        needle.angular_velocity = {18, 19, 14};
+        scene.bodies.push_back(needle);
+        World world(scene);
+        const Statistics before = world.statistics();
+        world.step(1800);
+        const Statistics after = world.statistics();
+        INFO("moment about the axis " << thin << " kg m^2");
+        CHECK(after.kinetic_energy == Approx(before.kinetic_energy).epsilon(2e-4));
+        CHECK(glm::length(vector(after.angular_momentum) - vector(before.angular_momentum)) <
+              2e-4 * glm::length(vector(before.angular_momentum)));
+    }
+}
+
 TEST_CASE("a freely tumbling body keeps its angular momentum and its energy") {
     Scene scene;
     scene.gravity = vec3(0);

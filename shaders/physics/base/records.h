@@ -323,8 +323,8 @@ struct JointRow {
 struct JointRotor {
     float inertia;  // kg m^2 (kg along an axis), as felt at the joint; 0: none
     float speed;    // of the axis, rad/s or m/s, by its own momentum
-    float impulse;  // on the axis, of a substep, N m s or N s
-    float change;   // in this pass
+    float impulse;  // all that acts on the axis in a substep, the row's own included, N m s or N s
+    float change;   // of it in this pass
 };
 
 CONSTANT uint JOINT_RADIAL = 1u;    // axis x points from A's anchor to B's; its coordinate is their distance

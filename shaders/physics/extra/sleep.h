@@ -1,6 +1,7 @@
 // Sleep and waking without islands.
 //
-// A body that is slow, in contact, and not touched by a moving kinematic body counts quiet steps; its count exceeds
+// A body that is slow, in contact, not touched by a moving kinematic body, and whose joints set no rotor in motion counts quiet
+// steps; its count exceeds
 // that of a body it touches by at most an eighth of the steps to sleep. So restlessness spreads through contacts by one
 // body a step, and a body that has counted to the end has nothing restless within eight contacts: it sleeps without
 // islands or the host, and one body that cannot come to rest does not keep a whole heap awake. A sleeper keeps every
@@ -23,7 +24,8 @@ LAWS_BEGIN
 // A body's sleep state: quiet steps at the start of the step in the low 12 bits. Waking in this step sets bits, in any
 // order: WOKEN, and one for each depth (in contacts, 1 to DEEPEST) to which the body shakes others; the highest counts.
 CONSTANT uint QUIET_BITS = 0xFFFu;  // Settings::sleep_time is limited to fewer steps
-CONSTANT uint RESTARTS = 0x80000u;  // for one step: its velocity is not what the last one left (restarts())
+CONSTANT uint SLEPT = 0x40000u;     // for one step: it was woken from outside
+CONSTANT uint RESTARTS = 0x80000u;  // for one step: its velocity was set
 CONSTANT uint WOKEN = 0x100000u;
 CONSTANT uint SHAKING_SHIFT = 21u;
 CONSTANT uint NO_SLEEP = 0xFFFFFFFFu;  // for Parameters.sleep_steps: no body sleeps
@@ -42,6 +44,10 @@ CONSTANT float LOAD_CHANGE = 0.05f;
 CONSTANT float TOUCH_DISTANCE = 0.25f;  // of the speculative distance: closer within the step is contact
 CONSTANT uint NEARNESS_SHIFT = 3u;      // 1/8 of the steps to sleep: with more, moving neighbours wake sleepers at once
 CONSTANT float FOREVER = 65536.0f;      // quiet steps of an immovable body
+// Of the lighter body's weight at its edge, what a rotor may bear of it where the bodies sleep. A link of 1 kg falls on a rotor
+// of 1e4 kg m^2 for a minute before it is as fast as a body that does not sleep.
+CONSTANT float ROTOR_BURDEN = 0.01f;
+CONSTANT float IMMOVABLE_BURDEN = 1.0e30f;
 
 LAW uint quiet_steps(uint sleep_state) {
     return sleep_state & QUIET_BITS;
@@ -50,14 +56,18 @@ LAW uint quiet_steps(uint sleep_state) {
 LAW bool has_slept(uint sleep_state, uint sleep_steps) {
     return quiet_steps(sleep_state) >= sleep_steps;
 }
-// Whether a body's velocity as a step begins is not what the last one left: it was set, or the body slept. Then the rotors of
-// its joints take their speeds from it (take_rotor_speeds).
-LAW bool restarts(uint sleep_state, uint sleep_steps) {
-    return (sleep_state & RESTARTS) != 0u || has_slept(sleep_state, sleep_steps);
+// Whether a body's velocity as a step begins is not what the last one left, but was set; and whether it was 0 but for what has
+// acted since, because the body slept (rotor_as_step_begins in joint_axis.h).
+LAW bool was_set(uint sleep_state) {
+    return (sleep_state & RESTARTS) != 0u;
+}
+LAW bool was_at_rest(uint sleep_state, uint sleep_steps) {
+    return (sleep_state & SLEPT) != 0u || has_slept(sleep_state, sleep_steps);
 }
 // The sleep state of a body that is woken from outside. The same again if the step is repeated.
 LAW uint roused(uint sleep_state, uint sleep_steps) {
-    return restarts(sleep_state, sleep_steps) ? RESTARTS : 0u;
+    if (was_set(sleep_state)) return RESTARTS;
+    return was_at_rest(sleep_state, sleep_steps) ? SLEPT : 0u;
 }
 LAW bool is_asleep(uint sleep_state, uint sleep_steps) {
     return sleep_state < WOKEN && has_slept(sleep_state, sleep_steps);
@@ -102,6 +112,18 @@ LAW float pace_of(BodyProperties properties, Velocity velocity, Parameters param
 LAW float quiet_steps_shown(uint motion, Velocity velocity, uint sleep_state) {
     if (motion != MOTION_DYNAMIC) return motion == MOTION_KINEMATIC && in_motion(velocity) ? BESIDE_MOVING : FOREVER;
     return (sleep_state & WOKEN) != 0u ? 0.0f : float(quiet_steps(sleep_state));
+}
+// The impulse of its acceleration on a body in a substep, N s; `turning`: at its edge, N m s.
+LAW float burden_of(BodyProperties properties, BodyForces load, bool turning, Parameters parameters) {
+    if (properties.motion != MOTION_DYNAMIC) return IMMOVABLE_BURDEN;
+    float burden = length3(load.acceleration) * (parameters.h * reciprocal(properties.inverse_mass));
+    return turning ? burden * bounding_radius(properties) : burden;
+}
+// Whether a joint's rotor is set in motion, so that its bodies are slow but not at rest. `impulse`: of the rotor on the axis in
+// the last substep. Not if the lighter body touches something: a contact knows nothing of the rotor, and a link that lies on
+// the ground trembles with a rotor of a hundred times its inertia as with a flywheel of that size.
+LAW bool rotor_yields(float impulse, float burden) {
+    return abs(impulse) > ROTOR_BURDEN * burden;
 }
 // The sleep state for the next step. `carrying`: number of active contacts; `neighbours_quiet`: least quiet steps of their other
 // bodies.

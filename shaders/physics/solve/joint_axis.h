@@ -2,7 +2,9 @@
 //
 // The impulse of a row is that of its motor (or lock or spring) plus that of its limit. Springs are implicit and rigid
 // rows have a compliance: J v + bias + compliance * change = 0 (Catto, Soft Constraints, GDC 2011). A rotor (armature)
-// is a body of one degree of freedom whose speed is the axis's: such a row too, of compliance 1 / inertia. Limits are
+// is a body of one degree of freedom whose speed is the axis's: such a row too, of compliance 1 / inertia. Motors and limits
+// of its axis act on the rotor, and their impulses and its own are known by their sum, which moves the bodies: of a light link
+// it is a small difference of large impulses. Limits are
 // complementarity conditions and motors box constraints; rows found to be at a bound, or to leave one, change their
 // state and the block is solved again (block principal pivoting: Cottle, Pang, Stone, The Linear Complementarity
 // Problem, 1992, ch. 4).
@@ -223,50 +225,72 @@ LAW JointRow row_given(JointAxis axis, JointRow row, uint active_flags, float sp
             flush_tiny(saturated_motor_impulse(axis, row, active_flags, speed, biased, parameters)) - row.motor_impulse;
     return row;
 }
-// The equation of a row's impulse and its rotor's together: both meet the axis's speed, like springs side by side.
-LAW RowTarget with_rotor(RowTarget demand, JointRotor rotor) {
+LAW float given_change(JointRow row) {
+    return row.motor_change + row.limit_change;
+}
+// What is given pushes the bodies before the equations are solved, but a rotor takes it.
+LAW float given_push(JointAxis axis, JointRow row) {
+    return has_rotor(axis) ? 0.0f : given_change(row);
+}
+// The equation of the sum of a row's impulses, of which `given` are no unknowns, and its rotor's: both meet the axis's speed,
+// like springs side by side.
+LAW RowTarget with_rotor(RowTarget demand, JointRotor rotor, float given) {
     float share = reciprocal(1.0f + demand.compliance * rotor.inertia);
-    demand.bias = (demand.bias - (rotor.speed * rotor.inertia) * demand.compliance) * share;
+    demand.bias = (demand.bias - (rotor.speed * rotor.inertia + given) * demand.compliance) * share;
     demand.compliance = demand.compliance * share;
     return demand;
 }
+// `row`: with the changes that are given.
 LAW RowTarget row_demand(JointAxis axis, JointRow row, JointRotor rotor, uint index, uint active_flags, bool biased,
                          Parameters parameters) {
     RowTarget demand;
     if (has_rotor(axis) && !axis_is_solved(axis, row, active_flags, biased, parameters)) {
-        demand.bias = -rotor.speed;
         demand.compliance = reciprocal(rotor.inertia);
+        demand.bias = -(rotor.speed + given_change(row) * demand.compliance);
         return demand;
     }
     if (is_stopped(active_flags))
         demand = limit_target(axis, row, index, (active_flags & LIMIT_LOWER) != 0u, biased, parameters);
     else
         demand = motor_target(axis, row, index, biased, parameters);
-    if (has_rotor(axis)) return with_rotor(demand, rotor);
+    if (has_rotor(axis)) return with_rotor(demand, rotor, given_change(row));
     return demand;
 }
-// The rotor's part of a row's solution. `speed`: of the row afterwards; `alone`: nothing else of the row was unknown.
-LAW float rotor_impulse(JointRotor rotor, bool alone, float solution, float speed) {
-    return alone ? solution : flush_tiny(rotor.inertia * (rotor.speed - speed));
+// The rotor's impulse on the axis in a pass, if its speed becomes the axis's, which is `speed` afterwards.
+LAW float rotor_impulse(JointRotor rotor, float speed) {
+    return rotor.inertia * (rotor.speed - speed);
+}
+// The rotor's part of the impulse of a substep.
+LAW float impulse_of_rotor(JointRow row, JointRotor rotor) {
+    return rotor.impulse - (row.motor_impulse + row.limit_impulse);
 }
 // A rotor keeps its own speed from step to step: contacts change that of the axis after the joints' last pass, and a rotor that
 // took it over gained energy (a paddle of 100 times the inertia by its rotor that struck a box, 87%). It takes the speed of
-// its axis where bodies restart (sleep.h), and at first.
-CONSTANT float ROTOR_AT_FIRST = 1.0e30f;
-LAW bool rotor_follows(JointRotor rotor, bool restart) {
-    return restart || rotor.speed >= ROTOR_AT_FIRST;
+// its axis where velocities were set (sleep.h), and has none where both bodies were `at_rest`: an impulse that wakes them turns
+// the rotor, too.
+LAW JointRotor rotor_as_step_begins(JointRotor rotor, bool were_set, bool at_rest, float axis_speed) {
+    if (were_set)
+        rotor.speed = axis_speed;
+    else if (at_rest)
+        rotor.speed = 0.0f;
+    return rotor;
 }
 // The rotor after its impulse on the axis.
 LAW JointRotor rotor_slowed(JointRotor rotor, float impulse) {
     rotor.speed = flush_tiny(rotor.speed - impulse * reciprocal(rotor.inertia));
     return rotor;
 }
-// Adds the change of the pass to the impulse, which warm starts the next substep if it `warms`.
-LAW JointRotor rotor_after_pass(JointRotor rotor, bool warms) {
-    rotor = rotor_slowed(rotor, rotor.change);
+// Adds the change of the pass to the impulse, which warm starts the next substep if it `warms`. `row`: with its changes added.
+LAW JointRotor rotor_after_pass(JointRotor rotor, JointRow row, bool warms) {
+    rotor = rotor_slowed(rotor, rotor.change - given_change(row));
     rotor.impulse = flush_tiny(rotor.impulse + rotor.change);
     rotor.change = 0.0f;
-    if (warms) rotor = rotor_slowed(rotor, rotor.impulse);
+    if (warms) rotor = rotor_slowed(rotor, impulse_of_rotor(row, rotor));
+    return rotor;
+}
+// The rotor when the impulse of its motor is taken back.
+LAW JointRotor rotor_without_motor(JointRotor rotor, JointRow row) {
+    if (rotor.inertia > 0.0f) rotor.impulse = flush_tiny(rotor.impulse - row.motor_impulse);
     return rotor;
 }
 

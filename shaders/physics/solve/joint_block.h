@@ -59,15 +59,15 @@ struct RowAfter {
     uint pad1;
 };
 // The impulse changes of a row and its rotor after a solution, within their bounds, and the active set of the next round.
-// `speed`: of the row afterwards.
+// `solution`: of the row and its rotor together; what the row's bounds cut off is the rotor's. `speed`: of the row afterwards.
 LAW RowAfter row_after_round(JointAxis axis, JointRow row, JointRotor rotor, uint index, uint active_flags, bool solved,
                              float solution, float speed, bool biased, bool settling, Parameters parameters) {
     RowAfter after;
     after.rotor_change = 0.0f;
     if (has_rotor(axis) && solved) {
+        after.rotor_change = solution;
         solved = axis_is_solved(axis, row, active_flags, biased, parameters);
-        after.rotor_change = rotor_impulse(rotor, !solved, solution, speed);
-        solution = solution - after.rotor_change;
+        solution = solved ? flush_tiny((solution - given_change(row)) - rotor_impulse(rotor, speed)) : 0.0f;
     }
     after.row = row_after(row, axis, active_flags, solved, solution, parameters);
     after.active_flags = active_set_after(axis, row, index, active_flags, solved, solution, speed, biased, settling, parameters);
@@ -76,17 +76,12 @@ LAW RowAfter row_after_round(JointAxis axis, JointRow row, JointRotor rotor, uin
     return after;
 }
 
-LAW float given_change(JointRow row) {
-    return row.motor_change + row.limit_change;
-}
 LAW float row_impulse(JointRow row, JointRotor rotor) {
-    float impulse = row.motor_impulse + row.limit_impulse;
-    return rotor.inertia > 0.0f ? impulse + rotor.impulse : impulse;
+    return rotor.inertia > 0.0f ? rotor.impulse : row.motor_impulse + row.limit_impulse;
 }
 // The impulse applied to whole bodies after a pass: the change, plus the whole impulse where it warm starts a substep.
 LAW float handed_impulse(JointRow row, JointRotor rotor, bool warms) {
-    float change = given_change(row);
-    if (rotor.inertia > 0.0f) change = change + rotor.change;
+    float change = rotor.inertia > 0.0f ? rotor.change : given_change(row);
     return warms ? (row_impulse(row, rotor) + change) + change : change;
 }
 // Adds the changes of the pass to the impulses.

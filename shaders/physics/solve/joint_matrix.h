@@ -101,8 +101,13 @@ LAW JointRow placed_row(JointRow row, JointConfiguration at, int k, uint flags, 
 LAW float right_hand_side(float speed, float bias) {
     return -flush_tiny(speed + bias);
 }
+// The diagonal entry of a row with its compliance. That of a heavy rotor or a stiff spring would be lost beside the entry, and
+// rows that share their bodies' freedom would have no pivot: two hinges of one axis with rotors of a million times the link's
+// inertia ended in quarantine. With this least compliance a row keeps 1e-5 of what it changes of its bodies' speed; with 1e-6
+// rounding is a tenth of such pivots.
+CONSTANT float LEAST_COMPLIANCE = 1.0e-5f;  // relative to the entry
 LAW float softened(float entry, float compliance) {
-    return entry + compliance;
+    return entry + larger(compliance, LEAST_COMPLIANCE * entry);
 }
 // The elimination multiplier: entry over pivot.
 LAW float multiplier_of(float entry, float inverse_pivot) {

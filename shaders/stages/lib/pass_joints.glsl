@@ -371,7 +371,7 @@ void choose_unknowns(uint j) {
         }
         row = row_given(axis, row, active_flags, speed, BIASED, PARAMETERS);
         put_changes(j, k, row);
-        float change = given_change(row);
+        float change = given_push(axis, row);
         given_impulses[6u * j + k] = change;
         if (change != 0.0f) given |= 1u << k;
     }
@@ -387,7 +387,7 @@ void set_up_sides(uint j) {
         if (!has(unknowns[j], k)) continue;
         JointAxis axis = axis_of(j, k);
         RowTarget demand =
-            row_demand(axis, row_of(j, k), rotor_of(j, k, axis), k, active_set_of(active_set, k), BIASED, PARAMETERS);
+            row_demand(axis, row_with_changes(j, k), rotor_of(j, k, axis), k, active_set_of(active_set, k), BIASED, PARAMETERS);
         solutions[6u * j + k] = right_hand_side(speed_of(j, k, v), demand.bias);
         given_impulses[6u * j + k] = demand.compliance;
     }
@@ -635,7 +635,7 @@ void commit(uint j, bool warms) {
         row = committed(row);
         JOINT(j).rows[k].motor_impulse = row.motor_impulse;
         JOINT(j).rows[k].limit_impulse = row.limit_impulse;
-        if (has_rotor(axis)) JOINT(j).rotors[k] = rotor_after_pass(rotor, warms);
+        if (has_rotor(axis)) JOINT(j).rotors[k] = rotor_after_pass(rotor, row, warms);
     }
     pushing[j] = given;
 }
