@@ -56,8 +56,8 @@ DemoScene tumbling(const DemoOptions&) {
         x += 3;
     }
     const vec3 low(-4.2f, 0.3f, -1.2f), high(4.2f, 2.7f, 1.2f);
-    Promise promise(each_turns_over(watched, {0, 1, 0}, 120), each_keeps_angular_momentum(watched, 9e-6),
-                    each_keeps_energy(watched, 1.3e-5));
+    Promise promise(each_turns_over(watched, {0, 1, 0}, 120), each_keeps_angular_momentum(watched, 1.4e-5),
+                    each_keeps_energy(watched, 2.5e-5));
     return {std::move(scene), view_of(low, high, 20, 20), low, high, 30, std::move(promise).watching(watched)};
 }
 

@@ -157,8 +157,9 @@ LAW RigidState integrate_position(Pose pose, Velocity velocity, float h) {
 LAW vec3 turn_between(vec4 from, vec4 to, vec3 v) {
     vec4 change = to + -from;
     vec3 axis = vec3(from.x, from.y, from.z), axis_to = vec3(to.x, to.y, to.z), axis_change = vec3(change.x, change.y, change.z);
-    vec3 t = cross3(axis_to, v), t_change = cross3(axis_change, v);
-    return ((t * change.w + t_change * from.w) + (cross3(axis_change, t) + cross3(axis, t_change))) * 2.0f;
+    // R v = v + 2 u x (u x v + w v)
+    vec3 arm_to = cross3(axis_to, v) + v * to.w, arm_change = cross3(axis_change, v) + v * change.w;
+    return (cross3(axis_change, arm_to) + cross3(axis, arm_change)) * 2.0f;
 }
 
 // A unit quaternion to half the rounding of unit_quaternion, whose lengths are too great or too small for many steps on end:
@@ -189,8 +190,9 @@ LAW vec4 turned_and_precessed(vec4 orientation, vec3 own, vec3 half_angle) {
     return unit_to_rounding(turned_own + vec4(precession * turned_own.w + cross3(precession, axis), -dot3(precession, axis)));
 }
 
-// The inverse moment of inertia, relative to the next, from which a body is slender.
-CONSTANT float SLENDER = 100.0f;
+// The inverse moment of inertia, relative to the next, above which a body is slender: at ten times that, rounding of L already
+// doubles the change of energy.
+CONSTANT float SLENDER = 1.0e4f;
 
 struct FreeTurn {
     vec4 orientation;
@@ -205,8 +207,8 @@ struct FreeTurn {
 //
 // The new p is L in the new axes: then rounding of the orientation does not add up in L. But about the axis k of a slender
 // body p is what the rotations make it: rounding of L, which i_k magnifies, would turn it about that axis ever faster (moments
-// of 1e-6 : 1 : 1 at 30 rad/s: energy times 5 in 30 s). There L changes with the orientation's rounding, 1e-4 of the greatest
-// moment times the speed in 30 s; for bodies of moments alike that would be ten times what they lose as it is.
+// of 1e-6 : 1 : 1 at 30 rad/s: energy times 5 in 30 s). There L changes with the orientation's rounding: in 30 s at 1 rad/s by
+// 7e-5 of the greatest moment times the speed, where bodies that are not slender lose 5e-6.
 LAW FreeTurn tumbled(vec4 orientation, vec3 p, vec3 momentum, vec3 inverse_inertia, float h) {
     vec3 i = inverse_inertia;
     bool k_is_x = i.x >= i.y && i.x >= i.z;
