@@ -64,11 +64,19 @@ void find_runs(State& state) {
     }
 }
 
+// Calls work(contact) for those of this pass.
+template <class Work>
+void for_each_solved(const State& state, const Threads& threads, const Work& work) {
+    const std::uint32_t begin = state.passed_first();
+    threads.for_each(state.passed_last() - begin, [&](std::size_t k) { work(state.contacts_to_solve[begin + k]); });
+}
+
 using WidePass = void (*)(const WideTables&, std::size_t first, std::size_t last);
 void for_each_group(State& state, const Threads& threads, const WideTables& tables, WidePass pass) {
     if (state.gravities.empty()) {
-        threads.for_ranges(state.counted().solver_contacts,
-                           [&](std::size_t first, std::size_t last) { pass(tables, first, last); });
+        const std::uint32_t begin = state.passed_first();
+        threads.for_ranges(state.passed_last() - begin,
+                           [&](std::size_t first, std::size_t last) { pass(tables, begin + first, begin + last); });
         return;
     }
     threads.for_each(state.solver_runs.size(), [&](std::size_t k) {
@@ -218,8 +226,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), wide->solve);
         return;
     }
-    threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
-        const std::size_t i = state.contacts_to_solve[k];
+    for_each_solved(state, threads, [&](std::size_t i) {
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass ma = physics::split_mass(state.masses[c.a], state.impulses[i], state.fixed());
         const physics::Mass mb = physics::split_mass(state.masses[c.b], state.impulses[i], state.fixed());
@@ -235,8 +242,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
     if (last)
-        threads.for_each(state.counted().solver_contacts,
-                         [&](std::size_t k) { show_quiet_steps(state, state.constraints[state.contacts_to_solve[k]]); });
+        for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
         if (felt) tables.carried = state.carried.data();
@@ -245,8 +251,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         for_each_group(state, threads, tables, wide->relax);
         return;
     }
-    threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
-        const std::size_t i = state.contacts_to_solve[k];
+    for_each_solved(state, threads, [&](std::size_t i) {
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass ma = physics::impact_mass(state.impulses[i], state.masses[c.a], state.forces[c.a], state.fixed());
         const physics::Mass mb = physics::impact_mass(state.impulses[i], state.masses[c.b], state.forces[c.b], state.fixed());

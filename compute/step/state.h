@@ -266,6 +266,26 @@ struct State {
     // has in a heap of equal ones; others search again.
     static constexpr std::size_t noted = 15;
     std::vector<std::array<std::uint32_t, noted>> partners;
+    // The contacts of a pass: those of contacts_to_solve from `first` up to `last`, if there are so many; and of the blocks of
+    // joints all, or those with none of their contacts at the border of a rank, or the others. By default everything.
+    enum class Blocks { all, inner, border };
+    struct PassRange {
+        std::uint32_t first = 0, last = physics::NONE;
+        Blocks blocks = Blocks::all;
+    };
+    PassRange pass_range;
+    std::uint32_t passed_first() const {
+        return std::min(pass_range.first, counted().solver_contacts);
+    }
+    std::uint32_t passed_last() const {
+        return std::min(pass_range.last, counted().solver_contacts);
+    }
+    std::vector<bool> border_blocks;  // by block of joints; empty: none
+    bool passes_block(std::size_t block) const {
+        if (pass_range.blocks == Blocks::all) return true;
+        const bool at_border = !border_blocks.empty() && border_blocks[block];
+        return at_border == (pass_range.blocks == Blocks::border);
+    }
     // Likewise, if the gravity of copies differs: the parameters of each copy, and runs of contacts_to_solve of one copy each.
     struct Run {
         std::uint32_t first, last, copy;

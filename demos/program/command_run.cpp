@@ -290,7 +290,8 @@ void finish_pictures(Pictures* pictures, RunReport& report) {
 std::vector<RunReport::RankCost> costs_of(Exchange& exchange, const RunReport& report) {
     const double steps = static_cast<double>(std::max<std::uint64_t>(1, report.steps - report.resumed_at));
     const RunReport::RankCost own{static_cast<double>(exchange.bytes_sent()) / steps,
-                                  static_cast<double>(exchange.messages_sent()) / steps, report.peak_memory_bytes};
+                                  static_cast<double>(exchange.messages_sent()) / steps, exchange.seconds_waiting() * 1e3 / steps,
+                                  report.peak_memory_bytes};
     Bytes said(sizeof own);
     std::memcpy(said.data(), &own, sizeof own);
     std::vector<RunReport::RankCost> all;
