@@ -241,8 +241,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
-    if (last)
-        for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
+    if (last) for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
         if (felt) tables.carried = state.carried.data();

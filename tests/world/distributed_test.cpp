@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -55,6 +56,35 @@ void agrees(const std::string& demo, std::size_t bodies, int steps, std::initial
     const demos::DemoScene built = demos::build(*found, {.bodies = bodies});
     agrees(demo + " of " + std::to_string(bodies) + " bodies", built.scene, built.before_step, steps, ranks);
 }
+
+// An exchange that notes how often a rank has worked between the start and the finish of a message.
+class WatchedExchange : public Exchange {
+public:
+    explicit WatchedExchange(std::shared_ptr<Exchange> inner) : inner_(std::move(inner)) {}
+    [[noreturn]] void end_all(int status) override {
+        inner_->end_all(status);
+        std::abort();
+    }
+    int rank() const override { return inner_->rank(); }
+    int ranks() const override { return inner_->ranks(); }
+    std::vector<Bytes> swap(const std::vector<Bytes>& to) override { return inner_->swap(to); }
+    void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {
+        travels_ = true;
+        inner_->start(to, from);
+    }
+    void progress() override { worked += travels_; }
+    void finish() override {
+        travels_ = false;
+        inner_->finish();
+    }
+    void unite(std::span<std::uint32_t> bits) override { inner_->unite(bits); }
+    void add(std::span<std::uint32_t> numbers) override { inner_->add(numbers); }
+    int worked = 0;
+
+private:
+    std::shared_ptr<Exchange> inner_;
+    bool travels_ = false;
+};
 
 }  // namespace
 
@@ -139,6 +169,21 @@ TEST_CASE("a world on ranks is edited, read, saved and restored like one", "[ran
         one.step(10);
         CHECK(one.state_hash() == expected[80]);
     });
+}
+
+TEST_CASE("a rank solves contacts and joints while the velocities of ghosts travel", "[ranks]") {
+    for (const char* name : {"pile", "ragdolls"}) {
+        const demos::DemoScene built = demos::build(*demos::find_demo(name), {.bodies = 200});
+        run_in_process(2, [&](const std::shared_ptr<Exchange>& exchange) {
+            const auto watched = std::make_shared<WatchedExchange>(exchange);
+            World world(built.scene, {}, make_distributed_runner(watched));
+            world.step(20);
+            const int passes = 2 * world.settings().substeps * 20;
+            const int stages = built.scene.joints.empty() ? 1 : 2;
+            INFO(name);
+            REQUIRE(watched->worked == stages * passes);
+        });
+    }
 }
 
 TEST_CASE("a rank that fails ends the others", "[ranks]") {
