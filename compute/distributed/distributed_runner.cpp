@@ -83,6 +83,7 @@ void DistributedRunner::adapt() {
 
 bool DistributedRunner::step() {
     State& state = *state_;
+    if (gathered_[static_cast<std::size_t>(Table::contacts)]) forget_contacts();
     gathered_.assign(table_count, false);
     if (!state.fixed().redo) state.turn_over();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
@@ -282,9 +283,25 @@ void DistributedRunner::tell_broken() {
         }
 }
 
-void DistributedRunner::send(const std::vector<TableRange>&) {}
+// Restored tables are whole on every rank, until the next step.
+void DistributedRunner::send(const std::vector<TableRange>& ranges) {
+    const auto is_whole = [&](const TableRange& range) {
+        return range.table == Table::poses && range.first == 0 && range.count >= state_->fixed().bodies;
+    };
+    if (std::any_of(ranges.begin(), ranges.end(), is_whole)) state_->presence.clear();
+}
+
+void DistributedRunner::forget_contacts() {
+    State& state = *state_;
+    if (state.presence.empty() || exchange_->ranks() == 1) return;
+    merge_contacts(state, {}, [&](const physics::Contact& contact) {
+        return state.is_owned(state.body_of(contact.a)) || state.is_owned(state.body_of(contact.b));
+    });
+    if (own_capacity_ < state.fixed().contact_capacity) state.shrink_contacts(std::max(own_capacity_, state.counted().contacts));
+}
 
 void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
+    if (!gathered_[static_cast<std::size_t>(Table::contacts)]) own_capacity_ = state_->fixed().contact_capacity;
     TableRanges missing;
     for (const TableRange& range : ranges)
         if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);

@@ -28,6 +28,7 @@ public:
     const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
     int ranks() const override { return exchange_->ranks(); }
+    std::vector<Bytes> gather(const Bytes& said) const override { return exchange_->gather(said); }
     void attach(State& state) override;
     void adapt() override;
     bool step() override;
@@ -61,6 +62,7 @@ private:
     void tell_ends();
     void tell_quarantined();
     void tell_broken();
+    void forget_contacts();  // of other ranks, which were read
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
 
@@ -73,6 +75,7 @@ private:
     SceneFeatures planned_features_;
     StageClock clock_;
     std::vector<bool> gathered_ = std::vector<bool>(table_count);  // tables that are whole on every rank since the last step
+    std::uint32_t own_capacity_ = 0;                               // of contacts, before those of other ranks were read
     Ownership ownership_;
     Halo halo_;
     Border border_;

@@ -154,8 +154,10 @@ struct State {
 #undef SCREE_VIEW
 
     // The initial tables of a checked scene. `all`: allocates every table; else only those that the scene defines, and
-    // make() allocates others. `copies`: the scene is made of as many copies (scene/copies.h); 0: of none.
-    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies = 0);
+    // make() allocates others. `copies`: the scene is made of as many copies (scene/copies.h); 0: of none. `ranks` that share
+    // the world have a share of its contacts each.
+    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies = 0,
+          std::uint32_t ranks = 1);
     void make(Table table);
 
     // Swaps contacts and contacts_before; called at the start of every step that is not a repetition.
@@ -163,6 +165,8 @@ struct State {
 
     // Grows the lists to what the last step required and half as much again. Contents stay.
     void grow();
+    // Returns the memory of contacts beyond a capacity, which those in use fit into.
+    void shrink_contacts(std::uint32_t capacity);
 
     // Moves bodies to other rows: rows[id] is the new one. Rows of parts stay, and those of fragments must (their
     // bodies refer to them). All lasting data moves with its body, and later results stay bit-identical; other data of
@@ -227,6 +231,11 @@ struct State {
     }
     bool is_owned(std::size_t row) const {
         return presence.empty() || presence[row] == Presence::owned;
+    }
+    // Whether this rank tells of a contact, which at a border two have.
+    bool tells_of(const physics::Contact& contact) const {
+        const std::uint32_t a = body_of(contact.a);
+        return is_owned(a) || (presence[a] == Presence::everywhere && is_owned(body_of(contact.b)));
     }
     // Whether this rank solves a block of joints. Bodies of a block have one owner; those that broke are nobody's.
     bool owns_block(const physics::JointBlock& block) const {
