@@ -31,6 +31,8 @@ public:
     // Processors with a copy of the world each, which share its bodies and take every decision alike
     // (compute/distributed); all of them call the same functions in the same order.
     virtual int ranks() const { return 1; }
+    // What each of them says, by rank.
+    virtual std::vector<std::vector<std::byte>> gather(const std::vector<std::byte>& said) const { return {said}; }
 
     virtual bool in_place() const = 0;  // works on the state's own tables, which then need memory for all of them
 

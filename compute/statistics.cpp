@@ -62,29 +62,12 @@ void add_motion(const Scene& scene, const State& state, std::size_t i, Statistic
 
 constexpr float resting_speed = 0.1f;  // m/s
 
-void add_contacts(const State& state, std::optional<std::uint32_t> copy, Statistics& s) {
-    const auto rests = [&](std::uint32_t row) { return glm::length(state.velocities[row].linear) < resting_speed; };
-    std::size_t inside = 0;
-    double depth = 0;
-    s.spin_limited = state.counted().spin_limited;
-    for (const std::uint32_t i : contacts_by_id(state)) {
-        if (copy && state.copy_of(state.contacts[i].a) != *copy) continue;
-        ++s.manifolds;
-        // Contacts that ended within the last step by sliding off (contact_solver.h).
-        if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;
-        const physics::uint count = state.contacts[i].count;
-        s.points += count;
-        const bool at_rest = rests(state.constraints[i].a) && rests(state.constraints[i].b);
-        for (physics::uint k = 0; k < count; ++k) {
-            const double separation = state.impulses[i].separation[static_cast<int>(k)];
-            if (separation >= 0) continue;
-            ++inside;
-            depth -= separation;
-            s.penetration_max = std::max(s.penetration_max, -separation);
-            if (at_rest) s.penetration_resting = std::max(s.penetration_resting, -separation);
-        }
-    }
-    if (inside) s.penetration_mean = depth / static_cast<double>(inside);
+void add_contacts(const ContactSums& contacts, Statistics& s) {
+    s.manifolds = contacts.manifolds;
+    s.points = contacts.points;
+    s.penetration_max = contacts.greatest;
+    s.penetration_resting = contacts.greatest_resting;
+    if (contacts.penetrating) s.penetration_mean = contacts.depth / static_cast<double>(contacts.penetrating);
 }
 
 // Kinetic energy of the rotors of a joint's motors.
@@ -120,7 +103,37 @@ void add_joints(const State& state, std::size_t first, std::size_t count, Statis
 
 }  // namespace
 
-Statistics statistics_of(const Scene& scene, const State& state, std::optional<std::uint32_t> copy) {
+ContactSums contact_sums(const State& state, std::optional<std::uint32_t> copy) {
+    const auto rests = [&](std::uint32_t row) { return glm::length(state.velocities[row].linear) < resting_speed; };
+    ContactSums sums;
+    for (const std::uint32_t i : contacts_by_id(state)) {
+        if (copy && state.copy_of(state.contacts[i].a) != *copy) continue;
+        if (!state.presence.empty() && !state.tells_of(state.contacts[i])) continue;
+        ++sums.manifolds;
+        // Contacts that ended within the last step by sliding off (contact_solver.h).
+        if (state.impulses[i].slide_distance > state.constraints[i].slide_limit) continue;
+        const physics::uint count = state.contacts[i].count;
+        sums.points += count;
+        const bool at_rest = rests(state.constraints[i].a) && rests(state.constraints[i].b);
+        for (physics::uint k = 0; k < count; ++k) {
+            const double separation = state.impulses[i].separation[static_cast<int>(k)];
+            if (separation >= 0) continue;
+            ++sums.penetrating;
+            sums.depth -= separation;
+            sums.greatest = std::max(sums.greatest, -separation);
+            if (at_rest) sums.greatest_resting = std::max(sums.greatest_resting, -separation);
+        }
+    }
+    return sums;
+}
+
+ContactSums operator+(const ContactSums& a, const ContactSums& b) {
+    return {a.manifolds + b.manifolds,        a.points + b.points,
+            a.penetrating + b.penetrating,    a.depth + b.depth,
+            std::max(a.greatest, b.greatest), std::max(a.greatest_resting, b.greatest_resting)};
+}
+
+Statistics statistics_of(const Scene& scene, const State& state, const ContactSums& contacts, std::optional<std::uint32_t> copy) {
     Statistics s;
     dvec3 momentum(0), spin(0);
     std::vector<std::vector<const Plane*>> planes(state.fixed().copies);
@@ -148,7 +161,8 @@ Statistics statistics_of(const Scene& scene, const State& state, std::optional<s
             return glm::dot(dvec3(plane->normal), dvec3(centre)) < plane->offset;
         });
     }
-    add_contacts(state, copy, s);
+    s.spin_limited = state.counted().spin_limited;
+    add_contacts(contacts, s);
     add_joints(state, copy.value_or(0) * joints, joints, s);
     for (int axis = 0; axis < 3; ++axis) {
         s.momentum[axis] = momentum[axis];

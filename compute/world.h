@@ -170,6 +170,7 @@ public:
     // Validates and copies the scene. Throws SceneError, and std::invalid_argument for settings out of range. `runner`:
     // make_reference_runner (compute/runner.h) or make_device_runner (compute/device/device_runner.h).
     World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner);
+    World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner);  // takes the scene, in place of copying it
     // On the CPU, with `threads` worker threads (0: one per core).
     explicit World(const Scene& scene, const Settings& settings = {}, int threads = 0);
     // Many copies of the scene in one world (`copies`, 1 to 4,194,304), in one set of tables: each moves with the same bits

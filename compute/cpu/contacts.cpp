@@ -56,33 +56,39 @@ void show_quiet_steps(State& state, const physics::Constraint& c) {
 }
 
 // Contacts that lanes take together, because they skip the same work: as many points, bearing or not, of round bodies or not.
-constexpr std::size_t solver_classes = 16;
+// Those at the border of a rank, which need ghosts, come after all others.
+constexpr std::size_t inner_classes = 16, solver_classes = 2 * inner_classes;
 constexpr std::uint8_t not_solved = 0xFF;
-std::uint8_t class_of(const State& state, const physics::PreparedContact& prepared) {
+std::uint8_t class_of(const State& state, const physics::Constraint& c, const physics::PreparedContact& prepared) {
     const physics::Contact& contact = prepared.contact;
+    const auto is_ghost = [&](std::uint32_t row) { return !state.presence.empty() && state.presence[row] == Presence::ghost; };
+    const bool at_border = is_ghost(c.a) || is_ghost(c.b);
     const bool round = physics::is_round(state.properties[contact.a]) && physics::is_round(state.properties[contact.b]);
     const bool bears = prepared.impulse.normal_sum > 0;
-    return static_cast<std::uint8_t>(4 * (2 * round + !bears) + (4 - contact.count));
+    return static_cast<std::uint8_t>(inner_classes * at_border + 4 * (2 * round + !bears) + (4 - contact.count));
 }
 
-// Sorts contacts_to_solve by class and, where the gravity of copies differs, by copy before that.
+// The same where the gravity of copies differs: by copy, then by class.
+void sort_by_copy(State& state) {
+    const auto solved = std::span(state.contacts_to_solve).first(state.counted().solver_contacts);
+    const auto key = [&](std::uint32_t contact) {
+        const std::uint32_t copy = state.copy_of(state.pairs[state.constraints[contact].pair].a);
+        return std::tuple(copy, state.solver_classes[contact], contact);
+    };
+    std::sort(solved.begin(), solved.end(), [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
+    for (std::uint32_t k = 0; k < solved.size(); ++k) {
+        const std::uint32_t copy = std::get<0>(key(solved[k]));
+        if (k == 0 || state.solver_runs.back().copy != copy) state.solver_runs.push_back({k, k, copy});
+        state.solver_runs.back().last = k + 1;
+    }
+}
+
+// Sorts contacts_to_solve by class and finds its runs.
 void sort_contacts_to_solve(State& state, const Threads& threads) {
     const physics::Counts& counts = state.counted();
-    const auto solved = std::span(state.contacts_to_solve).first(counts.solver_contacts);
-    if (!state.gravities.empty()) {
-        const auto key = [&](std::uint32_t contact) {
-            const std::uint32_t copy = state.copy_of(state.pairs[state.constraints[contact].pair].a);
-            return std::tuple(copy, state.solver_classes[contact], contact);
-        };
-        std::sort(solved.begin(), solved.end(), [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
-        state.solver_runs.clear();
-        for (std::uint32_t k = 0; k < solved.size(); ++k) {
-            const std::uint32_t copy = std::get<0>(key(solved[k]));
-            if (k == 0 || state.solver_runs.back().copy != copy) state.solver_runs.push_back({k, k, copy});
-            state.solver_runs.back().last = k + 1;
-        }
-        return;
-    }
+    state.solver_runs.clear();
+    state.inner_contacts = counts.solver_contacts;
+    if (!state.gravities.empty()) return sort_by_copy(state);
     using Places = std::array<std::uint32_t, solver_classes>;
     const auto counts_of = [&](std::size_t first, std::size_t last) {
         Places found{};
@@ -96,114 +102,62 @@ void sort_contacts_to_solve(State& state, const Threads& threads) {
         for (std::size_t k = 0; k < solver_classes; ++k) taken(next[k], found[k]);
     });
     std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
+    state.inner_contacts = next[inner_classes];
     threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
         Places places = counts_of(first, last);
         for (std::size_t k = 0; k < solver_classes; ++k) places[k] = taken(next[k], places[k]);
         for (std::size_t i = first; i < last; ++i)
-            if (state.solver_classes[i] != not_solved) solved[places[state.solver_classes[i]]++] = static_cast<std::uint32_t>(i);
+            if (state.solver_classes[i] != not_solved)
+                state.contacts_to_solve[places[state.solver_classes[i]]++] = static_cast<std::uint32_t>(i);
     });
+    state.solver_runs = {{0, state.inner_contacts, 0}, {state.inner_contacts, counts.solver_contacts, 0}};
 }
 
 constexpr std::size_t words_of_contact = (sizeof(physics::Constraint) + sizeof(physics::Impulse)) / sizeof(std::uint32_t);
-std::size_t groups_of(std::size_t contacts, const WideStages& wide) {
-    const auto lanes = static_cast<std::size_t>(wide.lanes);
+std::size_t groups_of(std::size_t contacts, std::size_t lanes) {
     return (contacts + lanes - 1) / lanes;
 }
 
-// Room for the groups of all contacts to solve; runs of copies end with a group of their own.
-void make_room_for_groups(State& state, const WideStages& wide) {
-    const std::size_t groups = groups_of(state.counted().solver_contacts, wide) + state.solver_runs.size();
-    const std::size_t words = groups * words_of_contact * static_cast<std::size_t>(wide.lanes);
-    const std::size_t lines = words * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
+// Room for the groups of all contacts to solve; each run ends with a group of its own.
+void make_room_for_groups(State& state, std::size_t lanes) {
+    const std::size_t groups = groups_of(state.counted().solver_contacts, lanes) + state.solver_runs.size();
+    const std::size_t lines = groups * words_of_contact * lanes * sizeof(std::uint32_t) / sizeof(State::CacheLine) + 1;
     if (state.lane_contacts.size() < lines) state.lane_contacts.resize(lines + lines / 4);
 }
 
+// Calls work(contact) for those of this pass.
+template <class Work>
+void for_each_solved(const State& state, const Threads& threads, const Work& work) {
+    const std::uint32_t begin = state.passed_first();
+    threads.for_each(state.passed_last() - begin, [&](std::size_t k) { work(state.contacts_to_solve[begin + k]); });
+}
+
+// Calls pass(tables, first, last) for the groups of this pass: those that begin in its range.
 using WidePass = void (*)(const WideTables&, std::size_t first, std::size_t last);
 void for_each_group(State& state, const Threads& threads, const WideTables& tables, const WideStages& wide, WidePass pass) {
     const auto lanes = static_cast<std::size_t>(wide.lanes);
-    if (state.gravities.empty()) {
-        const std::size_t contacts = state.counted().solver_contacts;
-        const auto range = [&](std::size_t first, std::size_t last) {
-            pass(tables, first * lanes, std::min(last * lanes, contacts));
-        };
-        threads.for_ranges(groups_of(contacts, wide), range, Threads::grain / lanes);
-        return;
-    }
-    threads.for_each(state.solver_runs.size(), [&](std::size_t k) {
+    const auto begun_before = [&](const State::Run& run, std::uint32_t end) {
+        return groups_of(std::clamp(end, run.first, run.last) - run.first, lanes);
+    };
+    const auto pass_over = [&](std::size_t k, const auto& share_out) {
         const State::Run& run = state.solver_runs[k];
         WideTables own = tables;
-        own.parameters = reinterpret_cast<const std::uint32_t*>(&state.felt[run.copy]);
         own.items += run.first;
         own.groups += (run.first / lanes + k) * lanes * words_of_contact;
-        pass(own, 0, run.last - run.first);
-    });
-}
-
-// A contact with the impulses of the last step.
-physics::PreparedContact warm_started_contact(const State& state, std::size_t i) {
-    const physics::Constraint& c = state.constraints[i];
-    const physics::Pair& pair = state.pairs[c.pair];
-    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-    const physics::Manifold& manifold = state.manifolds[c.pair];
-    physics::PreparedContact prepared;
-    if (physics::is_carried_forward(pair.pair_type)) {
-        prepared = physics::carried_forward(state.contacts_before[pair.previous], state.impulses_before[pair.previous], manifold);
+        if (!state.gravities.empty()) own.parameters = reinterpret_cast<const std::uint32_t*>(&state.felt[run.copy]);
+        const std::size_t begin = begun_before(run, state.passed_first()), end = begun_before(run, state.passed_last());
+        share_out(end - begin, [&](std::size_t first, std::size_t last) {
+            pass(own, (begin + first) * lanes, std::min<std::size_t>((begin + last) * lanes, run.last - run.first));
+        });
+    };
+    if (state.gravities.empty()) {
+        for (std::size_t k = 0; k < state.solver_runs.size(); ++k)
+            pass_over(k, [&](std::size_t n, const auto& range) { threads.for_ranges(n, range, Threads::grain / lanes); });
     } else {
-        prepared = physics::newly_found(pair, manifold, state.point_counts[c.pair], state.poses[state.body_of(pair.a)],
-                                        state.poses[state.body_of(pair.b)]);
-        if (pair.previous != physics::NONE)
-            prepared = physics::warm_started(prepared, state.contacts_before[pair.previous], state.impulses_before[pair.previous],
-                                             ta, tb);
+        threads.for_each(state.solver_runs.size(), [&](std::size_t k) {
+            pass_over(k, [](std::size_t n, const auto& range) { range(std::size_t{0}, n); });
+        });
     }
-    const bool idle = physics::is_idle(c.slot_a, c.slot_b);
-    // Unchanged between two inactive bodies.
-    if (pair.previous != physics::NONE && !(idle && pair.pair_type == physics::PAIR_INACTIVE))
-        prepared.contact.load = physics::load_since(state.contacts_before[pair.previous], state.impulses_before[pair.previous],
-                                                    ta, c.slot_a, tb, c.slot_b);
-    if (!idle) prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
-    return prepared;
-}
-
-// Whether neither tyres nor surfaces take part, nor an impact of the last step.
-bool is_ordinary(const State& state, const physics::Pair& pair, const physics::PreparedContact& prepared) {
-    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-    const bool settles = pair.previous != physics::NONE && physics::rebounds_across(prepared.impulse);
-    return (physics::surface_of(ta) | physics::surface_of(tb) | physics::tyre_of(ta) | physics::tyre_of(tb)) == 0 && !settles;
-}
-
-// The constraint of a contact, whose unrest and impact follow from it.
-void prepare_constraint(State& state, std::size_t i, physics::PreparedContact prepared) {
-    const physics::Parameters& p = state.fixed();
-    physics::Constraint& c = state.constraints[i];
-    const std::uint32_t index = c.pair, a = c.a, b = c.b;
-    const physics::Pair& pair = state.pairs[index];
-    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-    c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, felt_by(state, a));
-    if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
-        c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
-                                   state.poses[b].orientation, p);
-    const physics::VelocityPair now = velocities_of(state, c);
-    const bool tyre_is_a = physics::tyre_of(ta) != 0;
-    if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
-        c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, now);
-    if (pair.previous != physics::NONE && physics::rebounds_across(prepared.impulse)) {
-        const physics::Constraint before =
-            physics::constraint_of(state.contacts_before[pair.previous], ta, tb, c.slot_a, c.slot_b, felt_by(state, a));
-        prepared.impulse = physics::settled_impact(prepared.impulse, c, state.impulses_before[pair.previous], before, now);
-        state.impulses[i].rebound_energy = prepared.impulse.rebound_energy;
-    }
-    const float unrest = physics::unrest_of(prepared.contact, c, ta, tb, now, felt_by(state, a));
-    state.contacts[i].unrest = unrest;
-    c = physics::with_unrest(c, unrest);
-}
-
-// The warm start of the first substep.
-void hand_out_first(State& state, std::size_t i) {
-    const physics::Constraint& c = state.constraints[i];
-    const physics::Impulse& impulse = state.impulses[i];
-    const physics::ContactShare share =
-        physics::first_share(c, impulse, velocities_of(state, c), state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
-    hand_out(state, c, share.change, share.weight, impulse.normal_sum);
 }
 
 }  // namespace
@@ -283,7 +237,8 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
 
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
-    if (wide) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
+    const bool sorted = wide || !state.presence.empty();
+    if (sorted) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
         physics::Constraint& c = state.constraints[i];
         const physics::PreparedContact prepared = warm_started_contact(state, i);
@@ -293,7 +248,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
         c.a = state.body_of(pair.a);
         c.b = state.body_of(pair.b);
         const bool idle = physics::is_idle(c.slot_a, c.slot_b);
-        if (wide) state.solver_classes[i] = idle ? not_solved : class_of(state, prepared);
+        if (sorted) state.solver_classes[i] = idle ? not_solved : class_of(state, c, prepared);
         if (idle) {
             c = physics::idle_between(prepared.contact, c.a, c.b);
         } else if (wide && is_ordinary(state, pair, prepared)) {
@@ -303,9 +258,9 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
             if (!wide) hand_out_first(state, i);
         }
     });
+    if (sorted) sort_contacts_to_solve(state, threads);
     if (!wide) return;
-    sort_contacts_to_solve(state, threads);
-    make_room_for_groups(state, *wide);
+    make_room_for_groups(state, static_cast<std::size_t>(wide->lanes));
     for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), *wide, wide->prepare);
 }
 
@@ -314,8 +269,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
         for_each_group(state, threads, wide_tables(state, state.contacts_to_solve), *wide, wide->solve);
         return;
     }
-    threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
-        const std::size_t i = state.contacts_to_solve[k];
+    for_each_solved(state, threads, [&](std::size_t i) {
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass ma = physics::split_mass(state.masses[c.a], state.impulses[i], state.fixed());
         const physics::Mass mb = physics::split_mass(state.masses[c.b], state.impulses[i], state.fixed());
@@ -330,9 +284,7 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
-    if (last)
-        threads.for_each(state.counted().solver_contacts,
-                         [&](std::size_t k) { show_quiet_steps(state, state.constraints[state.contacts_to_solve[k]]); });
+    if (last) for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
         if (felt) tables.carried = state.carried.data();
@@ -341,8 +293,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         for_each_group(state, threads, tables, *wide, wide->relax);
         return;
     }
-    threads.for_each(state.counted().solver_contacts, [&](std::size_t k) {
-        const std::size_t i = state.contacts_to_solve[k];
+    for_each_solved(state, threads, [&](std::size_t i) {
         const physics::Constraint& c = state.constraints[i];
         const physics::Mass ma = physics::impact_mass(state.impulses[i], state.masses[c.a], state.forces[c.a], state.fixed());
         const physics::Mass mb = physics::impact_mass(state.impulses[i], state.masses[c.b], state.forces[c.b], state.fixed());

@@ -54,7 +54,7 @@ void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, 
             room.joints.clear();
             for (std::size_t joints = 0; first < last && joints < together; ++first) {
                 JointBlock block(state, first);
-                if (!state.owns_block(state.joint_blocks[first]) || !block.moves()) continue;
+                if (!state.passes_block(first) || !state.owns_block(state.joint_blocks[first]) || !block.moves()) continue;
                 joints += block.joints().size();
                 begin(block, room);
                 blocks.push_back(block);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <utility>
 
 #include "compute/distributed/distributed.h"
 #include "compute/distributed/gathering.h"
@@ -19,6 +20,9 @@ namespace {
 
 // Steps between two looks at who owns what. Bodies may be anywhere meanwhile: ghosts follow them.
 constexpr std::uint64_t steps_between_balances = 32;
+
+// While messages travel, contacts are solved in parts of so many or more, because some networks look after them only when asked.
+constexpr std::uint32_t least_together = 1024, most_parts = 8;
 
 bool starts_with(const std::string& text, const char* begin) {
     return text.rfind(begin, 0) == 0;
@@ -79,6 +83,7 @@ void DistributedRunner::adapt() {
 
 bool DistributedRunner::step() {
     State& state = *state_;
+    if (gathered_[static_cast<std::size_t>(Table::contacts)]) forget_contacts();
     gathered_.assign(table_count, false);
     if (!state.fixed().redo) state.turn_over();
     if (!state.fixed().redo && exchange_->ranks() > 1) {
@@ -87,29 +92,65 @@ bool DistributedRunner::step() {
         if (begun_++ % steps_between_balances == 0) ownership_.balance(state, *exchange_);
         ownership_.place(state, *exchange_);
     }
-    wakes_ = knows_waking_ = false;
+    wakes_ = knows_waking_ = knows_border_ = false;
     spin_limited_ = state.counted().spin_limited;
     quarantined_ = state.counted().quarantined;
     clock_.begin_step();
-    Timeline* const told = timeline();
     const Watch watch(threads_);
-    const auto exchanged = [&](Talk what) {
-        if (what == Talk::none) return true;
-        const TimedSlice slice(told, "exchange");
-        return talk(what);
-    };
-    for (std::size_t i = 0; i < plan_.size(); ++i) {
-        if (told) threads_.watch(told, plan_[i].name);
-        const auto begin = std::chrono::steady_clock::now();
-        if (!exchanged(before_[i])) return false;
-        plan_[i].reference(state, threads_, plan_[i].pass);
-        if (!exchanged(after_[i])) return false;
-        const auto end = std::chrono::steady_clock::now();
-        clock_.add(i, std::chrono::duration<double>(end - begin).count());
-        if (told) tell(*told, Timeline::caller, plan_[i], state, begin, end);
+    for (std::size_t i = 0; i < plan_.size();) {
+        if (!say(before_[i])) return false;
+        run(i);
+        if (!say(after_[i])) return false;
+        const bool travels = after_[i] == Talk::velocities || after_[i] == Talk::motion;
+        ++i;
+        if (travels && exchange_->ranks() > 1) i = pass_meanwhile(i);
     }
     clock_.end_step();
     return true;
+}
+
+void DistributedRunner::run(std::size_t stage) {
+    Timeline* const told = timeline();
+    const Stage& ran = plan_[stage];
+    if (told) threads_.watch(told, ran.name);
+    const auto begin = std::chrono::steady_clock::now();
+    ran.reference(*state_, threads_, ran.pass);
+    const auto end = std::chrono::steady_clock::now();
+    clock_.add(stage, std::chrono::duration<double>(end - begin).count());
+    if (told) tell(*told, Timeline::caller, ran, *state_, begin, end);
+}
+
+std::size_t DistributedRunner::pass_meanwhile(std::size_t first) {
+    const auto is_of_contacts = [&](std::size_t i) {
+        return plan_[i].name == "solve_contacts" || plan_[i].name == "relax_contacts";
+    };
+    const auto is_of_joints = [&](std::size_t i) { return plan_[i].name == "solve_joints" || plan_[i].name == "relax_joints"; };
+    std::size_t last = first;
+    while (last < plan_.size() && (is_of_contacts(last) || is_of_joints(last))) ++last;
+    if (!std::exchange(knows_border_, true)) border_.find(*state_);
+    State::PassRange& range = state_->pass_range;
+    const std::uint32_t inner = state_->inner_contacts, parts = std::clamp(inner / least_together, 1u, most_parts);
+    const auto begin_of = [&](std::uint64_t part) { return static_cast<std::uint32_t>(part * inner / parts); };
+    for (std::size_t i = first; i < last; ++i)
+        for (std::uint32_t part = 0; part < (is_of_contacts(i) ? parts : 1); ++part) {
+            range = {begin_of(part), begin_of(part + 1), State::Blocks::inner};
+            run(i);
+            exchange_->progress();
+        }
+    {
+        const TimedSlice slice(timeline(), "exchange");
+        halo_.finish(*state_, *exchange_);
+    }
+    range = {inner, physics::NONE, State::Blocks::border};
+    for (std::size_t i = first; i < last; ++i) run(i);
+    range = {};
+    return last;
+}
+
+bool DistributedRunner::say(Talk what) {
+    if (what == Talk::none) return true;
+    const TimedSlice slice(timeline(), "exchange");
+    return talk(what);
 }
 
 bool DistributedRunner::talk(Talk what) {
@@ -133,10 +174,10 @@ bool DistributedRunner::talk(Talk what) {
             tell_wake();
             break;
         case Talk::velocities:
-            halo_.send_velocities(*state_, *exchange_);
+            halo_.start_velocities(*state_, *exchange_);
             break;
         case Talk::motion:
-            halo_.send_motion(*state_, *exchange_);
+            halo_.start_motion(*state_, *exchange_);
             break;
         case Talk::ends:
             tell_ends();
@@ -242,9 +283,25 @@ void DistributedRunner::tell_broken() {
         }
 }
 
-void DistributedRunner::send(const std::vector<TableRange>&) {}
+// Restored tables are whole on every rank, until the next step.
+void DistributedRunner::send(const std::vector<TableRange>& ranges) {
+    const auto is_whole = [&](const TableRange& range) {
+        return range.table == Table::poses && range.first == 0 && range.count >= state_->fixed().bodies;
+    };
+    if (std::any_of(ranges.begin(), ranges.end(), is_whole)) state_->presence.clear();
+}
+
+void DistributedRunner::forget_contacts() {
+    State& state = *state_;
+    if (state.presence.empty() || exchange_->ranks() == 1) return;
+    merge_contacts(state, {}, [&](const physics::Contact& contact) {
+        return state.is_owned(state.body_of(contact.a)) || state.is_owned(state.body_of(contact.b));
+    });
+    if (own_capacity_ < state.fixed().contact_capacity) state.shrink_contacts(std::max(own_capacity_, state.counted().contacts));
+}
 
 void DistributedRunner::receive(const std::vector<TableRange>& ranges) {
+    if (!gathered_[static_cast<std::size_t>(Table::contacts)]) own_capacity_ = state_->fixed().contact_capacity;
     TableRanges missing;
     for (const TableRange& range : ranges)
         if (!gathered_[static_cast<std::size_t>(range.table)]) missing.push_back(range);

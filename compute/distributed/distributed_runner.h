@@ -9,6 +9,7 @@
 #include <memory>
 #include <vector>
 
+#include "compute/distributed/border.h"
 #include "compute/distributed/exchange.h"
 #include "compute/distributed/halo.h"
 #include "compute/distributed/ownership.h"
@@ -27,6 +28,7 @@ public:
     const Threads& threads() const override { return threads_; }
     bool in_place() const override { return true; }
     int ranks() const override { return exchange_->ranks(); }
+    std::vector<Bytes> gather(const Bytes& said) const override { return exchange_->gather(said); }
     void attach(State& state) override;
     void adapt() override;
     bool step() override;
@@ -42,20 +44,25 @@ private:
         room,        // after the totals of pairs and contacts: overflows
         struck,      // after predict_impacts, if some body is fast
         wake,        // before each round of propagate_wake, and after the last: sleep states, if some body sleeps
-        velocities,  // after begin_substep
-        motion,      // after move_bodies
+        velocities,  // after begin_substep, while contacts and joints without ghosts are solved
+        motion,      // after move_bodies, while they are relaxed
         ends,        // after end_step: whether some body is fast, and then poses and sweeps
         stops,       // after each round of find_impacts, with joints of share_stops, if some body is fast
         kept,        // after find_broken, if some body breaks
         broken       // before break_bodies: every rank breaks the bodies of all
     };
+    bool say(Talk what);   // talk(), timed
     bool talk(Talk what);  // false: the step is to be repeated with longer lists
+    void run(std::size_t stage);
+    // Runs the stages of a pass, from this one, while what was said last travels. Returns the stage after them.
+    std::size_t pass_meanwhile(std::size_t first);
     void agree_on_flags();
     bool agree_on_room();
     void tell_wake();
     void tell_ends();
     void tell_quarantined();
     void tell_broken();
+    void forget_contacts();  // of other ranks, which were read
     void send(const std::vector<TableRange>& ranges) override;
     void receive(const std::vector<TableRange>& ranges) override;
 
@@ -68,8 +75,11 @@ private:
     SceneFeatures planned_features_;
     StageClock clock_;
     std::vector<bool> gathered_ = std::vector<bool>(table_count);  // tables that are whole on every rank since the last step
+    std::uint32_t own_capacity_ = 0;                               // of contacts, before those of other ranks were read
     Ownership ownership_;
     Halo halo_;
+    Border border_;
+    bool knows_border_ = false;                         // in this step
     std::uint64_t begun_ = 0;                           // steps, without repetitions
     bool wakes_ = false, knows_waking_ = false;         // some contact shakes bodies behind it in this step
     std::uint32_t spin_limited_ = 0, quarantined_ = 0;  // as the step began

@@ -37,14 +37,10 @@ void gather_rows(State& state, Exchange& exchange, const TableRange& range) {
 }
 
 void gather_contacts(State& state, Exchange& exchange) {
-    const auto is_told_here = [&](std::uint32_t owner, const physics::Contact& contact) {
-        const std::uint32_t body = state.body_of(owner), other = state.body_of(contact.a == owner ? contact.b : contact.a);
-        return state.is_owned(body) || (state.presence[body] == Presence::everywhere && state.is_owned(other));
-    };
     Bytes said;
     for (std::uint32_t row = 0; row < state.fixed().bodies; ++row)
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
-            if (is_told_here(row, state.contacts[k]))
+            if (state.tells_of(state.contacts[k]))
                 put(said, TracedContact{{row, state.contacts[k], state.impulses[k]},
                                         state.constraints[k].slide_limit,
                                         k < state.carried.size() ? state.carried[k] : 0.0f});

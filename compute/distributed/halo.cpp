@@ -168,9 +168,8 @@ std::size_t Halo::ghosts() const {
     return count;
 }
 
-template <class Record>
-void Halo::send(State& state, Exchange& exchange, const std::function<Record(const State&, std::uint32_t)>& of,
-                const std::function<void(State&, std::uint32_t, const Record&)>& take) {
+template <class Record, class Of, class Take>
+void Halo::start(const State& state, Exchange& exchange, const Of& of, const Take& take) {
     const std::size_t ranks = to_.size();
     outgoing_.resize(ranks);
     incoming_.resize(ranks);
@@ -182,13 +181,20 @@ void Halo::send(State& state, Exchange& exchange, const std::function<Record(con
             std::memcpy(&outgoing_[r][k * sizeof(Record)], &record, sizeof(Record));
         }
     }
-    exchange.swap(outgoing_, incoming_);
-    for (std::size_t r = 0; r < ranks; ++r)
-        for (std::size_t k = 0; k < from_[r].size(); ++k) {
-            Record record;
-            std::memcpy(&record, &incoming_[r][k * sizeof(Record)], sizeof(Record));
-            take(state, from_[r][k], record);
-        }
+    taking_ = [this, take](State& here) {
+        for (std::size_t r = 0; r < from_.size(); ++r)
+            for (std::size_t k = 0; k < from_[r].size(); ++k) {
+                Record record;
+                std::memcpy(&record, &incoming_[r][k * sizeof(Record)], sizeof(Record));
+                take(here, from_[r][k], record);
+            }
+    };
+    exchange.start(outgoing_, incoming_);
+}
+
+void Halo::finish(State& state, Exchange& exchange) {
+    exchange.finish();
+    taking_(state);
 }
 
 void Halo::send_sleep_states(State& state, Exchange& exchange) {
@@ -214,8 +220,8 @@ void Halo::send_struck(State& state, Exchange& exchange) {
         }
 }
 
-void Halo::send_velocities(State& state, Exchange& exchange) {
-    send<GhostVelocity>(
+void Halo::start_velocities(State& state, Exchange& exchange) {
+    start<GhostVelocity>(
         state, exchange,
         [](const State& s, std::uint32_t row) {
             return GhostVelocity{s.velocities[row], s.masses[row].split_state};
@@ -226,8 +232,8 @@ void Halo::send_velocities(State& state, Exchange& exchange) {
         });
 }
 
-void Halo::send_motion(State& state, Exchange& exchange) {
-    send<GhostMotion>(
+void Halo::start_motion(State& state, Exchange& exchange) {
+    start<GhostMotion>(
         state, exchange,
         [](const State& s, std::uint32_t row) {
             return GhostMotion{s.velocities[row], s.poses[row].orientation, s.forces[row].impacts, s.impact_debts[row]};

@@ -22,11 +22,14 @@ public:
     // Of every ghost, from its owner.
     void send_sleep_states(State& state, Exchange& exchange);
     void send_struck(State& state, Exchange& exchange);  // and of what all ranks have, united
-    void send_velocities(State& state, Exchange& exchange);
-    void send_motion(State& state, Exchange& exchange);
-    void send_ends(State& state, Exchange& exchange);  // poses and sweeps, as continuous collision reads them
+    void send_ends(State& state, Exchange& exchange);    // poses and sweeps, as continuous collision reads them
     void send_stops(State& state, Exchange& exchange);
     void send_kept(State& state, Exchange& exchange);  // of bodies that break
+
+    // Likewise, but it is here only after finish(), with no other exchange in between.
+    void start_velocities(State& state, Exchange& exchange);
+    void start_motion(State& state, Exchange& exchange);
+    void finish(State& state, Exchange& exchange);
 
     std::size_t ghosts() const;
 
@@ -37,13 +40,19 @@ private:
     Box box_of(const State& state, std::uint32_t row) const;
     void find_near(const State& state, Exchange& exchange);
     void find_touched(const State& state, const Ownership& ownership, const Exchange& exchange);
-    template <class Record>
-    void send(State& state, Exchange& exchange, const std::function<Record(const State&, std::uint32_t)>& of,
-              const std::function<void(State&, std::uint32_t, const Record&)>& take);
+    // Of every ghost the record that `of` makes on its owner, which `take` puts into the tables here.
+    template <class Record, class Of, class Take>
+    void start(const State& state, Exchange& exchange, const Of& of, const Take& take);
+    template <class Record, class Of, class Take>
+    void send(State& state, Exchange& exchange, const Of& of, const Take& take) {
+        start<Record>(state, exchange, of, take);
+        finish(state, exchange);
+    }
 
     std::vector<float> reach_;                           // of the parts of a row, m; 0: none
     std::vector<std::vector<std::uint32_t>> to_, from_;  // rows by rank
     std::vector<Bytes> outgoing_, incoming_;
+    std::function<void(State&)> taking_;  // puts what has come in into the tables
 };
 
 }  // namespace scree

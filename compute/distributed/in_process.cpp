@@ -1,6 +1,7 @@
 // Ranks as threads of one process.
 #include "compute/distributed/in_process.h"
 
+#include <array>
 #include <condition_variable>
 #include <exception>
 #include <mutex>
@@ -14,7 +15,9 @@ namespace {
 // Where the ranks of a process meet.
 class MeetingPoint {
 public:
-    explicit MeetingPoint(int ranks) : mail(static_cast<std::size_t>(ranks)), words(mail.size()), ranks_(ranks) {}
+    explicit MeetingPoint(int ranks) : words(static_cast<std::size_t>(ranks)), ranks_(ranks) {
+        for (auto& box : mail) box.resize(words.size());
+    }
     void wait() {
         std::unique_lock lock(mutex_);
         if (lost_) throw RankLost("another rank has ended");
@@ -38,8 +41,8 @@ public:
     void rethrow() const {
         if (reason_) std::rethrow_exception(reason_);
     }
-    std::vector<std::vector<Bytes>> mail;           // by sender, then by receiver
-    std::vector<std::vector<std::uint32_t>> words;  // by sender
+    std::array<std::vector<std::vector<Bytes>>, 2> mail;  // two boxes in turn: by sender, then by receiver
+    std::vector<std::vector<std::uint32_t>> words;        // by sender
 
 private:
     std::mutex mutex_;
@@ -55,20 +58,25 @@ public:
     InProcessExchange(MeetingPoint& point, int rank) : point_(point), rank_(rank) {}
     [[noreturn]] void end_all(int) override { throw RankLost("a rank ends all"); }
     int rank() const override { return rank_; }
-    int ranks() const override { return static_cast<int>(point_.mail.size()); }
+    int ranks() const override { return static_cast<int>(point_.words.size()); }
     std::vector<Bytes> swap(const std::vector<Bytes>& to) override {
-        std::vector<Bytes> from(point_.mail.size());
-        swap(to, from);
+        std::vector<Bytes> from(to.size());
+        start(to, from);
+        take([](Bytes& into, const Bytes& mail) { into = mail; });
         return from;
     }
-    void swap(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {
+    void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {
         const auto own = static_cast<std::size_t>(rank_);
         for (std::size_t r = 0; r < to.size(); ++r)
             if (r != own && !to[r].empty()) note_sent(to[r].size());
-        point_.mail[own] = to;
-        point_.wait();
-        for (std::size_t r = 0; r < from.size(); ++r) from[r] = point_.mail[r][own];
-        point_.wait();
+        point_.mail[box_][own] = to;
+        from_ = &from;
+    }
+    void finish() override {
+        take([](Bytes& into, const Bytes& mail) {
+            if (into.size() != mail.size()) throw RankLost("a message from another rank has another length");
+            into = mail;
+        });
     }
     void unite(std::span<std::uint32_t> bits) override {
         reduce(bits, [](std::uint32_t a, std::uint32_t b) { return a | b; });
@@ -78,8 +86,18 @@ public:
     }
 
 private:
+    // A box is filled again when all have emptied the other, and so this one before.
+    template <class Take>
+    void take(const Take& put_in) {
+        const Waiting waiting(*this);
+        point_.wait();
+        for (std::size_t r = 0; r < from_->size(); ++r)
+            put_in((*from_)[r], point_.mail[box_][r][static_cast<std::size_t>(rank_)]);
+        box_ = 1 - box_;
+    }
     template <class Combine>
     void reduce(std::span<std::uint32_t> values, const Combine& combine) {
+        const Waiting waiting(*this);
         const auto own = static_cast<std::size_t>(rank_);
         point_.words[own].assign(values.begin(), values.end());
         point_.wait();
@@ -89,6 +107,8 @@ private:
     }
     MeetingPoint& point_;
     int rank_;
+    std::size_t box_ = 0;
+    std::vector<Bytes>* from_ = nullptr;  // where to put what start() has begun to exchange
 };
 
 }  // namespace

@@ -116,7 +116,8 @@ physics::uint sleep_steps_of(const Settings& settings) {
                              : physics::NO_SLEEP;
 }
 
-void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies) {
+void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies,
+                            std::uint32_t ranks) {
     shares_meshes_ = copies > 1;
     std::vector<physics::BodyProperties>& properties = state_.properties;
     const auto n = static_cast<std::uint32_t>(scene.bodies.size());
@@ -139,8 +140,8 @@ void SceneCompiler::compile(const Scene& scene, const Settings& settings, std::u
     p.bodies = rows;
     p.first_part = state_.body_count = n;
     p.buckets = State::buckets_for(rows);
-    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving);
-    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2;
+    p.pair_capacity = settings.pairs_at_first ? settings.pairs_at_first : 64 + 2 * (n + moving) / ranks;
+    p.contact_capacity = settings.contacts_at_first ? settings.contacts_at_first : 64 + (n + moving) / 2 / ranks;
     p.group_size = group_size;
     p.group_shift = static_cast<std::uint32_t>(std::countr_zero(group_size));
     filter(scene);

@@ -29,7 +29,8 @@ public:
     explicit SceneCompiler(State& state) : state_(state) {}
 
     // The initial tables of a checked scene, made of `copies` copies (scene/copies.h), in an empty state.
-    void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies = 0);
+    void compile(const Scene& scene, const Settings& settings, std::uint32_t group_size, std::uint32_t copies = 0,
+                 std::uint32_t ranks = 1);
 
     // shape_records.cpp
     physics::BodyProperties properties_of(const Body& body,

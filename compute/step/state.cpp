@@ -16,9 +16,10 @@
 
 namespace scree {
 
-State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies)
+State::State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies,
+             std::uint32_t ranks)
     : substeps(settings.substeps), all_(all) {
-    SceneCompiler(*this).compile(scene, settings, group_size, copies);
+    SceneCompiler(*this).compile(scene, settings, group_size, copies, ranks);
 }
 
 std::uint32_t State::buckets_for(std::uint32_t bodies) {
@@ -230,6 +231,14 @@ void State::grow() {
     if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);
     counted().overflow = 0;
     allocate();
+}
+
+void State::shrink_contacts(std::uint32_t capacity) {
+    fixed().contact_capacity = capacity;
+    allocate();
+    const auto shrink = [](auto&... tables) { (tables.shrink_to_fit(), ...); };
+    shrink(contacts, contacts_before, impulses, impulses_before, constraints, contacts_to_solve, contact_owners, carried, slots,
+           slot_sides, neighbours_quiet);
 }
 
 bool State::has_joints() const {

@@ -154,8 +154,10 @@ struct State {
 #undef SCREE_VIEW
 
     // The initial tables of a checked scene. `all`: allocates every table; else only those that the scene defines, and
-    // make() allocates others. `copies`: the scene is made of as many copies (scene/copies.h); 0: of none.
-    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies = 0);
+    // make() allocates others. `copies`: the scene is made of as many copies (scene/copies.h); 0: of none. `ranks` that share
+    // the world have a share of its contacts each.
+    State(const Scene& scene, const Settings& settings, std::uint32_t group_size, bool all, std::uint32_t copies = 0,
+          std::uint32_t ranks = 1);
     void make(Table table);
 
     // Swaps contacts and contacts_before; called at the start of every step that is not a repetition.
@@ -163,6 +165,8 @@ struct State {
 
     // Grows the lists to what the last step required and half as much again. Contents stay.
     void grow();
+    // Returns the memory of contacts beyond a capacity, which those in use fit into.
+    void shrink_contacts(std::uint32_t capacity);
 
     // Moves bodies to other rows: rows[id] is the new one. Rows of parts stay, and those of fragments must (their
     // bodies refer to them). All lasting data moves with its body, and later results stay bit-identical; other data of
@@ -228,6 +232,11 @@ struct State {
     bool is_owned(std::size_t row) const {
         return presence.empty() || presence[row] == Presence::owned;
     }
+    // Whether this rank tells of a contact, which at a border two have.
+    bool tells_of(const physics::Contact& contact) const {
+        const std::uint32_t a = body_of(contact.a);
+        return is_owned(a) || (presence[a] == Presence::everywhere && is_owned(body_of(contact.b)));
+    }
     // Whether this rank solves a block of joints. Bodies of a block have one owner; those that broke are nobody's.
     bool owns_block(const physics::JointBlock& block) const {
         const std::span members = std::span(block_bodies).subspan(block.first_body, block.bodies);
@@ -266,12 +275,34 @@ struct State {
     // has in a heap of equal ones; others search again.
     static constexpr std::size_t noted = 15;
     std::vector<std::array<std::uint32_t, noted>> partners;
-    // Likewise, if the gravity of copies differs: the parameters of each copy, and runs of contacts_to_solve of one copy each.
+    // The contacts of a pass: those of contacts_to_solve from `first` up to `last`, if there are so many; and of the blocks of
+    // joints all, or those with none of their contacts at the border of a rank, or the others. By default everything.
+    enum class Blocks { all, inner, border };
+    struct PassRange {
+        std::uint32_t first = 0, last = physics::NONE;
+        Blocks blocks = Blocks::all;
+    };
+    PassRange pass_range;
+    std::uint32_t passed_first() const {
+        return std::min(pass_range.first, counted().solver_contacts);
+    }
+    std::uint32_t passed_last() const {
+        return std::min(pass_range.last, counted().solver_contacts);
+    }
+    std::vector<bool> border_blocks;  // by block of joints; empty: none
+    bool passes_block(std::size_t block) const {
+        if (pass_range.blocks == Blocks::all) return true;
+        const bool at_border = !border_blocks.empty() && border_blocks[block];
+        return at_border == (pass_range.blocks == Blocks::border);
+    }
+    // Likewise, if the gravity of copies differs: the parameters of each copy.
+    std::vector<physics::Parameters> felt;
+    // Likewise: runs of contacts_to_solve that share no group of SIMD lanes, of one copy each, or with and without ghosts.
     struct Run {
         std::uint32_t first, last, copy;
     };
-    std::vector<physics::Parameters> felt;
     std::vector<Run> solver_runs;
+    std::uint32_t inner_contacts = 0;  // the first ones of contacts_to_solve, without ghosts of other ranks
     // Likewise: the order in which SIMD lanes take contacts to solve, by contact.
     std::vector<std::uint8_t> solver_classes;
     // Likewise: constraints and impulses of contacts_to_solve, one per lane, from the first warm start to the last pass.

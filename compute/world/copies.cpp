@@ -239,7 +239,8 @@ Statistics World::statistics_of(std::size_t copy) const {
     in.bring(body_ranges);
     in.bring(contact_ranges);
     in.bring(joint_ranges);
-    return scree::statistics_of(in.scene, in.state, static_cast<std::uint32_t>(copy));
+    const auto one = static_cast<std::uint32_t>(copy);
+    return scree::statistics_of(in.scene, in.state, contact_sums(in.state, one), one);
 }
 
 }  // namespace scree

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
@@ -52,7 +53,8 @@ World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, s
     : scene(std::move(s.scene)),
       settings(t),
       runner(std::move(r)),
-      state(scene, settings, runner->group_size(), runner->in_place(), static_cast<std::uint32_t>(copies)),
+      state(scene, settings, runner->group_size(), runner->in_place(), static_cast<std::uint32_t>(copies),
+            static_cast<std::uint32_t>(runner->ranks())),
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
       fingerprint(fingerprint_of(state)) {
@@ -166,7 +168,10 @@ int World::Impl::steps_alone(int count) {
 }
 
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner)
-    : interior_(std::make_unique<Impl>(CopiedScene{scree::checked(scene), {}}, scree::checked(settings), std::move(runner), 0)) {}
+    : World(Scene(scene), settings, std::move(runner)) {}
+World::World(Scene&& scene, const Settings& settings, std::unique_ptr<Runner> runner)
+    : interior_(std::make_unique<Impl>(CopiedScene{scree::checked(std::move(scene)), {}}, scree::checked(settings),
+                                       std::move(runner), 0)) {}
 World::World(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, std::size_t copies,
              const VaryCopy& vary)
     : interior_(
@@ -302,11 +307,27 @@ std::vector<BodyContact> World::contacts_of(std::size_t body) const {
     return found;
 }
 
+// Of the contacts of all ranks, each of which reads its own.
+ContactSums World::Impl::all_contact_sums() const {
+    if (state.presence.empty()) {
+        bring(contact_ranges);
+        return contact_sums(state);
+    }
+    const ContactSums own = contact_sums(state);
+    std::vector<std::byte> said(sizeof own);
+    std::memcpy(said.data(), &own, sizeof own);
+    ContactSums all, one;
+    for (const std::vector<std::byte>& told : runner->gather(said)) {
+        std::memcpy(&one, told.data(), sizeof one);
+        all = all + one;
+    }
+    return all;
+}
+
 Statistics World::statistics() const {
     interior_->bring(body_ranges);
-    interior_->bring(contact_ranges);
     interior_->bring(joint_ranges);
-    Statistics found = scree::statistics_of(interior_->scene, interior_->state);
+    Statistics found = scree::statistics_of(interior_->scene, interior_->state, interior_->all_contact_sums());
     const std::vector<std::uint8_t>& gone = interior_->joints_gone;
     const auto removed = static_cast<std::size_t>(std::count(gone.begin(), gone.end(), std::uint8_t{1}));
     found.joints -= removed;

@@ -16,6 +16,7 @@
 
 #include "compute/scene/copies.h"
 #include "compute/scene/joint_validation.h"
+#include "compute/statistics.h"
 #include "compute/step/table_ranges.h"
 #include "compute/world.h"
 #include "compute/world/events.h"
@@ -126,6 +127,8 @@ struct World::Impl {
     BodyState body_state(std::size_t i) const;
     // Downloads these ranges of the tables.
     void bring(TableRanges (*ranges)(const State&)) const { runner->download(ranges(state)); }
+
+    ContactSums all_contact_sums() const;
 
     // joints.cpp
     void require_joint_index(std::size_t joint) const;  // throws std::out_of_range

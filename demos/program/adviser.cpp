@@ -91,8 +91,9 @@ bool is_driven(const Scene& scene) {
 
 }  // namespace
 
-Adviser::Adviser(const World& world, bool commanded)
-    : closed_(!commanded && !is_driven(world.scene())),
+Adviser::Adviser(const World& world, bool commanded, bool sees_contacts)
+    : sees_contacts_(sees_contacts),
+      closed_(!commanded && !is_driven(world.scene())),
       half_width_(median_half_width(world)),
       dynamic_(static_cast<std::size_t>(std::count_if(world.scene().bodies.begin(), world.scene().bodies.end(),
                                                       [](const Body& body) { return body.motion == Motion::dynamic; }))),
@@ -125,6 +126,7 @@ void Adviser::look_at_energy(const World& world, const Statistics& statistics) {
 
 // What lasts from one look to the next: what falls and rolls bears much for a moment.
 void Adviser::look_at_burdens(const World& world) {
+    if (!sees_contacts_) return;
     std::vector<Burden> now = overburdened(world);
     for (const Burden& one : now) {
         const auto before = std::ranges::find(burdens_, one.body, &Burden::body);

@@ -18,8 +18,9 @@ struct Advice {
 // Looks at a world once a simulated second, and early in a run, before what cannot stand has fallen.
 class Adviser {
 public:
-    // `commanded`: a script, events or a recording act on the world.
-    Adviser(const World& world, bool commanded);
+    // `commanded`: a script, events or a recording act on the world. `sees_contacts`: they are all here; who bears too much is
+    // not looked for in a world on several ranks, which would bring them to each.
+    Adviser(const World& world, bool commanded, bool sees_contacts = true);
 
     void after_step(const World& world);
     int steps_to_next(const World& world) const;  // until the next look, at least 1
@@ -37,6 +38,7 @@ private:
     void look_at_energy(const World& world, const Statistics& statistics);
     Sample sample_of(const World& world, const Statistics& statistics) const;
 
+    bool sees_contacts_ = true;
     bool closed_ = false;                // nothing but gravity gives energy
     double least_ = 0, moved_with_ = 0;  // energy, greatest kinetic energy, J
     double gained_ = 0, gained_at_ = 0;  // J, s

@@ -57,7 +57,7 @@ struct RunOptions {
     bool distributed = false;
     std::shared_ptr<Exchange> exchange = nullptr;  // with the other ranks; null: the run is not distributed
     // What all ranks do alike, though the first alone has outputs: see silent().
-    bool advises = false, is_watched = false;
+    bool advises = false, is_watched = false, saves = false;
     bool speaks() const { return !exchange || exchange->rank() == 0; }
 };
 
@@ -116,9 +116,14 @@ void steps_timed(const LoadedScene& subject, World& world, Recorder* recorder, i
     report.seconds_simulating += seconds;
 }
 
+// Whether the promise can be judged by then.
+bool is_promise_due(const LoadedScene& subject, const World& world, double time) {
+    return subject.promise && time >= subject.seconds - 0.5 / static_cast<double>(world.settings().rate);
+}
+
 // Judges the promise once its duration has passed; longer runs do not change the verdict.
 void hold_to_promise(const LoadedScene& subject, const World& world, std::optional<Recorder>& recorder, RunReport& report) {
-    if (!recorder || world.time() < subject.seconds - 0.5 / static_cast<double>(world.settings().rate)) return;
+    if (!recorder || !is_promise_due(subject, world, world.time())) return;
     report.rows = subject.promise->judge(recorder->finish());
     report.judged = true;
     recorder.reset();
@@ -158,7 +163,8 @@ bool simulate(const RunOptions& options, const LoadedScene& subject, World& worl
               Adviser* adviser, RunReport& report) {
     const int steps = options.scene.step_count(subject.seconds, world.settings().rate);
     std::optional<Recorder> recorder;
-    if (subject.promise) recorder.emplace(world, *subject.promise, subject.seconds, subject.before_step);
+    if (is_promise_due(subject, world, steps / static_cast<double>(world.settings().rate)))
+        recorder.emplace(world, *subject.promise, subject.seconds, subject.before_step);
     Progress progress(subject.title(), steps, "steps", options.quiet, static_cast<long>(world.steps()));
     SceneOptions simulated = options.scene;  // with the settings of the scene's file
     simulated.rate = world.settings().rate;
@@ -290,7 +296,8 @@ void finish_pictures(Pictures* pictures, RunReport& report) {
 std::vector<RunReport::RankCost> costs_of(Exchange& exchange, const RunReport& report) {
     const double steps = static_cast<double>(std::max<std::uint64_t>(1, report.steps - report.resumed_at));
     const RunReport::RankCost own{static_cast<double>(exchange.bytes_sent()) / steps,
-                                  static_cast<double>(exchange.messages_sent()) / steps, report.peak_memory_bytes};
+                                  static_cast<double>(exchange.messages_sent()) / steps, exchange.seconds_waiting() * 1e3 / steps,
+                                  report.peak_memory_bytes};
     Bytes said(sizeof own);
     std::memcpy(said.data(), &own, sizeof own);
     std::vector<RunReport::RankCost> all;
@@ -302,7 +309,9 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
          RunReport& report) {
     const auto start = std::chrono::steady_clock::now();
     std::optional<Adviser> adviser;
-    if (options.advises) adviser.emplace(world, subject.before_step != nullptr || options.played.has_value());
+    if (options.advises)
+        adviser.emplace(world, subject.before_step != nullptr || options.played.has_value(),
+                        !options.exchange || options.exchange->ranks() == 1);
     Records records(options, world);
     report.interrupted = !simulate(options, subject, world, pictures, records, adviser ? &*adviser : nullptr, report);
     std::optional<TimedSlice> finishing(std::in_place, options.timeline.get(), "finish outputs");
@@ -318,13 +327,12 @@ int work(const RunOptions& options, const LoadedScene& subject, const Backend& m
     hold_to_soundness(options.played.has_value(), world, report);
     hold_to_recording(options, report);
     if (adviser) report.advice = adviser->advice(world, report.statistics);
-    if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
     report.seconds_total = seconds_since(report.started);
     report.peak_memory_bytes = peak_memory();
     if (options.exchange) report.ranks = costs_of(*options.exchange, report);
     if (!report.interrupted) machine.require_valid();
     conclude(options, subject, report);
-    if (options.exchange) (void)world.state();  // for the first rank to save
+    if (options.exchange && options.saves) (void)world.state();  // for the first rank
     if (!options.save.empty())
         host::write_atomically(options.save, scene_to_json(document_of(subject, world, options.copies.copy)));
     if (!report.interrupted) return all_pass(report.rows) ? done : promise_missed;
@@ -346,11 +354,14 @@ void note_clamped_speeds(const Scene& scene, const Settings& settings) {
         count == 1 ? "1 body starts" : fmt::format("{} bodies start", count), settings.max_speed, count == 1 ? "is" : "are");
 }
 
-World world_of(const Scene& scene, const Settings& settings, std::unique_ptr<Runner> runner, const CopyOptions& options,
+// Takes the scene, but for outputs that need it, too: of many bodies it is as large as their tables.
+World world_of(LoadedScene& subject, const RunOptions& run, const Settings& settings, std::unique_ptr<Runner> runner,
                const VaryCopy& vary) {
-    if (options.copies == 0) return {scene, settings, std::move(runner)};
+    const std::size_t copies = run.copies.copies;
+    if (copies == 0 && run.pictures.wanted()) return {subject.scene, settings, std::move(runner)};
+    if (copies == 0) return {std::move(subject.scene), settings, std::move(runner)};
     try {
-        return {scene, settings, std::move(runner), options.copies, vary};
+        return {subject.scene, settings, std::move(runner), copies, vary};
     } catch (const SceneError& error) {
         throw UsageError(std::string("--vary: ") + error.what());
     } catch (const std::invalid_argument& error) {
@@ -381,7 +392,8 @@ int run(RunOptions options) {
     preparing.emplace(options.timeline.get(), "make the world");
     std::unique_ptr<Runner> runner =
         options.exchange ? make_distributed_runner(options.exchange, options.machine.threads) : machine.make_runner();
-    World world = world_of(subject.scene, subject.settings(options.scene), std::move(runner), options.copies, vary);
+    if (!options.report.empty()) report.scene_hash = hash_of(subject.scene);
+    World world = world_of(subject, options, subject.settings(options.scene), std::move(runner), vary);
     report.copies = options.copies.copies;
     report.varied = options.copies.vary;
     if (options.resumed) {
@@ -497,6 +509,7 @@ int run(const CLI::App& command, RunOptions options) {
         options.machine.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / neighbours);
     options.machine.backend = "cpu";
     options.is_watched = options.pictures.wanted() || !options.trajectory.file.empty() || !options.animation.file.empty();
+    options.saves = !options.save.empty();
     if (!options.speaks()) make_silent(options);
     const std::shared_ptr<Exchange> exchange = options.exchange;  // until the world is gone
     return on_a_rank(*exchange, [&] { return run(options); });

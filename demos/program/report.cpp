@@ -74,14 +74,18 @@ double pace_of(const RunReport& r) {
 
 nlohmann::ordered_json ranks_of(const RunReport& r) {
     if (r.ranks.empty()) return {};
-    nlohmann::ordered_json sent, messages, memory;
+    nlohmann::ordered_json sent, messages, waiting, memory;
     for (const RunReport::RankCost& one : r.ranks) {
         sent.push_back(std::llround(one.sent_bytes));
         messages.push_back(one.messages);
+        waiting.push_back(one.waiting_ms);
         memory.push_back(one.peak_memory_bytes);
     }
-    return {
-        {"count", r.ranks.size()}, {"sent_bytes_per_step", sent}, {"messages_per_step", messages}, {"peak_memory_bytes", memory}};
+    return {{"count", r.ranks.size()},
+            {"sent_bytes_per_step", sent},
+            {"messages_per_step", messages},
+            {"waiting_ms_per_step", waiting},
+            {"peak_memory_bytes", memory}};
 }
 
 nlohmann::ordered_json copies_of(const RunReport& r) {

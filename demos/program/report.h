@@ -49,6 +49,7 @@ struct RunReport {
     // Of each rank of a distributed run; empty: it was not distributed.
     struct RankCost {
         double sent_bytes = 0, messages = 0;  // per step, to other ranks
+        double waiting_ms = 0;                // per step, for other ranks and messages
         std::uint64_t peak_memory_bytes = 0;
     };
     std::vector<RankCost> ranks;

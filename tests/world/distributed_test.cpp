@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <memory>
 #include <string>
 #include <vector>
@@ -56,6 +57,35 @@ void agrees(const std::string& demo, std::size_t bodies, int steps, std::initial
     agrees(demo + " of " + std::to_string(bodies) + " bodies", built.scene, built.before_step, steps, ranks);
 }
 
+// An exchange that notes how often a rank has worked between the start and the finish of a message.
+class WatchedExchange : public Exchange {
+public:
+    explicit WatchedExchange(std::shared_ptr<Exchange> inner) : inner_(std::move(inner)) {}
+    [[noreturn]] void end_all(int status) override {
+        inner_->end_all(status);
+        std::abort();
+    }
+    int rank() const override { return inner_->rank(); }
+    int ranks() const override { return inner_->ranks(); }
+    std::vector<Bytes> swap(const std::vector<Bytes>& to) override { return inner_->swap(to); }
+    void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {
+        travels_ = true;
+        inner_->start(to, from);
+    }
+    void progress() override { worked += travels_; }
+    void finish() override {
+        travels_ = false;
+        inner_->finish();
+    }
+    void unite(std::span<std::uint32_t> bits) override { inner_->unite(bits); }
+    void add(std::span<std::uint32_t> numbers) override { inner_->add(numbers); }
+    int worked = 0;
+
+private:
+    std::shared_ptr<Exchange> inner_;
+    bool travels_ = false;
+};
+
 }  // namespace
 
 TEST_CASE("a pile on several ranks moves as on one", "[ranks]") {
@@ -103,10 +133,11 @@ TEST_CASE("chains whose first body breaks move on several ranks as on one", "[ra
 // One rank pushes, all are told: edits between steps, and what is read of the world.
 TEST_CASE("a world on ranks is edited, read, saved and restored like one", "[ranks]") {
     const demos::DemoScene built = demos::build(*demos::find_demo("pile"), {.bodies = 60});
+    const bool watched = GENERATE(true, false);  // which brings all contacts to every rank
     const auto live = [&](World& world, std::vector<std::byte>& mark) {
         std::vector<std::uint64_t> hashes;
         const std::size_t body = built.scene.bodies.size() - 1;
-        world.set_events({.contacts = true});
+        world.set_events({.contacts = watched});
         std::size_t told = 0;
         for (int step = 0; step < 80; ++step) {
             if (step == 20) world.apply_impulse(body, {50, 400, 30});
@@ -120,6 +151,8 @@ TEST_CASE("a world on ranks is edited, read, saved and restored like one", "[ran
             hashes.push_back(world.state_hash());
         }
         world.restore(mark);
+        hashes.push_back(world.statistics().points);  // before a step gives bodies their owners again
+        hashes.push_back(world.save() == mark);
         world.step(10);
         hashes.push_back(world.state_hash());
         hashes.push_back(told);
@@ -137,8 +170,61 @@ TEST_CASE("a world on ranks is edited, read, saved and restored like one", "[ran
         World one(built.scene, {}, make_reference_runner(1));  // what three have saved, one goes on with
         one.restore(mark);
         one.step(10);
-        CHECK(one.state_hash() == expected[80]);
+        CHECK(one.state_hash() == expected[82]);
     });
+}
+
+TEST_CASE("a rank solves contacts and joints while the velocities of ghosts travel", "[ranks]") {
+    for (const char* name : {"pile", "ragdolls"}) {
+        const demos::DemoScene built = demos::build(*demos::find_demo(name), {.bodies = 200});
+        run_in_process(2, [&](const std::shared_ptr<Exchange>& exchange) {
+            const auto watched = std::make_shared<WatchedExchange>(exchange);
+            World world(built.scene, {}, make_distributed_runner(watched));
+            world.step(20);
+            const int passes = 2 * world.settings().substeps * 20;
+            const int stages = built.scene.joints.empty() ? 1 : 2;
+            INFO(name);
+            REQUIRE(watched->worked == stages * passes);
+        });
+    }
+}
+
+TEST_CASE("a rank has memory for its own contacts, also after the world is read", "[ranks]") {
+    const demos::DemoScene built = demos::build(*demos::find_demo("pile"), {.bodies = 1000});
+    World alone(built.scene, {}, make_reference_runner(1));
+    alone.step(120);
+    struct Seen {
+        std::size_t at_first = 0, stepped = 0, after_statistics = 0, after_contacts = 0, later = 0;  // bytes
+        std::size_t contacts = 0;
+        Statistics statistics;
+    };
+    std::vector<Seen> of_ranks(4);
+    run_in_process(4, [&](const std::shared_ptr<Exchange>& exchange) {
+        Seen& seen = of_ranks[static_cast<std::size_t>(exchange->rank())];
+        World world(built.scene, {}, make_distributed_runner(exchange));
+        seen.at_first = world.buffer_bytes();
+        world.step(120);
+        seen.stepped = world.buffer_bytes();
+        seen.statistics = world.statistics();
+        seen.after_statistics = world.buffer_bytes();
+        seen.contacts = world.contacts().size();
+        seen.after_contacts = world.buffer_bytes();
+        world.step();
+        seen.later = world.buffer_bytes();
+    });
+    const double whole = static_cast<double>(alone.buffer_bytes());
+    const Statistics expected = alone.statistics();
+    for (const Seen& seen : of_ranks) {
+        CHECK(static_cast<double>(seen.at_first) < 0.6 * whole);
+        CHECK(static_cast<double>(seen.stepped) < 0.6 * whole);
+        CHECK(seen.statistics.manifolds == expected.manifolds);
+        CHECK(seen.statistics.points == expected.points);
+        CHECK(seen.statistics.penetration_mean == Approx(expected.penetration_mean).epsilon(1e-12));
+        CHECK(seen.after_statistics == seen.stepped);
+        CHECK(seen.contacts == expected.manifolds);  // of all ranks
+        CHECK(seen.after_contacts > seen.stepped);
+        CHECK(seen.later == seen.stepped);
+    }
 }
 
 TEST_CASE("a rank that fails ends the others", "[ranks]") {

@@ -41,17 +41,20 @@ public:
     std::vector<Bytes> swap(const std::vector<Bytes>& to) override {
         std::vector<std::uint64_t> sent, received(to.size());
         for (const Bytes& one : to) sent.push_back(one.size());
-        MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+        {
+            const Waiting waiting(*this);
+            MPI_Alltoall(sent.data(), 1, MPI_UINT64_T, received.data(), 1, MPI_UINT64_T, MPI_COMM_WORLD);
+        }
         std::vector<Bytes> from(to.size());
         for (std::size_t r = 0; r < from.size(); ++r) from[r].resize(received[r]);
-        swap(to, from);
+        Exchange::swap(to, from);
         return from;
     }
-    void swap(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {
-        std::vector<MPI_Request> requests;
+    void start(const std::vector<Bytes>& to, std::vector<Bytes>& from) override {
+        const Waiting waiting(*this);
         const auto in_pieces = [&](std::size_t bytes, const auto& transfer) {
             for (std::size_t at = 0; at < bytes; at += most_at_once)
-                transfer(at, static_cast<int>(std::min(most_at_once, bytes - at)), &requests.emplace_back());
+                transfer(at, static_cast<int>(std::min(most_at_once, bytes - at)), &requests_.emplace_back());
         };
         for (int r = 0; r < ranks_; ++r) {
             Bytes& in = from[static_cast<std::size_t>(r)];
@@ -70,16 +73,28 @@ public:
                 MPI_Isend(&out[at], length, MPI_BYTE, r, 0, MPI_COMM_WORLD, request);
             });
         }
-        MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+    }
+    void progress() override {
+        const Waiting waiting(*this);
+        int done = 0;
+        MPI_Testall(static_cast<int>(requests_.size()), requests_.data(), &done, MPI_STATUSES_IGNORE);
+        if (done) requests_.clear();
+    }
+    void finish() override {
+        const Waiting waiting(*this);
+        MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
+        requests_.clear();
     }
     void unite(std::span<std::uint32_t> bits) override { reduce(bits, MPI_BOR); }
     void add(std::span<std::uint32_t> numbers) override { reduce(numbers, MPI_SUM); }
 
 private:
     void reduce(std::span<std::uint32_t> values, MPI_Op operation) {
+        const Waiting waiting(*this);
         MPI_Allreduce(MPI_IN_PLACE, values.data(), static_cast<int>(values.size()), MPI_UINT32_T, operation, MPI_COMM_WORLD);
     }
     int rank_ = 0, ranks_ = 1;
+    std::vector<MPI_Request> requests_;  // of what start() has begun
 };
 
 }  // namespace
