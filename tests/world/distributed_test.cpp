@@ -145,7 +145,7 @@ TEST_CASE("a world on ranks is edited, read, saved and restored like one", "[ran
             if (step == 40) world.set_motion(body, Motion::dynamic);
             if (step == 45) world.add_bodies(std::vector<Body>(3, built.scene.bodies[body]));
             if (step == 50) mark = world.save();
-            if (step == 60) world.remove_bodies(std::vector{world.handle_of(body - 1)});
+            if (step == 60) world.remove_bodies(std::vector{world.handle_of(body - 1), world.handle_of(1), world.handle_of(2)});
             world.step();
             told += world.take_events().size();
             hashes.push_back(world.state_hash());
