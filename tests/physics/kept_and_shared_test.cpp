@@ -2,9 +2,9 @@
 #include <catch2/catch.hpp>
 #include <cmath>
 
-#include "shaders/physics/solve/mass_splitting.h"
 #include "shaders/physics/solve/contact.h"
 #include "shaders/physics/solve/contact_constraint.h"
+#include "shaders/physics/solve/mass_splitting.h"
 #include "shaders/physics/solve/persistence.h"
 
 using namespace scree;

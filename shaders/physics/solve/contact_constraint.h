@@ -132,7 +132,8 @@ LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta,
 }
 
 // The contact's unrest in this step, s. `now`: velocities as the step begins.
-LAW float unrest_of(Contact contact, Constraint c, BodyProperties ta, BodyProperties tb, VelocityPair now, Parameters parameters) {
+LAW float unrest_of(Contact contact, Constraint c, BodyProperties ta, BodyProperties tb, VelocityPair now,
+                    Parameters parameters) {
     float calm = calm_speed(smaller(min_half_width(ta), min_half_width(tb)), parameters);
     return unrest_after(contact.unrest, c, contact.center_offset, now, calm, parameters);
 }

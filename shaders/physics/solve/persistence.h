@@ -114,8 +114,7 @@ LAW Manifold resting_manifold(Contact contact, Impulse impulse) {
     manifold.normal = contact.normal;
     manifold.features = contact.features;
     for (int k = 0; k < 4; ++k)
-        manifold.points[k] =
-            choose(uint(k) < contact.count, vec4(xyz(contact.points[k]), impulse.separation[k]), vec4(0.0f));
+        manifold.points[k] = choose(uint(k) < contact.count, vec4(xyz(contact.points[k]), impulse.separation[k]), vec4(0.0f));
     return manifold;
 }
 
