@@ -160,6 +160,73 @@ void for_each_group(State& state, const Threads& threads, const WideTables& tabl
     }
 }
 
+// A contact with the impulses of the last step.
+physics::PreparedContact warm_started_contact(const State& state, std::size_t i) {
+    const physics::Constraint& c = state.constraints[i];
+    const physics::Pair& pair = state.pairs[c.pair];
+    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
+    const physics::Manifold& manifold = state.manifolds[c.pair];
+    physics::PreparedContact prepared;
+    if (physics::is_carried_forward(pair.pair_type)) {
+        prepared = physics::carried_forward(state.contacts_before[pair.previous], state.impulses_before[pair.previous], manifold);
+    } else {
+        prepared = physics::newly_found(pair, manifold, state.point_counts[c.pair], state.poses[state.body_of(pair.a)],
+                                        state.poses[state.body_of(pair.b)]);
+        if (pair.previous != physics::NONE)
+            prepared = physics::warm_started(prepared, state.contacts_before[pair.previous], state.impulses_before[pair.previous],
+                                             ta, tb);
+    }
+    const bool idle = physics::is_idle(c.slot_a, c.slot_b);
+    // Unchanged between two inactive bodies.
+    if (pair.previous != physics::NONE && !(idle && pair.pair_type == physics::PAIR_INACTIVE))
+        prepared.contact.load = physics::load_since(state.contacts_before[pair.previous], state.impulses_before[pair.previous],
+                                                    ta, c.slot_a, tb, c.slot_b);
+    if (!idle) prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
+    return prepared;
+}
+
+// Whether neither tyres nor surfaces take part, nor an impact of the last step.
+bool is_ordinary(const State& state, const physics::Pair& pair, const physics::PreparedContact& prepared) {
+    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
+    const bool settles = pair.previous != physics::NONE && physics::rebounds_across(prepared.impulse);
+    return (physics::surface_of(ta) | physics::surface_of(tb) | physics::tyre_of(ta) | physics::tyre_of(tb)) == 0 && !settles;
+}
+
+// The constraint of a contact, whose unrest and impact follow from it.
+void prepare_constraint(State& state, std::size_t i, physics::PreparedContact prepared) {
+    const physics::Parameters& p = state.fixed();
+    physics::Constraint& c = state.constraints[i];
+    const std::uint32_t index = c.pair, a = c.a, b = c.b;
+    const physics::Pair& pair = state.pairs[index];
+    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
+    c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, felt_by(state, a));
+    if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
+        c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
+                                   state.poses[b].orientation, p);
+    const physics::VelocityPair now = velocities_of(state, c);
+    const bool tyre_is_a = physics::tyre_of(ta) != 0;
+    if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
+        c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, now);
+    if (pair.previous != physics::NONE && physics::rebounds_across(prepared.impulse)) {
+        const physics::Constraint before =
+            physics::constraint_of(state.contacts_before[pair.previous], ta, tb, c.slot_a, c.slot_b, felt_by(state, a));
+        prepared.impulse = physics::settled_impact(prepared.impulse, c, state.impulses_before[pair.previous], before, now);
+        state.impulses[i].rebound_energy = prepared.impulse.rebound_energy;
+    }
+    const float unrest = physics::unrest_of(prepared.contact, c, ta, tb, now, felt_by(state, a));
+    state.contacts[i].unrest = unrest;
+    c = physics::with_unrest(c, unrest);
+}
+
+// The warm start of the first substep.
+void hand_out_first(State& state, std::size_t i) {
+    const physics::Constraint& c = state.constraints[i];
+    const physics::Impulse& impulse = state.impulses[i];
+    const physics::ContactShare share =
+        physics::first_share(c, impulse, velocities_of(state, c), state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
+    hand_out(state, c, share.change, share.weight, impulse.normal_sum);
+}
+
 }  // namespace
 
 void compact_contacts(State& state, const Threads& threads, std::uint32_t) {
