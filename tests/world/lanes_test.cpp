@@ -1,5 +1,6 @@
 // SIMD substep stages write the same bits as the scalar loops.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
@@ -46,14 +47,17 @@ struct Walker {
     }
 };
 
-// Requires that `steps` steps with `lanes` lanes write the bits of the scalar loops. Returns the contacts of the last
-// step.
-std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
+// Requires that `steps` steps with `lanes` lanes write the bits of the scalar loops; act(state, step) comes before each. Returns
+// the contacts of the last step.
+template <typename Act>
+std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps, const Act& act) {
     Settings settings;
     settings.sleep_time = 0.2f;
     Walker plain(scene, settings, 1, 1), wide(scene, settings, threads, lanes);
     for (int step = 0; step < steps; ++step) {
         Written expected;
+        act(plain.state, step);
+        act(wide.state, step);
         plain.step([&](const std::string&, Table, std::span<const std::byte> bytes) {
             expected.emplace_back(bytes.begin(), bytes.end());
         });
@@ -67,6 +71,9 @@ std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
         REQUIRE(next == expected.size());
     }
     return wide.state.counted().contacts;
+}
+std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
+    return compare(scene, threads, lanes, steps, [](State&, int) {});
 }
 
 }  // namespace
@@ -97,6 +104,29 @@ TEST_CASE("joints solved in lanes leave the bits of the plain loops, whatever th
         compare(tests::all_kinds(), 1, lanes, 60);
         compare(tests::spokes(), 2, lanes, 10);
         compare(tests::entangled(), 1, lanes, 3);
+    }
+}
+
+TEST_CASE("blocks of equal structure solved in lanes leave the bits of single ones, however many and whatever their joints do") {
+    const bool many = std::getenv("SCREE_PROGRAMS") != nullptr;
+    for (std::uint32_t seed = 1; seed <= (many ? 200u : 8u); ++seed)
+        for (const int lanes : {4, 8, 16}) {
+            CAPTURE(seed, lanes);
+            compare(tests::mechanisms(seed), static_cast<int>(1 + seed % 2), lanes, 40);
+        }
+}
+
+TEST_CASE("cars that brake and let go leave the same bits one by one and in lanes") {
+    const auto drive = [](State& state, int step) {
+        for (std::size_t car = 0; car < state.vehicles.size(); car += 2) {
+            physics::VehicleDynamics& dynamics = state.vehicles[car].dynamics;
+            dynamics.brake = (step / 10 + static_cast<int>(car)) % 3 == 0 ? 1 : 0;
+            dynamics.throttle = step % 40 < 20 && dynamics.brake == 0 ? 0.5f : 0;
+        }
+    };
+    for (const int lanes : {4, 16}) {
+        CAPTURE(lanes);
+        compare(tests::traffic(11), 1, lanes, 100, drive);
     }
 }
 

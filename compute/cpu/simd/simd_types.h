@@ -78,8 +78,11 @@ struct Uint {
     friend SCREE_INLINE Uint operator&(Uint a, Uint b) { return a.v & b.v; }
     friend SCREE_INLINE Uint operator|(Uint a, Uint b) { return a.v | b.v; }
     friend SCREE_INLINE Uint operator~(Uint a) { return ~a.v; }
+    friend SCREE_INLINE Uint operator*(Uint a, Uint b) { return a.v * b.v; }
     friend SCREE_INLINE Uint operator<<(Uint a, uint32_t by) { return a.v << by; }
+    friend SCREE_INLINE Uint operator<<(Uint a, Uint by) { return a.v << by.v; }
     friend SCREE_INLINE Uint operator>>(Uint a, uint32_t by) { return a.v >> by; }
+    friend SCREE_INLINE Uint operator>>(Uint a, Uint by) { return a.v >> by.v; }
     friend SCREE_INLINE Bool operator==(Uint a, Uint b) { return a.v == b.v; }
     friend SCREE_INLINE Bool operator!=(Uint a, Uint b) { return a.v != b.v; }
     friend SCREE_INLINE Bool operator<(Uint a, Uint b) { return a.v < b.v; }
@@ -91,6 +94,7 @@ struct Float {
     Float() = default;
     SCREE_INLINE constexpr Float(Floats floats) : v(floats) {}
     SCREE_INLINE constexpr Float(float x) : v(all<Floats>(x)) {}
+    SCREE_INLINE explicit Float(Uint x) : v(__builtin_convertvector(x.v, Floats)) {}
     friend SCREE_INLINE Float operator+(Float a, Float b) { return a.v + b.v; }
     friend SCREE_INLINE Float operator-(Float a, Float b) { return a.v - b.v; }
     friend SCREE_INLINE Float operator*(Float a, Float b) { return a.v * b.v; }
