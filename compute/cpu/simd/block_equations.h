@@ -163,7 +163,7 @@ SCREE_INLINE bool solve_equations(Pass& pass) {
     Bool finite = true;
     for (uint32_t j = 0; j < joints; ++j)
         for (int k = 0; k < 6; ++k)
-            if (has(pass.joints[j].unknown, k)) finite = finite && abs(pass.joints[j].rows[k].solution) < Float(3.0e38f);
+            if (has(pass.joints[j].unknown, k)) finite = finite && is_finite(pass.joints[j].rows[k].solution);
     return none(!finite);
 }
 

@@ -80,6 +80,10 @@ SCREE_INLINE bool some(Bool a) {
     return !none(a);
 }
 
+SCREE_INLINE Bool is_finite(Float x) {
+    return abs(x) < Float(3.0e38f);
+}
+
 SCREE_INLINE Mass immovable() {
     const Float zero = 0.0f;
     return {zero, zero, zero, zero, zero, zero, zero, zero};

@@ -85,7 +85,18 @@ Bool other_bounds(Pass& pass, uint32_t j, Bool biased, Bool settling) {
     return joint.active_set != before;
 }
 
-// A block whose active set no longer changes gives the same in further rounds, which others need. False: not finite.
+bool all_finite(const JointInLanes& joint) {
+    Bool finite = true;
+    for (int k = 0; k < 6; ++k) {
+        if (!has(joint.used, k)) continue;
+        const Row& row = joint.rows[k];
+        finite = finite && (!row.used || is_finite(row_impulse(row.row, row.rotor) + given_change(row.row)));
+    }
+    return none(!finite);
+}
+
+// A block whose active set no longer changes gives the same in further rounds, which others need. False: not finite, where bits
+// of lanes and of single blocks may differ.
 SCREE_INLINE bool solve_rounds(Pass& pass, Bool biased) {
     const BlockShape& shape = pass.group.shape;
     Bool others = true;
@@ -100,6 +111,8 @@ SCREE_INLINE bool solve_rounds(Pass& pass, Bool biased) {
             others = others || other_bounds(pass, j, biased, Bool(round >= reference::settling_round));
     }
     for (size_t lane = 0; lane < lanes && lane < pass.group.count; ++lane) pass.group.unsettled[lane] = others.v[lane] != 0;
+    for (uint32_t j = 0; j < shape.joints; ++j)
+        if (!all_finite(pass.joints[j])) return false;
     return true;
 }
 
