@@ -58,7 +58,29 @@ std::vector<JointShape> shapes_of(const physics::JointBlock& block, std::span<co
     return shapes;
 }
 
+bool has_shape(const physics::Joint& joint, const physics::JointBlock& block, const JointShape& shape) {
+    if (static_cast<std::int32_t>(from(joint.block_body_a, block.first_body)) != shape.a ||
+        static_cast<std::int32_t>(from(joint.block_body_b, block.first_body)) != shape.b || joint.fill_in != shape.links)
+        return false;
+    for (std::uint32_t l = 0; l < shape.links; ++l)
+        if (joint.fill_in_of[l] - block.first_joint != shape.link[l]) return false;
+    return true;
+}
+
 }  // namespace
+
+bool have_groups(const JointGroups& groups, const std::vector<physics::Joint>& joints,
+                 const std::vector<physics::JointBlock>& blocks, std::uint32_t count) {
+    if (groups.blocks.size() != count) return false;
+    for (const JointGroups::Group& group : groups.groups)
+        for (std::size_t at = group.first; at < group.last; ++at) {
+            const physics::JointBlock& block = blocks[groups.blocks[at]];
+            if (block.joints != group.joints || block.bodies != group.bodies) return false;
+            for (std::uint32_t j = 0; j < block.joints; ++j)
+                if (!has_shape(joints[block.first_joint + j], block, groups.shapes[group.first_shape + j])) return false;
+        }
+    return true;
+}
 
 JointGroups joint_groups(const std::vector<physics::Joint>& joints, const std::vector<physics::JointBlock>& blocks,
                          std::uint32_t count) {

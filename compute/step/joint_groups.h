@@ -29,5 +29,8 @@ struct JointGroups {
 
 JointGroups joint_groups(const std::vector<physics::Joint>& joints, const std::vector<physics::JointBlock>& blocks,
                          std::uint32_t count);
+// Whether the groups are those of these tables.
+bool have_groups(const JointGroups& groups, const std::vector<physics::Joint>& joints,
+                 const std::vector<physics::JointBlock>& blocks, std::uint32_t count);
 
 }  // namespace scree

@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "compute/cpu/reference_runner.h"
+#include "compute/cpu/simd/simd_blocks.h"
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/cpu/simd/simd_stages.h"
+#include "compute/world.h"
 #include "tests/world/belts.h"
 #include "tests/world/heaps.h"
 #include "tests/world/jointed.h"
@@ -145,9 +147,39 @@ TEST_CASE("cars that brake and let go leave the same bits one by one and in lane
     }
 }
 
+TEST_CASE("mechanisms whose joints come and go and are restored leave the same bits one by one and in lanes") {
+    const Scene scene = tests::mechanisms(4);
+    World plain(scene, {}, std::make_unique<ReferenceRunner>(1, 1)), wide(scene, {}, std::make_unique<ReferenceRunner>(2, 16));
+    std::vector<std::byte> marks[2];
+    std::vector<std::uint64_t> hashes;
+    for (int step = 0; step < 40; ++step) {
+        for (World* world : {&plain, &wide}) {
+            const std::size_t joints = world->scene().joints.size();
+            if (step == 5 || step == 15)
+                for (std::size_t j = joints; j-- > 0;)
+                    if (j % 7 == 0) world->remove_joint(j);
+            if (step == 10) marks[world == &wide] = world->save();
+            if (step == 20) {
+                const std::size_t last = world->scene().bodies.size() - 1;
+                world->add_joint(world->joint_at(Ball{}, 1, last, world->body(1).position));
+            }
+            if (step == 25) world->restore(marks[world == &wide]);
+            if (step == 30) world->remove_joint(0);
+            world->step();
+        }
+        CAPTURE(step);
+        REQUIRE(plain.state_hash() == wide.state_hash());
+        hashes.push_back(plain.state_hash());
+        if (step >= 25 && step < 30) REQUIRE(hashes.back() == hashes[static_cast<std::size_t>(step) - 15]);
+    }
+}
+
 TEST_CASE("one contact at a time is done where that is asked for") {
     REQUIRE(reference::wide_stages(1) == nullptr);
     REQUIRE(reference::wide_joint_stages(1) == nullptr);
+    REQUIRE(reference::wide_block_stages(16, 1) == nullptr);
+    REQUIRE(reference::wide_block_stages(1, 16) == nullptr);
+    REQUIRE(reference::wide_block_stages(16, 4) == &reference::wide_block_stages_4);
     REQUIRE(reference::wide_joint_stages(4) == &reference::wide_joint_stages_baseline);
     REQUIRE(reference::wide_stages(4) == &reference::wide_stages_4);
 }

@@ -108,7 +108,7 @@ SCREE_INLINE void lessen(Tile& target, const JointInLanes& joint, const Tile& ro
 SCREE_INLINE Tile& tile_with(const Pass& pass, uint32_t j, uint32_t later) {
     const JointShape& shape = pass.shape(j);
     uint32_t l = 0;
-    while (shape.link[l] != later) ++l;
+    while (l + 1 < shape.links && shape.link[l] != later) ++l;  // ends also for forged tables
     return pass.tiles[shape.first_tile + 1 + l];
 }
 

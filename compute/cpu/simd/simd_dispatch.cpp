@@ -9,7 +9,7 @@ namespace scree::reference {
 
 namespace {
 
-constexpr std::size_t least_blocks = 3;  // fewer are solved faster one by one
+constexpr std::size_t least_blocks = 2;  // one is solved faster by itself
 
 // Lanes that this processor has, at most `most`.
 int widest(int most) {
