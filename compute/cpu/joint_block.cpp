@@ -180,6 +180,7 @@ void JointBlock::note_pressing() {
 }
 
 // ---- rounds
+// Their laws take the parameters by value: [[gnu::flatten]] spares a copy of half a kilobyte a call.
 void JointBlock::solve(bool biased) {
     for (Joint& joint : joints_) joint.solved_axes = 0;
     bool others = true;
@@ -204,7 +205,7 @@ void JointBlock::speeds_of_rows(const Joint& joint, JointLanes& found) const {
 }
 
 // Chooses the axes that are unknowns; the impulses of the others are given and applied at once.
-void JointBlock::apply_given(Joint& joint, bool biased) {
+[[gnu::flatten]] void JointBlock::apply_given(Joint& joint, bool biased) {
     const WideJoint* const lanes = wide(joint);
     const physics::VelocityPair before{speed(joint.a, NONE), speed(joint.b, NONE)};
     JointLanes given{};
@@ -222,7 +223,7 @@ void JointBlock::apply_given(Joint& joint, bool biased) {
 }
 
 // Right-hand sides and compliances.
-void JointBlock::demand(Joint& joint, bool biased) {
+[[gnu::flatten]] void JointBlock::demand(Joint& joint, bool biased) {
     JointLanes speed;
     speeds_of_rows(joint, speed);
     WideJoint* const lanes = wide(joint);
@@ -259,7 +260,7 @@ void JointBlock::solve_equations() {
     });
 }
 
-bool JointBlock::other_bounds(Joint& joint, bool biased, bool settling) {
+[[gnu::flatten]] bool JointBlock::other_bounds(Joint& joint, bool biased, bool settling) {
     JointLanes speed;
     speeds_of_rows(joint, speed);
     const WideJoint* const lanes = wide(joint);

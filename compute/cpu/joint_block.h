@@ -85,7 +85,8 @@ public:
     static vec3 impulse_of(const Joint& joint, physics::uint from);
     void note_pressing();
     static void commit(Joint& joint, bool warms) {
-        for (JointRow& row : joint.rows) row = physics::committed(row);
+        for (physics::uint k = 0; k < 6; ++k)  // a row that no longer constrains keeps its change of the last pass that it did
+            if (joint.axes[k].mode != 0) joint.rows[k] = physics::committed(joint.rows[k]);
         for_each_rotor(joint, [&](physics::uint k, physics::JointRotor& rotor) {
             rotor = physics::rotor_after_pass(rotor, joint.rows[k], warms);
         });

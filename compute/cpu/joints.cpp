@@ -3,6 +3,7 @@
 #include <atomic>
 #include <span>
 
+#include "compute/cpu/equal_blocks.h"
 #include "compute/cpu/joint_block.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
@@ -23,45 +24,62 @@ bool may_move(const State& state, std::uint32_t body) {
            physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
 }
 
-// Calls range(first, last) for a partition of the blocks.
-template <class Range>
-void for_ranges_of_blocks(State& state, const Threads& threads, const Range& range) {
-    if (state.counted().overflow) return;
-    // Fine-grained parts: a block is as much work as many contacts, so all threads share even few blocks.
-    const std::size_t blocks = state.fixed().joint_blocks;
-    const std::size_t parts = threads.count() == 1 ? 1 : 128;
-    threads.for_each(parts, [&](std::size_t part) { range(part * blocks / parts, (part + 1) * blocks / parts); });
+// Fine-grained parts: a block is as much work as many contacts, so all threads share even few blocks.
+std::size_t parts_of(std::size_t items, const Threads& threads) {
+    return threads.count() == 1 ? 1 : std::min<std::size_t>(items, 128);
 }
 template <class Work>
 void for_each_block(State& state, const Threads& threads, const Work& work) {
-    for_ranges_of_blocks(state, threads, [&](std::size_t first, std::size_t last) {
-        for (; first < last; ++first)
-            if (state.owns_block(state.joint_blocks[first])) work(JointBlock(state, first));
+    if (state.counted().overflow) return;
+    const std::size_t blocks = state.fixed().joint_blocks, parts = parts_of(blocks, threads);
+    threads.for_each(parts, [&](std::size_t part) {
+        const std::size_t last = (part + 1) * blocks / parts;
+        for (std::size_t i = part * blocks / parts; i < last; ++i)
+            if (state.owns_block(state.joint_blocks[i])) work(JointBlock(state, i));
     });
 }
 
-// A pass over the blocks that move: begin(block, room), then the rows of a few blocks together, then finish(block).
+// A pass over some blocks: begin(block, room), then the rows of a few blocks together, then finish(block).
 template <class Begin, class Finish>
-void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, const Finish& finish) {
+void pass_singly(State& state, int lanes, std::span<const std::uint32_t> indices, const Begin& begin, const Finish& finish) {
     constexpr std::size_t together = 64;  // joints whose rows are placed together: they stay in the cache
-    for_ranges_of_blocks(state, threads, [&](std::size_t first, std::size_t last) {
-        thread_local JointRoom room;
-        room.wide = wide_joint_stages(threads.lanes());
-        if (room.equations.size() < most_wide_joints) room.equations.resize(most_wide_joints);
-        std::vector<JointBlock> blocks;
-        while (first < last) {
-            blocks.clear();
-            room.joints.clear();
-            for (std::size_t joints = 0; first < last && joints < together; ++first) {
-                JointBlock block(state, first);
-                if (!state.passes_block(first) || !state.owns_block(state.joint_blocks[first]) || !block.moves()) continue;
-                joints += block.joints().size();
-                begin(block, room);
-                blocks.push_back(block);
-            }
-            JointBlock::place_rows(room, blocks);
-            for (JointBlock& block : blocks) finish(block);
+    thread_local JointRoom room;
+    thread_local std::vector<JointBlock> blocks;
+    room.wide = wide_joint_stages(lanes);
+    if (room.equations.size() < most_wide_joints) room.equations.resize(most_wide_joints);
+    while (!indices.empty()) {
+        blocks.clear();
+        room.joints.clear();
+        std::size_t count = 0;
+        for (std::size_t joints = 0; count < indices.size() && joints < together; ++count) {
+            JointBlock& block = blocks.emplace_back(state, indices[count]);
+            joints += block.joints().size();
+            begin(block, room);
         }
+        indices = indices.subspan(count);
+        JointBlock::place_rows(room, blocks);
+        for (JointBlock& block : blocks) finish(block);
+    }
+}
+
+// A pass over the blocks that move: those of equal structure several at a time by solve_equal(), others by begin() and finish().
+template <class Begin, class Finish, class SolveEqual>
+void pass_over_blocks(State& state, const Threads& threads, const Begin& begin, const Finish& finish,
+                      const SolveEqual& solve_equal) {
+    if (state.counted().overflow) return;
+    const JointGroups& groups = state.joint_groups;
+    const std::size_t cuts = groups.cuts.size() - 1, parts = parts_of(cuts, threads);
+    threads.for_each(parts, [&](std::size_t part) {
+        thread_local EqualBlocks equal;
+        thread_local std::vector<std::uint32_t> single;
+        single.clear();
+        std::size_t at = groups.cuts[part * cuts / parts];
+        const std::size_t last = groups.cuts[(part + 1) * cuts / parts];
+        while (at < last) {
+            at = equal.take(state, at, last, threads.lanes());
+            if (!solve_equal(equal)) single.insert(single.end(), equal.blocks().begin(), equal.blocks().end());
+        }
+        pass_singly(state, threads.lanes(), single, begin, finish);
     });
 }
 
@@ -101,7 +119,8 @@ bool sets_rotor_in_motion(const Joint& joint, const State& state) {
     return false;
 }
 
-float least_quiet_in(JointBlock& block, const State& state) {
+// Tells the bodies of a block how long the least quiet of them has been quiet.
+void tell_quiet(JointBlock& block, State& state) {
     float quiet = physics::FOREVER;
     block.for_each_whole([&](const Joint& joint) {
         if (sets_rotor_in_motion(joint, state)) quiet = physics::BESIDE_MOVING;
@@ -110,7 +129,8 @@ float least_quiet_in(JointBlock& block, const State& state) {
                 quiet = std::min(quiet, physics::quiet_steps_shown(state.properties[body].motion, state.velocities[body],
                                                                    state.sleep_states[body]));
     });
-    return quiet;
+    for (const BlockBody& member : block.bodies())
+        if (member.slot != NONE) state.neighbours_quiet[member.slot] = quiet;
 }
 
 }  // namespace
@@ -204,22 +224,24 @@ void prepare_joints(State& state, const Threads& threads, std::uint32_t) {
         block.note_pressing();
         block.begin(room, /* lend_after_contacts */ true, /* take_after_contacts */ false);
     };
-    pass_over_blocks(state, threads, begin, [](JointBlock& block) {
+    const auto finish = [](JointBlock& block) {
         block.for_each_whole([](Joint& joint) { joint.force = joint.torque = vec3(0); });
         block.take_rotor_speeds();
         block.gather_warm_start();
         block.hand_out(1, true);
-    });
+    };
+    pass_over_blocks(state, threads, begin, finish, [](EqualBlocks&) { return false; });
 }
 
 void solve_joints(State& state, const Threads& threads, std::uint32_t) {
     const auto begin = [](JointBlock& block, JointRoom& room) { block.begin(room, true, true); };
-    pass_over_blocks(state, threads, begin, [](JointBlock& block) {
+    const auto finish = [](JointBlock& block) {
         block.solve(true);
         block.gather(/* warms */ false);
         block.for_each_whole([](Joint& joint) { JointBlock::commit(joint, /* warms */ false); });
         block.hand_out(0, false);
-    });
+    };
+    pass_over_blocks(state, threads, begin, finish, [&](EqualBlocks& equal) { return equal.solve(state); });
 }
 
 void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
@@ -227,24 +249,35 @@ void relax_joints(State& state, const Threads& threads, std::uint32_t last) {
         const bool struck = block.struck();
         block.begin(room, struck, struck);
     };
-    pass_over_blocks(state, threads, begin, [&](JointBlock& block) {
-        block.solve(false);
-        const bool struck = block.struck();  // the impulses of an impact must not warm start the next substep
-        const bool warms = !last && !struck;
-        block.gather(warms);
+    // The impulses of an impact must not warm start the next substep.
+    const auto end = [&](JointBlock& block) {
+        const bool struck = block.struck();
         block.for_each_whole([&](Joint& joint) {
-            JointBlock::commit(joint, warms);
-            joint.force += JointBlock::impulse_of(joint, 0);
-            joint.torque += JointBlock::impulse_of(joint, 3);
             if (last) take_stock(joint, state);
             if (struck) JointBlock::tear(joint);
         });
         block.note_pressing();
         block.hand_out(1, true);
-        if (!last) return;
-        const float quiet = least_quiet_in(block, state);
-        for (const BlockBody& member : block.bodies())
-            if (member.slot != NONE) state.neighbours_quiet[member.slot] = quiet;
+        if (last) tell_quiet(block, state);
+    };
+    const auto finish = [&](JointBlock& block) {
+        block.solve(false);
+        const bool warms = !last && !block.struck();
+        block.gather(warms);
+        block.for_each_whole([&](Joint& joint) {
+            JointBlock::commit(joint, warms);
+            joint.force += JointBlock::impulse_of(joint, 0);
+            joint.torque += JointBlock::impulse_of(joint, 3);
+        });
+        end(block);
+    };
+    pass_over_blocks(state, threads, begin, finish, [&](EqualBlocks& equal) {
+        if (!equal.relax(state, last != 0)) return false;
+        for (const std::uint32_t index : equal.blocks()) {
+            JointBlock block(state, index);
+            if (last) end(block);
+        }
+        return true;
     });
 }
 

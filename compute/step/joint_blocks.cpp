@@ -271,6 +271,7 @@ void take_joint_tables(State& state, JointTables tables) {
     state.joint_blocks = std::move(tables.blocks);
     state.block_bodies = std::move(tables.bodies);
     state.joint_records = std::move(tables.record_of);
+    state.joint_groups = joint_groups(state.joints, state.joint_blocks, state.fixed().joint_blocks);
 }
 
 float speed_of_axis(const State& state, const physics::Joint& joint, physics::uint k) {

@@ -13,6 +13,7 @@
 
 #include "compute/scene.h"
 #include "compute/settings.h"
+#include "compute/step/joint_groups.h"
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/shape_data.h"
@@ -270,6 +271,8 @@ struct State {
     bool sums_impulses = false;                // contacts sum their impulses over the step, for events (Table::carried)
     std::uint32_t action_room = 64;            // capacity of the table of actions; grows
     std::vector<std::uint32_t> joint_records;  // record index by joint of the scene
+
+    JointGroups joint_groups;                  // made anew with the tables of joints and blocks
 
     // Cache of the CPU loops, not a table: the first partners of each body from counting, for listing. More than a body
     // has in a heap of equal ones; others search again.

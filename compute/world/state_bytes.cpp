@@ -238,6 +238,8 @@ TableRanges StateBytes::restore(State& state) const {
     assign(state.joints, joints_);
     assign(state.joint_blocks, joint_blocks_);
     assign(state.block_bodies, block_bodies_);
+    if (!have_groups(state.joint_groups, state.joints, state.joint_blocks, p.joint_blocks))
+        state.joint_groups = joint_groups(state.joints, state.joint_blocks, p.joint_blocks);
     assign(state.vehicles, vehicles_);
     assign(state.hulls, shapes_[0], at_start_.hulls);
     assign(state.parts, shapes_[1]);

@@ -1,6 +1,13 @@
 // Scenes whose joints are of every kind, or are entangled.
 #include "tests/world/jointed.h"
 
+#include <algorithm>
+#include <array>
+#include <random>
+#include <utility>
+
+#include "compute/vehicle_presets.h"
+
 namespace scree::tests {
 
 Scene all_kinds() {
@@ -90,6 +97,120 @@ Scene entangled() {
                 const auto now = static_cast<std::size_t>(i);
                 scene.joints.push_back(joint_at(scene, loose, now - 1, now, plate.position + vec3(-0.05f, y, z), {1, 0, 0}));
             }
+    }
+    return scene;
+}
+
+namespace {
+
+// The same numbers with every standard library.
+struct Dice {
+    std::mt19937 bits;
+    std::uint32_t below(std::uint32_t n) { return static_cast<std::uint32_t>(bits() % n); }
+    float between(float low, float high) { return low + (high - low) * static_cast<float>(bits() >> 8) / 16777216.0f; }
+};
+
+JointKind some_kind(Dice& dice) {
+    Axis turn;
+    switch (dice.below(3)) {
+        case 0:
+            turn.limits = Limits{-dice.between(0, 0.4f), dice.between(0, 0.4f)};
+            break;
+        case 1:
+            turn.motor = Motor{dice.between(-5, 5), dice.between(0, 20)};
+            break;
+        default:
+            turn.spring = Spring{dice.between(0, 3000), dice.between(0, 20), dice.between(-0.3f, 0.3f)};
+            turn.friction = dice.below(2) == 0 ? 0 : dice.between(0, 5);
+    }
+    if (dice.below(3) == 0) turn.armature = dice.between(0, 0.5f);
+    SixDof wheel;
+    wheel.x.locked = wheel.z.locked = wheel.swing_z.locked = true;
+    wheel.y = turn;
+    wheel.twist.motor = Motor{dice.between(-5, 5), 1};
+    wheel.swing_y.spring = Spring{50, 2, 0.2f};
+    const std::array<JointKind, 7> kinds{Ball{},      Ball{0.5f},
+                                         Hinge{turn}, ConeTwist{0.4f, {-0.2f, 0.2f}, 0.1f},
+                                         Fixed{},     Distance{0.1f, 0.3f, Spring{1000, 1, 0.2f}},
+                                         wheel};
+    return kinds[dice.below(kinds.size())];
+}
+
+// The joints of a mechanism of limbs from 0 on: pairs of limbs; -1 is what it hangs from.
+using Pairs = std::vector<std::pair<int, int>>;
+
+void add_mechanism(Scene& scene, const Pairs& pairs, const std::vector<JointKind>& kinds, vec3 place, bool on_fixed_body,
+                   Dice& dice) {
+    std::size_t hold = the_world;
+    if (on_fixed_body) {
+        hold = scene.bodies.size();
+        Body& post = scene.bodies.emplace_back();
+        post.motion = Motion::fixed;
+        post.shape = Sphere{0.02f};
+        post.position = place + vec3(0, 1.5f, 0);
+    }
+    const std::size_t first = scene.bodies.size();
+    int limbs = 0;
+    for (const auto& [a, b] : pairs) limbs = std::max({limbs, a + 1, b + 1});
+    for (int i = 0; i < limbs; ++i) {
+        Body& limb = scene.bodies.emplace_back();
+        limb.shape = Capsule{0.05f, 0.1f};
+        limb.position = place + vec3(0.3f * static_cast<float>(i % 3), 0.3f + 0.25f * static_cast<float>(i / 3),
+                                     0.1f * static_cast<float>(i % 2));
+        limb.velocity = {dice.between(-1, 1), dice.between(-3, 1), dice.between(-1, 1)};
+        limb.angular_velocity = {dice.between(-9, 9), dice.between(-9, 9), dice.between(-9, 9)};
+        if (dice.below(4) == 0) limb.restitution = 0.7f;
+    }
+    for (std::size_t k = 0; k < pairs.size(); ++k) {
+        const auto body = [&](int limb) { return limb < 0 ? hold : first + static_cast<std::size_t>(limb); };
+        const JointKind kind = dice.below(5) == 0 ? some_kind(dice) : kinds[k];
+        const std::size_t b = body(pairs[k].second);
+        Joint joint = joint_at(scene, kind, body(pairs[k].first), b, scene.bodies[b].position + vec3(0, 0.1f, 0), {0, 0, 1});
+        if (dice.below(8) == 0) joint.break_force = dice.between(1, 300);
+        scene.joints.push_back(joint);
+    }
+}
+
+}  // namespace
+
+Scene mechanisms(std::uint32_t seed) {
+    const std::array<Pairs, 6> shapes{Pairs{{0, 1}},
+                                      {{0, 1}, {0, 2}, {0, 3}, {0, 4}},
+                                      {{-1, 0}, {0, 1}, {1, 2}, {2, 3}, {3, 4}},
+                                      {{0, 1}, {1, 2}, {2, 3}, {3, 0}},
+                                      {{-1, 0}, {0, 1}, {0, 1}, {1, 2}, {2, 0}},
+                                      {{0, 1}, {1, 2}, {1, 3}, {3, 4}, {3, 5}, {5, 6}, {-1, 6}}};
+    const std::array<int, 8> numbers{1, 2, 3, 5, 8, 9, 17, 19};
+    Dice dice{std::mt19937(seed)};
+    Scene scene;
+    Body& ground = scene.bodies.emplace_back();
+    ground.motion = Motion::fixed;
+    ground.shape = Plane{};
+    ground.restitution = 0.5f;
+    for (int row = 0; row < 4; ++row) {
+        const Pairs& pairs = shapes[dice.below(shapes.size())];
+        const bool on_fixed_body = dice.below(2) == 0;
+        std::vector<JointKind> kinds;
+        for (std::size_t k = 0; k < pairs.size(); ++k) kinds.push_back(some_kind(dice));
+        const int copies = numbers[dice.below(numbers.size())];
+        for (int i = 0; i < copies; ++i)
+            add_mechanism(scene, pairs, kinds, {1.2f * static_cast<float>(i), 0, 1.5f * static_cast<float>(row)}, on_fixed_body,
+                          dice);
+    }
+    return scene;
+}
+
+Scene traffic(int cars) {
+    Scene scene;
+    Body& ground = scene.bodies.emplace_back();
+    ground.motion = Motion::fixed;
+    ground.shape = Plane{};
+    ground.friction = 1;
+    for (int i = 0; i < cars; ++i) {
+        const float x = 6 * static_cast<float>(i);
+        const std::size_t car = add_car(scene, {.position = {x, 0, 0}, .speed = i % 3 == 0 ? 0 : static_cast<float>(i)});
+        if (i % 2 == 1) scene.vehicles[car].route = {{{x, 0, 0}, 2}, {{x, 0, 1}, 9}, {{x, 0, 3}, 0.5f}, {{x + 2, 0, 5}, 8}};
+        scene.vehicles[car].controls.steer = 0.1f * static_cast<float>(i % 7);
     }
     return scene;
 }

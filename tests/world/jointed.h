@@ -1,6 +1,8 @@
 // Scenes whose joints are of every kind, or are entangled.
 #pragma once
 
+#include <cstdint>
+
 #include "compute/scene.h"
 
 namespace scree::tests {
@@ -12,5 +14,11 @@ Scene all_kinds();
 Scene spokes();
 // As many joints as a block holds, with the maximum fill-in: four between consecutive plates of a row.
 Scene entangled();
+// Several copies of each of some mechanisms on bouncing ground: pairs, stars, chains and rings, that hang from the world, from a
+// fixed body or not at all. Copies differ in speed, in the kinds of some joints, and in what breaks. `seed`: which ones, and how
+// many copies.
+Scene mechanisms(std::uint32_t seed);
+// Cars, some at rest, every second one on a route on which it brakes and speeds up.
+Scene traffic(int cars);
 
 }  // namespace scree::tests

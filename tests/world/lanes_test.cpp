@@ -1,12 +1,15 @@
 // SIMD substep stages write the same bits as the scalar loops.
 #include <catch2/catch.hpp>
+#include <cstdlib>
 #include <cstring>
 #include <string>
 #include <vector>
 
 #include "compute/cpu/reference_runner.h"
+#include "compute/cpu/simd/simd_blocks.h"
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/cpu/simd/simd_stages.h"
+#include "compute/world.h"
 #include "tests/world/belts.h"
 #include "tests/world/heaps.h"
 #include "tests/world/jointed.h"
@@ -46,16 +49,20 @@ struct Walker {
     }
 };
 
-// Requires that `steps` steps with `lanes` lanes write the bits of the scalar loops. Returns the contacts of the last
-// step.
-std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
+// Requires that `steps` steps with `lanes` lanes write the bits of the scalar loops; act(state, step, stage) comes after each
+// stage, and with none before each step. Returns the contacts of the last step.
+template <typename Act>
+std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps, const Act& act) {
     Settings settings;
     settings.sleep_time = 0.2f;
     Walker plain(scene, settings, 1, 1), wide(scene, settings, threads, lanes);
     for (int step = 0; step < steps; ++step) {
         Written expected;
-        plain.step([&](const std::string&, Table, std::span<const std::byte> bytes) {
+        act(plain.state, step, "");
+        act(wide.state, step, "");
+        plain.step([&](const std::string& stage, Table, std::span<const std::byte> bytes) {
             expected.emplace_back(bytes.begin(), bytes.end());
+            act(plain.state, step, stage);
         });
         std::size_t next = 0;
         wide.step([&](const std::string& stage, Table table, std::span<const std::byte> bytes) {
@@ -63,10 +70,14 @@ std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
             const std::vector<std::byte>& before = expected.at(next++);
             REQUIRE(before.size() == bytes.size());
             if (!before.empty() && std::memcmp(before.data(), bytes.data(), bytes.size()) != 0) FAIL("the bits differ");
+            act(wide.state, step, stage);
         });
         REQUIRE(next == expected.size());
     }
     return wide.state.counted().contacts;
+}
+std::uint32_t compare(const Scene& scene, int threads, int lanes, int steps) {
+    return compare(scene, threads, lanes, steps, [](State&, int, const std::string&) {});
 }
 
 }  // namespace
@@ -100,9 +111,75 @@ TEST_CASE("joints solved in lanes leave the bits of the plain loops, whatever th
     }
 }
 
+TEST_CASE("blocks of equal structure solved in lanes leave the bits of single ones, however many and whatever their joints do") {
+    const bool many = std::getenv("SCREE_PROGRAMS") != nullptr;
+    for (std::uint32_t seed = 1; seed <= (many ? 200u : 8u); ++seed)
+        for (const int lanes : {4, 8, 16}) {
+            CAPTURE(seed, lanes);
+            compare(tests::mechanisms(seed), static_cast<int>(1 + seed % 2), lanes, 40);
+        }
+}
+
+TEST_CASE("a mechanism that becomes infinite leaves the equal ones beside it as they are one by one") {
+    const Scene scene = tests::traffic(11);
+    const auto spoil = [](State& state, int step, const std::string& stage) {
+        if (step == 3 && stage == "solve_contacts")
+            state.velocities[state.vehicles[4].dynamics.chassis].linear = {3e38f, -3e38f, 3e38f};
+    };
+    for (const int lanes : {4, 8, 16}) {
+        CAPTURE(lanes);
+        compare(scene, 1, lanes, 8, spoil);
+    }
+}
+
+TEST_CASE("cars that brake and let go leave the same bits one by one and in lanes") {
+    const auto drive = [](State& state, int step, const std::string& stage) {
+        if (!stage.empty()) return;
+        for (std::size_t car = 0; car < state.vehicles.size(); car += 2) {
+            physics::VehicleDynamics& dynamics = state.vehicles[car].dynamics;
+            dynamics.brake = (step / 10 + static_cast<int>(car)) % 3 == 0 ? 1 : 0;
+            dynamics.throttle = step % 40 < 20 && dynamics.brake == 0 ? 0.5f : 0;
+        }
+    };
+    for (const int lanes : {4, 16}) {
+        CAPTURE(lanes);
+        compare(tests::traffic(11), 1, lanes, 100, drive);
+    }
+}
+
+TEST_CASE("mechanisms whose joints come and go and are restored leave the same bits one by one and in lanes") {
+    const Scene scene = tests::mechanisms(4);
+    World plain(scene, {}, std::make_unique<ReferenceRunner>(1, 1)), wide(scene, {}, std::make_unique<ReferenceRunner>(2, 16));
+    std::vector<std::byte> marks[2];
+    std::vector<std::uint64_t> hashes;
+    for (int step = 0; step < 40; ++step) {
+        for (World* world : {&plain, &wide}) {
+            const std::size_t joints = world->scene().joints.size();
+            if (step == 5 || step == 15)
+                for (std::size_t j = joints; j-- > 0;)
+                    if (j % 7 == 0) world->remove_joint(j);
+            if (step == 10) marks[world == &wide] = world->save();
+            if (step == 20) {
+                const std::size_t last = world->scene().bodies.size() - 1;
+                world->add_joint(world->joint_at(Ball{}, 1, last, world->body(1).position));
+            }
+            if (step == 25) world->restore(marks[world == &wide]);
+            if (step == 30) world->remove_joint(0);
+            world->step();
+        }
+        CAPTURE(step);
+        REQUIRE(plain.state_hash() == wide.state_hash());
+        hashes.push_back(plain.state_hash());
+        if (step >= 25 && step < 30) REQUIRE(hashes.back() == hashes[static_cast<std::size_t>(step) - 15]);
+    }
+}
+
 TEST_CASE("one contact at a time is done where that is asked for") {
     REQUIRE(reference::wide_stages(1) == nullptr);
     REQUIRE(reference::wide_joint_stages(1) == nullptr);
+    REQUIRE(reference::wide_block_stages(16, 1) == nullptr);
+    REQUIRE(reference::wide_block_stages(1, 16) == nullptr);
+    REQUIRE(reference::wide_block_stages(16, 4) == &reference::wide_block_stages_4);
     REQUIRE(reference::wide_joint_stages(4) == &reference::wide_joint_stages_baseline);
     REQUIRE(reference::wide_stages(4) == &reference::wide_stages_4);
 }

@@ -1,10 +1,28 @@
 // Selects the widest SIMD stages of this processor, and views a state's tables as words.
 #include "compute/cpu/simd/simd_stages.h"
 
+#include "compute/cpu/simd/simd_blocks.h"
 #include "compute/cpu/simd/simd_joints.h"
 #include "compute/step/state.h"
 
 namespace scree::reference {
+
+namespace {
+
+constexpr std::size_t least_blocks = 2;  // one is solved faster by itself
+
+// Lanes that this processor has, at most `most`.
+int widest(int most) {
+#if defined(__x86_64__)
+    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
+        return 16;
+    if (most >= 8 && __builtin_cpu_supports("avx2")) return 8;
+#endif
+    return most >= 4 ? 4 : 1;
+}
+
+}  // namespace
 
 WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     const auto words = [](auto& table) { return reinterpret_cast<std::uint32_t*>(table.data()); };
@@ -35,12 +53,19 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
 
 const WideStages* wide_stages(int most) {
 #if defined(__x86_64__)
-    if (most >= 16 && __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
-        __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw"))
-        return &wide_stages_16;
-    if (most >= 8 && __builtin_cpu_supports("avx2")) return &wide_stages_8;
+    if (widest(most) == 16) return &wide_stages_16;
+    if (widest(most) == 8) return &wide_stages_8;
 #endif
-    return most >= 4 ? &wide_stages_4 : nullptr;
+    return widest(most) == 4 ? &wide_stages_4 : nullptr;
+}
+
+const WideBlockStages* wide_block_stages(std::size_t blocks, int most) {
+    if (blocks < least_blocks) return nullptr;
+#if defined(__x86_64__)
+    if (widest(most) == 16 && blocks > 8) return &wide_block_stages_16;
+    if (widest(most) >= 8 && blocks > 4) return &wide_block_stages_8;
+#endif
+    return widest(most) >= 4 ? &wide_block_stages_4 : nullptr;
 }
 
 const WideJointStages* wide_joint_stages(int most) {

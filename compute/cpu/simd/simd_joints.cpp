@@ -245,7 +245,7 @@ SCREE_INLINE void lessen(JointColumns& target, const JointColumns& row, const Jo
 // Where a joint has its columns with the later joint `with`.
 SCREE_INLINE uint32_t tile_with(const WideJoint& joint, uint32_t with) {
     uint32_t l = 0;
-    while (joint.link[l] != with) ++l;
+    while (l + 1 < joint.links && joint.link[l] != with) ++l;  // ends also for forged tables
     return joint.first_tile + 1 + l;
 }
 

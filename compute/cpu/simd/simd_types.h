@@ -79,8 +79,11 @@ struct Uint {
     friend SCREE_INLINE Uint operator&(Uint a, Uint b) { return a.v & b.v; }
     friend SCREE_INLINE Uint operator|(Uint a, Uint b) { return a.v | b.v; }
     friend SCREE_INLINE Uint operator~(Uint a) { return ~a.v; }
+    friend SCREE_INLINE Uint operator*(Uint a, Uint b) { return a.v * b.v; }
     friend SCREE_INLINE Uint operator<<(Uint a, uint32_t by) { return a.v << by; }
+    friend SCREE_INLINE Uint operator<<(Uint a, Uint by) { return a.v << by.v; }
     friend SCREE_INLINE Uint operator>>(Uint a, uint32_t by) { return a.v >> by; }
+    friend SCREE_INLINE Uint operator>>(Uint a, Uint by) { return a.v >> by.v; }
     friend SCREE_INLINE Bool operator==(Uint a, Uint b) { return a.v == b.v; }
     friend SCREE_INLINE Bool operator!=(Uint a, Uint b) { return a.v != b.v; }
     friend SCREE_INLINE Bool operator<(Uint a, Uint b) { return a.v < b.v; }
