@@ -272,7 +272,7 @@ struct State {
     std::uint32_t action_room = 64;            // capacity of the table of actions; grows
     std::vector<std::uint32_t> joint_records;  // record index by joint of the scene
 
-    JointGroups joint_groups;                  // made anew with the tables of joints and blocks
+    JointGroups joint_groups;  // made anew with the tables of joints and blocks
 
     // Cache of the CPU loops, not a table: the first partners of each body from counting, for listing. More than a body
     // has in a heap of equal ones; others search again.
