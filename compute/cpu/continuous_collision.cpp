@@ -3,6 +3,7 @@
 
 #include "compute/cpu/stages.h"
 #include "shaders/physics/extra/time_of_impact.h"
+#include "shaders/physics/solve/contact.h"
 
 namespace scree::reference {
 
