@@ -45,6 +45,7 @@ Sum sum_of_slots(const State& state, std::size_t body) {
 // Of the active contacts' and joints' other bodies, the least quiet steps.
 float least_quiet_beside(const State& state, std::size_t body) {
     float quiet = physics::FOREVER;
+    if (state.fixed().sleep_steps == physics::NO_SLEEP) return quiet;
     for (std::size_t k = first_slot_of(state, body); k < state.slot_ends[body]; ++k)
         if (state.slots[k].weight > 0) quiet = std::min(quiet, state.neighbours_quiet[k]);
     return quiet;
@@ -58,14 +59,23 @@ bool moved_by_contacts(const State& state, std::size_t body) {
            state.is_stepped(body);
 }
 
-// Bodies that contacts move.
-std::vector<std::uint32_t> movable_bodies(const State& state) {
-    std::vector<std::uint32_t> bodies;
-    if (!physics::any_stirs(state.counted())) return bodies;
-    bodies.reserve(state.fixed().bodies);
-    for (std::uint32_t i = 0; i < state.fixed().bodies; ++i)
-        if (moved_by_contacts(state, i)) bodies.push_back(i);
-    return bodies;
+// Kinematic bodies in motion.
+bool is_driven(const State& state, std::size_t body) {
+    return state.properties[body].motion == physics::MOTION_KINEMATIC && !physics::is_part(state.properties[body]) &&
+           physics::in_motion(state.velocities[body]) && !asleep(state, body) && state.is_stepped(body);
+}
+
+// Motions and sleep change neither within a step's substeps.
+void list_moving_bodies(State& state) {
+    state.movable_bodies.clear();
+    state.driven_bodies.clear();
+    if (!physics::any_stirs(state.counted())) return;
+    for (std::uint32_t i = 0; i < state.fixed().bodies; ++i) {
+        if (moved_by_contacts(state, i))
+            state.movable_bodies.push_back(i);
+        else if (is_driven(state, i))
+            state.driven_bodies.push_back(i);
+    }
 }
 
 // Skips the atomic where the bits are set already.
@@ -225,8 +235,9 @@ void compute_bounds(State& state, const Threads& threads, std::uint32_t) {
 
 void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
     if (state.counted().overflow) return;
+    if (first != 0) list_moving_bodies(state);
+    const std::vector<std::uint32_t>& bodies = state.movable_bodies;
     if (const WideStages* wide = wide_stages(threads.lanes())) {
-        const std::vector<std::uint32_t> bodies = movable_bodies(state);
         WideTables tables = wide_tables(state, bodies);
         tables.first = first != 0;
         tables.steps = state.counted().steps;
@@ -238,9 +249,7 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
         }
         threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->begin(tables, begin, end); });
     } else {
-        threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-            if (moved_by_contacts(state, i)) begin_substep_of(state, i, first != 0);
-        });
+        threads.for_each(bodies.size(), [&](std::size_t k) { begin_substep_of(state, bodies[k], first != 0); });
     }
     const std::span grips = std::span(state.fixed().grips).first(state.fixed().held);
     for (const physics::Grip& grip : grips) {
@@ -253,17 +262,10 @@ void begin_substep(State& state, const Threads& threads, std::uint32_t first) {
 
 void move_bodies(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
+    const std::vector<std::uint32_t>&driven = state.driven_bodies, &bodies = state.movable_bodies;
+    threads.for_each(driven.size(), [&](std::size_t k) { move(state, driven[k]); });
     const WideStages* wide = wide_stages(threads.lanes());
-    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        const physics::uint motion = state.properties[i].motion;
-        if (motion == physics::MOTION_FIXED || physics::is_part(state.properties[i]) || physics::is_out_of_play(motion) ||
-            asleep(state, i) || !state.is_stepped(i))
-            return;
-        if (motion == physics::MOTION_KINEMATIC && !physics::in_motion(state.velocities[i])) return;
-        if (!wide || !moved_by_contacts(state, i)) move(state, i);
-    });
-    if (!wide) return;
-    const std::vector<std::uint32_t> bodies = movable_bodies(state);
+    if (!wide) return threads.for_each(bodies.size(), [&](std::size_t k) { move(state, bodies[k]); });
     const WideTables tables = wide_tables(state, bodies);
     threads.for_ranges(bodies.size(), [&](std::size_t begin, std::size_t end) { wide->move(tables, begin, end); });
 }
@@ -273,8 +275,8 @@ void end_step(State& state, const Threads& threads, std::uint32_t) {
     ++state.counted().steps;
     std::atomic<bool> any_fast = false;
     const std::atomic_ref spin_limited(state.counted().spin_limited), quarantined(state.counted().quarantined);
-    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
-        if (!moved_by_contacts(state, i)) return;
+    threads.for_each(state.movable_bodies.size(), [&](std::size_t k) {
+        const std::uint32_t i = state.movable_bodies[k];
         const Sum sum = sum_of_slots(state, i);
         physics::Velocity& velocity = state.velocities[i];
         velocity.linear = physics::flush_tiny(velocity.linear + sum.change.linear);

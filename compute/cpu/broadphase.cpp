@@ -4,6 +4,9 @@
 #include <bit>
 #include <cstring>
 #include <numeric>
+#include <ranges>
+#include <span>
+#include <tuple>
 
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
@@ -51,6 +54,10 @@ void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cell
     if (first + cells > buckets) visit(entries(state, 0, end_of(first + cells - buckets)));
 }
 
+std::uint32_t key_of(const physics::CellEntry& entry) {
+    return entry.level & ~(physics::INACTIVE | physics::MOVES);
+}
+
 bool near_large(const State& state, std::size_t body, const physics::CellEntry& other) {
     const physics::Bounds& own = state.bounds[body];
     const auto plane_reached = [&](std::size_t plane, physics::vec3 lower, physics::vec3 upper) {
@@ -60,6 +67,9 @@ bool near_large(const State& state, std::size_t body, const physics::CellEntry& 
     if (state.properties[body].shape == physics::SHAPE_PLANE) return plane_reached(body, other.lower, other.upper);
     return physics::boxes_overlap(own.lower, own.upper, other.lower, other.upper);
 }
+
+// Part of the rows above which inactive ones are too many to search from as well: 1/8.
+constexpr std::size_t most_still = 8;
 
 bool still(const State& state, std::uint32_t body) {
     return (state.bounds[body].level & physics::INACTIVE) != 0;
@@ -96,19 +106,28 @@ bool may_collide(const State& state, std::uint32_t row, std::uint32_t other) {
     return true;
 }
 
-// Calls found(other) for each partner of the pairs that `body` owns.
-template <typename Found>
-void for_each_partner(const State& state, std::uint32_t body, const Found& list) {
+// Where a body looks for partners on its own level: in all cells in reach, for pairs that it owns; or only in the cells
+// from its own on, in the order of their coordinates, for pairs that either owns.
+enum class Search { around, ahead };
+
+bool is_ahead(const physics::ivec3& cell, std::uint32_t body, const physics::ivec3& own_cell, std::uint32_t own) {
+    return std::tie(cell.z, cell.y, cell.x, body) > std::tie(own_cell.z, own_cell.y, own_cell.x, own);
+}
+
+// Calls list(owner, partner) for each pair that a search from `body` finds.
+template <Search search, typename List>
+void for_each_pair(const State& state, std::uint32_t body, const List& list) {
     const physics::Parameters& p = state.fixed();
     const physics::BodyProperties& own = state.properties[body];
     const std::uint32_t id = state.id_of(body);
     const bool joined = state.has_joints(), filtered = !state.filters.empty();
-    const bool is_shared = !state.presence.empty(), is_own = state.is_owned(body);
-    const auto found = [&](std::uint32_t other) {
-        if (is_shared && !is_own && !state.is_owned(other)) return;
-        if (filtered && !may_collide(state, body, other)) return;
-        if (!joined || !kept_apart(state, state.body_of(body), state.body_of(other))) list(other);
+    const bool is_shared = !state.presence.empty();
+    const auto found_by = [&](std::uint32_t owner, std::uint32_t other) {
+        if (is_shared && !state.is_owned(owner) && !state.is_owned(other)) return;
+        if (filtered && !may_collide(state, owner, other)) return;
+        if (!joined || !kept_apart(state, state.body_of(owner), state.body_of(other))) list(owner, other);
     };
+    const auto found = [&](std::uint32_t other) { found_by(body, other); };
     const physics::Bounds& around = state.bounds[body];
     if ((around.level & physics::NOT_IN_GRID) != 0) return;
     for_each_carried_over(state, body, found);
@@ -122,13 +141,14 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
     if (physics::is_large(own)) return;
     for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
+        if (search == Search::ahead && level == (around.level & physics::LEVEL_BITS)) continue;
         const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
         const auto cells = static_cast<std::uint32_t>(range.last.x - range.first.x + 1);
         const std::uint32_t key = level | of_copy;
         physics::ivec3 from = range.first;
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
-                if (!(overlap(around, other) & ((other.level & ~(physics::INACTIVE | physics::MOVES)) == key))) continue;
+                if (!(overlap(around, other) & (key_of(other) == key))) continue;
                 if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
                 const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
                 if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
@@ -138,25 +158,68 @@ void for_each_partner(const State& state, std::uint32_t body, const Found& list)
         for (from.z = range.first.z; from.z <= range.last.z; ++from.z)
             for (from.y = range.first.y; from.y <= range.last.y; ++from.y) for_each_in_row(state, from, cells, key, visit);
     }
+    if (search == Search::around) return;
+    const std::uint32_t level = around.level & physics::LEVEL_BITS, key = level | of_copy;
+    const physics::CellRange range = physics::cells_in_reach(around.lower, around.upper, level, p);
+    const physics::ivec3 own_cell = physics::cell_of(around.lower, around.upper, level, p.inverse_cell);
+    physics::ivec3 from = own_cell;
+    const auto visit = [&](std::span<const physics::CellEntry> row) {
+        for (const physics::CellEntry& other : row) {
+            if (!(overlap(around, other) & (key_of(other) == key))) continue;
+            const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
+            if (cell.y != from.y || cell.z != from.z || !is_ahead(cell, other.body, own_cell, body)) continue;
+            if (!physics::can_touch(own, state.properties[other.body])) continue;
+            const std::uint32_t other_level = other.level & ~physics::MOVES, other_id = state.id_of(other.body);
+            if (physics::finds(id, around.level, other_id, other_level))
+                found_by(body, other.body);
+            else if (physics::finds(other_id, other_level, id, around.level))
+                found_by(other.body, body);
+        }
+    };
+    for (; from.z <= range.last.z; ++from.z)
+        for (from.y = from.z == own_cell.z ? own_cell.y : range.first.y; from.y <= range.last.y; ++from.y) {
+            from.x = from.z == own_cell.z && from.y == own_cell.y ? own_cell.x : range.first.x;
+            for_each_in_row(state, from, static_cast<std::uint32_t>(range.last.x - from.x + 1), key, visit);
+        }
 }
 
-std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint32_t other) {
-    const auto first = state.contacts_before.begin() + state.first_contacts[owner];
-    const auto last = state.contacts_before.begin() + state.first_contacts[owner + 1];
-    const auto partner = [&](const physics::Contact& contact) { return state.id_of(contact.a == owner ? contact.b : contact.a); };
-    const std::uint32_t id = state.id_of(other);
-    const auto found = std::lower_bound(
-        first, last, id, [&](const physics::Contact& contact, std::uint32_t one) { return partner(contact) < one; });
-    return found != last && partner(*found) == id ? static_cast<std::uint32_t>(found - state.contacts_before.begin())
-                                                  : physics::NONE;
+// Id of the partner in a contact of the last step.
+std::uint32_t partner_before(const State& state, std::uint32_t owner, std::size_t contact) {
+    const physics::Contact& before = state.contacts_before[contact];
+    return state.id_of(before.a == owner ? before.b : before.a);
 }
 
-physics::Pair matched(const State& state, const physics::Candidate& candidate) {
+// The contact of the last step that `owner` owned with the body of that id, from the contact `from` on, which is moved up to
+// that id: each body's contacts are in the order of their partners' ids.
+std::uint32_t contact_before(const State& state, std::uint32_t owner, std::uint32_t id, std::uint32_t& from) {
+    const std::uint32_t last = state.first_contacts[owner + 1];
+    for (; from < last; ++from) {
+        const std::uint32_t partner = partner_before(state, owner, from);
+        if (partner >= id) return partner == id ? from : physics::NONE;
+    }
+    return physics::NONE;
+}
+
+void list_least_partners(State& state, const Threads& threads) {
+    state.least_partners.resize(state.fixed().bodies);
+    threads.for_each(state.fixed().bodies, [&](std::size_t i) {
+        const std::uint32_t first = state.first_contacts[i];
+        state.least_partners[i] =
+            first == state.first_contacts[i + 1] ? physics::NONE : partner_before(state, static_cast<std::uint32_t>(i), first);
+    });
+}
+
+// `from`: as for contact_before, of the owner's contacts.
+physics::Pair matched(const State& state, const physics::Candidate& candidate, std::uint32_t& from) {
+    const std::uint32_t id = state.id_of(candidate.owner), other_id = state.id_of(candidate.other);
     physics::Pair pair{candidate.owner, candidate.other, 0, physics::NONE};
-    if (state.id_of(pair.b) < state.id_of(pair.a)) std::swap(pair.a, pair.b);
+    if (other_id < id) std::swap(pair.a, pair.b);
     if (!state.is_newborn(state.copy_of(pair.a))) {
-        pair.previous = contact_before(state, pair.a, pair.b);
-        if (pair.previous == physics::NONE) pair.previous = contact_before(state, pair.b, pair.a);
+        pair.previous = contact_before(state, candidate.owner, other_id, from);
+        if (pair.previous == physics::NONE && state.least_partners[candidate.other] <= id) {
+            std::uint32_t first = state.first_contacts[candidate.other];
+            pair.previous = contact_before(state, candidate.other, id, first);
+        }
     }
     if (still(state, pair.a) && still(state, pair.b)) {
         pair.pair_type = physics::PAIR_INACTIVE;
@@ -201,32 +264,52 @@ void fill_cells(State& state, const Threads& threads, std::uint32_t) {
 }
 
 void sort_cells(State& state, const Threads& threads, std::uint32_t) {
-    threads.for_each(physics::buckets_in_all(state.fixed()), [&](std::size_t b) {
-        const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
-        const auto last = state.cell_entries.begin() + state.cell_ends[b];
-        std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
-        std::for_each(first, last, [&](physics::CellEntry& entry) {
-            const physics::Bounds& around = state.bounds[entry.body];
-            entry = {around.lower, entry.body, around.upper, physics::level_of_entry(around.level, state.properties[entry.body])};
-        });
+    std::atomic<std::uint32_t> still_entries = 0;
+    threads.for_ranges(physics::buckets_in_all(state.fixed()), [&](std::size_t begin, std::size_t end) {
+        std::uint32_t inactive = 0;
+        for (std::size_t b = begin; b < end; ++b) {
+            const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
+            const auto last = state.cell_entries.begin() + state.cell_ends[b];
+            std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
+            for (physics::CellEntry& entry : std::ranges::subrange(first, last)) {
+                const physics::Bounds& around = state.bounds[entry.body];
+                inactive += (around.level & physics::INACTIVE) != 0;
+                entry = {around.lower, entry.body, around.upper,
+                         physics::level_of_entry(around.level, state.properties[entry.body])};
+            }
+        }
+        still_entries.fetch_add(inactive, std::memory_order_relaxed);
     });
+    state.still_entries = still_entries;
 }
 
 void count_pairs(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
-    std::atomic_ref coarse(state.counted().pairs_coarse);
-    state.partners.resize(state.fixed().bodies);
-    threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
-        std::uint32_t parts = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            std::uint32_t count = 0;
-            for_each_partner(state, static_cast<std::uint32_t>(i), [&](std::uint32_t other) {
-                if (count < State::noted) state.partners[i][count] = other;
-                ++count;
+    const std::size_t bodies = state.fixed().bodies;
+    state.partners.resize(bodies);
+    const std::span counts = state.pair_counts();
+    const auto note = [&](std::uint32_t owner, std::uint32_t other, std::uint32_t place) {
+        if (place < State::noted) state.partners[owner][place] = other;
+    };
+    if (state.still_entries < bodies / most_still) {
+        const bool alone = threads.count() == 1;
+        threads.for_each(bodies, [&](std::size_t i) {
+            for_each_pair<Search::ahead>(state, static_cast<std::uint32_t>(i), [&](std::uint32_t owner, std::uint32_t other) {
+                const std::uint32_t place =
+                    alone ? counts[owner]++ : std::atomic_ref(counts[owner]).fetch_add(1, std::memory_order_relaxed);
+                note(owner, other, place);
             });
-            state.pair_counts()[i] = count;
-            parts += (count + 255) / 256;
-        }
+        });
+    } else {
+        threads.for_each(bodies, [&](std::size_t i) {
+            for_each_pair<Search::around>(state, static_cast<std::uint32_t>(i),
+                                          [&](std::uint32_t owner, std::uint32_t other) { note(owner, other, counts[owner]++); });
+        });
+    }
+    std::atomic_ref coarse(state.counted().pairs_coarse);
+    threads.for_ranges(bodies, [&](std::size_t begin, std::size_t end) {
+        std::uint32_t parts = 0;
+        for (std::size_t i = begin; i < end; ++i) parts += (counts[i] + 255) / 256;
         coarse.fetch_add(parts, std::memory_order_relaxed);
     });
 }
@@ -241,20 +324,22 @@ void fill_pairs(State& state, const Threads& threads, std::uint32_t) {
         if (count <= State::noted)
             std::for_each_n(state.partners[i].begin(), count, list);
         else
-            for_each_partner(state, owner, list);
+            for_each_pair<Search::around>(state, owner, [&](std::uint32_t, std::uint32_t other) { list(other); });
     });
 }
 
 void match_pairs(State& state, const Threads& threads, std::uint32_t) {
     if (state.counted().overflow) return;
     const WideStages* wide = wide_stages(threads.lanes());
+    list_least_partners(state, threads);
     threads.for_ranges(state.fixed().bodies, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
+            std::uint32_t from = state.first_contacts[i];
             const auto first = state.candidates.begin() + state.pair_starts[i];
             const auto last = state.candidates.begin() + state.pair_starts[i + 1];
             std::sort(first, last, [&](const auto& x, const auto& y) { return state.id_of(x.other) < state.id_of(y.other); });
             std::transform(first, last, state.pairs.begin() + state.pair_starts[i],
-                           [&](const physics::Candidate& candidate) { return matched(state, candidate); });
+                           [&](const physics::Candidate& candidate) { return matched(state, candidate, from); });
         }
         find_persistent(state, wide, state.pair_starts[begin], state.pair_starts[end]);
     });

@@ -9,6 +9,9 @@ namespace scree::reference {
 
 namespace {
 
+// Of a body's velocity (State::paces).
+constexpr std::uint8_t fast = 1, drives = 2;
+
 bool some_fast(const State& state) {
     return state.counted().fast != 0 && state.counted().overflow == 0;
 }
@@ -32,18 +35,20 @@ physics::MotionPath course(const State& state, std::uint32_t row, float until) {
 void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
     if (!some_fast(state)) return;
     const physics::Parameters& p = state.fixed();
+    state.paces.resize(p.first_part);
+    threads.for_each(state.paces.size(), [&](std::size_t i) {
+        const physics::BodyProperties& properties = state.properties[i];
+        state.paces[i] = static_cast<std::uint8_t>((physics::will_be_fast(properties, state.velocities[i], p) ? fast : 0) |
+                                                   (physics::drives(properties, state.velocities[i], p) ? drives : 0));
+    });
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
+        if (state.point_counts[i] == 0) return;
         const auto [a, b, pair_type, previous] = state.pairs[i];
         const std::uint32_t bodies[2] = {state.body_of(a), state.body_of(b)};
-        const auto fast = [&](std::uint32_t body) {
-            return physics::will_be_fast(state.properties[body], state.velocities[body], p);
-        };
-        const auto drives = [&](std::uint32_t body) {
-            return physics::drives(state.properties[body], state.velocities[body], p);
-        };
-        const bool driving[2] = {drives(bodies[0]), drives(bodies[1])};
-        const bool any_fast = fast(bodies[0]) || fast(bodies[1]);
-        if (state.point_counts[i] == 0 || !(any_fast || driving[0] || driving[1])) return;
+        const std::uint8_t paces[2] = {state.paces[bodies[0]], state.paces[bodies[1]]};
+        if ((paces[0] | paces[1]) == 0) return;
+        const bool driving[2] = {(paces[0] & drives) != 0, (paces[1] & drives) != 0};
+        const bool any_fast = ((paces[0] | paces[1]) & fast) != 0;
         const physics::Manifold& manifold = state.manifolds[i];
         const float cosine = physics::same_normal(driving[0] || driving[1]);
         const bool rebounds = previous != physics::NONE && physics::rebounds_across(state.impulses_before[previous]);

@@ -278,6 +278,14 @@ struct State {
     // has in a heap of equal ones; others search again.
     static constexpr std::size_t noted = 15;
     std::vector<std::array<std::uint32_t, noted>> partners;
+    // Likewise: entries of cells whose bodies are inactive in this step.
+    std::uint32_t still_entries = 0;
+    // Likewise: the least id of the partners in the contacts that each body owned in the last step.
+    std::vector<std::uint32_t> least_partners;
+    // Likewise: rows of the bodies that contacts move in this step, and of kinematic ones in motion.
+    std::vector<std::uint32_t> movable_bodies, driven_bodies;
+    // Likewise: by row, what predict_impacts asks of a body's velocity.
+    std::vector<std::uint8_t> paces;
     // The contacts of a pass: those of contacts_to_solve from `first` up to `last`, if there are so many; and of the blocks of
     // joints all, or those with none of their contacts at the border of a rank, or the others. By default everything.
     enum class Blocks { all, inner, border };

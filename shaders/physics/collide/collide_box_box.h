@@ -88,13 +88,14 @@ LAW ManifoldBuffer manifold_of_faces(Pose pose, BoxView view, vec3 own, vec3 oth
     f.x = f.x * outward;
     float flat_within = 0.1f * slop;
     Overlay overlay = overlay_of(centre, e, f, own.y, own.z, flat_within);
-    uint chosen = best_four(overlay, margin, flat_within);
+    ClipCorners corners = clip_corners_of(overlay);
+    uint chosen = best_four(corners, margin, flat_within);
 
     ManifoldBuffer touch = manifold_along(rotate(pose.orientation, turned_back(vec3(outward, 0.0f, 0.0f), face)));
     for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
         bool stands_in = k == 0u && chosen == 0u && must_hold;
         if (stands_in || (chosen & (1u << k)) != 0u) {
-            vec4 corner = overlay_corner(overlay, k);
+            vec4 corner = clip_corner(corners, k);
             if (stands_in) {
                 vec3 lowest = centre + e * (e.x < 0.0f ? 1.0f : -1.0f) + f * (f.x < 0.0f ? 1.0f : -1.0f);
                 corner = vec4(lowest.x, clamped(lowest.y, -own.y, own.y), clamped(lowest.z, -own.z, own.z), 31.0f);

@@ -32,13 +32,13 @@ LAW vec3 axis_towards(vec4 orientation, uint k, float side) {
     return side < 0.0f ? -axis : axis;
 }
 
-// The largest of the fifteen SAT separations: a lower bound of the distance, not positive for overlapping boxes.
-LAW DistanceBound distance_of_boxes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b) {
+// The largest of the fifteen SAT separations: a lower bound of the distance, not positive for overlapping boxes. Edges are
+// left out if a face separates the boxes by `enough` (m).
+LAW DistanceBound distance_of_boxes(BodyProperties a, Pose pose_a, BodyProperties b, Pose pose_b, float enough) {
     BoxView view = view_of(pose_a, pose_b);
     BoxView back = reversed(view);
     vec3 faces_a = face_separations(view, a.size, b.size);
     vec3 faces_b = face_separations(back, b.size, a.size);
-    EdgeAxis edge = best_edge_axis(view, a.size, b.size);
     uint face_a = largest_of(faces_a);
     uint face_b = largest_of(faces_b);
     DistanceBound gap;
@@ -48,6 +48,8 @@ LAW DistanceBound distance_of_boxes(BodyProperties a, Pose pose_a, BodyPropertie
         gap.distance = coordinate(faces_b, face_b);
         gap.normal = -axis_towards(pose_b.orientation, face_b, coordinate(back.d, face_b));
     }
+    if (gap.distance >= enough) return gap;
+    EdgeAxis edge = best_edge_axis(view, a.size, b.size);
     if (edge.separation > gap.distance) {
         gap.distance = edge.separation;
         uint i = edge.k >= 6u ? 2u : (edge.k >= 3u ? 1u : 0u);
@@ -111,7 +113,7 @@ LAW DistanceBound distance_in_order(BodyProperties a, Pose pose_a, BodyPropertie
         if (b.shape == SHAPE_BOX) return distance_of_manifold(collide_capsule_box(a, pose_a, b, pose_b, any));
         return distance_of_manifold(collide_capsule_plane(a, pose_a, b, pose_b, any));
     }
-    if (b.shape == SHAPE_BOX) return distance_of_boxes(a, pose_a, b, pose_b);
+    if (b.shape == SHAPE_BOX) return distance_of_boxes(a, pose_a, b, pose_b, enough);
     return distance_of_manifold(collide_box_plane(a, pose_a, b, pose_b, any));
 }
 // A separation of `enough` (m) along any axis suffices; the true distance may be larger.

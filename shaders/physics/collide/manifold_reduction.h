@@ -41,13 +41,13 @@ LAW float nearness(float height, float slop) {
 // from the rectangle's middle), the farthest from that, the one of the largest triangle, and the one farthest outside
 // of it. All if there are at most four. If the first were any low corner, it could be the crossing of two nearly
 // parallel sides in the middle of a face's edge, and a corner would be left unsupported.
-LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
+LAW uint best_four(ClipCorners corners, float ceiling, float flat_within) {
     uint present = 0u;
     uint count = 0u;
     uint chosen = 0u;
     float lowest = ceiling;
     for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
-        vec4 p = overlay_corner(overlay, k);
+        vec4 p = clip_corner(corners, k);
         if (p.w >= 0.0f && p.x < ceiling) {
             present = present | (1u << k);
             count = count + 1u;
@@ -59,7 +59,7 @@ LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
     float farthest = -1.0f;
     for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
         if ((present & (1u << k)) != 0u) {
-            vec4 p = overlay_corner(overlay, k);
+            vec4 p = clip_corner(corners, k);
             float away = p.y * p.y + p.z * p.z;
             if (p.x <= lowest + flat_within && REDUCE_BIAS * away > farthest) {
                 a = p;
@@ -78,7 +78,7 @@ LAW uint best_four(Overlay overlay, float ceiling, float flat_within) {
         vec4 next = a;
         for (uint k = 0u; k < CLIP_CANDIDATES; ++k) {
             if ((present & (1u << k)) != 0u) {
-                vec4 p = overlay_corner(overlay, k);
+                vec4 p = clip_corner(corners, k);
                 float score = merit(step, a, b, c, area_abc, p) * nearness(p.x - reference, flat_within);
                 if (REDUCE_BIAS * score > best) {
                     best = score;

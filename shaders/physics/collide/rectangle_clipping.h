@@ -54,7 +54,7 @@ LAW vec4 within(vec4 part, float from, float inverse, float extent) {
 
 // The intersection has at most eight corners, all among CLIP_CANDIDATES: candidate 2k is where edge k of the
 // parallelogram enters the rectangle (or its corner k, if inside), 2k + 1 where the edge leaves, 8 to 11 are the
-// rectangle's corners within the parallelogram. Recomputing a candidate is cheaper than an array that a GPU must index.
+// rectangle's corners within the parallelogram.
 CONSTANT uint CLIP_CANDIDATES = 12u;
 
 // Candidate k: x: height; y, z: in the plane, m; w: feature, or -1 if there is none. Features 0 to 3 are the
@@ -90,6 +90,26 @@ LAW vec4 overlay_corner(Overlay overlay, uint k) {
     float height = overlay.centre.x + s * overlay.e.x + t * overlay.f.x;
     return vec4(height, y, z, abs(s) < 1.0f && abs(t) < 1.0f ? float(k - 4u) : -1.0f);
 }
+
+// The candidates of an overlay. A processor keeps them in an array; on a GPU recomputing one is cheaper than an array that
+// threads index each by itself.
+#ifdef __cplusplus
+struct ClipCorners {
+    vec4 at[CLIP_CANDIDATES];
+};
+LAW ClipCorners clip_corners_of(Overlay overlay) {
+    ClipCorners corners;
+    for (uint k = 0u; k < CLIP_CANDIDATES; ++k) corners.at[k] = overlay_corner(overlay, k);
+    return corners;
+}
+LAW vec4 clip_corner(const ClipCorners& corners, uint k) {
+    return corners.at[k];
+}
+#else
+#define ClipCorners Overlay
+#define clip_corners_of(overlay) (overlay)
+#define clip_corner(corners, k) overlay_corner(corners, k)
+#endif
 
 LAWS_END
 
