@@ -224,6 +224,13 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
     return choose(carrying, 1.0f, 0.0f);
 }
 
+// The same for the next substep, after the relax pass: a contact that bore an impulse in the biased pass counts too. A heavy
+// body that falls upon a light one presses it onto its supports in every biased pass, and the light body leaves them again in
+// every relax pass; supports that did not count would answer with the whole mass each, together for more than one body.
+LAW float counts_next(Constraint c, float solved_impulse, Impulse relaxed, VelocityPair v, Parameters parameters) {
+    return choose(solved_impulse > 0.0f, 1.0f, is_active(c, relaxed, v, parameters));
+}
+
 // Velocity changes of the whole bodies from those of the split ones: (after - before) / split. The next warm start is
 // added to them.
 LAW VelocityPair to_body_deltas(VelocityPair before, VelocityPair after, Mass a, Mass b) {
