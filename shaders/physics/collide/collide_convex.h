@@ -199,13 +199,14 @@ LAW ManifoldBuffer collide_convex(BodyProperties ta, Pose pose_a, BodyProperties
     return manifold_of_lines(a, b, d, s, margin, hulls);
 }
 
-// The plane first. All vertices of a polyhedron count, not only those of the face towards the plane.
+// The plane first. All vertices of a polyhedron count, not only those of the face towards the plane, and all that penetrate: a
+// splinter pressed in by more than its thickness would turn about its deepest vertex for ever, and never rise.
 LAW ManifoldBuffer collide_plane_convex(BodyProperties tp, Pose plane, BodyProperties tb, Pose pose, float margin, Hulls hulls) {
     ConvexShape b = convex_shape_of(tb, pose.orientation, hulls);
     vec3 normal = tp.size;
     float height = dot3(normal, pose.position - plane.position);
     vec3 lowest = support_of(b, -normal, hulls);
-    float ceiling = smaller(margin, (height + dot3(normal, lowest)) + 0.25f * b.scale);
+    float ceiling = smaller(margin, larger(0.0f, (height + dot3(normal, lowest)) + 0.25f * b.scale));
     Feature down = facing(b, -normal, hulls);
     ReferencePlane reference = reference_plane_of(normal, -height, b.axes.x, lowest);
     if (down.points > 2u && (b.shape == SHAPE_CYLINDER || b.shape == SHAPE_CONE)) {  // an unclipped rim: four suffice
