@@ -159,10 +159,12 @@ TEST_CASE("what was stopped is not stopped at the same place in the next step") 
 }
 
 TEST_CASE("what is driven out of the bounds of its neighbours' search is stopped where it leaves them") {
-    REQUIRE(part_within(1, 0, 2) == 1);
-    REQUIRE(part_within(-1, 0.25f, 2) == Approx(0.25f));
-    REQUIRE(part_within(4, 0, 1) == Approx(0.25f));
-    REQUIRE(part_within(4, 1, -1) == 0);
+    REQUIRE(part_within(1, 0, 0, 2) == 1);
+    REQUIRE(part_within(-1, 0, 0.25f, 2) == Approx(0.25f));
+    REQUIRE(part_within(4, 0, 0, 1) == Approx(0.25f));
+    REQUIRE(part_within(3, 1, 0, 1) == Approx(0.25f));
+    REQUIRE(part_within(0, 4, 0.5f, 1) == Approx(0.125f));
+    REQUIRE(part_within(4, 0, 1, -1) == 0);
     Parameters p = parameters();
     p.dt = 1 / 60.0f;
     p.cell = p.inverse_cell = 1;

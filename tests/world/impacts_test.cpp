@@ -222,3 +222,53 @@ TEST_CASE("a kinematic plate leaves nothing behind, be it thin or thick") {
                 for (std::size_t i = 2; i < now.size(); ++i) CHECK(now[i].position.x > now[1].position.x);
             }
 }
+
+// The supports of the light body, two overlapping fixed boxes, answer each on its own, at several points.
+TEST_CASE("what falls upon a light body that lies on several others gains no energy") {
+    double worst = 0;
+    for (std::uint32_t seed = 1; seed <= 150; ++seed) {
+        tests::Noise noise(seed);
+        Scene scene;
+        for (int k = 0; k < 2; ++k) {
+            Body table;
+            table.motion = Motion::fixed;
+            table.shape = Box{{2, 1, 2}};
+            table.position = {0, -1.001f + 0.001f * noise(), 0};
+            scene.bodies.push_back(table);
+        }
+        Part bar, left, right;
+        bar.shape = Capsule{0.05f, 0.17f};
+        left.shape = right.shape = Sphere{0.14f};
+        left.position = {0, -0.17f, 0};
+        right.position = {0, 0.17f, 0};
+        Body dumbbell, box;
+        dumbbell.shape = Compound{{bar, left, right}};
+        dumbbell.orientation = {0.70710678f, 0, 0, 0.70710678f};
+        dumbbell.position = {0, 0.2f, 0};
+        dumbbell.velocity = noise.vector();
+        dumbbell.angular_velocity = 7.0f * noise.vector();
+        const float half = 0.35f + 0.1f * noise();
+        const vec3 aside = 0.25f * noise.vector();
+        box.shape = Box{vec3(half)};
+        box.position = {aside.x, 0.6f + 1.8f * half, aside.z};
+        const float x = noise(), y = noise(), z = noise(), w = noise();
+        box.orientation = glm::normalize(vec4(x, y, z, w));
+        box.velocity = {0, -13.0f + 5.0f * noise(), 0};
+        box.angular_velocity = 4.0f * noise.vector();
+        box.density = 2600;
+        scene.bodies.push_back(dumbbell);
+        scene.bodies.push_back(box);
+        World world(scene, awake(), 1);
+        const double before = world.statistics().kinetic_energy;
+        double most = 0;
+        for (int step = 0; step < 20; ++step) {
+            world.step();
+            most = std::max(most, world.statistics().kinetic_energy);
+        }
+        CAPTURE(seed);
+        CHECK(most < 1.5 * before);
+        worst = std::max(worst, most / before);
+    }
+    CAPTURE(worst);
+    CHECK(worst > 0.5);
+}

@@ -6,6 +6,7 @@
 #include "compute/scene/hull.h"
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
+#include "tests/world/heaps.h"
 
 using namespace scree;
 
@@ -194,6 +195,28 @@ TEST_CASE("a stack of ten hulls stands") {
         CAPTURE(i, body.position.x, body.position.y, body.position.z);
         CHECK(std::abs(body.position.y - (0.5f * static_cast<float>(i) - 0.25f)) < 0.03f);
         CHECK(std::hypot(body.position.x, body.position.z) < 0.01f);
+    }
+}
+
+TEST_CASE("a splinter deep in the ground comes out and lies down, however it stands") {
+    constexpr float half = 0.02f;
+    for (std::uint32_t seed = 1; seed <= 60; ++seed) {
+        tests::Noise noise(seed);
+        Hull splinter;
+        for (int k = 0; k < 5; ++k) {
+            const float angle = 1.2566371f * (static_cast<float>(k) + 0.3f * noise()), reach = 0.09f + 0.03f * noise();
+            for (const float z : {-half, half}) splinter.points.emplace_back(reach * std::cos(angle), reach * std::sin(angle), z);
+        }
+        const float x = noise(), y = noise(), z = noise(), w = noise();
+        Scene scene;
+        scene.bodies = {fixed_plane(), body_of(splinter, {0, -0.03f + 0.03f * noise(), 0}, glm::normalize(vec4(x, y, z, w)))};
+        scene.bodies[1].density = 2500;
+        World world(scene, {}, 1);
+        world.step(300);
+        const BodyState end = world.body(1);
+        CAPTURE(seed, end.position.y, end.angular_velocity.x, end.angular_velocity.z);
+        CHECK(end.position.y > 0.95f * half);
+        CHECK(glm::length(end.velocity) < 1e-3f);
     }
 }
 

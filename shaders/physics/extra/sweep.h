@@ -123,10 +123,12 @@ LAW bool was_fast(BodyProperties properties, Sweep sweep, Pose end) {
     return way > ccd_threshold(properties);
 }
 
-// The fraction of a displacement `way` along one axis that lies between -back and ahead (both may be negative: then 0).
-LAW float part_within(float way, float back, float ahead) {
+// The fraction of a displacement `way` along one axis, by a body that grows by `growth` along that axis as it turns, for which it
+// stays within the room behind and before it, m. Always greater than 0 if there is room at the start: a body that is held where
+// it was would be held there for ever.
+LAW float part_within(float way, float growth, float back, float ahead) {
     float room = way > 0.0f ? ahead : back;
-    float length = abs(way);
+    float length = abs(way) + growth;
     if (length <= room) return 1.0f;
     return room > 1.0e-9f ? room * reciprocal(length) : 0.0f;
 }
@@ -135,14 +137,15 @@ LAW float part_within(float way, float back, float ahead) {
 // driven by a fast kinematic body must keep ahead of that.
 LAW float seen_part(BodyProperties properties, Sweep sweep, Pose end, Bounds bounds) {
     if ((sweep.struck & DRIVEN) != 0u) return 1.0f;
-    vec3 half_size = larger3(half_extents_of(properties, sweep.orientation), half_extents_of(properties, end.orientation));
+    vec3 half_size = half_extents_of(properties, sweep.orientation);
+    vec3 growth = larger3(half_extents_of(properties, end.orientation) - half_size, vec3(0.0f));
     half_size = half_size - vec3(ccd_threshold(properties));
     vec3 back = (sweep.position - half_size) - bounds.lower;
     vec3 ahead = bounds.upper - (sweep.position + half_size);
     vec3 way = end.position - sweep.position;
-    float part = part_within(way.x, back.x, ahead.x);
-    part = smaller(part, part_within(way.y, back.y, ahead.y));
-    return smaller(part, part_within(way.z, back.z, ahead.z));
+    float part = part_within(way.x, growth.x, back.x, ahead.x);
+    part = smaller(part, part_within(way.y, growth.y, back.y, ahead.y));
+    return smaller(part, part_within(way.z, growth.z, back.z, ahead.z));
 }
 
 LAW Pose pose_along(vec3 position, vec3 way, vec4 orientation, vec4 turn, float fraction) {
