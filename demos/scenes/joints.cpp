@@ -84,6 +84,8 @@ void add_figure(Scene& scene, const std::vector<Part>& parts, vec3 position, vec
     for (const Part& part : parts) {
         Body body = box_at(part.at, part.half);
         body.density = 900;
+        // Swings of cone-twist joints have no friction: without damping an arm over the edge of a step swings for minutes.
+        body.linear_damping = body.angular_damping = 0.4f;
         alone.bodies.push_back(body);
     }
     for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -200,7 +202,8 @@ DemoScene ragdolls(const DemoOptions& options) {
             high,
             10,
             Promise(because(gaps_below("in any figure", 0.02), any_number), none_torn(),
-                    all_within({-far, -0.5f, -far}, {far, top + 2, far}), end_speed_below(2),
+                    all_within({-far, -0.5f, -far}, {far, top + 2, far}),
+                    because(end_speed_below(2), "arms still swing: of 24 seeds 0.2 to 1.8 m/s"),
                     because(penetration_below(0.03), any_number))
                 .watching(all, Span(4, 1))};
 }
