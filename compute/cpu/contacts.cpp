@@ -374,11 +374,11 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
             const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = first ? carried : state.carried[i] + carried;
         }
-        const float solved = physics::normal_impulse(impulse);
+        const physics::Impulse biased = impulse;
         impulse = physics::clear_impacts(after.impulse, physics::point_count(c));
         impulse.normal_sum = physics::normal_impulse(impulse);
         physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
-        const float weight = physics::counts_next(c, solved, impulse, after.pair_velocity, felt_by(state, c.a));
+        const float weight = physics::counts_next(c, biased, impulse, after.pair_velocity, felt_by(state, c.a));
         if (!last) share = physics::warm_start(c, impulse, share, ma, mb);
         hand_out(state, c, share, weight, impulse.normal_sum);
     });

@@ -226,9 +226,11 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
 
 // The same for the next substep, after the relax pass: a contact that bore an impulse in the biased pass counts too. A heavy
 // body that falls upon a light one presses it onto its supports in every biased pass, and the light body leaves them again in
-// every relax pass; supports that did not count would answer with the whole mass each, together for more than one body.
-LAW float counts_next(Constraint c, float solved_impulse, Impulse relaxed, VelocityPair v, Parameters parameters) {
-    return choose(solved_impulse > 0.0f, 1.0f, is_active(c, relaxed, v, parameters));
+// every relax pass; supports that did not count would answer with the whole mass each, together for more than one body. An
+// impact does not count, so that the next one, with another body, finds the whole mass.
+LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, VelocityPair v, Parameters parameters) {
+    bool bore = normal_impulse(biased) > 0.0f && !is_impact(biased);
+    return choose(bore, 1.0f, is_active(c, relaxed, v, parameters));
 }
 
 // Velocity changes of the whole bodies from those of the split ones: (after - before) / split. The next warm start is

@@ -74,7 +74,7 @@ void relax_contact(uint place, uint pass) {
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
         SET_FLOAT(carried, i, sum);
     }
-    float solved = normal_impulse(impulse);
+    Impulse biased = impulse;
     impulse = clear_impacts(after.impulse, point_count(c));
     impulse.normal_sum = normal_impulse(impulse);
     impulses.at[i].normal = impulse.normal;
@@ -100,7 +100,7 @@ void relax_contact(uint place, uint pass) {
         share = warm_start(c, impulse, share, ma, mb);
     else
         show_quiet_steps(c, before);
-    float weight = counts_next(c, solved, impulse, after.pair_velocity, felt_by(c.a));
+    float weight = counts_next(c, biased, impulse, after.pair_velocity, felt_by(c.a));
     if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, weight, impulse.normal_sum);
     if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, weight, impulse.normal_sum);
 }
