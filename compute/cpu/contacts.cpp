@@ -378,7 +378,7 @@ void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
         impulse = physics::clear_impacts(after.impulse, physics::point_count(c));
         impulse.normal_sum = physics::normal_impulse(impulse);
         physics::VelocityPair share = physics::to_body_deltas(before, after.pair_velocity, ma, mb);
-        const float weight = physics::counts_next(c, biased, impulse, after.pair_velocity, felt_by(state, c.a));
+        const float weight = physics::counts_next(c, biased, impulse, after.pair_velocity, ma, mb, felt_by(state, c.a));
         if (!last) share = physics::warm_start(c, impulse, share, ma, mb);
         hand_out(state, c, share, weight, impulse.normal_sum);
     });

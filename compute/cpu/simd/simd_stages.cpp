@@ -277,7 +277,7 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
         VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
-        const Float weight = counts_next(group.c, was, impulse, after.pair_velocity, p);
+        const Float weight = counts_next(group.c, was, impulse, after.pair_velocity, ma, mb, p);
         if (!tables.last) share = warm_start(group.c, impulse, share, ma, mb);
         group.keep(impulse);
         if (tables.last || tables.watched) group.give_back(tables, first, last);

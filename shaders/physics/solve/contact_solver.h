@@ -224,13 +224,19 @@ LAW float is_active(Constraint c, Impulse impulse, VelocityPair v, Parameters pa
     return choose(carrying, 1.0f, 0.0f);
 }
 
-// The same for the next substep, after the relax pass: a contact that bore an impulse in the biased pass counts too. A heavy
-// body that falls upon a light one presses it onto its supports in every biased pass, and the light body leaves them again in
-// every relax pass; supports that did not count would answer with the whole mass each, together for more than one body. An
-// impact does not count, so that the next one, with another body, finds the whole mass.
-LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, VelocityPair v, Parameters parameters) {
-    bool bore = normal_impulse(biased) > 0.0f && !is_impact(biased);
-    return choose(bore, 1.0f, is_active(c, relaxed, v, parameters));
+// An impulse of the biased pass is a blow if the lighter body's velocity would change by more than gravity changes it in so many
+// substeps.
+CONSTANT float BLOW = 50.0f;
+
+// is_active() for the next substep, after the relax pass: a contact that took a blow in the biased pass counts too. A heavy body
+// that falls upon a light one presses it onto its supports in every biased pass, and the light body leaves them again in every
+// relax pass; supports that did not count would answer with the whole mass each, together for more than one body. (If whatever
+// bore counted, contacts of a settling pile that come and go would keep it awake.) An impact does not count, so that the next
+// one, with another body, finds the whole mass.
+LAW float counts_next(Constraint c, Impulse biased, Impulse relaxed, VelocityPair v, Mass a, Mass b, Parameters parameters) {
+    float change = normal_impulse(biased) * larger(a.inverse_mass, b.inverse_mass);
+    bool blow = change > BLOW * parameters.h * length3(parameters.gravity) && !is_impact(biased);
+    return choose(blow, 1.0f, is_active(c, relaxed, v, parameters));
 }
 
 // Velocity changes of the whole bodies from those of the split ones: (after - before) / split. The next warm start is

@@ -100,7 +100,7 @@ void relax_contact(uint place, uint pass) {
         share = warm_start(c, impulse, share, ma, mb);
     else
         show_quiet_steps(c, before);
-    float weight = counts_next(c, biased, impulse, after.pair_velocity, felt_by(c.a));
+    float weight = counts_next(c, biased, impulse, after.pair_velocity, ma, mb, felt_by(c.a));
     if (c.slot_a != NONE) slots.at[c.slot_a] = velocity_delta(share.a, weight, impulse.normal_sum);
     if (c.slot_b != NONE) slots.at[c.slot_b] = velocity_delta(share.b, weight, impulse.normal_sum);
 }
