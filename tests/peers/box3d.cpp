@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/hull.h"
 #include "tests/peers/engine.h"
 
 namespace scree::peers {
@@ -29,10 +30,11 @@ vec4 turn_to(vec3 normal) {
 
 class Box3d : public Engine {
 public:
-    Box3d(const Scene& scene, int substeps, float contact_hertz) : substeps_(substeps), contact_hertz_(contact_hertz) {
+    Box3d(const Scene& scene, int substeps, float contact_hertz, bool sleeps)
+        : substeps_(substeps), contact_hertz_(contact_hertz), sleeps_(sleeps) {
         b3WorldDef world = b3DefaultWorldDef();
         world.gravity = vector_of(scene.gravity);
-        world.enableSleep = false;
+        world.enableSleep = sleeps_;
         if (contact_hertz > 0) world.contactHertz = contact_hertz;
         world.workerCount = 1;
         world_ = b3CreateWorld(&world);
@@ -95,7 +97,7 @@ private:
         def.linearDamping = body.linear_damping;
         def.angularDamping = body.angular_damping;
         def.gravityScale = body.gravity_scale;
-        def.enableSleep = false;
+        def.enableSleep = sleeps_;
         bodies_.push_back(b3CreateBody(world_, &def));
         add_shape(bodies_.back(), body);
     }
@@ -119,8 +121,15 @@ private:
         } else if (std::holds_alternative<Plane>(body.shape)) {
             const b3BoxHull hull = b3MakeBoxHull(reach_, plane_depth, reach_);
             b3CreateHullShape(id, &def, &hull.base);
+        } else if (const auto* solid = std::get_if<Hull>(&body.shape)) {
+            std::vector<b3Vec3> points;
+            for (const glm::dvec3& v : solid->form->vertices) points.push_back(vector_of(vec3(v)));
+            b3HullData* hull = b3CreateHull(points.data(), static_cast<int>(points.size()), static_cast<int>(points.size()));
+            if (!hull) throw Unsupported("a hull that Box3D refuses");
+            b3CreateHullShape(id, &def, hull);
+            b3DestroyHull(hull);
         } else {
-            throw Unsupported("a cylinder, cone or hull, which the race does not translate");
+            throw Unsupported("a shape which the race does not translate");
         }
     }
 
@@ -130,14 +139,15 @@ private:
     b3WorldId world_{};
     int substeps_;
     float contact_hertz_;  // 0: the default
-    float reach_ = 50;     // m, half its width
+    bool sleeps_;
+    float reach_ = 50;  // m, half its width
     std::vector<b3BodyId> bodies_;
 };
 
 }  // namespace
 
-std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps, float contact_hertz) {
-    return std::make_unique<Box3d>(scene, substeps, contact_hertz);
+std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps, float contact_hertz, bool sleeps) {
+    return std::make_unique<Box3d>(scene, substeps, contact_hertz, sleeps);
 }
 
 }  // namespace scree::peers

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compute/scene/hull.h"
 #include "tests/peers/engine.h"
 
 namespace scree::peers {
@@ -17,6 +18,9 @@ btVector3 vector_of(vec3 v) {
     return {v.x, v.y, v.z};
 }
 
+// m, by which Bullet inflates hulls; its default of 4 cm is half a stone of the bins.
+constexpr float hull_margin = 0.001f;
+
 std::unique_ptr<btCollisionShape> shape_of(const Shape& shape) {
     if (const auto* sphere = std::get_if<Sphere>(&shape)) return std::make_unique<btSphereShape>(sphere->radius);
     if (const auto* capsule = std::get_if<Capsule>(&shape))
@@ -24,7 +28,14 @@ std::unique_ptr<btCollisionShape> shape_of(const Shape& shape) {
     if (const auto* box = std::get_if<Box>(&shape)) return std::make_unique<btBoxShape>(vector_of(box->half_extents));
     if (const auto* plane = std::get_if<Plane>(&shape))
         return std::make_unique<btStaticPlaneShape>(vector_of(plane->normal), plane->offset);
-    throw Unsupported("a cylinder, cone or hull, which the race does not translate");
+    if (const auto* hull = std::get_if<Hull>(&shape)) {
+        auto solid = std::make_unique<btConvexHullShape>();
+        for (const glm::dvec3& v : hull->form->vertices) solid->addPoint(vector_of(vec3(v)), false);
+        solid->setMargin(hull_margin);
+        solid->recalcLocalAabb();
+        return solid;
+    }
+    throw Unsupported("a shape which the race does not translate");
 }
 
 // Fraction of velocity lost per second, from a damping rate (1/s).
@@ -44,7 +55,7 @@ btScalar rolling_of_pair(const btCollisionObject* a, const btCollisionObject* b)
 
 class Bullet : public Engine {
 public:
-    explicit Bullet(const Scene& scene) {
+    Bullet(const Scene& scene, int substeps, bool sleeps) : substeps_(substeps), sleeps_(sleeps) {
         gCalculateCombinedFrictionCallback = friction_of_pair;
         gCalculateCombinedRestitutionCallback = restitution_of_pair;
         gCalculateCombinedRollingFrictionCallback = rolling_of_pair;
@@ -57,9 +68,10 @@ public:
 
     std::string name() const override {
         const int version = btGetVersion();
-        return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100) + ", 1 thread";
+        return "Bullet " + std::to_string(version / 100) + "." + std::to_string(version % 100) + ", 1 thread" +
+               (substeps_ > 1 ? ", steps of 1/" + std::to_string(60 * substeps_) + " s" : "");
     }
-    void step() override { world_.stepSimulation(step_seconds, 1, step_seconds); }
+    void step() override { world_.stepSimulation(step_seconds, substeps_, step_seconds / static_cast<float>(substeps_)); }
     std::vector<Pose> poses() const override {
         std::vector<Pose> all;
         for (const auto& body : bodies_) {
@@ -93,7 +105,7 @@ private:
         info.m_linearDamping = damping_of(body.linear_damping);
         info.m_angularDamping = damping_of(body.angular_damping);
         auto& added = *bodies_.emplace_back(std::make_unique<btRigidBody>(info));
-        added.setActivationState(DISABLE_DEACTIVATION);
+        if (!sleeps_) added.setActivationState(DISABLE_DEACTIVATION);
         if (moves) {
             added.setLinearVelocity(vector_of(body.velocity));
             added.setAngularVelocity(vector_of(body.angular_velocity));
@@ -102,6 +114,8 @@ private:
         if (moves) added.setGravity(vector_of(gravity * body.gravity_scale));  // after adding, which sets the world's gravity
     }
 
+    int substeps_;
+    bool sleeps_;
     btDefaultCollisionConfiguration configuration_;
     mutable btCollisionDispatcher dispatcher_{&configuration_};
     btDbvtBroadphase broadphase_;
@@ -113,8 +127,8 @@ private:
 
 }  // namespace
 
-std::unique_ptr<Engine> make_bullet(const Scene& scene) {
-    return std::make_unique<Bullet>(scene);
+std::unique_ptr<Engine> make_bullet(const Scene& scene, int substeps, bool sleeps) {
+    return std::make_unique<Bullet>(scene, substeps, sleeps);
 }
 
 }  // namespace scree::peers

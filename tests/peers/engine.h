@@ -22,7 +22,7 @@ class Engine {
 public:
     virtual ~Engine() = default;
     virtual std::string name() const = 0;         // name, version and device
-    virtual void step() = 0;                      // one step of step_seconds, sleep off
+    virtual void step() = 0;                      // one step of step_seconds
     virtual std::vector<Pose> poses() const = 0;  // of bodies in the scene's order; a plane's means nothing
     virtual std::size_t points() const = 0;       // contact points after the last step
 };
@@ -34,15 +34,15 @@ struct Unsupported : std::runtime_error {
 
 // `scene` must be validated (compute/scene.h). Throw Unsupported for scenes that cannot be translated exactly.
 // substeps 0: scree's default. contact_hertz: stiffness of contacts, at most an eighth of the substep rate; 0: Box3D's
-// default.
+// default. Bodies never sleep unless `sleeps`. Bullet divides a step into whole steps of its own, `substeps` of them.
 std::unique_ptr<Engine> make_scree_on_processor(const Scene& scene, int threads, int substeps = 0);
 std::unique_ptr<Engine> make_scree_on_device(const Scene& scene, int substeps = 0);  // the first Vulkan device
-std::unique_ptr<Engine> make_bullet(const Scene& scene);
+std::unique_ptr<Engine> make_bullet(const Scene& scene, int substeps = 1, bool sleeps = false);
 #ifdef SCREE_PEER_MUJOCO
 std::unique_ptr<Engine> make_mujoco(const Scene& scene);
 #endif
 #ifdef SCREE_PEER_BOX3D
-std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps = 4, float contact_hertz = 0);
+std::unique_ptr<Engine> make_box3d(const Scene& scene, int substeps = 4, float contact_hertz = 0, bool sleeps = false);
 #endif
 
 }  // namespace scree::peers

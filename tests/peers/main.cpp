@@ -10,6 +10,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "demos/program/table.h"
 #include "host/files/file.h"
+#include "tests/peers/bins.h"
 #include "tests/peers/quality.h"
 #include "tests/peers/race.h"
 
@@ -47,6 +48,18 @@ Rows kept(const std::string& name, const Scene& scene, double seconds) {
     return peers::csv_rows(name, scene.bodies.size(), all);
 }
 
+Rows filled(const std::vector<std::size_t>& counts, double most_seconds) {
+    Rows rows = {peers::filling_heading()};
+    for (const std::size_t bins : counts) {
+        fmt::print("{} bins of 20 stones, {} s in steps of 1/60 s, processor time of one thread\n", bins, peers::bin_seconds);
+        std::fflush(stdout);
+        const std::vector<peers::Filling> all = peers::fill(bins, most_seconds);
+        fmt::print("\n{}\n", peers::table_of(all));
+        append(rows, peers::csv_rows(all));
+    }
+    return rows;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -57,7 +70,15 @@ int main(int argc, char** argv) {
     bool from_start = false;
     double quality = 0;
     std::string csv;
-    program.add_option("scenes", files, "scene files, at best of settled piles (scree run ... --save FILE)")->required();
+    std::vector<std::size_t> bins;
+    double most_seconds = 20;
+    program.add_option("scenes", files, "scene files, at best of settled piles (scree run ... --save FILE)");
+    program.add_option("--bins", bins, "instead of scenes: so many bins of stones at once, numbers separated by commas")
+        ->delimiter(',')
+        ->check(CLI::Range(1, 65536));
+    program.add_option("--most-seconds", most_seconds, "with --bins: processor time after which an engine begins no other world")
+        ->check(CLI::Range(0.1, 100000.0))
+        ->capture_default_str();
     program.add_option("--steps", course.steps, "of a turn")->check(CLI::Range(1, 100000))->capture_default_str();
     program.add_option("--rounds", course.rounds, "turns of each program")->check(CLI::Range(1, 100000))->capture_default_str();
     program.add_option("--warmup", course.warmup, "steps of each before the first that counts")
@@ -81,7 +102,16 @@ int main(int argc, char** argv) {
     program.add_option("--csv", csv, "a file for the numbers");
     CLI11_PARSE(program, argc, argv);
     if (from_start) course = peers::Course::from_start(course.rounds, course.steps);
+    if (files.empty() == bins.empty()) {
+        fmt::print(stderr, "scree_peers: give scene files, or --bins with numbers; see --help\n");
+        return 2;
+    }
     try {
+        if (!bins.empty()) {
+            const Rows rows = filled(bins, most_seconds);
+            if (!csv.empty()) host::write_atomically(csv, demos::csv(rows));
+            return 0;
+        }
         Rows rows = {quality > 0 ? peers::keeping_heading() : peers::lap_heading()};
         for (const std::string& file : files) {
             const Scene scene = checked(scene_from_json(host::read_text(file)).scene);

@@ -4,11 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <utility>
 
+#include "compute/scene/hull.h"
 #include "demos/program/table.h"
 #include "tests/peers/race.h"
 
@@ -18,48 +19,78 @@ namespace {
 
 using dvec3 = glm::dvec3;
 
-struct Cuboid {
-    dvec3 centre, half;
-    std::array<dvec3, 3> axes;
-    bool moves;
-
-    double reach_along(dvec3 direction) const {
-        double reach = 0;
-        for (int k = 0; k < 3; ++k) reach += half[k] * std::abs(glm::dot(axes[static_cast<std::size_t>(k)], direction));
-        return reach;
-    }
-};
-
 dvec3 turned(vec4 q, dvec3 v) {
     const dvec3 u(q.x, q.y, q.z);
     return v + 2.0 * glm::cross(u, glm::cross(u, v) + static_cast<double>(q.w) * v);
 }
 
-// Depth in m by the axis of least overlap; at most 0: apart.
-double depth_of(const Cuboid& a, const Cuboid& b) {
-    const dvec3 between = b.centre - a.centre;
+// A box or hull in the world, m; normals and edges are unit vectors.
+struct Solid {
+    dvec3 centre;
+    double radius = 0;
+    std::vector<dvec3> corners, normals, edges;
+    bool moves = false;
+
+    std::pair<double, double> span_along(dvec3 direction) const {
+        double low = std::numeric_limits<double>::max(), high = -low;
+        for (const dvec3& corner : corners) {
+            const double at = glm::dot(corner, direction);
+            low = std::min(low, at);
+            high = std::max(high, at);
+        }
+        return {low, high};
+    }
+};
+
+// Depth in m by the axis of least overlap (separating axis theorem); at most 0: apart.
+double depth_of(const Solid& a, const Solid& b) {
     double least = std::numeric_limits<double>::max();
     const auto along = [&](dvec3 axis) {
         const double length = glm::length(axis);
-        if (length < 1e-3) return;  // of edges that are all but parallel; faces tell as much
+        if (least <= 0 || length < 1e-3) return;  // of edges that are all but parallel; faces tell as much
         axis /= length;
-        least = std::min(least, a.reach_along(axis) + b.reach_along(axis) - std::abs(glm::dot(between, axis)));
+        const auto [low_a, high_a] = a.span_along(axis);
+        const auto [low_b, high_b] = b.span_along(axis);
+        least = std::min(least, std::min(high_a - low_b, high_b - low_a));
     };
-    for (const dvec3& axis : a.axes) along(axis);
-    for (const dvec3& axis : b.axes) along(axis);
-    for (const dvec3& first : a.axes)
-        for (const dvec3& second : b.axes) along(glm::cross(first, second));
+    along(b.centre - a.centre);  // tells most that are apart
+    for (const dvec3& axis : a.normals) along(axis);
+    for (const dvec3& axis : b.normals) along(axis);
+    for (const dvec3& first : a.edges)
+        for (const dvec3& second : b.edges) along(glm::cross(first, second));
     return least;
 }
 
-std::optional<Cuboid> cuboid_of(const Body& body, const Pose& pose) {
-    const auto* box = std::get_if<Box>(&body.shape);
-    if (!box) return std::nullopt;
-    const auto axis = [&](dvec3 v) { return turned(pose.orientation, v); };
-    return Cuboid{dvec3(pose.position),
-                  dvec3(box->half_extents),
-                  {axis({1, 0, 0}), axis({0, 1, 0}), axis({0, 0, 1})},
-                  body.motion == Motion::dynamic};
+std::optional<Solid> solid_of(const Body& body, const Pose& pose) {
+    Solid solid;
+    solid.centre = dvec3(pose.position);
+    solid.moves = body.motion == Motion::dynamic;
+    const auto add_corner = [&](dvec3 v) {
+        solid.corners.push_back(solid.centre + turned(pose.orientation, v));
+        solid.radius = std::max(solid.radius, glm::length(v));
+    };
+    if (const auto* box = std::get_if<Box>(&body.shape)) {
+        const dvec3 half(box->half_extents);
+        for (unsigned k = 0; k < 8; ++k)
+            add_corner({k & 1 ? half.x : -half.x, k & 2 ? half.y : -half.y, k & 4 ? half.z : -half.z});
+        for (const dvec3 axis : {dvec3(1, 0, 0), dvec3(0, 1, 0), dvec3(0, 0, 1)})
+            solid.normals.push_back(turned(pose.orientation, axis));
+        solid.edges = solid.normals;
+        return solid;
+    }
+    const auto* hull = std::get_if<Hull>(&body.shape);
+    if (!hull) return std::nullopt;
+    for (const dvec3& v : hull->form->vertices) add_corner(v);
+    for (const HullForm::Face& face : hull->form->faces) {
+        solid.normals.push_back(turned(pose.orientation, face.normal));
+        for (std::size_t k = 0; k < face.corners.size(); ++k) {
+            const std::uint32_t from = face.corners[k], to = face.corners[(k + 1) % face.corners.size()];
+            if (from < to)  // each edge once, of the two faces that have it
+                solid.edges.push_back(
+                    turned(pose.orientation, glm::normalize(hull->form->vertices[to] - hull->form->vertices[from])));
+        }
+    }
+    return solid;
 }
 
 double horizontal(vec3 a, vec3 b) {
@@ -86,21 +117,18 @@ Overlaps overlaps_of(const Scene& scene, const std::vector<Pose>& poses) {
         sum += depth;
         found.greatest = std::max(found.greatest, depth);
     };
-    std::vector<Cuboid> cuboids;
+    std::vector<Solid> solids;
     for (std::size_t i = 0; i < scene.bodies.size(); ++i)
-        if (const auto cuboid = cuboid_of(scene.bodies[i], poses[i])) cuboids.push_back(*cuboid);
-    for (std::size_t i = 0; i < cuboids.size(); ++i) {
-        const Cuboid& a = cuboids[i];
-        for (std::size_t k = i + 1; k < cuboids.size(); ++k) {
-            const Cuboid& b = cuboids[k];
-            if ((a.moves || b.moves) && glm::length(a.centre - b.centre) < glm::length(a.half) + glm::length(b.half))
-                count(depth_of(a, b));
+        if (const auto solid = solid_of(scene.bodies[i], poses[i])) solids.push_back(*solid);
+    for (std::size_t i = 0; i < solids.size(); ++i) {
+        const Solid& a = solids[i];
+        for (std::size_t k = i + 1; k < solids.size(); ++k) {
+            const Solid& b = solids[k];
+            if ((a.moves || b.moves) && glm::length(a.centre - b.centre) < a.radius + b.radius) count(depth_of(a, b));
         }
         for (const Body& body : scene.bodies) {
             const auto* plane = std::get_if<Plane>(&body.shape);
-            if (plane && a.moves)
-                count(static_cast<double>(plane->offset) + a.reach_along(dvec3(plane->normal)) -
-                      glm::dot(a.centre, dvec3(plane->normal)));
+            if (plane && a.moves) count(static_cast<double>(plane->offset) - a.span_along(dvec3(plane->normal)).first);
         }
     }
     if (found.pairs > 0) found.mean = sum / static_cast<double>(found.pairs);

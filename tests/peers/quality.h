@@ -10,8 +10,8 @@
 
 namespace scree::peers {
 
-// Penetration of boxes by separating axes, in double precision: each touching pair of boxes counts once, and each box in a plane.
-// Shapes other than boxes are left out.
+// Penetration of boxes and hulls by separating axes, in double precision: each touching pair counts once, and each body in a
+// plane. Other shapes are left out. `scene`: checked.
 struct Overlaps {
     std::size_t pairs = 0;          // that penetrate
     double mean = 0, greatest = 0;  // m, of these pairs

@@ -5,6 +5,7 @@
 
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
+#include "tests/peers/bins.h"
 #include "tests/peers/quality.h"
 #include "tests/peers/race.h"
 
@@ -194,5 +195,42 @@ TEST_CASE("MuJoCo in the race is told shapes, masses and friction as scree has t
     require_same_ends(scene, *make_mujoco(scene));
 }
 #endif
+
+TEST_CASE("hulls penetrate by as much as the boxes of their corners") {
+    Scene boxes, hulls;
+    for (const float x : {0.0f, 0.49f}) {
+        Body body;
+        body.shape = Box{{0.25f, 0.2f, 0.3f}};
+        body.position = {x, 0.03f * x, 0};
+        body.orientation = {0, 0.1f * x, 0, 1};
+        boxes.bodies.push_back(body);
+        Hull corners;
+        for (unsigned k = 0; k < 8; ++k)
+            corners.points.emplace_back(k & 1 ? 0.25f : -0.25f, k & 2 ? 0.2f : -0.2f, k & 4 ? 0.3f : -0.3f);
+        body.shape = corners;
+        hulls.bodies.push_back(body);
+    }
+    const auto depth = [](const Scene& given) {
+        const Scene scene = checked(given);
+        std::vector<Pose> poses;
+        for (const Body& body : scene.bodies) poses.push_back({body.position, body.orientation});
+        return overlaps_of(scene, poses);
+    };
+    REQUIRE(depth(boxes).pairs == 1);
+    CHECK(depth(boxes).greatest == Approx(0.01 + 0.3 * 0.0979).margin(0.02));
+    CHECK(depth(hulls).greatest == Approx(depth(boxes).greatest).margin(1e-6));
+}
+
+TEST_CASE("bins settle in every engine, and scree's copies without depth") {
+    const std::vector<Filling> all = fill(2, 100);
+    for (const Filling& one : all) {
+        INFO(table_of(all));
+        CHECK(one.bins == 2);
+        CHECK(one.seconds > 0);
+        CHECK(one.overlaps.greatest < 0.02);
+    }
+    CHECK(all.back().settled == 2);
+    CHECK(all.back().overlaps.mean < 0.001);
+}
 
 }  // namespace scree::peers
