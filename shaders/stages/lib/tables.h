@@ -107,6 +107,9 @@
     X(carried, contact_starts)          /* after bodies know their contacts */             \
     X(contacts_to_solve, pairs_by_type) /* after the narrowphase */                        \
     X(neighbours_quiet, contact_slots)  /* after contacts are prepared */                  \
+    X(slot_sides, manifold_places)      /* after bodies wake */                            \
+    X(contact_pairs, cell_ends)         /* after the broadphase */                         \
+    X(impact_debts, contact_pairs)      /* after contacts are prepared */                  \
     X(cell_entries, contacts)           /* before contacts are made */                     \
     X(candidates, impulses)             /* before the narrowphase */                       \
     X(manifolds, impulses)              /* before impulses are taken from the last step */ \
