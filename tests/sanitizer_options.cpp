@@ -18,7 +18,28 @@ const char* __lsan_default_suppressions() {
            "leak:libopen-rte\n";
 }
 
+// These are not compiled with the thread sanitizer, which does not see how they order their threads.
+const char* __tsan_default_suppressions() {
+    return "race:libLLVM\n"
+           "race:libEGL\n"
+           "race:libembree\n"
+           "race:libgallium\n"
+           "race:swrast_dri\n"
+           "race:mca_\n"
+           "race:libmpi\n"
+           "race:libopen-pal\n"
+           "race:libopen-rte\n"
+           "deadlock:mca_\n"
+           "deadlock:libmpi\n"
+           "deadlock:libopen-pal\n"
+           "deadlock:libopen-rte\n";
+}
+
 const char* __lsan_default_options() {
+    return "print_suppressions=0";
+}
+
+const char* __tsan_default_options() {
     return "print_suppressions=0";
 }
 
