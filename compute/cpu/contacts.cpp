@@ -59,12 +59,10 @@ void show_quiet_steps(State& state, const physics::Constraint& c) {
 // Those at the border of a rank, which need ghosts, come after all others.
 constexpr std::size_t inner_classes = 16, solver_classes = 2 * inner_classes;
 constexpr std::uint8_t not_solved = 0xFF;
-std::uint8_t class_of(const State& state, const physics::Constraint& c, const physics::PreparedContact& prepared) {
-    const physics::Contact& contact = prepared.contact;
+std::uint8_t class_of(const State& state, const physics::Constraint& c, const physics::Contact& contact, bool bears) {
     const auto is_ghost = [&](std::uint32_t row) { return !state.presence.empty() && state.presence[row] == Presence::ghost; };
     const bool at_border = is_ghost(c.a) || is_ghost(c.b);
     const bool round = physics::is_round(state.properties[contact.a]) && physics::is_round(state.properties[contact.b]);
-    const bool bears = prepared.impulse.normal_sum > 0;
     return static_cast<std::uint8_t>(inner_classes * at_border + 4 * (2 * round + !bears) + (4 - contact.count));
 }
 
@@ -72,7 +70,7 @@ std::uint8_t class_of(const State& state, const physics::Constraint& c, const ph
 void sort_by_copy(State& state) {
     const auto solved = std::span(state.contacts_to_solve).first(state.counted().solver_contacts);
     const auto key = [&](std::uint32_t contact) {
-        const std::uint32_t copy = state.copy_of(state.pairs[state.constraints[contact].pair].a);
+        const std::uint32_t copy = state.copy_of(state.contacts[contact].a);
         return std::tuple(copy, state.solver_classes[contact], contact);
     };
     std::sort(solved.begin(), solved.end(), [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
@@ -160,62 +158,64 @@ void for_each_group(State& state, const Threads& threads, const WideTables& tabl
     }
 }
 
-// A contact with the impulses of the last step.
+physics::uint slot_of(const State& state, std::size_t contact, std::size_t side) {
+    return state.contact_slots[2 * contact + side];
+}
+
+// Last step's impulses, and what else the contact takes from then.
 physics::PreparedContact warm_started_contact(const State& state, std::size_t i) {
-    const physics::Constraint& c = state.constraints[i];
-    const physics::Pair& pair = state.pairs[c.pair];
+    const physics::Pair& pair = state.pairs[state.contact_pairs[i]];
+    physics::PreparedContact prepared = physics::without_impulses(state.contacts[i]);
+    if (pair.previous == physics::NONE) return prepared;
     const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-    const physics::Manifold& manifold = state.manifolds[c.pair];
-    physics::PreparedContact prepared;
-    if (physics::is_carried_forward(pair.pair_type)) {
-        prepared = physics::carried_forward(state.contacts_before[pair.previous], state.impulses_before[pair.previous], manifold);
-    } else {
-        prepared = physics::newly_found(pair, manifold, state.point_counts[c.pair], state.poses[state.body_of(pair.a)],
-                                        state.poses[state.body_of(pair.b)]);
-        if (pair.previous != physics::NONE)
-            prepared = physics::warm_started(prepared, state.contacts_before[pair.previous], state.impulses_before[pair.previous],
-                                             ta, tb);
-    }
-    const bool idle = physics::is_idle(c.slot_a, c.slot_b);
+    const physics::Contact& before = state.contacts_before[pair.previous];
+    const physics::Impulse& was = state.impulses_before[pair.previous];
+    const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+    if (pair.pair_type == physics::PAIR_INACTIVE)
+        prepared = physics::carried_forward(before, was, physics::resting_manifold(before, was));
+    else if (pair.pair_type == physics::PAIR_PERSISTENT)
+        prepared = physics::carried_forward(before, was, physics::persistent_manifold(before, state.poses[a], state.poses[b]));
+    else
+        prepared = physics::warm_started(prepared, before, was, ta, tb);
+    const physics::uint slot_a = slot_of(state, i, 0), slot_b = slot_of(state, i, 1);
+    const bool idle = physics::is_idle(slot_a, slot_b);
     // Unchanged between two inactive bodies.
-    if (pair.previous != physics::NONE && !(idle && pair.pair_type == physics::PAIR_INACTIVE))
-        prepared.contact.load = physics::load_since(state.contacts_before[pair.previous], state.impulses_before[pair.previous],
-                                                    ta, c.slot_a, tb, c.slot_b);
-    if (!idle) prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
+    if (!idle || pair.pair_type != physics::PAIR_INACTIVE)
+        prepared.contact.load = physics::load_since(before, was, ta, slot_a, tb, slot_b);
+    if (idle) return prepared;
+    prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
+    if (physics::rebounds_across(prepared.impulse)) {
+        const physics::Parameters felt = felt_by(state, a);
+        prepared.impulse = physics::settled_impact(
+            prepared.impulse, physics::constraint_of(prepared.contact, ta, tb, slot_a, slot_b, felt), was,
+            physics::constraint_of(before, ta, tb, slot_a, slot_b, felt), {state.velocities[a], state.velocities[b]});
+    }
     return prepared;
 }
 
-// Whether neither tyres nor surfaces take part, nor an impact of the last step.
-bool is_ordinary(const State& state, const physics::Pair& pair, const physics::PreparedContact& prepared) {
-    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-    const bool settles = pair.previous != physics::NONE && physics::rebounds_across(prepared.impulse);
-    return (physics::surface_of(ta) | physics::surface_of(tb) | physics::tyre_of(ta) | physics::tyre_of(tb)) == 0 && !settles;
+// Whether neither tyres nor surfaces take part.
+bool is_ordinary(const State& state, const physics::Contact& contact) {
+    const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
+    return (physics::surface_of(ta) | physics::surface_of(tb) | physics::tyre_of(ta) | physics::tyre_of(tb)) == 0;
 }
 
-// The constraint of a contact, whose unrest and impact follow from it.
-void prepare_constraint(State& state, std::size_t i, physics::PreparedContact prepared) {
+// The constraint of a contact, whose unrest follows from it.
+void prepare_constraint(State& state, std::size_t i) {
     const physics::Parameters& p = state.fixed();
     physics::Constraint& c = state.constraints[i];
-    const std::uint32_t index = c.pair, a = c.a, b = c.b;
-    const physics::Pair& pair = state.pairs[index];
-    const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
-    c = physics::constraint_between(prepared.contact, index, ta, a, c.slot_a, tb, b, c.slot_b, felt_by(state, a));
+    physics::Contact& contact = state.contacts[i];
+    const std::uint32_t a = c.a, b = c.b;
+    const physics::BodyProperties &ta = state.properties[contact.a], &tb = state.properties[contact.b];
+    c = physics::constraint_between(contact, ta, a, c.slot_a, tb, b, c.slot_b, felt_by(state, a));
     if ((physics::surface_of(ta) | physics::surface_of(tb)) != 0)
         c = physics::with_surfaces(c, ta, surface_on(state, ta), state.poses[a].orientation, tb, surface_on(state, tb),
                                    state.poses[b].orientation, p);
     const physics::VelocityPair now = velocities_of(state, c);
     const bool tyre_is_a = physics::tyre_of(ta) != 0;
     if (const physics::uint tyre = physics::tyre_of(tyre_is_a ? ta : tb))
-        c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], prepared.contact.center_offset, now);
-    if (pair.previous != physics::NONE && physics::rebounds_across(prepared.impulse)) {
-        const physics::Constraint before =
-            physics::constraint_of(state.contacts_before[pair.previous], ta, tb, c.slot_a, c.slot_b, felt_by(state, a));
-        prepared.impulse = physics::settled_impact(prepared.impulse, c, state.impulses_before[pair.previous], before, now);
-        state.impulses[i].rebound_energy = prepared.impulse.rebound_energy;
-    }
-    const float unrest = physics::unrest_of(prepared.contact, c, ta, tb, now, felt_by(state, a));
-    state.contacts[i].unrest = unrest;
-    c = physics::with_unrest(c, unrest);
+        c = physics::on_tyre(c, tyre_is_a, state.tyres[tyre - 1], contact.center_offset, now);
+    contact.unrest = physics::unrest_of(contact, c, ta, tb, now, felt_by(state, a));
+    c = physics::with_unrest(c, contact.unrest);
 }
 
 // The warm start of the first substep.
@@ -229,24 +229,28 @@ void hand_out_first(State& state, std::size_t i) {
 
 }  // namespace
 
-void compact_contacts(State& state, const Threads& threads, std::uint32_t) {
+void make_contacts(State& state, const Threads& threads, std::uint32_t) {
     threads.for_each(state.counted().pairs, [&](std::size_t i) {
         if (state.point_counts[i] == 0) return;
-        physics::Constraint& c = state.constraints[state.contact_starts[i]];
-        c.pair = static_cast<std::uint32_t>(i);
-        c.slot_a = c.slot_b = physics::NONE;
-        if (!state.reordered()) return;
+        const std::uint32_t contact = state.contact_starts[i];
         const physics::Pair& pair = state.pairs[i];
+        state.contacts[contact] =
+            physics::is_carried_forward(pair.pair_type)
+                ? state.contacts_before[pair.previous]
+                : physics::contact_of(pair, state.pair_manifolds[i], state.point_counts[i], state.poses[state.body_of(pair.a)],
+                                      state.poses[state.body_of(pair.b)]);
+        state.contact_pairs[contact] = static_cast<std::uint32_t>(i);
+        state.contact_slots[2 * contact] = state.contact_slots[2 * contact + 1] = physics::NONE;
+        if (!state.reordered()) return;
         const bool is_a = state.pair_starts[pair.a] <= i && i < state.pair_starts[pair.a + 1];
-        state.contact_owners[state.contact_starts[i]] = state.id_of(is_a ? pair.a : pair.b);
+        state.contact_owners[contact] = state.id_of(is_a ? pair.a : pair.b);
     });
 }
 
 void count_slots(State& state, const Threads& threads, std::uint32_t) {
     if (!physics::any_stirs(state.counted())) return;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
-        const physics::Pair& pair = state.pairs[state.constraints[i].pair];
-        for (const std::uint32_t body : {state.body_of(pair.a), state.body_of(pair.b)})
+        for (const std::uint32_t body : {state.body_of(state.contacts[i].a), state.body_of(state.contacts[i].b)})
             if (movable(state, body)) taken(state.slot_counts()[body]);
     });
 }
@@ -258,8 +262,7 @@ void fill_slots(State& state, const Threads& threads, std::uint32_t) {
         std::vector<std::uint32_t> solved;  // one atomic add per thread: one per contact took longer than the rest
         solved.reserve(last - first);
         for (auto contact = static_cast<std::uint32_t>(first); contact < last; ++contact) {
-            const physics::Pair& pair = state.pairs[state.constraints[contact].pair];
-            const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+            const std::uint32_t a = state.body_of(state.contacts[contact].a), b = state.body_of(state.contacts[contact].b);
             const bool moves_a = movable(state, a), moves_b = movable(state, b);
             if (moves_a) state.slot_sides[taken(state.slot_starts()[a])] = 2 * contact;
             if (moves_b) state.slot_sides[taken(state.slot_starts()[b])] = 2 * contact + 1;
@@ -295,11 +298,19 @@ void sort_slots(State& state, const Threads& threads, std::uint32_t) {
                 state.block_bodies[side & ~physics::OF_JOINT].slot = slot;
                 continue;
             }
-            physics::Constraint& c = state.constraints[side / 2];
-            (side % 2 == 0 ? c.slot_a : c.slot_b) = slot;
+            state.contact_slots[side] = slot;
         }
     });
     state.first_contacts[n] = state.counted().contacts;
+}
+
+void warm_start_contacts(State& state, const Threads& threads, std::uint32_t) {
+    threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::PreparedContact prepared = warm_started_contact(state, i);
+        state.contacts[i].load = prepared.contact.load;
+        state.contacts[i].unrest = prepared.contact.unrest;
+        state.impulses[i] = prepared.impulse;
+    });
 }
 
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
@@ -307,21 +318,20 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const bool sorted = wide || !state.presence.empty();
     if (sorted) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        const physics::Contact& contact = state.contacts[i];
         physics::Constraint& c = state.constraints[i];
-        const physics::PreparedContact prepared = warm_started_contact(state, i);
-        state.contacts[i] = prepared.contact;
-        state.impulses[i] = prepared.impulse;
-        const physics::Pair& pair = state.pairs[c.pair];
-        c.a = state.body_of(pair.a);
-        c.b = state.body_of(pair.b);
+        c.a = state.body_of(contact.a);
+        c.b = state.body_of(contact.b);
+        c.slot_a = slot_of(state, i, 0);
+        c.slot_b = slot_of(state, i, 1);
         const bool idle = physics::is_idle(c.slot_a, c.slot_b);
-        if (sorted) state.solver_classes[i] = idle ? not_solved : class_of(state, c, prepared);
+        if (sorted) state.solver_classes[i] = idle ? not_solved : class_of(state, c, contact, state.impulses[i].normal_sum > 0);
         if (idle) {
-            c = physics::idle_between(prepared.contact, c.a, c.b);
-        } else if (wide && is_ordinary(state, pair, prepared)) {
+            c = physics::idle_between(contact, c.a, c.b);
+        } else if (wide && is_ordinary(state, contact)) {
             c.flags = 0;
         } else {
-            prepare_constraint(state, i, prepared);
+            prepare_constraint(state, i);
             if (!wide) hand_out_first(state, i);
         }
     });

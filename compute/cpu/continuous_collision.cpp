@@ -2,6 +2,7 @@
 #include <atomic>
 
 #include "compute/cpu/stages.h"
+#include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/extra/time_of_impact.h"
 #include "shaders/physics/solve/contact.h"
 
@@ -33,7 +34,7 @@ physics::MotionPath course(const State& state, std::uint32_t row, float until) {
 }  // namespace
 
 void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
-    if (!some_fast(state)) return;
+    if (!some_fast(state) || physics::lacks_room(state.counted(), state.fixed())) return;
     const physics::Parameters& p = state.fixed();
     state.paces.resize(p.first_part);
     threads.for_each(state.paces.size(), [&](std::size_t i) {
@@ -49,7 +50,7 @@ void predict_impacts(State& state, const Threads& threads, std::uint32_t) {
         if ((paces[0] | paces[1]) == 0) return;
         const bool driving[2] = {(paces[0] & drives) != 0, (paces[1] & drives) != 0};
         const bool any_fast = ((paces[0] | paces[1]) & fast) != 0;
-        const physics::Manifold& manifold = state.manifolds[i];
+        const physics::Manifold& manifold = state.pair_manifolds[i];
         const float cosine = physics::same_normal(driving[0] || driving[1]);
         const bool rebounds = previous != physics::NONE && physics::rebounds_across(state.impulses_before[previous]);
         const bool holds = !any_fast || rebounds ||

@@ -1,6 +1,7 @@
 // Reference narrowphase: pairs binned by type, one collision function each.
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/cpu/stages.h"
@@ -46,7 +47,7 @@ void set_manifold(State& state, std::size_t index, physics::ManifoldBuffer touch
     const std::size_t a = state.pairs[index].a, body = state.body_of(state.pairs[index].a);
     touch = physics::within_margin(touch, margin);
     if (a != body) touch = physics::from_body(touch, state.poses[a].position - state.poses[body].position);
-    state.manifolds[index] = touch.manifold;
+    state.pair_manifolds[index] = touch.manifold;
     state.point_counts[index] = touch.count;
 }
 
@@ -92,6 +93,14 @@ void collide_boxes(State& state, const WideStages& wide, std::size_t first, std:
     }
 }
 
+// Counts those of a range of pairs_by_type that have points.
+void count_found(State& state, std::size_t first, std::size_t last) {
+    const auto begin = state.pairs_by_type.begin();
+    const auto found = std::count_if(begin + static_cast<std::ptrdiff_t>(first), begin + static_cast<std::ptrdiff_t>(last),
+                                     [&](physics::uint pair) { return state.point_counts[pair] > 0; });
+    std::atomic_ref(state.counted().contacts).fetch_add(static_cast<physics::uint>(found), std::memory_order_relaxed);
+}
+
 std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
     const std::size_t first = span * physics::PAIR_BLOCK;
     return std::span(state.pairs).subspan(first, std::min<std::size_t>(physics::PAIR_BLOCK, state.counted().pairs - first));
@@ -101,6 +110,7 @@ std::span<const physics::Pair> span_of(const State& state, std::size_t span) {
 
 void count_pair_types(State& state, const Threads& threads, std::uint32_t) {
     const std::size_t spans = physics::pair_blocks_of(state.counted().pairs);
+    if (state.pair_manifolds.size() < state.counted().pairs) state.pair_manifolds.resize(state.fixed().pair_capacity);
     threads.for_each(spans, [&](std::size_t i) {
         const auto pairs = span_of(state, i);
         for (std::size_t pair_type = 0; pair_type < physics::PAIR_TYPES; ++pair_type)
@@ -130,35 +140,41 @@ void collide(State& state, const Threads& threads, std::uint32_t pair_type) {
     const WideStages* wide = wide_stages(threads.lanes());
     const bool of_boxes = wide && pair_type == physics::PAIR_BOX_BOX && state.gravities.empty();
     threads.for_ranges(state.counted().pair_type_first[pair_type + 1] - first, [&](std::size_t begin, std::size_t end) {
-        if (of_boxes) return collide_boxes(state, *wide, first + begin, first + end);
-        for (std::size_t i = first + begin; i < first + end; ++i) collide_pair(state, pair_type, state.pairs_by_type[i]);
+        if (of_boxes)
+            collide_boxes(state, *wide, first + begin, first + end);
+        else
+            for (std::size_t i = first + begin; i < first + end; ++i) collide_pair(state, pair_type, state.pairs_by_type[i]);
+        count_found(state, first + begin, first + end);
     });
 }
 
 void collide_persistent(State& state, const Threads& threads, std::uint32_t) {
-    const std::size_t first = state.counted().pair_type_first[physics::PAIR_PERSISTENT];
+    const std::size_t first = state.counted().pair_type_first[physics::PAIR_PERSISTENT],
+                      last = state.counted().pair_type_first[physics::PAIR_PERSISTENT + 1];
+    state.counted().contacts += static_cast<physics::uint>(last - first);
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.pairs_by_type);
         tables.items += first;
-        return threads.for_ranges(state.counted().pair_type_first[physics::PAIR_PERSISTENT + 1] - first,
-                                  [&](std::size_t begin, std::size_t end) { wide->persist(tables, begin, end); });
+        return threads.for_ranges(last - first, [&](std::size_t begin, std::size_t end) { wide->persist(tables, begin, end); });
     }
-    threads.for_each(state.counted().pair_type_first[physics::PAIR_PERSISTENT + 1] - first, [&](std::size_t i) {
+    threads.for_each(last - first, [&](std::size_t i) {
         const std::size_t index = state.pairs_by_type[first + i];
         const physics::Pair& pair = state.pairs[index];
         const physics::Contact& contact = state.contacts_before[pair.previous];
-        state.manifolds[index] =
+        state.pair_manifolds[index] =
             physics::persistent_manifold(contact, state.poses[state.body_of(pair.a)], state.poses[state.body_of(pair.b)]);
         state.point_counts[index] = contact.count;
     });
 }
 
 void collide_inactive(State& state, const Threads& threads, std::uint32_t) {
-    const std::size_t first = state.counted().pair_type_first[physics::PAIR_INACTIVE];
-    threads.for_each(state.counted().pair_type_first[physics::PAIR_INACTIVE + 1] - first, [&](std::size_t i) {
+    const std::size_t first = state.counted().pair_type_first[physics::PAIR_INACTIVE],
+                      last = state.counted().pair_type_first[physics::PAIR_INACTIVE + 1];
+    state.counted().contacts += static_cast<physics::uint>(last - first);
+    threads.for_each(last - first, [&](std::size_t i) {
         const std::size_t index = state.pairs_by_type[first + i];
         const std::size_t previous = state.pairs[index].previous;
-        state.manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulses_before[previous]);
+        state.pair_manifolds[index] = physics::resting_manifold(state.contacts_before[previous], state.impulses_before[previous]);
         state.point_counts[index] = state.contacts_before[previous].count;
     });
 }

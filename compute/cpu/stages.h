@@ -50,10 +50,11 @@ SCREE_STAGE(wake_unsupported);
 SCREE_STAGE(propagate_wake);  // pass: the depth of this round
 
 // contacts.cpp
-SCREE_STAGE(compact_contacts);
+SCREE_STAGE(make_contacts);
 SCREE_STAGE(count_slots);
 SCREE_STAGE(fill_slots);
 SCREE_STAGE(sort_slots);
+SCREE_STAGE(warm_start_contacts);
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);  // pass: 1 in the last substep, 2 in the first, 4 if contact impulses are summed

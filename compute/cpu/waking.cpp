@@ -48,12 +48,12 @@ void wake_touched(State& state, const Threads& threads, std::uint32_t) {
     physics::Counts& counts = state.counted();
     if (!counts.sleepers || !physics::any_stirs(counts)) return;
     threads.for_each(counts.contacts, [&](std::size_t i) {
-        const std::uint32_t index = state.constraints[i].pair;
+        const std::uint32_t index = state.contact_pairs[i];
         const physics::Pair& pair = state.pairs[index];
         if (!stirred(state, pair.a) && !stirred(state, pair.b)) return;
         const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
         const float approach = physics::approach_of(
-            state.manifolds[index], state.point_counts[index], state.poses[b].position - state.poses[a].position,
+            state.pair_manifolds[index], state.point_counts[index], state.poses[b].position - state.poses[a].position,
             state.velocities[a], state.velocities[b],
             physics::speculative_of(state.properties[pair.a], state.properties[pair.b], state.fixed()), state.fixed());
         if (slept(state, a) && !slept(state, b) && wakes(state, pair, a, b, approach)) raise(state, a, physics::WOKEN);
@@ -82,11 +82,10 @@ void wake_unsupported(State& state, const Threads& threads, std::uint32_t) {
 void propagate_wake(State& state, const Threads& threads, std::uint32_t depth) {
     if (state.counted().arguments[physics::WORK_WAKE].x == 0) return;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
-        const physics::Pair& pair = state.pairs[state.constraints[i].pair];
         const auto shake = [&](std::uint32_t by, std::uint32_t other) {
             if (physics::shakes(rest_of(state, by), depth)) raise(state, other, physics::shaking_bit(depth - 1));
         };
-        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
+        const std::uint32_t a = state.body_of(state.contacts[i].a), b = state.body_of(state.contacts[i].b);
         shake(a, b);
         shake(b, a);
     });

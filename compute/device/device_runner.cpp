@@ -23,7 +23,7 @@ std::uint32_t threads_of_a_group(const host::Device& device) {
     return device.report().is_processor ? 64 : 128;
 }
 
-std::size_t buffer_of(Table table) {
+std::size_t binding_of(Table table) {
     return table_infos()[static_cast<std::size_t>(table)].buffer;
 }
 
@@ -38,11 +38,17 @@ static_assert(host::tables_of_a_step.changing_texels == read_while_changing.size
 // (shaders/stages/lib/read.glsl).
 std::vector<host::Access> accesses(bool texels) {
     std::vector<host::Access> all(buffer_count);
-    all[buffer_of(Table::parameters)].uniform = true;
-    for (const Table table : read_while_changing) all[buffer_of(table)].changing = texels;
+    all[binding_of(Table::parameters)].uniform = true;
+    for (const Table table : read_while_changing) all[binding_of(table)].changing = texels;
     for (std::size_t i = 0; texels && i < buffer_count; ++i)
         all[i].texel_bytes = static_cast<std::uint32_t>(std::min<std::size_t>(16, buffer_infos()[i].record_bytes));
     return all;
+}
+
+// The buffer of a table in steps of a parity.
+std::size_t buffer_at(Table table, std::size_t parity) {
+    const Table owner = memory_of(table);
+    return buffer_of(parity ? other_parity(owner) : owner);
 }
 
 std::size_t argument_offset(physics::uint row) {
@@ -67,10 +73,10 @@ std::uint32_t DeviceRunner::group_size() const {
 }
 
 const host::Buffer& DeviceRunner::buffer(Table table) const {
-    return buffers_[buffer_of(parity_ ? other_parity(table) : table)];
+    return buffers_[buffer_at(table, parity_)];
 }
 host::Buffer& DeviceRunner::buffer(Table table) {
-    return buffers_[buffer_of(parity_ ? other_parity(table) : table)];
+    return buffers_[buffer_at(table, parity_)];
 }
 
 void DeviceRunner::attach(State& state) {
@@ -83,6 +89,7 @@ void DeviceRunner::adapt() {
     wait_for_returned();
     device_->wait_idle();
     make_buffers();
+    if (std::exchange(planned_group_size_, state_->fixed().group_size) != state_->fixed().group_size) pipelines_.clear();
     const host::Reach reach = reach_needed();
     if (!layout_ || layout_->reach() != reach || layout_->has_texels() != reads_texels() ||
         planned_substeps_ != state_->substeps || planned_features_ != state_->features())
@@ -103,8 +110,10 @@ host::Reach DeviceRunner::reach_needed() const {
 bool DeviceRunner::reads_texels() const {
     const std::uint32_t most = device_->limits().maxTexelBufferElements;
     const auto all = accesses(true);
-    for (std::size_t i = 0; i < buffer_count; ++i)
-        if (buffers_[i].bytes() / all[i].texel_bytes > most) return false;
+    for (std::size_t i = 0; i < table_count; ++i) {
+        const auto table = static_cast<Table>(i);
+        if (buffers_[buffer_of(table)].bytes() / all[binding_of(table)].texel_bytes > most) return false;
+    }
     return device_->report().prefers_texels;
 }
 
@@ -130,7 +139,7 @@ std::uint32_t DeviceRunner::fused_group_size() const {
 }
 
 std::vector<std::uint32_t> DeviceRunner::constants_of(const Stage& stage) const {
-    const std::uint32_t threads = stage.reference ? group_size() : fused_group_size();
+    const std::uint32_t threads = stage.reference ? state_->fixed().group_size : fused_group_size();
     return {stage.threads_an_item > 0 ? stage.threads_an_item : threads, stage.features, is_one_subgroup() ? 1u : 0u,
             shaders::variant_of(stage.name + stage.way)};
 }
@@ -234,10 +243,11 @@ void DeviceRunner::record_stage(host::CommandBuffer& commands, const Stage& stag
 
 void DeviceRunner::bind_tables() {
     for (std::size_t parity = 0; parity < 2; ++parity) {
-        std::vector<const host::Buffer*> bound;
-        for (const host::Buffer& buffer : buffers_) bound.push_back(&buffer);
-        for (const Table table : {Table::contacts, Table::contacts_before, Table::impulses, Table::impulses_before})
-            bound[buffer_of(table)] = &buffers_[buffer_of(parity ? other_parity(table) : table)];
+        std::vector<const host::Buffer*> bound(buffer_count);
+        for (std::size_t i = 0; i < table_count; ++i) {
+            const auto table = static_cast<Table>(i);
+            bound[binding_of(table)] = &buffers_[buffer_at(table, parity)];
+        }
         alone_[parity].clear();
         steps_[parity] = {};
         tables_[parity] = std::make_unique<host::BindingSet>(layout_, bound);

@@ -109,6 +109,7 @@ private:
     std::vector<Stage> recorded_;  // the plan, with stages fused in a small world
     JointDispatches joint_dispatches_;
     int planned_substeps_ = 0;
+    std::uint32_t planned_group_size_ = 0;
     SceneFeatures planned_features_;
     StageClock clock_;
     std::shared_ptr<host::BindingSetLayout> layout_;

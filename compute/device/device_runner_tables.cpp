@@ -35,10 +35,17 @@ bool lasts(Table table) {
     return std::any_of(lasting.begin(), lasting.end(), [&](Table one) { return one == table || other_parity(one) == table; });
 }
 
+// Whether a binding has a buffer of its own.
+bool holds_tables(std::size_t buffer) {
+    for (std::size_t i = 0; i < table_count; ++i)
+        if (buffer_of(static_cast<Table>(i)) == buffer) return true;
+    return false;
+}
+
 // The same for any table of a buffer.
 bool lasts(std::size_t buffer) {
     for (std::size_t i = 0; i < table_count; ++i)
-        if (table_infos()[i].buffer == buffer && lasts(static_cast<Table>(i))) return true;
+        if (buffer_of(static_cast<Table>(i)) == buffer && lasts(static_cast<Table>(i))) return true;
     return false;
 }
 
@@ -46,7 +53,7 @@ bool lasts(std::size_t buffer) {
 void take_offsets(TableOffsets& offsets, const TableOffsets& wanted, std::size_t buffer) {
     offsets.bytes[buffer] = wanted.bytes[buffer];
     for (std::size_t i = 0; i < table_count; ++i) {
-        if (table_infos()[i].buffer != buffer) continue;
+        if (buffer_of(static_cast<Table>(i)) != buffer) continue;
         offsets.begin[i] = wanted.begin[i];
         offsets.room[i] = wanted.room[i];
     }
@@ -83,16 +90,21 @@ std::size_t room_behind(const State& state, BufferLength length) {
 }  // namespace
 
 void DeviceRunner::make_buffers() {
-    const std::uint32_t most_groups = device_->limits().maxComputeWorkGroupCount[0];
-    const physics::Parameters& p = state_->fixed();
-    if (std::max({p.pair_capacity, p.buckets + p.copies, p.contact_capacity}) / p.group_size >= most_groups)
+    const VkPhysicalDeviceLimits& limits = device_->limits();
+    const std::uint32_t most_groups = limits.maxComputeWorkGroupCount[0];
+    const std::uint32_t widest = std::min({256u, limits.maxComputeWorkGroupSize[0], limits.maxComputeWorkGroupInvocations});
+    physics::Parameters& p = state_->fixed();
+    const std::uint32_t longest = std::max({p.pair_capacity, p.buckets + p.copies, p.contact_capacity});
+    // Wider groups where the device has too few.
+    for (; longest / p.group_size >= most_groups && 2 * p.group_size <= widest; ++p.group_shift) p.group_size *= 2;
+    if (longest / p.group_size >= most_groups)
         throw host::DeviceError("the scene needs lists of " + std::to_string(std::max(p.pair_capacity, p.buckets)) +
                                 " items, but this device runs at most " +
                                 std::to_string(std::uint64_t{most_groups} * p.group_size) +
                                 " threads at once: use fewer bodies, or --backend cpu");
     buffers_.resize(buffer_count);
     for (std::size_t i = 0; i < buffer_count; ++i)
-        if (!buffers_[i] || !have_room(offsets_, i, *state_)) make_buffer(i);
+        if (holds_tables(i) && (!buffers_[i] || !have_room(offsets_, i, *state_))) make_buffer(i);
     tell_offsets(offsets_, state_->fixed());
 }
 
@@ -127,7 +139,7 @@ void DeviceRunner::move_lasting(const host::Buffer& before, const TableOffsets& 
     host::CommandBuffer commands(device_);
     for (std::size_t i = 0; i < table_count; ++i) {
         const std::size_t bytes = std::min(were.room[i], offsets_.room[i]);
-        if (table_infos()[i].buffer == index && lasts(static_cast<Table>(i)) && bytes > 0)
+        if (buffer_of(static_cast<Table>(i)) == index && lasts(static_cast<Table>(i)) && bytes > 0)
             commands.copy(before, buffers_[index], bytes, were.begin[i], offsets_.begin[i]);
     }
     commands.end();
@@ -176,7 +188,8 @@ void DeviceRunner::poison() {
     const std::vector<Table>& lasting = lasting_tables();
     for (std::size_t i = 0; i < table_count; ++i) {
         const auto table = static_cast<Table>(i);
-        if (std::find(lasting.begin(), lasting.end(), table) != lasting.end()) continue;
+        const auto is_in_its_memory = [&](Table one) { return share_memory(one, table); };
+        if (std::any_of(lasting.begin(), lasting.end(), is_in_its_memory)) continue;
         const std::vector<std::byte> garbage(range(table).bytes, std::byte{0xCD});
         write(table, garbage);
     }

@@ -33,7 +33,14 @@ struct Lockstep::Impl {
 
     void attach() {
         there.attach(image);
+        take_group_size();
         here.attach(state);
+    }
+
+    // The device may have widened its groups (DeviceRunner::make_buffers).
+    void take_group_size() {
+        state.fixed().group_size = image.fixed().group_size;
+        state.fixed().group_shift = image.fixed().group_shift;
     }
 
     bool compare(const Stage& stage, std::size_t index) {
@@ -59,6 +66,7 @@ struct Lockstep::Impl {
         state.grow();
         there.adapt();
         there.upload({{Table::counts, 0, 1}});
+        take_group_size();
         here.adapt();
         return false;
     }

@@ -61,7 +61,6 @@ void gather_contacts(State& state, Exchange& exchange) {
         constraint.a = state.body_of(state.contacts[k].a);
         constraint.b = state.body_of(state.contacts[k].b);
         constraint.slide_limit = all[k].slide_limit;
-        constraint.pair = 0;
         if (k < state.carried.size()) state.carried[k] = all[k].carried;
     }
 }

@@ -301,7 +301,7 @@ void merge_contacts(State& state, const std::vector<OwnedContact>& more,
     std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
     all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }), all.end());
     if (all.size() > state.fixed().contact_capacity) {
-        state.fixed().contact_capacity = static_cast<std::uint32_t>(all.size() + all.size() / 4);
+        state.fixed().contact_capacity = State::with_reserve(all.size());
         state.allocate();
     }
     std::fill(state.first_contacts.begin(), state.first_contacts.end(), 0u);

@@ -1,8 +1,6 @@
 // Sorting bodies along a Morton curve, and moving them in the tables.
 #include "compute/step/memory_order.h"
 
-#include <tbb/parallel_sort.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -62,10 +60,8 @@ std::vector<std::uint32_t> rows_by_place(const Scene& scene, const State& state,
             std::sort(order.begin() + static_cast<std::ptrdiff_t>(begins[copy]),
                       order.begin() + static_cast<std::ptrdiff_t>(begins[copy + 1]));
         });
-    } else if (threads.count() == 1) {
-        std::sort(order.begin(), order.end());
     } else {
-        threads.run([&] { tbb::parallel_sort(order.begin(), order.end()); });
+        threads.sort(order);
     }
     std::vector<std::uint32_t> rows(n);
     std::iota(rows.begin(), rows.end(), 0u);

@@ -102,9 +102,9 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
         if (has_pair_type(features, pair_type)) s.add(name_of_pair_type(pair_type), pair_type);
     s.add(convex ? "predict_impacts_convex" : "predict_impacts");
     s.add("cull_speculative");
-    // compaction of contacts
+    // contacts
     s.add_scan("contacts");
-    s.add("compact_contacts");
+    s.add("make_contacts");
     // waking
     s.add("wake_touched");
     s.add("wake_unsupported");
@@ -117,6 +117,7 @@ std::vector<Stage> plan(int substeps, const SceneFeatures& features) {
     s.add("fill_slots");
     if (features.joints) s.add("fill_joint_slots");
     s.add("sort_slots");
+    s.add("warm_start_contacts");
     s.add("prepare_contacts");
     if (features.joints) s.add("prepare_joints");
     // solver

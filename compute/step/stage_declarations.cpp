@@ -78,10 +78,10 @@ void declare_broadphase(std::vector<StageDeclaration>& all) {
         physics::FEATURE_PARTS | physics::FEATURE_REORDERED | physics::FEATURE_JOINTS | physics::FEATURE_FILTERS | physics::FEATURE_COPIES;
     declare_scan(all, {"cells", DispatchDomain::bucket_scan_blocks, cell_ends, cell_ends, A::buckets, scan_nothing, scan_cells_offsets});
     all.push_back({"fill_cells", DispatchDomain::bodies, fill_cells,
-        {{bounds, A::bodies, 1}, {cell_ends, A::bodies}},
+        {{counts}, {bounds, A::bodies, 1}, {cell_ends, A::bodies}},
         {{cell_ends, A::bodies}, unordered({cell_entries, A::bodies, 1})}});
     all.push_back({"sort_cells", DispatchDomain::buckets, sort_cells,
-        {{cell_ends, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}, {properties}},
+        {{counts}, {cell_ends, A::buckets}, {cell_entries, A::bodies}, {bounds, A::bodies, 1}, {properties}},
         {as_long_as(BufferLength::entries, {cell_entries, A::bodies})}});
     // Partners are cached in the memory of the table of pairs (shaders/stages/lib/partner_cache.glsl): few bodies
     // search again.
@@ -108,22 +108,23 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
     all.push_back({"fill_pair_types", DispatchDomain::pair_blocks, fill_pair_types,
         {{counts}, {pairs, A::pairs}, {pair_type_starts, A::pair_types}},
         {{pairs_by_type, A::pairs}, {counts}}});
+    const std::vector<Access> found{unordered({manifolds, A::binned}), unordered({manifold_places, A::binned}), in_parts({point_counts, A::binned}), {counts}};
     for (std::uint32_t pair_type = 0; pair_type < physics::PAIR_PERSISTENT; ++pair_type) {
         all.push_back({pair_type_names[pair_type], DispatchDomain::pair_type, collide,
             {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {properties, A::binned_bodies}, {poses, A::binned_bodies}, {velocities, A::binned_bodies}},
-            {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}, felt});
+            found, felt});
         for (const Table table : {gravities, ids}) all.back().reads.push_back({table});
         if (pair_type >= physics::PAIR_PLANE_CONVEX) all.back().reads.push_back({hulls, A::binned_hulls});
     }
     all.push_back({pair_type_names[physics::PAIR_PERSISTENT], DispatchDomain::pair_type, collide_persistent,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {poses, A::binned_bodies}, {properties}},
-        {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
+        found});
     all.push_back({pair_type_names[physics::PAIR_INACTIVE], DispatchDomain::pair_type, collide_inactive,
         {{counts}, {pairs_by_type, A::binned}, {pairs, A::binned}, {contacts_before, A::binned}, {impulses_before, A::binned}},
-        {in_parts({manifolds, A::binned}), in_parts({point_counts, A::binned})}});
+        found});
     // Few pairs are fast: most return early.
     all.push_back({"predict_impacts", DispatchDomain::ccd_pairs, predict_impacts,
-        {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifolds}, {impulses_before}},
+        {{counts}, {point_counts, A::ccd_pairs}, {pairs, A::ccd_pairs}, {properties, A::ccd_bodies}, {velocities, A::ccd_bodies}, {poses}, {forces}, {manifold_places}, {manifolds}, {impulses_before}},
         {{point_counts}, {bounds}}});
     declare_convex(all);
     all.push_back({"cull_speculative", DispatchDomain::ccd_pairs, cull_speculative,
@@ -133,13 +134,14 @@ void declare_narrowphase(std::vector<StageDeclaration>& all) {
 
 void declare_contacts(std::vector<StageDeclaration>& all) {
     declare_scan(all, {"contacts", DispatchDomain::pair_scan_blocks, point_counts, contact_starts, A::pairs, scan_contacts_spine, scan_contacts_offsets, true, true});
-    all.push_back({"compact_contacts", DispatchDomain::pairs, compact_contacts,
-        {{counts}, {point_counts, A::pairs}, {contact_starts, A::pairs}, {pairs}, {pair_starts}, {ids}},
-        {unfinished({constraints, A::contacts, 1}), unfinished({contact_owners, A::contacts})}, physics::FEATURE_REORDERED});
+    all.push_back({"make_contacts", DispatchDomain::pairs, make_contacts,
+        {{counts}, {point_counts, A::pairs}, {contact_starts, A::pairs}, {pairs, A::contacts}, {manifold_places, A::contacts}, {manifolds, A::contacts}, {contacts_before, A::contacts},
+         {poses, A::bodies}, {properties}, {pair_starts}, {ids}},
+        {{contacts, A::contacts}, {contact_pairs, A::contacts}, {contact_slots, A::contacts}, unfinished({contact_owners, A::contacts})}, physics::FEATURE_REORDERED});
     // Waking stages read only those bits of the sleep states that waking does not change, and counts that they do not
     // write.
     all.push_back({"wake_touched", DispatchDomain::contacts, wake_touched,
-        {in_parts({counts}), {constraints, A::stirred, 1}, {pairs, A::stirred}, {manifolds, A::stirred}, {point_counts}, {properties}, {poses, A::stirred_bodies},
+        {in_parts({counts}), {contact_pairs, A::stirred}, {pairs, A::stirred}, {manifold_places, A::stirred}, {manifolds, A::stirred}, {point_counts}, {properties}, {poses, A::stirred_bodies},
          {velocities, A::stirred_bodies}, by_atomics({sleep_states, A::stirred_bodies}), {contacts_before}, {impulses_before}, {gravities}, {ids}},
         {by_atomics({sleep_states}), in_parts({counts})}, felt});
     all.push_back({"wake_unsupported", DispatchDomain::bodies, wake_unsupported,
@@ -150,28 +152,32 @@ void declare_contacts(std::vector<StageDeclaration>& all) {
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints, 2}, {block_bodies, A::joints, 1}, {sleep_states, A::joints}, {properties}, {velocities}},
         {{joint_blocks}, {sleep_states}}});
     all.push_back({"propagate_wake", DispatchDomain::wake_contacts, propagate_wake,
-        {{counts}, {constraints, A::stirred, 1}, {pairs, A::stirred}, {properties}, {sleep_states, A::stirred_bodies}},
+        {{counts}, {contacts, A::stirred, 1}, {properties}, {sleep_states, A::stirred_bodies}},
         {{sleep_states}}});
     all.push_back({"count_slots", DispatchDomain::contacts, count_slots,
-        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
+        {{counts}, {contacts, A::contacts, 1}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
         {by_atomics({slot_ends, A::bodies})}});
     all.push_back({"count_joint_slots", DispatchDomain::joint_blocks, count_joint_slots,
         {{counts}, {joint_blocks, A::joints}, {joints, A::joints, 2}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}},
         {{joints, A::joints, 1}, {block_bodies, A::joints, 1}, by_atomics({slot_ends, A::joints})}});
     declare_scan(all, {"slots", DispatchDomain::body_scan_blocks, slot_ends, slot_ends, A::bodies, scan_nothing, scan_slots_offsets});
     all.push_back({"fill_slots", DispatchDomain::contacts, fill_slots,
-        {in_parts({counts}), {constraints, A::contacts, 1}, {pairs, A::contacts}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
+        {in_parts({counts}), {contacts, A::contacts, 1}, {properties, A::bodies, 1}, {sleep_states, A::bodies}, by_atomics({slot_ends, A::bodies})},
         {by_atomics({slot_ends, A::bodies}), unordered({slot_sides, A::slots}), unordered({contacts_to_solve, A::solver_contacts}), in_parts({counts})}});
     all.push_back({"fill_joint_slots", DispatchDomain::joint_blocks, fill_joint_slots,
         {in_parts({counts}), {joint_blocks, A::joints}, {block_bodies, A::joints, 1}, {properties}, {sleep_states, A::joints}, by_atomics({slot_ends, A::joints})},
         {by_atomics({slot_ends, A::joints}), unordered({slot_sides, A::joints})}});
     all.push_back({"sort_slots", DispatchDomain::bodies, sort_slots,
         {{counts}, {contact_starts, A::bodies}, {pair_starts, A::bodies}, {slot_ends, A::bodies}, {slot_sides, A::slots}, {contact_owners, A::contacts}},
-        {{slot_sides, A::slots}, {first_contacts, A::bodies}, unfinished({constraints, A::contacts, 1}), {block_bodies}}, physics::FEATURE_REORDERED});
+        {{slot_sides, A::slots}, {first_contacts, A::bodies}, some_only({contact_slots, A::contacts}), {block_bodies}}, physics::FEATURE_REORDERED});
+    all.push_back({"warm_start_contacts", DispatchDomain::contacts, warm_start_contacts,
+        {{counts}, {contact_pairs, A::contacts}, {pairs, A::contacts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {contacts_before, A::contacts}, {impulses_before, A::contacts},
+         {properties, A::bodies}, {poses, A::bodies}, {velocities}, {gravities}, {ids}},
+        {{contacts, A::contacts, 1}, {impulses, A::contacts}}, physics::FEATURE_BOUNCES | felt});
     all.push_back({"prepare_contacts", DispatchDomain::contacts, prepare_contacts,
-        {{counts}, {constraints, A::contacts, 1}, {pairs, A::contacts}, {manifolds, A::contacts}, {point_counts, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
-         {poses, A::bodies}, {masses, A::bodies}, {velocities, A::bodies}, {contacts_before, A::contacts}, {impulses_before, A::contacts}, {gravities}, {ids}},
-        {{contacts, A::contacts}, {impulses, A::contacts}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | physics::FEATURE_BOUNCES | felt});
+        {{counts}, {contacts, A::contacts}, {contact_slots, A::contacts}, {impulses, A::contacts}, {properties, A::bodies}, {tyres}, {surfaces},
+         {poses}, {masses, A::bodies}, {velocities, A::bodies}, {gravities}, {ids}},
+        {{contacts, A::contacts, 1}, {constraints, A::contacts}, in_parts({slots, A::slots})}, physics::FEATURE_SURFACES | felt});
 }
 
 // Contacts and joints have separate slots. In the biased pass joints read those just written by contacts.

@@ -62,6 +62,8 @@ std::size_t State::allocated(BufferLength length) const {
             return std::max({pair_types, std::size_t{p.pair_capacity}, std::size_t{physics::buckets_in_all(p)}}) / block + 2;
         case BufferLength::contacts:
             return p.contact_capacity;
+        case BufferLength::contact_sides:
+            return 2 * std::size_t{p.contact_capacity};
         case BufferLength::slots:
             return 2 * std::size_t{p.contact_capacity} + block_bodies.size();
         case BufferLength::joints:
@@ -117,6 +119,8 @@ std::size_t State::live(BufferLength length) const {
             return physics::PAIR_TYPES * physics::pair_blocks_of(c.pairs);
         case BufferLength::contacts:
             return c.contacts;
+        case BufferLength::contact_sides:
+            return 2 * std::size_t{c.contacts};
         case BufferLength::slots:
             return fixed().bodies ? slot_ends[fixed().bodies - 1] : 0;
         case BufferLength::candidates:  // unused once pairs are sorted
@@ -181,6 +185,11 @@ void State::make(Table table) {
     }
 }
 
+// The CPU keeps manifolds by pair.
+static bool is_of_devices(Table table) {
+    return table == Table::manifolds || table == Table::manifold_places;
+}
+
 void State::allocate() {
     const std::size_t numbered = ids.size();  // number of rows
     using enum Table;
@@ -190,7 +199,7 @@ void State::allocate() {
     if (!this->filters.empty()) this->filters.resize(fixed().bodies, no_filter);
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)
-        if (all_ || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
+        if ((all_ && !is_of_devices(static_cast<Table>(i))) || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
 }
 
 void State::spare_part_rows(std::uint32_t offset, std::uint32_t count) {
@@ -220,15 +229,17 @@ void State::turn_over() {
     impulses.swap(impulses_before);
 }
 
+// A quarter more; of a long list a sixteenth, as each repeated step costs little beside the steps between.
+std::uint32_t State::with_reserve(std::uint64_t need) {
+    constexpr std::uint64_t most = 1u << 31, is_long = 1u << 12;
+    if (need > most) throw std::length_error("more than 2,147,483,648 pairs of bodies overlap; spread them out");
+    return static_cast<std::uint32_t>(std::min(need + std::max(std::min(need, is_long) / 4, need / 16), most));
+}
+
 void State::grow() {
     const physics::Counts c = counted();
-    const auto with_room = [](std::uint64_t need) {
-        constexpr std::uint64_t most = 1u << 31;
-        if (need > most) throw std::length_error("more than 2,147,483,648 pairs of bodies overlap; spread them out");
-        return static_cast<std::uint32_t>(std::min(need + need / 4, most));
-    };
-    if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_room(c.required_pairs);
-    if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_room(c.required_contacts);
+    if (c.overflow & physics::OVERFLOW_PAIRS) fixed().pair_capacity = with_reserve(c.required_pairs);
+    if (c.overflow & physics::OVERFLOW_CONTACTS) fixed().contact_capacity = with_reserve(c.required_contacts);
     counted().overflow = 0;
     allocate();
 }
@@ -237,8 +248,8 @@ void State::shrink_contacts(std::uint32_t capacity) {
     fixed().contact_capacity = capacity;
     allocate();
     const auto shrink = [](auto&... tables) { (tables.shrink_to_fit(), ...); };
-    shrink(contacts, contacts_before, impulses, impulses_before, constraints, contacts_to_solve, contact_owners, carried, slots,
-           slot_sides, neighbours_quiet);
+    shrink(contacts, contacts_before, impulses, impulses_before, constraints, contacts_to_solve, contact_owners, contact_pairs,
+           contact_slots, carried, slots, slot_sides, neighbours_quiet);
 }
 
 bool State::has_joints() const {

@@ -36,6 +36,7 @@ enum class BufferLength {
     candidates,
     scan_blocks,
     contacts,
+    contact_sides,
     slots,
     hulls,
     parts,
@@ -164,8 +165,9 @@ struct State {
     // Swaps contacts and contacts_before; called at the start of every step that is not a repetition.
     void turn_over();
 
-    // Grows the lists to what the last step required and half as much again. Contents stay.
+    // Grows the lists to what the last step required, with a reserve. Contents stay.
     void grow();
+    static std::uint32_t with_reserve(std::uint64_t need);
     // Returns the memory of contacts beyond a capacity, which those in use fit into.
     void shrink_contacts(std::uint32_t capacity);
 
@@ -274,6 +276,8 @@ struct State {
 
     JointGroups joint_groups;  // made anew with the tables of joints and blocks
 
+    // CPU only, not a table: the manifold of each pair.
+    std::vector<physics::Manifold> pair_manifolds;
     // Cache of the CPU loops, not a table: the first partners of each body from counting, for listing. More than a body
     // has in a heap of equal ones; others search again.
     static constexpr std::size_t noted = 15;

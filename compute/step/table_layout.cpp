@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "compute/step/plan.h"
+
 namespace scree {
 
 namespace {
@@ -10,19 +12,6 @@ namespace {
 // Offset alignment for canvases that bind single tables: no device requires more (Vulkan 1.3,
 // minStorageBufferOffsetAlignment).
 constexpr std::size_t alignment = 256;
-
-// The table whose memory this one aliases.
-Table first_owner(Table table) {
-    switch (table) {
-#define SCREE_SHARE(later, earlier) \
-    case Table::later:              \
-        return first_owner(Table::earlier);
-        SCREE_SHARES(SCREE_SHARE)
-#undef SCREE_SHARE
-        default:
-            return table;
-    }
-}
 
 #define SCREE_CHECK(buffer, name, block, record, length) static_assert(sizeof(physics::records::name) == 4);
 SCREE_WORD_TABLES(SCREE_CHECK)
@@ -53,8 +42,24 @@ bool share_buffer(Table one, Table other) {
     return buffers[index_of(one)] == buffers[index_of(other)];
 }
 
+Table memory_of(Table table) {
+    switch (table) {
+#define SCREE_SHARE(later, earlier) \
+    case Table::later:              \
+        return memory_of(Table::earlier);
+        SCREE_SHARES(SCREE_SHARE)
+#undef SCREE_SHARE
+        default:
+            return table;
+    }
+}
+
+std::size_t buffer_of(Table table) {
+    return table_infos()[index_of(memory_of(table))].buffer;
+}
+
 bool share_memory(Table one, Table other) {
-    return first_owner(one) == first_owner(other);
+    return memory_of(one) == memory_of(other);
 }
 
 TableOffsets table_offsets(const State& state, const std::function<std::size_t(BufferLength)>& spare) {
@@ -62,17 +67,18 @@ TableOffsets table_offsets(const State& state, const std::function<std::size_t(B
     for (std::size_t i = 0; i < table_count; ++i) {
         const TableInfo& info = table_infos()[i];
         const std::size_t records = state.allocated(info.length) + (spare ? spare(info.length) : 0);
-        std::size_t& room = offsets.room[index_of(first_owner(static_cast<Table>(i)))];
-        room = std::max(room, records * info.record_bytes);
+        const Table owner = memory_of(static_cast<Table>(i));
+        for (const Table each : {owner, other_parity(owner)})
+            offsets.room[index_of(each)] = std::max(offsets.room[index_of(each)], records * info.record_bytes);
     }
     for (std::size_t i = 0; i < table_count; ++i) {
-        if (first_owner(static_cast<Table>(i)) != static_cast<Table>(i)) continue;
+        if (memory_of(static_cast<Table>(i)) != static_cast<Table>(i)) continue;
         std::size_t& end = offsets.bytes[table_infos()[i].buffer];
         offsets.begin[i] = (end + alignment - 1) / alignment * alignment;
         end = offsets.begin[i] + offsets.room[i];
     }
     for (std::size_t i = 0; i < table_count; ++i) {
-        const std::size_t owner = index_of(first_owner(static_cast<Table>(i)));
+        const std::size_t owner = index_of(memory_of(static_cast<Table>(i)));
         offsets.begin[i] = offsets.begin[owner];
         offsets.room[i] = offsets.room[owner];
     }
@@ -80,8 +86,11 @@ TableOffsets table_offsets(const State& state, const std::function<std::size_t(B
 }
 
 bool have_room(const TableOffsets& offsets, std::size_t buffer, const State& state) {
+    const TableOffsets wanted = table_offsets(state);
     for (std::size_t i = 0; i < table_count; ++i)
-        if (table_infos()[i].buffer == buffer && state.raw_bytes(static_cast<Table>(i)) > offsets.room[i]) return false;
+        if (memory_of(static_cast<Table>(i)) == static_cast<Table>(i) && table_infos()[i].buffer == buffer &&
+            wanted.room[i] > offsets.room[i])
+            return false;
     return true;
 }
 

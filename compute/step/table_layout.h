@@ -21,9 +21,14 @@ const std::array<BufferInfo, buffer_count>& buffer_infos();  // by binding
 
 // Whether two tables are in one buffer.
 bool share_buffer(Table one, Table other);
+// The table in whose memory a table is; most are in their own.
+Table memory_of(Table table);
+// The buffer that holds it.
+std::size_t buffer_of(Table table);
 // Whether two tables are the same or alias the same memory.
 bool share_memory(Table one, Table other);
 
+// Buffers that are swapped after every step (other_parity) are equally long: what aliases one is in each in turn.
 struct TableOffsets {
     std::array<std::size_t, table_count> begin{};   // offset in its buffer, bytes, by Table
     std::array<std::size_t, table_count> room{};    // size, bytes

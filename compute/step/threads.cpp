@@ -1,9 +1,8 @@
 // Parallel loops on oneTBB.
 #include "compute/step/threads.h"
 
-#include <tbb/blocked_range.h>
 #include <tbb/global_control.h>
-#include <tbb/parallel_for.h>
+#include <tbb/parallel_sort.h>
 #include <tbb/task_arena.h>
 
 #include <algorithm>
@@ -14,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "compute/step/parallel_loop.h"
 #include "compute/timeline.h"
 
 namespace scree {
@@ -78,18 +78,19 @@ void Threads::share_out_watched(std::size_t n, std::size_t least, const RangeBod
         Timeline::Time begin{}, end{};
         std::chrono::duration<double> busy{0};
         std::size_t items = 0;
+        HappensBefore next;  // a slot of the arena is one thread's, then another's
     };
     std::vector<Work> works(static_cast<std::size_t>(arena_->arena.max_concurrency()));
-    arena_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, least), [&](const tbb::blocked_range<std::size_t>& part) {
-            Work& work = works[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
-            const Timeline::Time begin = Timeline::Clock::now();
-            range(part.begin(), part.end());
-            work.end = Timeline::Clock::now();
-            if (work.items == 0) work.begin = begin;
-            work.busy += work.end - begin;
-            work.items += part.size();
-        });
+    parallel_loop(arena_->arena, n, least, [&](std::size_t first, std::size_t last) {
+        Work& work = works[static_cast<std::size_t>(tbb::this_task_arena::current_thread_index())];
+        work.next.acquire();
+        const Timeline::Time begin = Timeline::Clock::now();
+        range(first, last);
+        work.end = Timeline::Clock::now();
+        if (work.items == 0) work.begin = begin;
+        work.busy += work.end - begin;
+        work.items += last - first;
+        work.next.release();
     });
     for (std::size_t k = 0; k < works.size(); ++k)
         if (works[k].items > 0)
@@ -99,14 +100,16 @@ void Threads::share_out_watched(std::size_t n, std::size_t least, const RangeBod
 
 void Threads::share_out(std::size_t n, std::size_t least, const RangeBody& range) const {
     if (timeline_) return share_out_watched(n, least, range);
-    arena_->arena.execute([&] {
-        tbb::parallel_for(tbb::blocked_range<std::size_t>(0, n, least),
-                          [&](const tbb::blocked_range<std::size_t>& part) { range(part.begin(), part.end()); });
-    });
+    parallel_loop(arena_->arena, n, least, range);
 }
 
-void Threads::run(const std::function<void()>& work) const {
-    arena_->arena.execute(work);
+void Threads::sort(std::vector<std::pair<std::uint64_t, std::uint32_t>>& keys) const {
+#ifdef SCREE_THREAD_SANITIZER
+    std::sort(keys.begin(), keys.end());  // it would see races among the tasks of oneTBB's sort, in which scree has no part
+#else
+    if (count_ == 1) return std::sort(keys.begin(), keys.end());
+    arena_->arena.execute([&] { tbb::parallel_sort(keys.begin(), keys.end()); });
+#endif
 }
 
 }  // namespace scree

@@ -2,9 +2,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace scree {
 
@@ -40,8 +43,7 @@ public:
         timeline_ = timeline;
         name_ = name;
     }
-    // Calls work() once; oneTBB algorithms in it run on these threads. Not for a count of 1, which has none.
-    void run(const std::function<void()>& work) const;
+    void sort(std::vector<std::pair<std::uint64_t, std::uint32_t>>& keys) const;
 
 private:
     using RangeBody = std::function<void(std::size_t, std::size_t)>;

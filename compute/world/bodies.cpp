@@ -140,6 +140,9 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     in.require_one_copy("add_bodies");
     std::vector<std::vector<Body>> families = in.checked_families(bodies);
     if (families.empty()) return {};
+    // Read before the scene grows, of which the bodies may be.
+    const bool parts = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !simple_shape(body.shape); });
+    const bool filters = std::any_of(bodies.begin(), bodies.end(), has_filter);
     in.count_bodies();
     std::vector<std::size_t> firsts;
     const std::size_t count_before = in.scene.bodies.size();
@@ -147,7 +150,6 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
     const TableLengths before = TableLengths::of(in.state);
     StateEditor editor(in.state);
     const auto appended = static_cast<std::uint32_t>(in.scene.bodies.size() - count_before);
-    const bool parts = std::any_of(bodies.begin(), bodies.end(), [](const Body& body) { return !simple_shape(body.shape); });
     in.runner->download(editor.needed_to_add(appended, parts));
     TableRanges changed = editor.make_room(appended, parts);
     std::vector<BodyHandle> handles;
@@ -170,8 +172,7 @@ std::vector<BodyHandle> World::add_bodies(std::span<const Body> bodies) {
         }
     }
     for (const std::size_t first : firsts) handles.push_back({static_cast<std::uint32_t>(first), in.generations[first]});
-    if (!in.state.filters.empty() || std::any_of(bodies.begin(), bodies.end(), has_filter))
-        append(changed, editor.filter(in.scene));
+    if (filters || !in.state.filters.empty()) append(changed, editor.filter(in.scene));
     in.send(changed, before);
     in.edits.clear();
     ++in.arrangements;

@@ -210,14 +210,15 @@ std::size_t World::add_joint(const Joint& joint) {
     }
     in.count_joints();
     in.rejoin();
-    in.wake(joint);
+    in.wake(in.scene.joints[index]);
     return index;
 }
 
-std::vector<JointHandle> World::add_joints(std::span<const Joint> joints) {
-    if (joints.empty()) return {};
+std::vector<JointHandle> World::add_joints(std::span<const Joint> given) {
+    if (given.empty()) return {};
     Impl& in = *interior_;
     in.require_one_copy("add_joints");
+    const std::vector<Joint> joints(given.begin(), given.end());  // they may be of the scene, which grows
     in.count_joints();
     const std::size_t before = in.scene.joints.size();
     std::vector<std::size_t> indices;

@@ -229,7 +229,7 @@ TableRanges StateBytes::restore(State& state) const {
     p.group_size = own.group_size;
     p.group_shift = own.group_shift;
     p.pair_capacity = own.pair_capacity;
-    p.contact_capacity = std::max(own.contact_capacity, counts_.contacts + counts_.contacts / 4);
+    p.contact_capacity = std::max(own.contact_capacity, State::with_reserve(counts_.contacts));
     state.counted() = physics::emptied(counts_, p);
     state.counted().contacts = counts_.contacts;
     state.substeps = substeps_;

@@ -54,6 +54,7 @@
 #define AND_HULLS
 #endif
 #include "shaders/stages/lib/copies.glsl"
+#include "shaders/stages/lib/found_manifolds.glsl"
 
 void main() {
     uint i = thread() + COUNTED.pair_type_first[KIND];
@@ -85,6 +86,5 @@ void main() {
     touch = within_margin(touch, margin);
     if (a >= PARAMETERS.first_part)
         touch = from_body(touch, READ(poses, a).position - READ(poses, READ(properties, a).owner).position);
-    manifolds.at[pair] = touch.manifold;
-    WORD(point_counts, pair) = touch.count;
+    keep_manifold(pair, touch.manifold, touch.count);
 }

@@ -4,7 +4,7 @@
 
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/persistence.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/found_manifolds.glsl"
 
 void main() {
     uint i = thread() + COUNTED.pair_type_first[PAIR_INACTIVE];
@@ -12,6 +12,5 @@ void main() {
     uint index = READ_WORD(pairs_by_type, i);
     uint previous = READ(pairs, index).previous;
     Contact contact = READ(contacts_before, previous);
-    manifolds.at[index] = resting_manifold(contact, READ(impulses_before, previous));
-    WORD(point_counts, index) = contact.count;
+    keep_manifold(index, resting_manifold(contact, READ(impulses_before, previous)), contact.count);
 }

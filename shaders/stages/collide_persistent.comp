@@ -4,7 +4,7 @@
 
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/solve/persistence.h"
-#include "shaders/stages/lib/stage.glsl"
+#include "shaders/stages/lib/found_manifolds.glsl"
 
 void main() {
     uint i = thread() + COUNTED.pair_type_first[PAIR_PERSISTENT];
@@ -12,6 +12,5 @@ void main() {
     uint index = READ_WORD(pairs_by_type, i);
     Pair pair = READ(pairs, index);
     Contact contact = READ(contacts_before, pair.previous);
-    manifolds.at[index] = persistent_manifold(contact, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b)));
-    WORD(point_counts, index) = contact.count;
+    keep_manifold(index, persistent_manifold(contact, READ(poses, body_of(pair.a)), READ(poses, body_of(pair.b))), contact.count);
 }

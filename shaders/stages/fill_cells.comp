@@ -6,7 +6,7 @@
 
 void main() {
     uint i = thread();
-    if (i >= PARAMETERS.bodies || READ(bounds, i).bucket == NONE) return;
+    if (i >= PARAMETERS.bodies || COUNTED.overflow != 0u || READ(bounds, i).bucket == NONE) return;
     uint entry = atomicAdd(WORD(cell_starts, READ(bounds, i).bucket), 1u);
     cell_entries.at[entry].body = i;
 }

@@ -7,11 +7,12 @@
 
 #include "shaders/physics/extra/time_of_impact.h"
 #include "shaders/physics/solve/contact.h"
+#include "shaders/stages/lib/found_manifolds.glsl"
 #include "shaders/stages/lib/shape_data.glsl"
 
 void main() {
     uint i = thread();
-    if (i >= COUNTED.pairs || WORD(point_counts, i) == 0u) return;
+    if (i >= COUNTED.pairs || lacks_room(COUNTED, PARAMETERS) || WORD(point_counts, i) == 0u) return;
     uint a = READ(pairs, i).a, b = READ(pairs, i).b;
     uint of_a = body_of(a), of_b = body_of(b);
     BodyProperties ta = READ(properties, a), tb = READ(properties, b);
@@ -21,10 +22,11 @@ void main() {
     bool drives_a = drives(whole_a, motion_a, PARAMETERS), drives_b = drives(whole_b, motion_b, PARAMETERS);
     bool any_fast = will_be_fast(whole_a, motion_a, PARAMETERS) || will_be_fast(whole_b, motion_b, PARAMETERS);
     if (!any_fast && !drives_a && !drives_b) return;
-    vec3 normal = READ(manifolds, i).normal;
+    Manifold manifold = FOUND_MANIFOLD(i);
+    vec3 normal = manifold.normal;
     uint previous = READ(pairs, i).previous;
     bool rebounds = previous != NONE && rebounds_across(READ(impulses_before, previous));
-    if (any_fast && !rebounds && !is_near(READ(manifolds, i), WORD(point_counts, i), ta, tb, PARAMETERS) &&
+    if (any_fast && !rebounds && !is_near(manifold, WORD(point_counts, i), ta, tb, PARAMETERS) &&
         !will_meet(normal, same_normal(drives_a || drives_b), ta, READ(poses, a), va, READ(forces, of_a), tb, READ(poses, b), vb,
                    READ(forces, of_b), PARAMETERS, Hulls(0u))) {
         WORD(point_counts, i) = WORD(point_counts, i) | SPECULATIVE;

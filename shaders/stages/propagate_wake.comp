@@ -14,8 +14,7 @@ void shake(uint by, uint other) {
 void main() {
     uint i = thread();
     if (i >= COUNTED.contacts) return;
-    Pair pair = READ(pairs, READ(constraints, i).pair);
-    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    uint of_a = body_of(READ(contacts, i).a), of_b = body_of(READ(contacts, i).b);
     shake(of_a, of_b);
     shake(of_b, of_a);
 }

@@ -12,7 +12,8 @@
 
 void main() {
     uint i = thread();
-    if (i >= buckets_in_all(PARAMETERS)) return;
+    // After an overflow that memory holds contacts for the repetition (SCREE_SHARES).
+    if (i >= buckets_in_all(PARAMETERS) || COUNTED.overflow != 0u) return;
     uint first = i == 0u ? 0u : READ_WORD(cell_ends, i - 1u);
     uint last = READ_WORD(cell_ends, i);
     sort_range(first, last - first);

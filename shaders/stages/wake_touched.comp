@@ -6,6 +6,7 @@
 #include "shaders/physics/collide/grid.h"
 #include "shaders/physics/extra/sleep.h"
 #include "shaders/stages/lib/copies.glsl"
+#include "shaders/stages/lib/found_manifolds.glsl"
 
 void raise(uint body, uint bits) {
     if (bits != 0u && READ(properties, body).motion == MOTION_DYNAMIC) atomicOr(WORD(sleep_states, body), bits);
@@ -14,12 +15,12 @@ void raise(uint body, uint bits) {
 void main() {
     uint i = thread();
     if (i >= COUNTED.contacts || COUNTED.sleepers == 0u || !any_stirs(COUNTED)) return;
-    uint index = READ(constraints, i).pair;
+    uint index = READ_WORD(contact_pairs, i);
     Pair pair = READ(pairs, index);
     if (pair.pair_type == PAIR_INACTIVE) return;
     uint of_a = body_of(pair.a), of_b = body_of(pair.b);
     float approach =
-        approach_of(READ(manifolds, index), READ_WORD(point_counts, index),
+        approach_of(FOUND_MANIFOLD(index), READ_WORD(point_counts, index),
                     READ(poses, of_b).position - READ(poses, of_a).position, READ(velocities, of_a), READ(velocities, of_b),
                     speculative_of(READ(properties, pair.a), READ(properties, pair.b), PARAMETERS), PARAMETERS);
     uint depth = depth_of(approach, PARAMETERS);

@@ -399,7 +399,7 @@ TEST_CASE("two clicks join two bodies by each kind of joint, and the recording s
         REQUIRE(scene.joints.size() == 1);
         REQUIRE(scene.joints[0].a == top);
         REQUIRE(scene.joints[0].b == top - 3);
-        const auto& act = std::get<Join>(played.session.input().acts.at(0).act);
+        const auto act = std::get<Join>(played.session.input().acts.at(0).act);
         REQUIRE(act.joint.kind.index() == scene.joints[0].kind.index());
         played.pass(0.2);
         REQUIRE(played.session.world().joint(0).gap < (kind < 4 ? 0.01f : 5.0f));

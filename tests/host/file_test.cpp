@@ -4,9 +4,10 @@
 #include <catch2/catch.hpp>
 
 #include "host/files/file.h"
-#include "tests/host/vulkan/compiled.h"
+#include "tests/temporary_folder.h"
 
 using namespace scree::host;
+using scree::tests::TemporaryFolder;
 
 namespace {
 

@@ -17,9 +17,10 @@
 #include "host/pictures/frame_writer.h"
 #include "host/pictures/raw_frames.h"
 #include "host/pictures/video.h"
-#include "tests/host/vulkan/compiled.h"
+#include "tests/temporary_folder.h"
 
 using namespace scree::host;
+using scree::tests::TemporaryFolder;
 
 namespace {
 

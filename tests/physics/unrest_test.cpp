@@ -67,6 +67,6 @@ TEST_CASE("a new manifold of two bodies keeps the unrest of the one before") {
     Contact before = contact_of(pair, manifold, 1, a, b);
     before.unrest = 3;
     const PreparedContact prepared =
-        warm_started(newly_found(pair, manifold, 1, a, b), before, no_impulse(vec3(0)), properties, properties);
+        warm_started(without_impulses(contact_of(pair, manifold, 1, a, b)), before, no_impulse(vec3(0)), properties, properties);
     REQUIRE(prepared.contact.unrest == 3.0f);
 }

@@ -1,6 +1,7 @@
 // Barriers and persistent tables, as derived from the stage declarations.
 #include <algorithm>
 #include <catch2/catch.hpp>
+#include <map>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -8,6 +9,7 @@
 
 #include "compute/step/plan.h"
 #include "compute/step/stage_fusion.h"
+#include "compute/step/table_layout.h"
 
 using namespace scree;
 
@@ -71,15 +73,40 @@ TEST_CASE("a table lasts from step to step if something reads it before it is wr
                    contacts_before, impulses_before, first_contacts, births,   gravities});
 }
 
+TEST_CASE("tables in one memory take turns: none is read after another has been written there") {
+    for (const SceneFeatures& features : all_contents()) {
+        std::map<Table, Table> holders;  // which table is in a memory
+        for (const Table table : lasting_tables()) holders[memory_of(table)] = table;
+        for (const Stage& stage : plan(2, features)) {
+            const auto writes = [&](Table table, Manner manner) {
+                return std::any_of(stage.writes.begin(), stage.writes.end(),
+                                   [&](const Access& write) { return write.table == table && write.manner == manner; });
+            };
+            for (const Access& read : stage.reads) {
+                const auto holder = holders.find(memory_of(read.table));
+                INFO(stage.name << " reads " << table_infos()[static_cast<std::size_t>(read.table)].name);
+                // What a stage accumulates it begins itself.
+                if (holder != holders.end() && holder->second != read.table && !writes(read.table, Manner::unfinished))
+                    FAIL("holds another table");
+                for (const Access& write : stage.writes)
+                    if (write.table != read.table && share_memory(write.table, read.table)) FAIL("is overwritten meanwhile");
+            }
+            for (const Access& write : stage.writes) holders[memory_of(write.table)] = write.table;
+        }
+        using enum Table;
+        for (const Table table : {contacts, impulses}) CHECK(holders[memory_of(table)] == table);
+    }
+}
+
 TEST_CASE("what is compared after a stage is whole there, and every table that outlasts a step is compared once it is written") {
     std::set<Table> compared;
     for (const Stage& stage : plan(2, SceneFeatures::everything()))
         for (const Compared& each : stage.compared) compared.insert(each.table);
     using enum Table;
     for (const Table table :
-         {counts,         properties,       poses,       velocities,     masses,        forces,     bounds,      cell_ends,
-          cell_entries,   pair_type_starts, pair_starts, pairs,          pairs_by_type, strains,    manifolds,   point_counts,
-          contact_starts, contacts,         impulses,    first_contacts, slot_ends,     slot_sides, constraints, slots,
+         {counts,         properties,       poses,       velocities,     masses,        forces,     bounds,        cell_ends,
+          cell_entries,   pair_type_starts, pair_starts, pairs,          pairs_by_type, strains,    contact_slots, point_counts,
+          contact_starts, contacts,         impulses,    first_contacts, slot_ends,     slot_sides, constraints,   slots,
           sleep_states,   joints,           vehicles})
         CHECK(compared.contains(table));
 }

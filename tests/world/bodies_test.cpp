@@ -123,6 +123,20 @@ TEST_CASE("bodies that are refused are not added or removed, and nothing else ha
     REQUIRE(world.state_hash() == other.state_hash());
 }
 
+TEST_CASE("bodies of the world's own scene are added as copies of them would be", "[world]") {
+    World world(stack(3), {}, 1), expected(stack(3), {}, 1);
+    for (int i = 0; i < 20; ++i) {
+        const std::vector<Body> copies = expected.scene().bodies;
+        REQUIRE(world.add_body(world.scene().bodies[1]) == expected.add_body(copies[1]));
+        REQUIRE(world.add_bodies(std::span(world.scene().bodies).first(2)).size() == 2);
+        expected.add_bodies(std::span(copies).first(2));
+    }
+    REQUIRE(world.scene().bodies.size() == 64);
+    world.step(5);
+    expected.step(5);
+    REQUIRE(world.state_hash() == expected.state_hash());
+}
+
 TEST_CASE("a body whose mass was set moves like one that began with it, also from a saved state", "[world]") {
     Scene scene = stack(3), heavy = scene;
     const MassProperties mass = mass_properties(scene.bodies[2]);

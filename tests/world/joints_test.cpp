@@ -255,6 +255,21 @@ TEST_CASE("joints that are added while a world runs hold, those beside them go o
     CHECK(world.statistics().not_finite == 0);
 }
 
+TEST_CASE("joints of the world's own scene are added as copies of them would be") {
+    const Scene scene = hung({0, -1, 0}, {0, 0, 0}, Ball{});
+    World world(scene, {}, 1), expected(scene, {}, 1);
+    for (int i = 0; i < 6; ++i) {
+        const std::vector<Joint> copies = expected.scene().joints;
+        REQUIRE(world.add_joint(world.scene().joints[0]) == expected.add_joint(copies[0]));
+        REQUIRE(world.add_joints(std::span(world.scene().joints).first(1)).size() == 1);
+        expected.add_joints(std::span(copies).first(1));
+    }
+    REQUIRE(world.scene().joints.size() == 13);
+    world.step(5);
+    expected.step(5);
+    REQUIRE(world.state_hash() == expected.state_hash());
+}
+
 TEST_CASE("a joint that a world cannot take is refused by name, and leaves no trace") {
     Scene scene = hung({0, 0, 0}, {0, 0, 0}, Ball{});
     Body brittle = scene.bodies[0];

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "compute/world.h"
+#include "tests/sanitized.h"
 #include "tests/world/heaps.h"
 
 using namespace scree;
@@ -33,14 +34,6 @@ double resident() {
     return pages * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-// Sanitizers keep freed memory for a while.
-constexpr bool has_plain_memory =
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-    false;
-#else
-    true;
-#endif
-
 // Runs `round` for SCREE_SOAK minutes, or `rounds` times. Memory after each later tenth stays within 4 MB and 2% of its
 // greatest in the first half.
 template <typename Round>
@@ -56,7 +49,7 @@ void soak(const char* name, int rounds, Round&& round) {
         round(done++);
         if (part < 0.5) {
             early = std::max(early, resident());
-        } else if (has_plain_memory) {
+        } else if (!tests::sanitized) {  // sanitizers keep freed memory for a while
             CAPTURE(name, done, early, resident());
             REQUIRE(resident() < 1.02 * early + 4e6);
         }

@@ -33,7 +33,7 @@ WideTables wide_tables(State& state, const std::vector<std::uint32_t>& items) {
     tables.slot_ends = words(state.slot_ends);
     tables.contacts_before = words(state.contacts_before);
     tables.pairs = words(state.pairs);
-    tables.manifolds = words(state.manifolds);
+    tables.manifolds = words(state.pair_manifolds);
     tables.point_counts = words(state.point_counts);
     tables.contacts = words(state.contacts);
     tables.constraints = words(state.constraints);

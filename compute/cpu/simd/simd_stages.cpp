@@ -194,7 +194,7 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             const Constraint was = prepared.c;
             const VelocityPair now{gather<Velocity>(tables.velocities, Indices(was.a)),
                                    gather<Velocity>(tables.velocities, Indices(was.b))};
-            Constraint c = constraint_between(contact, was.pair, ta, was.a, was.slot_a, tb, was.b, was.slot_b, p);
+            Constraint c = constraint_between(contact, ta, was.a, was.slot_a, tb, was.b, was.slot_b, p);
             const Float unrest = unrest_of(contact, c, ta, tb, now, p);
             c = with_unrest(c, unrest);
             prepared.c = none(!waits) ? c : choose_record(waits, c, was);

@@ -279,8 +279,8 @@ struct Constraint {
     uint flags;                   // CONSTRAINT_*, with the number of points
     float tyre_slip;              // speed of slip up to which a tyre's friction rises, m/s, or 0: no tyre rolls
     float radius_a, radius_b;     // CONSTRAINT_ROUND: of curvature, m
-    uint pair;                    // index of the pair
-    float slide_limit;            // slide after which the points have left the body they slide over, m
+    uint pad0;
+    float slide_limit;  // slide after which the points have left the body they slide over, m
 };
 struct VelocityDelta {     // velocity change of one body by one contact; summed in the order of slots
     vec3 linear;           // m/s
@@ -510,7 +510,10 @@ struct Parameters {  // uniform over a step
     uint copies;  // of the scene, at least 1 (copies.h)
     uint contact_owners_offset;
     uint impact_debts_offset;
-    uint pad0;
+    uint manifold_places_offset;
+    uint contact_pairs_offset;
+    uint contact_slots_offset;
+    uint pad0, pad1;
     // Fields (fields.h).
     vec3 wind;               // m/s
     float air_density;       // kg/m^3; 0: no air
@@ -560,10 +563,10 @@ CONSTANT uint WORKS = 24u;
 CONSTANT uint OVERFLOW_PAIRS = 1u;
 CONSTANT uint OVERFLOW_CONTACTS = 2u;
 
-struct Counts {  // counted on the device in a step
-    uint pairs, contacts;
-    uint levels;    // bit l: some body is on grid level l
-    uint overflow;  // OVERFLOW_*; stages leave the bodies unchanged while it is not 0
+struct Counts {            // counted on the device in a step
+    uint pairs, contacts;  // until contacts are counted: pairs with points
+    uint levels;           // bit l: some body is on grid level l
+    uint overflow;         // OVERFLOW_*; stages leave the bodies unchanged while it is not 0
     uint required_pairs, required_contacts;
     uint steps;                // completed steps
     uint pairs_coarse;         // pairs / 256, rounded up per body: detects overflow of the 32-bit count

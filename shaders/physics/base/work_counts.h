@@ -51,11 +51,15 @@ LAW Counts with_kinds(Counts counts, uint pair_type, uint first, uint last, Para
     return counts;
 }
 
+// Whether the pairs with points, of which continuous collision may drop some, are more than there is room for.
+LAW bool lacks_room(Counts counts, Parameters parameters) {
+    return counts.contacts > parameters.contact_capacity;
+}
 // The dispatches that follow from the number of contacts.
 LAW Counts with_contacts(Counts counts, uint total, Parameters parameters) {
-    if (total > parameters.contact_capacity) {
+    if (lacks_room(counts, parameters)) {
         counts.overflow = counts.overflow | OVERFLOW_CONTACTS;
-        counts.required_contacts = total;
+        counts.required_contacts = counts.contacts;
         counts.pairs = 0u;
         counts.arguments[WORK_PAIRS] = work_for(0u, parameters);
         counts.arguments[WORK_CCD_PAIRS] = work_for(0u, parameters);

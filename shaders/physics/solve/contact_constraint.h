@@ -80,7 +80,7 @@ LAW Constraint idle_constraint(Contact contact) {
     c.tyre_slip = 0.0f;
     c.radius_a = 0.0f;
     c.radius_b = 0.0f;
-    c.pair = NONE;
+    c.pad0 = 0u;
     c.slide_limit = 1.0e30f;
     return c;
 }
@@ -122,12 +122,11 @@ LAW Constraint constraint_of(Contact contact, BodyProperties ta, BodyProperties 
 }
 
 // The constraint of a contact between two bodies; the properties are those of the rows in contact, which may be parts.
-LAW Constraint constraint_between(Contact contact, uint pair, BodyProperties ta, uint body_a, uint slot_a, BodyProperties tb,
-                                  uint body_b, uint slot_b, Parameters parameters) {
+LAW Constraint constraint_between(Contact contact, BodyProperties ta, uint body_a, uint slot_a, BodyProperties tb, uint body_b,
+                                  uint slot_b, Parameters parameters) {
     Constraint c = constraint_of(contact, ta, tb, slot_a, slot_b, parameters);
     c.a = body_a;
     c.b = body_b;
-    c.pair = pair;
     return c;
 }
 

@@ -35,12 +35,12 @@ LAW PreparedContact carried_forward(Contact before, Impulse was, Manifold manifo
     prepared.impulse.separation = separations_of(manifold);
     return prepared;
 }
-// A contact made from this step's manifold, without impulses.
-LAW PreparedContact newly_found(Pair pair, Manifold manifold, uint count, Pose a, Pose b) {
+// A contact made in this step.
+LAW PreparedContact without_impulses(Contact contact) {
     PreparedContact prepared;
-    prepared.contact = contact_of(pair, manifold, count, a, b);
-    prepared.impulse = no_impulse(prepared.contact.center_offset);
-    prepared.impulse.separation = separations_of(manifold);
+    prepared.contact = contact;
+    prepared.impulse = no_impulse(contact.center_offset);
+    prepared.impulse.separation = vec4(contact.points[0].w, contact.points[1].w, contact.points[2].w, contact.points[3].w);
     return prepared;
 }
 

@@ -12,8 +12,7 @@ bool can_be_moved(uint body) {
 // Counts a slot for each movable body of the contact.
 void count_slots_of(uint contact) {
     if (contact >= COUNTED.contacts || !any_stirs(COUNTED)) return;
-    Pair pair = READ(pairs, READ(constraints, contact).pair);
-    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    uint of_a = body_of(READ(contacts, contact).a), of_b = body_of(READ(contacts, contact).b);
     if (can_be_moved(of_a)) atomicAdd(WORD(slot_counts, of_a), 1u);
     if (can_be_moved(of_b)) atomicAdd(WORD(slot_counts, of_b), 1u);
 }
@@ -21,8 +20,7 @@ void count_slots_of(uint contact) {
 // Fills the slots, and lists the contacts that have one, in any order.
 void fill_slots_of(uint contact) {
     if (contact >= COUNTED.contacts || !any_stirs(COUNTED)) return;
-    Pair pair = READ(pairs, READ(constraints, contact).pair);
-    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    uint of_a = body_of(READ(contacts, contact).a), of_b = body_of(READ(contacts, contact).b);
     bool moves_a = can_be_moved(of_a);
     bool moves_b = can_be_moved(of_b);
     if (moves_a) WORD(slot_sides, atomicAdd(WORD(slot_starts, of_a), 1u)) = 2u * contact;
@@ -53,10 +51,8 @@ void assign_slot(uint slot) {
     uint side = WORD(slot_sides, slot);
     if ((side & OF_JOINT) != 0u)
         block_bodies.at[side & ~OF_JOINT].slot = slot;
-    else if ((side & 1u) == 0u)
-        constraints.at[side >> 1].slot_a = slot;
     else
-        constraints.at[side >> 1].slot_b = slot;
+        WORD(contact_slots, side) = slot;
 }
 
 // Sorts a body's slots and writes where the contacts it owns begin.

@@ -11,29 +11,29 @@
 #define SCREE_STAGES_TABLES_H
 
 // ---- tables: buffer, name, block, record, length
-#define SCREE_WIDE_TABLES(X)                                                                  \
-    X(1, counts, CountsTable, Counts, one)                                                    \
-    X(2, properties, PropertiesTable, BodyProperties, bodies)                                 \
-    X(3, poses, PosesTable, Pose, bodies)                                                     \
-    X(4, velocities, VelocitiesTable, Velocity, bodies)                                       \
-    X(5, masses, MassesTable, BodyMass, bodies)                                               \
-    X(6, forces, ForcesTable, BodyForces, bodies)                                             \
-    X(7, actions, ActionsTable, Action, actions)                                              \
-    X(8, bounds, BoundsTable, Bounds, bodies)                                                 \
-    X(9, cell_entries, CellEntriesTable, CellEntry, bodies)                                   \
-    X(10, pairs, PairsTable, Pair, pairs)                                                     \
-    X(11, manifolds, ManifoldsTable, Manifold, pairs)                                         \
-    X(12, contacts, ContactsTable, Contact, contacts)                                         \
-    X(13, contacts_before, ContactsBeforeTable, Contact, contacts)                            \
-    X(14, impulses, ImpulsesTable, Impulse, contacts)                                         \
-    X(15, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                            \
-    X(16, constraints, ConstraintsTable, Constraint, contacts)                                \
-    X(17, slots, SlotsTable, VelocityDelta, slots)                                            \
-    X(18, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */ \
-    X(19, joints, JointsTable, Joint, joints)                                                 \
-    X(20, joint_blocks, JointBlocksTable, JointBlock, joint_blocks)                           \
-    X(21, block_bodies, BlockBodiesTable, BlockBody, block_bodies)                            \
-    X(22, joint_equations, JointEquationsTable, JointEquations, joints) /* within a pass */   \
+#define SCREE_WIDE_TABLES(X)                                                                   \
+    X(1, counts, CountsTable, Counts, one)                                                     \
+    X(2, properties, PropertiesTable, BodyProperties, bodies)                                  \
+    X(3, poses, PosesTable, Pose, bodies)                                                      \
+    X(4, velocities, VelocitiesTable, Velocity, bodies)                                        \
+    X(5, masses, MassesTable, BodyMass, bodies)                                                \
+    X(6, forces, ForcesTable, BodyForces, bodies)                                              \
+    X(7, actions, ActionsTable, Action, actions)                                               \
+    X(8, bounds, BoundsTable, Bounds, bodies)                                                  \
+    X(9, cell_entries, CellEntriesTable, CellEntry, bodies)                                    \
+    X(10, pairs, PairsTable, Pair, pairs)                                                      \
+    X(11, manifolds, ManifoldsTable, Manifold, contacts) /* of pairs with points, any order */ \
+    X(12, contacts, ContactsTable, Contact, contacts)                                          \
+    X(13, contacts_before, ContactsBeforeTable, Contact, contacts)                             \
+    X(14, impulses, ImpulsesTable, Impulse, contacts)                                          \
+    X(15, impulses_before, ImpulsesBeforeTable, Impulse, contacts)                             \
+    X(16, constraints, ConstraintsTable, Constraint, contacts)                                 \
+    X(17, slots, SlotsTable, VelocityDelta, slots)                                             \
+    X(18, candidates, CandidatesTable, Candidate, candidates) /* pairs found, in any order */  \
+    X(19, joints, JointsTable, Joint, joints)                                                  \
+    X(20, joint_blocks, JointBlocksTable, JointBlock, joint_blocks)                            \
+    X(21, block_bodies, BlockBodiesTable, BlockBody, block_bodies)                             \
+    X(22, joint_equations, JointEquationsTable, JointEquations, joints) /* within a pass */    \
     X(23, vehicles, VehiclesTable, Vehicle, vehicles)
 
 // Lists that are counted, scanned and filled are named after their final content; earlier contents have names of their
@@ -53,6 +53,9 @@
     X(24, contact_owners, WordsTable, uint, contacts)      /* if rows are reordered: id of the body that owns each contact */ \
     X(24, pair_type_starts, WordsTable, uint, pair_types)  /* in pairs_by_type, per pair type and pair block */               \
     X(24, contact_starts, WordsTable, uint, pairs_and_end) /* each pair's contact, if it has points */                        \
+    X(24, manifold_places, WordsTable, uint, pairs)        /* each pair's manifold, if it has points */                       \
+    X(24, contact_pairs, WordsTable, uint, contacts)       /* each contact's pair */                                          \
+    X(24, contact_slots, WordsTable, uint, contact_sides)  /* of each 2 * contact + side; NONE: contacts do not move it */    \
     X(24, carried, WordsTable, float, contacts)            /* if bodies may break: normal impulse in this step, N s */        \
     X(24, slot_sides, WordsTable, uint, slots)             /* of each slot: 2 * contact + side, or OF_JOINT | block body */   \
     X(24, neighbours_quiet, WordsTable, float, slots)      /* of each slot: quiet steps of the other body: sleep.h */         \
@@ -98,10 +101,19 @@
     X(slot_ends, slot_starts)   \
     X(pair_type_starts, pair_type_counts)
 
-// ---- aliased word tables on a device: each table is dead when the next one in its memory is written
-#define SCREE_SHARES(X)                 /* table, earlier table in its memory */ \
-    X(contact_starts, pair_type_starts) /* after pairs are binned by type */     \
-    X(carried, contact_starts)          /* after bodies know their contacts */   \
-    X(contacts_to_solve, pairs_by_type) /* after the narrowphase */
+// ---- aliased tables on a device: of those in one memory each is dead when the next one is written
+#define SCREE_SHARES(X)                 /* table, the one whose memory it is in */         \
+    X(contact_starts, pair_type_starts) /* after pairs are binned by type */               \
+    X(carried, contact_starts)          /* after bodies know their contacts */             \
+    X(contacts_to_solve, pairs_by_type) /* after the narrowphase */                        \
+    X(neighbours_quiet, contact_slots)  /* after contacts are prepared */                  \
+    X(slot_sides, manifold_places)      /* after bodies wake */                            \
+    X(contact_pairs, cell_ends)         /* after the broadphase */                         \
+    X(impact_debts, contact_pairs)      /* after contacts are prepared */                  \
+    X(cell_entries, contacts)           /* before contacts are made */                     \
+    X(candidates, impulses)             /* before the narrowphase */                       \
+    X(manifolds, impulses)              /* before impulses are taken from the last step */ \
+    X(constraints, contacts_before)     /* after that */                                   \
+    X(slots, impulses_before)           /* likewise */
 
 #endif

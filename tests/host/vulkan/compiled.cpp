@@ -1,28 +1,15 @@
 // Compiles compute shaders of tests like those of the project.
 #include "tests/host/vulkan/compiled.h"
 
-#include <stdlib.h>
-
 #include <catch2/catch.hpp>
 #include <cstdlib>
 #include <cstring>
-#include <stdexcept>
 
 #include "host/files/file.h"
-
-TemporaryFolder::TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "scree-test-XXXXXX").string();
-    if (!mkdtemp(pattern.data())) throw std::runtime_error("no temporary folder");
-    path_ = pattern;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-}
+#include "tests/temporary_folder.h"
 
 std::vector<std::uint32_t> compiled(const std::string& body, const std::string& options) {
-    const TemporaryFolder folder;
+    const scree::tests::TemporaryFolder folder;
     const std::filesystem::path source = folder.path() / "test.comp", output = folder.path() / "test.spv";
     scree::host::write_atomically(source, "#version 460\n" + body);
     const std::string command = "glslc -O0 " + options + " -o " + output.string() + " " + source.string();
@@ -38,7 +25,7 @@ bool is_valid(const std::vector<std::uint32_t>& words, const std::string& enviro
         WARN("spirv-val is not installed (package spirv-tools): not checked");
         return true;
     }
-    const TemporaryFolder folder;
+    const scree::tests::TemporaryFolder folder;
     const std::filesystem::path file = folder.path() / "test.spv";
     scree::host::write_atomically(file, std::as_bytes(std::span(words)));
     return std::system(("spirv-val --target-env " + environment + " " + file.string()).c_str()) == 0;

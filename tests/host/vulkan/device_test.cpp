@@ -11,6 +11,7 @@
 #include "host/vulkan/command_buffer.h"
 #include "host/vulkan/transfer.h"
 #include "tests/host/vulkan/compiled.h"
+#include "tests/temporary_folder.h"
 
 using namespace scree::host;
 
@@ -313,7 +314,7 @@ TEST_CASE("wrong use of a table, a pipeline and a recording is refused with its 
 }
 
 TEST_CASE("a damaged pipeline cache is ignored and replaced") {
-    const TemporaryFolder folder;
+    const scree::tests::TemporaryFolder folder;
     const char* before = getenv("XDG_CACHE_HOME");
     const std::string kept = before ? before : "";
     setenv("XDG_CACHE_HOME", folder.path().c_str(), 1);

@@ -1,0 +1,43 @@
+// Warm starting across steps: the impulses of this step's contacts, taken from those of the last step.
+#version 460
+#extension GL_GOOGLE_include_directive : require
+
+#include "shaders/physics/solve/contact_preparation.h"
+#include "shaders/stages/lib/copies.glsl"
+#include "shaders/stages/lib/features.glsl"
+
+void main() {
+    uint i = thread();
+    if (i >= COUNTED.contacts) return;
+    Pair pair = READ(pairs, READ_WORD(contact_pairs, i));
+    PreparedContact prepared = without_impulses(READ(contacts, i));
+    uint slot_a = READ_WORD(contact_slots, 2u * i), slot_b = READ_WORD(contact_slots, 2u * i + 1u);
+    bool idle = is_idle(slot_a, slot_b);
+    if (pair.previous == NONE) {
+        impulses.at[i] = prepared.impulse;
+        return;
+    }
+    uint of_a = body_of(pair.a), of_b = body_of(pair.b);
+    Contact before = READ(contacts_before, pair.previous);
+    Impulse was = READ(impulses_before, pair.previous);
+    BodyProperties ta = READ(properties, pair.a), tb = READ(properties, pair.b);
+    if (pair.pair_type == PAIR_INACTIVE)
+        prepared = carried_forward(before, was, resting_manifold(before, was));
+    else if (pair.pair_type == PAIR_PERSISTENT)
+        prepared = carried_forward(before, was, persistent_manifold(before, READ(poses, of_a), READ(poses, of_b)));
+    else
+        prepared = warm_started(prepared, before, was, ta, tb);
+    if (!idle || pair.pair_type != PAIR_INACTIVE) prepared.contact.load = load_since(before, was, ta, slot_a, tb, slot_b);
+    if (!idle) prepared.impulse.normal_sum = normal_impulse(prepared.impulse);
+    if (BOUNCES && !idle && rebounds_across(prepared.impulse)) {
+        Parameters felt = felt_by(of_a);
+        VelocityPair now;
+        now.a = READ(velocities, of_a);
+        now.b = READ(velocities, of_b);
+        prepared.impulse = settled_impact(prepared.impulse, constraint_of(prepared.contact, ta, tb, slot_a, slot_b, felt), was,
+                                          constraint_of(before, ta, tb, slot_a, slot_b, felt), now);
+    }
+    impulses.at[i] = prepared.impulse;
+    contacts.at[i].load = prepared.contact.load;
+    contacts.at[i].unrest = prepared.contact.unrest;
+}
