@@ -68,7 +68,7 @@ TEST_CASE("traffic: a hull is read once, however many bodies have it and however
 
 TEST_CASE("traffic: pairs count for the stage of their shapes alone, and where nothing is fast no search for impacts counts") {
     const Scene scene = touching_pairs(10);
-    REQUIRE(traffic(scene, "collide_sphere_sphere").written == 10 * (sizeof(physics::Manifold) + sizeof(physics::uint)));
+    REQUIRE(traffic(scene, "collide_sphere_sphere").written == 10 * (sizeof(physics::Manifold) + 2 * sizeof(physics::uint)));
     REQUIRE(traffic(scene, "collide_box_box").written == 0);
     REQUIRE(traffic(scene, "find_impacts").read == 0);
 }
