@@ -7,6 +7,11 @@
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
 
+vec4 state_of_impacts(Constraint c) {
+    if (!(c.restitution > 0.0f)) return vec4(0.0f);
+    return impact_state(READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), felt_by(c.a));
+}
+
 // The biased pass.
 void solve_contact(uint place) {
     if (place >= COUNTED.solver_contacts) return;
@@ -18,7 +23,7 @@ void solve_contact(uint place) {
     VelocityPair before;
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
-    vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
+    vec4 state = state_of_impacts(c);
     SolveResult after = solve_contact(c, impulse, before, ma, mb, state, felt_by(c.a));
     impulses.at[i].normal = after.impulse.normal;
     if (BOUNCES) {
@@ -63,7 +68,7 @@ void relax_contact(uint place, uint pass) {
     VelocityPair before;
     before.a = READ(velocities, c.a);
     before.b = READ(velocities, c.b);
-    vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
+    vec4 state = state_of_impacts(c);
     float debt = 0.0f;
     if (BOUNCES && is_impact(impulse))
         debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), ma, READ_FLOAT(impact_debts, c.b),
