@@ -470,7 +470,7 @@ void take_resumed(const CLI::App& command, RunOptions& options) {
 }
 
 // What does not work on several ranks.
-void require_distinct(const RunOptions& options) {
+void require_distinct_outputs(const RunOptions& options) {
     require_distinct({{"--video", options.pictures.video},
                       {"--preview", options.pictures.preview},
                       {"--raw", options.pictures.raw},
@@ -501,7 +501,7 @@ void make_silent(RunOptions& options) {
 
 int run(const CLI::App& command, RunOptions options) {
     options.pictures.require_sense(command);
-    require_distinct(options);
+    require_distinct_outputs(options);
     require_sense(command, options.copies);
     require_sense(command, options.trajectory);
     require_sense(command, options.animation);
