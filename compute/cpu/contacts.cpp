@@ -25,18 +25,14 @@ physics::uint slot_of(const State& state, std::size_t contact, std::size_t side)
 // Last step's impulses, and what else the contact takes from then.
 physics::PreparedContact warm_started_contact(const State& state, std::size_t i) {
     const physics::Pair& pair = state.pairs[state.contact_pairs[i]];
-    physics::PreparedContact prepared = physics::without_impulses(state.contacts[i]);
-    if (pair.previous == physics::NONE) return prepared;
+    if (pair.previous == physics::NONE) return physics::without_impulses(state.contacts[i]);
     const physics::BodyProperties &ta = state.properties[pair.a], &tb = state.properties[pair.b];
     const physics::Contact& before = state.contacts_before[pair.previous];
     const physics::Impulse& was = state.impulses_before[pair.previous];
-    const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
-    if (pair.pair_type == physics::PAIR_INACTIVE)
-        prepared = physics::carried_forward(before, was, physics::resting_manifold(before, was));
-    else if (pair.pair_type == physics::PAIR_PERSISTENT)
-        prepared = physics::carried_forward(before, was, physics::persistent_manifold(before, state.poses[a], state.poses[b]));
-    else
-        prepared = physics::warm_started(prepared, before, was, ta, tb);
+    physics::PreparedContact prepared =
+        physics::is_carried_forward(pair.pair_type)
+            ? physics::carried_forward(before, was, state.pair_manifolds[state.contact_pairs[i]])
+            : physics::warm_started(physics::without_impulses(state.contacts[i]), before, was, ta, tb);
     const physics::uint slot_a = slot_of(state, i, 0), slot_b = slot_of(state, i, 1);
     const bool idle = physics::is_idle(slot_a, slot_b);
     // Unchanged between two inactive bodies.
@@ -45,6 +41,7 @@ physics::PreparedContact warm_started_contact(const State& state, std::size_t i)
     if (idle) return prepared;
     prepared.impulse.normal_sum = physics::normal_impulse(prepared.impulse);
     if (physics::rebounds_across(prepared.impulse)) {
+        const std::uint32_t a = state.body_of(pair.a), b = state.body_of(pair.b);
         const physics::Parameters felt = felt_by(state, a);
         prepared.impulse = physics::settled_impact(
             prepared.impulse, physics::constraint_of(prepared.contact, ta, tb, slot_a, slot_b, felt), was,
