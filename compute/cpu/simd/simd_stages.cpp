@@ -220,7 +220,7 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
         const Group<plain> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
-        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
+        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), 1.0f, p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         group.keep(after.impulse);
         if (tables.watched) group.give_back(tables, first, last);
@@ -272,7 +272,7 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
         const SolveResult after =
-            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), debts(tables, group, ma, mb), p);
+            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), debts(tables, group, ma, mb), 1.0f, p);
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
