@@ -16,7 +16,8 @@ physics::VelocityPair velocities_of(const State& state, const physics::Constrain
 
 // Read only where restitution is possible.
 physics::vec4 impact_state(const State& state, const physics::Constraint& c) {
-    return c.restitution > 0 ? physics::impact_state(state.forces[c.a], state.forces[c.b]) : physics::vec4(0);
+    if (!(c.restitution > 0)) return physics::vec4(0);
+    return physics::impact_state(state.forces[c.a], state.forces[c.b], state.masses[c.a], state.masses[c.b], felt_by(state, c.a));
 }
 
 physics::Surface surface_on(const State& state, const physics::BodyProperties& row) {

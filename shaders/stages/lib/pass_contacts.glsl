@@ -8,6 +8,11 @@
 #include "shaders/stages/lib/copies.glsl"
 #include "shaders/stages/lib/features.glsl"
 
+vec4 state_of_impacts(Constraint c) {
+    if (!(c.restitution > 0.0f)) return vec4(0.0f);
+    return impact_state(READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), felt_by(c.a));
+}
+
 // Of the contact with which a pass over a block begins, and of those that come after it.
 BlockLoad load_of_block(uint i, Constraint c, Impulse impulse) {
     BlockLoad load = with_contact(no_load(), c, impulse);
@@ -25,7 +30,7 @@ BlockLoad load_of_block(uint i, Constraint c, Impulse impulse) {
 
 // The biased pass over one contact of a block; returns the velocities of the split bodies.
 VelocityPair solve_one(uint i, Constraint c, Impulse impulse, VelocityPair before, Mass ma, Mass mb, float part) {
-    vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
+    vec4 state = state_of_impacts(c);
     SolveResult after = solve_contact(c, impulse, before, ma, mb, state, part, felt_by(c.a));
     impulses.at[i].normal = after.impulse.normal;
     if (BOUNCES) {
@@ -88,6 +93,11 @@ void show_quiet_steps(Constraint c, VelocityPair before) {
 
 const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
 
+vec4 state_of_impacts(Constraint c) {
+    if (!(c.restitution > 0.0f)) return vec4(0.0f);
+    return impact_state(READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), felt_by(c.a));
+}
+
 struct Relaxed {
     VelocityPair velocity;  // of the split bodies
     float weight;           // of the block in mass splitting, so far
@@ -101,7 +111,7 @@ struct Relaxed {
 Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_last, VelocityPair shown, Mass ma, Mass mb, float part,
                   uint pass) {
     VelocityPair before = block.velocity;
-    vec4 state = c.restitution > 0.0f ? impact_state(READ(forces, c.a), READ(forces, c.b)) : vec4(0.0f);
+    vec4 state = state_of_impacts(c);
     float debt = 0.0f;
     if (BOUNCES && is_impact(impulse))
         debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), ma, READ_FLOAT(impact_debts, c.b),
