@@ -93,11 +93,6 @@ void show_quiet_steps(Constraint c, VelocityPair before) {
 
 const uint LAST_SUBSTEP = 1u, FIRST_SUBSTEP = 2u;
 
-vec4 state_of_impacts(Constraint c) {
-    if (!(c.restitution > 0.0f)) return vec4(0.0f);
-    return impact_state(READ(forces, c.a), READ(forces, c.b), READ(masses, c.a), READ(masses, c.b), felt_by(c.a));
-}
-
 struct Relaxed {
     VelocityPair velocity;  // of the split bodies
     float weight;           // of the block in mass splitting, so far
