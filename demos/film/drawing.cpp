@@ -129,8 +129,9 @@ std::unique_ptr<host::Canvas> any_canvas(const Backend& machine, const host::Sha
 Drawing::Drawing(const std::string& canvas, const Backend& machine, World& world, const host::CanvasOptions& options,
                  const CopiesShown& shown, bool from_host)
     : world_(world), word_(canvas), machine_(machine), options_(options), shown_(shown) {
-    from_device_ = (canvas == "vulkan" || canvas == "auto") && machine.device && shown.count == 0 && !from_host;
-    if (from_host && canvas == "auto" && machine.device) word_ = "vulkan";
+    const bool by_vulkan = (canvas == "vulkan" && machine.device) || (canvas == "auto" && machine.draws());
+    from_device_ = by_vulkan && shown.count == 0 && !from_host;
+    if (from_host && by_vulkan) word_ = "vulkan";
     update();
 }
 

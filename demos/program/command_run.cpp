@@ -409,6 +409,7 @@ int run(RunOptions options) {
     }
     if (pictures) report.canvas = pictures->canvas();
     report.driver = machine.driver();
+    report.arithmetic_fault = machine.arithmetic_fault();
     report.command_line = options.command_line;
     if (find_demo(options.scene.name)) report.seed = options.scene.seed;
     preparing.reset();

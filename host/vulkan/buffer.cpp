@@ -79,6 +79,9 @@ Buffer::Buffer(std::shared_ptr<Device> device, const char* name, std::size_t byt
     name_ = name;
     const bool addressed = use != BufferUse::readback && device_->report().has_addresses;
     if (use != BufferUse::readback && !addressed) require_bindable(*device_, name, bytes);
+    if (const std::uint64_t most = device_->report().largest_buffer; bytes > most)
+        throw DeviceError(of_size(name, bytes) + " exceeds what " + device_->report().name + " allocates at once, " +
+                          std::to_string(most) + " bytes (maxMemoryAllocationSize, maxBufferSize)");
     // Vulkan forbids empty buffers, and vkCmdFillBuffer needs whole words.
     VkBufferCreateInfo info{};
     info.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO;
