@@ -79,8 +79,8 @@ void solve_contact(uint place) {
 
 // Each body's quiet steps, for the other's sleep.
 void show_quiet_steps(Constraint c, VelocityPair before) {
-    float quiet_a = quiet_steps_moved(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
-    float quiet_b = quiet_steps_moved(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
+    float quiet_a = quiet_steps_shown(READ(properties, c.a).motion, before.a, READ_WORD(sleep_states, c.a));
+    float quiet_b = quiet_steps_shown(READ(properties, c.b).motion, before.b, READ_WORD(sleep_states, c.b));
     if (is_driven(c)) quiet_a = quiet_b = BESIDE_MOVING;
     if (c.slot_a != NONE) SET_FLOAT(neighbours_quiet, c.slot_a, quiet_b);
     if (c.slot_b != NONE) SET_FLOAT(neighbours_quiet, c.slot_b, quiet_a);
