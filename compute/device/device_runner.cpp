@@ -64,8 +64,12 @@ std::size_t argument_offset(physics::uint row) {
 DeviceRunner::DeviceRunner(std::shared_ptr<host::Device> device) : device_(std::move(device)) {}
 DeviceRunner::~DeviceRunner() {
     if (!device_) return;
-    wait_for_returned();
-    device_->wait_idle();
+    try {
+        wait_for_returned();
+    } catch (const host::DeviceError&) {
+        // Nothing to wait for on a lost device.
+    }
+    device_->settle();
     device_->vk().vkDestroySemaphore(device_->handle(), ready_.timeline, nullptr);
 }
 
@@ -276,6 +280,7 @@ const DeviceRunner::Recordings& DeviceRunner::whole_step() {
         for (std::size_t i = first; i < last; ++i) {
             record_stage(*commands, recorded_[i]);
             if (recorded_[i].barrier_after) commands->barrier();
+            copy_list_ends(*commands, recorded_[i]);
             if (timed_) commands->timestamp();
         }
         if (last == stages) {
@@ -329,7 +334,9 @@ bool DeviceRunner::finished(std::size_t parity) {
         clock_.end_step();
         if (Timeline* told = timeline()) tell_stages(*told, parity);
     }
-    return state_->counted().overflow == 0;
+    if (state_->counted().overflow != 0) return false;
+    require_short_lists(parity);
+    return true;
 }
 
 void DeviceRunner::tell_stages(Timeline& told, std::size_t parity) {

@@ -100,6 +100,8 @@ private:
     void note_duration(double seconds);
     void take_pieces();
     bool finished(std::size_t parity);  // of a step: false if a list overflowed
+    void copy_list_ends(host::CommandBuffer& commands, const Stage& stage);
+    void require_short_lists(std::size_t parity) const;  // throws host::DeviceError: long_lists.cpp
     void tell_stages(Timeline& told, std::size_t parity);
     void record_stage(host::CommandBuffer& commands, const Stage& stage) const;
     host::Submission::Moment next_ready();
@@ -128,6 +130,7 @@ private:
     TableOffsets offsets_;
     std::vector<host::Buffer> buffers_;        // by binding; contacts and contacts_before are swapped with the parity
     std::array<host::Buffer, 2> counts_back_;  // per parity
+    std::array<std::array<host::Buffer, 2>, 2> list_ends_;  // likewise, where lists may be too long: long_lists.cpp
     // Per parity: the bindings, and (made on demand) the whole step in pieces without and with timestamps, and each stage alone.
     std::array<std::unique_ptr<host::BindingSet>, 2> tables_;
     std::array<std::array<Recordings, 2>, 2> steps_;

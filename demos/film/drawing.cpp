@@ -140,6 +140,8 @@ std::unique_ptr<host::Canvas> Drawing::make_canvas() const {
     try {
         if (word_ == "vulkan" || from_device_) return make_vulkan_canvas(machine_, instances, options_);
         return word_ == "gl" ? host::make_gl_canvas(instances, options_) : any_canvas(machine_, instances, options_);
+    } catch (const host::DeviceLost&) {
+        throw;
     } catch (const host::DeviceError& error) {
         throw UsageError(error.what());
     }

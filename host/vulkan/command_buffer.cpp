@@ -55,12 +55,12 @@ CommandBuffer::CommandBuffer(std::shared_ptr<Device> device, std::uint32_t times
     queries.queryCount = timestamps;
     const bool timed = timestamps > 0 && device_->timestamp_bits() > 0;
 
-    VkResult result = vk.vkCreateCommandPool(device_->handle(), &pool, nullptr, &pool_);
+    check(vk.vkCreateCommandPool(device_->handle(), &pool, nullptr, &pool_), "beginning a command buffer");
     info.commandPool = pool_;
-    if (result == VK_SUCCESS) result = vk.vkAllocateCommandBuffers(device_->handle(), &info, &commands_);
+    VkResult result = vk.vkAllocateCommandBuffers(device_->handle(), &info, &commands_);
     if (result == VK_SUCCESS) result = vk.vkBeginCommandBuffer(commands_, &begin);
     if (result == VK_SUCCESS && timed) result = vk.vkCreateQueryPool(device_->handle(), &queries, nullptr, &queries_);
-    if (result != VK_SUCCESS && pool_) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
+    if (result != VK_SUCCESS) vk.vkDestroyCommandPool(device_->handle(), pool_, nullptr);
     check(result, "beginning a command buffer");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_POOL, pool_, "recording");
     device_->set_name(VK_OBJECT_TYPE_COMMAND_BUFFER, commands_, "recording");

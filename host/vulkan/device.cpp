@@ -123,7 +123,9 @@ struct Device::Impl {
 void check(VkResult result, const char* what) {
     if (result == VK_SUCCESS) return;
     const char* name = result_name(result);
-    throw DeviceError(std::string(what) + ": " + (name ? std::string(name) : "VkResult " + std::to_string(result)));
+    const std::string message = std::string(what) + ": " + (name ? std::string(name) : "VkResult " + std::to_string(result));
+    if (result == VK_ERROR_DEVICE_LOST) throw DeviceLost(message);
+    throw DeviceError(message);
 }
 
 Device::Device() : interior_(std::make_unique<Impl>()) {}
@@ -176,7 +178,7 @@ std::shared_ptr<Device> Device::open(const DeviceOptions& options) {
     const char* const swapchain = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
     info.enabledExtensionCount = options.window_extensions.empty() ? 0 : 1;
     info.ppEnabledExtensionNames = &swapchain;
-    check(in.vk.vkCreateDevice(in.physical, &info, nullptr, &in.device), ("opening " + in.report.name).c_str());
+    check_made(in.vk.vkCreateDevice(in.physical, &info, nullptr, &in.device), ("opening " + in.report.name).c_str(), in.device);
     if (const char* missing = in.vk.load_device(in.device)) {
         throw DeviceError("the driver of " + in.report.name + " lacks " + missing);
     }
@@ -221,7 +223,7 @@ Device::~Device() {
     Impl& in = *interior_;
     if (!in.device) return;
     if (in.is_adopted)
-        wait_idle();
+        settle();
     else if (in.vk.vkDeviceWaitIdle)
         in.vk.vkDeviceWaitIdle(in.device);
     in.pipelines.reset();
@@ -375,6 +377,11 @@ void Device::wait_for(VkSemaphore timeline, std::uint64_t value) const {
 void Device::wait_idle() const {
     const std::lock_guard lock(*interior_->queue_mutex);
     check(interior_->vk.vkQueueWaitIdle(interior_->queue), "waiting for the device");
+}
+
+void Device::settle() const noexcept {
+    const std::lock_guard lock(*interior_->queue_mutex);
+    interior_->vk.vkQueueWaitIdle(interior_->queue);
 }
 
 void Device::name_object(VkObjectType type, std::uint64_t handle, const std::string& name) const {

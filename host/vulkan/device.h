@@ -111,6 +111,7 @@ public:
     void wait_for(VkSemaphore timeline, std::uint64_t value) const;
     VkResult present(const VkPresentInfoKHR& info);
     void wait_idle() const;
+    void settle() const noexcept;  // wait_idle() of destructors: on a lost device nothing is under way
 
     // Names an object in validation messages; does nothing without validation.
     template <typename Handle>
@@ -149,5 +150,12 @@ private:
 
 // Throws DeviceError("what: VK_ERROR_...") unless the result is VK_SUCCESS.
 void check(VkResult result, const char* what);
+
+// The same of a call that makes an object, which is null when it fails: Vulkan leaves outputs of failed calls undefined.
+template <typename Handle>
+void check_made(VkResult result, const char* what, Handle& made) {
+    if (result != VK_SUCCESS) made = VK_NULL_HANDLE;
+    check(result, what);
+}
 
 }  // namespace scree::host

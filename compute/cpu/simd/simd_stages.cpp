@@ -203,7 +203,10 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
             constexpr std::size_t words = sizeof(Contact) / sizeof(Words), at = offsetof(Contact, unrest) / sizeof(Words);
             for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
-                if (waits.v[lane] != 0) __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &unrest.v[lane], 4);
+                if (waits.v[lane] != 0) {
+                    const auto of_lane = unrest.v[lane];
+                    __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &of_lane, sizeof of_lane);
+                }
         }
         const Group<false> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
