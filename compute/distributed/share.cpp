@@ -70,6 +70,7 @@ public:
         state_.cell_ends = {};
         state_.pair_starts = {};
         state_.allocate();
+        state_.allocate_all();  // a world that was never whole here
     }
 
 private:
@@ -87,7 +88,8 @@ private:
     std::vector<physics::uint> counted_anew(const std::vector<physics::uint>& table, const RangeOf& range_of) const {
         std::vector<physics::uint> starts(from_.size() + 1);
         for (std::size_t row = 0; row < from_.size(); ++row) {
-            const auto [first, last] = from_[row] == physics::NONE ? std::pair(0u, 0u) : range_of(table, from_[row]);
+            const bool is_empty = from_[row] == physics::NONE || table.empty();
+            const auto [first, last] = is_empty ? std::pair(0u, 0u) : range_of(table, from_[row]);
             starts[row + 1] = starts[row] + last - first;
         }
         return starts;
@@ -98,7 +100,7 @@ private:
         });
         std::vector<physics::Constraint> constraints(with_constraints ? starts.back() : 0);
         for (std::size_t row = 0; row < from_.size(); ++row) {
-            if (from_[row] == physics::NONE) continue;
+            if (starts[row] == starts[row + 1]) continue;
             std::uint32_t old = state_.first_contacts[from_[row]];
             for (std::uint32_t k = starts[row]; k < starts[row + 1]; ++k, ++old) {
                 state_.contacts_before[k] = state_.contacts[old];

@@ -361,6 +361,7 @@ struct State {
     // For the scene compiler and editor: allocates every table; notes features of new rows; number of buckets for a
     // number of bodies.
     void allocate();
+    void allocate_all();  // and from now on every table
     void note_content(std::uint32_t first_row, std::uint32_t count);
     static std::uint32_t buckets_for(std::uint32_t bodies);
     // Appends a body whose row is its id.

@@ -60,13 +60,10 @@ bool World::Impl::can_be_shared() const {
 
 void World::Impl::share_out_when_due() {
     if (runner->ranks() == 1 || shared) return;
-    if (steps_until_shared > 0) {
-        --steps_until_shared;
-        return;
-    }
-    if (!can_be_shared()) {
-        steps_until_shared = steps_to_share;
-        return;
+    const bool waits = steps_until_shared > 0;
+    if (waits || !can_be_shared()) {
+        steps_until_shared = waits ? steps_until_shared - 1 : steps_to_share;
+        return state.allocate_all();
     }
     runner->share_out();
     const std::size_t bodies = scene.bodies.size();
@@ -88,6 +85,7 @@ void World::Impl::share_out_when_due() {
 
 void World::Impl::make_whole() {
     if (runner->ranks() > 1 && steps > 0) steps_until_shared = steps_to_share;
+    if (runner->in_place()) state.allocate_all();
     if (!shared) return;
     runner->make_whole();
     ByteWriter out;

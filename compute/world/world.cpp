@@ -53,7 +53,9 @@ World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, s
     : scene(std::move(s.scene)),
       settings(t),
       runner(std::move(r)),
-      state(scene, settings, runner->group_size(), runner->in_place(), static_cast<std::uint32_t>(copies),
+      // On several ranks its share needs the working tables, or make_whole() makes them.
+      state(scene, settings, runner->group_size(), runner->in_place() && runner->ranks() == 1,
+            static_cast<std::uint32_t>(copies),
             static_cast<std::uint32_t>(runner->ranks())),
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
@@ -222,7 +224,9 @@ double World::time() const {
     return static_cast<double>(steps()) / settings().rate;
 }
 const Scene& World::scene() const {
-    return interior_->scene;
+    Impl& in = interior_.as_it_is();
+    if (in.shared) in.make_whole();
+    return in.scene;
 }
 const Settings& World::settings() const {
     return interior_.as_it_is().settings;

@@ -216,7 +216,7 @@ TEST_CASE("a rank has memory for its own contacts, also after the world is read"
         seen.after_statistics = world.buffer_bytes();
         seen.contacts = world.contacts().size();
         seen.after_contacts = world.buffer_bytes();
-        world.step();
+        world.step(20);  // after a while without a look
         seen.later = world.buffer_bytes();
     });
     const double whole = static_cast<double>(alone.buffer_bytes());
@@ -224,13 +224,14 @@ TEST_CASE("a rank has memory for its own contacts, also after the world is read"
     for (const Seen& seen : of_ranks) {
         CHECK(static_cast<double>(seen.at_first) < 0.6 * whole);
         CHECK(static_cast<double>(seen.stepped) < 0.6 * whole);
+        CHECK(static_cast<double>(seen.later) < 0.6 * whole);
         CHECK(seen.statistics.manifolds == expected.manifolds);
         CHECK(seen.statistics.points == expected.points);
         CHECK(seen.statistics.penetration_mean == Approx(expected.penetration_mean).epsilon(1e-12));
         CHECK(seen.after_statistics == seen.stepped);
         CHECK(seen.contacts == expected.manifolds);  // of all ranks
         CHECK(seen.after_contacts > seen.stepped);
-        CHECK(seen.later == seen.stepped);
+        CHECK(static_cast<double>(seen.later) < 1.1 * static_cast<double>(seen.stepped));
     }
 }
 
