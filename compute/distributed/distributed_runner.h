@@ -1,9 +1,9 @@
 // The distributed runner: a rank's part of a step of a world that several ranks share, with the bits of one world.
 //
-// Every rank moves the bodies that it owns (ownership.h), and has the tables of the whole scene or its share of them (share.h). A contact at a border is
-// solved on both sides from the same inputs: a pair is listed where one end is owned, bodies of other ranks near a border
-// are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, the plan's stages are
-// told between them: here is the list of these places.
+// Every rank moves the bodies that it owns (ownership.h), and has the tables of the whole scene or its share of them (share.h). A
+// contact at a border is solved on both sides from the same inputs: a pair is listed where one end is owned, bodies of other
+// ranks near a border are here as ghosts (halo.h), and ids decide the order of every sum. What one rank cannot know, the plan's
+// stages are told between them: here is the list of these places.
 #pragma once
 
 #include <memory>

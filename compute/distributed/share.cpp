@@ -74,7 +74,9 @@ public:
     }
 
 private:
-    void follow(physics::uint& row) const { row = row < to_.size() ? to_[row] : physics::NONE; }
+    void follow(physics::uint& row) const {
+        row = row < to_.size() ? to_[row] : physics::NONE;
+    }
     template <class Record>
     void move_table(std::vector<Record>& table) {
         if (table.size() < to_.size()) return;
@@ -95,9 +97,8 @@ private:
         return starts;
     }
     void move_contacts(bool with_constraints) {
-        std::vector<physics::uint> starts = counted_anew(state_.first_contacts, [](const auto& first, std::uint32_t row) {
-            return std::pair(first[row], first[row + 1]);
-        });
+        std::vector<physics::uint> starts = counted_anew(
+            state_.first_contacts, [](const auto& first, std::uint32_t row) { return std::pair(first[row], first[row + 1]); });
         std::vector<physics::Constraint> constraints(with_constraints ? starts.back() : 0);
         for (std::size_t row = 0; row < from_.size(); ++row) {
             if (starts[row] == starts[row + 1]) continue;

@@ -193,7 +193,8 @@ struct State {
     }
     void take_rows(std::vector<std::uint32_t> rows);
 
-    // Set in a rank's share of a world, which has rows of some bodies only (compute/distributed/share.h): the id of the first part.
+    // Set in a rank's share of a world, which has rows of some bodies only (compute/distributed/share.h): the id of the first
+    // part.
     std::optional<std::uint32_t> first_part_id;
     bool is_share() const {
         return first_part_id.has_value();

@@ -1,7 +1,7 @@
 // World on several ranks: while it only steps, each rank holds its share of the scene and of the tables (Runner::share_out).
 //
-// Of the scene a rank keeps the bodies that do not move, and those of a range of ids: it is their home. What is asked of all bodies
-// in the order of ids, hashes and sums, is found there. All else brings the whole world back to every rank.
+// Of the scene a rank keeps the bodies that do not move, and those of a range of ids: it is their home. What is asked of all
+// bodies in the order of ids, hashes and sums, is found there. All else brings the whole world back to every rank.
 #define XXH_STATIC_LINKING_ONLY
 #include <xxhash.h>
 
@@ -122,8 +122,7 @@ std::vector<BodyRecord> World::Impl::records_at_home() const {
             append_record(to[id / shared->per_rank], TravellingBody{id, BodyRecord::of(state, row)});
         }
     for (const auto& [id, body] : shared->still)
-        if (id - shared->first < records.size())
-            records[id - shared->first] = BodyRecord::of(state, state.row_of(id));
+        if (id - shared->first < records.size()) records[id - shared->first] = BodyRecord::of(state, state.row_of(id));
     for (const Bytes& told : runner->swap(to))
         for (std::size_t at = 0; at < told.size(); at += sizeof(TravellingBody)) {
             const auto body = record_at<TravellingBody>(told, at);

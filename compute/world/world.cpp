@@ -54,8 +54,7 @@ World::Impl::Impl(CopiedScene s, const Settings& t, std::unique_ptr<Runner> r, s
       settings(t),
       runner(std::move(r)),
       // On several ranks its share needs the working tables, or make_whole() makes them.
-      state(scene, settings, runner->group_size(), runner->in_place() && runner->ranks() == 1,
-            static_cast<std::uint32_t>(copies),
+      state(scene, settings, runner->group_size(), runner->in_place() && runner->ranks() == 1, static_cast<std::uint32_t>(copies),
             static_cast<std::uint32_t>(runner->ranks())),
       bodies_at_start(scene.bodies.size()),
       shapes_at_start(StartLengths::of(state)),
@@ -160,7 +159,7 @@ int World::Impl::steps_alone(int count) {
     state.fixed().redo = 0;
     const std::uint64_t before = steps;
     const auto begin = Timeline::Clock::now();
-    const bool all = runner->steps(shared ? 1 : count, steps);
+    const bool all = runner->steps(runner->ranks() > 1 ? 1 : count, steps);
     if (!all) {
         do make_room_for_lists();
         while (!runner->step());

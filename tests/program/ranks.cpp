@@ -115,8 +115,8 @@ TEST_CASE("program: a rank that is killed anywhere in a step ends the run, and a
         REQUIRE(killed.status != 124);
         REQUIRE(says(killed.errors + killed.output, "signal 9"));
         REQUIRE(!std::filesystem::exists(place / "run.csv"));  // no half of a file
-        const std::string later = "run --backend cpu --threads 1 --quiet --report - --steps " + std::to_string(steps) +
-                                  " --resume " + file;
+        const std::string later =
+            "run --backend cpu --threads 1 --quiet --report - --steps " + std::to_string(steps) + " --resume " + file;
         const Outcome resumed = k % 2 ? run_scree(later) : run_scree(later + " --distributed", ranks(2));
         INFO(resumed.errors);
         REQUIRE(hash_after(resumed.output) == whole);
