@@ -314,26 +314,34 @@ OwnedContact by_rows(const State& state, OwnedContact contact) {
 
 void merge_contacts(State& state, const std::vector<OwnedContact>& more,
                     const std::function<bool(const physics::Contact&)>& keeps) {
-    const std::uint32_t rows = state.fixed().bodies;
-    std::vector<OwnedContact> all = more;
+    struct Place {
+        std::uint32_t owner, other, from;  // row, id, index of a kept contact; behind all of those of one that is added
+        auto key() const { return std::pair(owner, other); }
+    };
+    const std::uint32_t rows = state.fixed().bodies, before = state.first_contacts[rows];
+    const auto place_of = [&](std::uint32_t owner, const physics::Contact& contact, std::uint32_t from) {
+        return Place{owner, state.id_of(contact.a == owner ? contact.b : contact.a), from};
+    };
+    std::vector<Place> all;
+    all.reserve(before + more.size());
     for (std::uint32_t row = 0; row < rows; ++row)
         for (std::uint32_t k = state.first_contacts[row]; k < state.first_contacts[row + 1]; ++k)
-            if (keeps(state.contacts[k])) all.push_back({row, state.contacts[k], state.impulses[k]});
-    const auto key = [&](const OwnedContact& one) {
-        return std::pair(one.owner, state.id_of(one.contact.a == one.owner ? one.contact.b : one.contact.a));
-    };
-    std::sort(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) < key(b); });
-    all.erase(std::unique(all.begin(), all.end(), [&](const auto& a, const auto& b) { return key(a) == key(b); }), all.end());
+            if (keeps(state.contacts[k])) all.push_back(place_of(row, state.contacts[k], k));
+    for (std::uint32_t k = 0; k < more.size(); ++k) all.push_back(place_of(more[k].owner, more[k].contact, before + k));
+    std::sort(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.key() < b.key(); });
+    all.erase(std::unique(all.begin(), all.end(), [](const Place& a, const Place& b) { return a.key() == b.key(); }), all.end());
     if (all.size() > state.fixed().contact_capacity) {
         state.fixed().contact_capacity = State::with_reserve(all.size());
         state.allocate();
     }
     std::fill(state.first_contacts.begin(), state.first_contacts.end(), 0u);
     for (std::size_t k = 0; k < all.size(); ++k) {
+        const std::uint32_t from = all[k].from;
         ++state.first_contacts[all[k].owner + 1];
-        state.contacts[k] = all[k].contact;
-        state.impulses[k] = all[k].impulse;
+        state.contacts_before[k] = from < before ? state.contacts[from] : more[from - before].contact;
+        state.impulses_before[k] = from < before ? state.impulses[from] : more[from - before].impulse;
     }
+    state.turn_over();
     std::partial_sum(state.first_contacts.begin(), state.first_contacts.end(), state.first_contacts.begin());
     state.counted().contacts = static_cast<std::uint32_t>(all.size());
 }

@@ -25,7 +25,7 @@ public:
     // Bodies that new joints have tied to one of another rank follow it.
     void follow_joints(State& state, Exchange& exchange, Share& share);
     // In a share no joints connect bodies.
-    void forget_groups() { group_ = {}; }
+    void forget_groups() { std::vector<std::uint32_t>().swap(group_); }
     // Fragments belong to the owner of what has broken.
     void inherit(const State& state, std::uint32_t row);
     int owner_of(const State& state, std::uint32_t row) const { return owner_[state.id_of(row)]; }

@@ -26,6 +26,12 @@ std::uint32_t with_room(std::size_t rows) {
     return static_cast<std::uint32_t>(rows + rows / 8 + least_room);
 }
 
+// Its memory, too.
+template <class Record>
+void release(std::vector<Record>& table) {
+    std::vector<Record>().swap(table);
+}
+
 physics::BodyProperties empty_row(std::uint32_t row) {
     physics::BodyProperties none{};
     none.motion = physics::MOTION_PENDING;
@@ -67,8 +73,8 @@ public:
         p.bodies = static_cast<std::uint32_t>(from_.size());
         p.first_part = first_part_;
         p.buckets = State::buckets_for(p.bodies);
-        state_.cell_ends = {};
-        state_.pair_starts = {};
+        release(state_.cell_ends);
+        release(state_.pair_starts);
         state_.allocate();
         state_.allocate_all();  // a world that was never whole here
     }
@@ -126,11 +132,11 @@ private:
 };
 
 void drop_caches(State& state) {
-    state.partners = {};
-    state.least_partners = {};
-    state.movable_bodies = {};
-    state.driven_bodies = {};
-    state.paces = {};
+    release(state.partners);
+    release(state.least_partners);
+    release(state.movable_bodies);
+    release(state.driven_bodies);
+    release(state.paces);
 }
 
 // The rows of parts follow those of bodies.

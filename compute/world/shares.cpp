@@ -80,7 +80,7 @@ void World::Impl::share_out_when_due() {
         if (body.motion != Motion::dynamic) own.still[i] = body;
         if (i >= own.first && i < own.first + own.per_rank) own.home.push_back(std::move(body));
     }
-    scene.bodies = {};
+    std::vector<Body>().swap(scene.bodies);  // its memory, too
 }
 
 void World::Impl::make_whole() {
