@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <unordered_set>
 
 #include "compute/distributed/packing.h"
 #include "compute/step/memory_order.h"
@@ -211,21 +212,21 @@ void Ownership::move(State& state, Exchange& exchange, Share& share, const Moves
         put(said, id);
         put(said, target);
     }
-    std::vector<int> before;
     const std::vector<Bytes> told = exchange.gather(said);
     if (std::all_of(told.begin(), told.end(), [](const Bytes& one) { return one.empty(); })) return;
-    before = owner_;
+    const int own = exchange.rank();
+    std::unordered_set<std::uint32_t> left;
     for (const Bytes& one : told)
         for (Unpacker from(one); from.has_more(); ++migrations_) {
             const auto id = from.take<std::uint32_t>();
+            if (owner_[id] == own) left.insert(id);
             owner_[id] = from.take<int>();
         }
     const auto ranks = static_cast<std::size_t>(exchange.ranks());
-    const int own = exchange.rank();
     const auto leaves_for = [&](std::uint32_t row) {  // -1: it stays, or was not here
         if (row >= state.fixed().first_part) row = state.properties[row].owner;
         const std::uint32_t id = state.id_of(row);
-        return before[id] == own && owner_[id] != own && is_dynamic(state, row) ? owner_[id] : -1;
+        return left.contains(id) && owner_[id] != own && is_dynamic(state, row) ? owner_[id] : -1;
     };
     std::vector<std::vector<MovedBody>> bodies(ranks);
     for (const auto& [id, target] : own_moves)
