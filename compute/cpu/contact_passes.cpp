@@ -222,7 +222,8 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
     const physics::Mass ma = physics::impact_mass(lent, state.masses[of_last.a], state.forces[of_last.a], state.fixed());
     const physics::Mass mb = physics::impact_mass(lent, state.masses[of_last.b], state.forces[of_last.b], state.fixed());
     const float part = physics::part_of_stiffness(load);
-    physics::VelocityPair v = velocities_of(state, of_last);
+    const physics::VelocityPair moved = velocities_of(state, of_last);
+    physics::VelocityPair v = moved;
     float of_block = 0;
     for_each_of_block(state, last_contact, [&](std::size_t i, bool is_last) {
         const physics::Constraint& c = state.constraints[i];
@@ -230,7 +231,7 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
         const float debt = physics::part_of_debts(impulse, state.impact_debts[c.a], state.forces[c.a], ma,
                                                   state.impact_debts[c.b], state.forces[c.b], mb);
         const physics::SolveResult after =
-            physics::relax_contact(c, impulse, v, ma, mb, impact_state(state, c), debt, part, felt_by(state, c.a));
+            physics::relax_contact(c, impulse, moved, v, ma, mb, impact_state(state, c), debt, part, felt_by(state, c.a));
         if (felt) {
             const float carried = physics::solved_impulse(after.impulse);
             state.carried[i] = begins ? carried : state.carried[i] + carried;

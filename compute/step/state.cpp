@@ -6,6 +6,7 @@
 #include <numeric>
 #include <span>
 #include <stdexcept>
+#include <utility>
 
 #include "compute/step/scene_compiler.h"
 #include "compute/step/table_layout.h"
@@ -201,6 +202,10 @@ void State::allocate() {
     for (std::size_t row = numbered; row < this->ids.size(); ++row) this->ids[row] = static_cast<std::uint32_t>(row);
     for (std::size_t i = 0; i < table_count; ++i)
         if ((all_ && !is_of_devices(static_cast<Table>(i))) || !raw(static_cast<Table>(i)).empty()) make(static_cast<Table>(i));
+}
+
+void State::allocate_all() {
+    if (!std::exchange(all_, true)) allocate();
 }
 
 void State::spare_part_rows(std::uint32_t offset, std::uint32_t count) {

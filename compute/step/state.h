@@ -9,6 +9,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "compute/scene.h"
@@ -194,6 +195,25 @@ struct State {
     }
     void take_rows(std::vector<std::uint32_t> rows);
 
+    // Set in a rank's share of a world, which has rows of some bodies only (compute/distributed/share.h): the id of the first
+    // part.
+    std::optional<std::uint32_t> first_part_id;
+    bool is_share() const {
+        return first_part_id.has_value();
+    }
+    // Row of a body or part; NONE: a share has none.
+    std::uint32_t row_with(std::uint32_t id) const {
+        const std::uint32_t first = first_part_id.value_or(fixed().first_part);
+        return id < first ? row_of(id) : fixed().first_part + (id - first);
+    }
+    // For shares, whose `ids` are the caller's: the rows by id.
+    void assign_rows(std::vector<std::uint32_t> rows) {
+        rows_ = std::move(rows);
+    }
+    void assign_row(std::uint32_t id, std::uint32_t row) {
+        rows_[id] = row;
+    }
+
     // Records allocated, and records in use at present.
     std::size_t allocated(BufferLength length) const;
     std::size_t live(BufferLength length) const;
@@ -346,6 +366,7 @@ struct State {
     // For the scene compiler and editor: allocates every table; notes features of new rows; number of buckets for a
     // number of bodies.
     void allocate();
+    void allocate_all();  // and from now on every table
     void note_content(std::uint32_t first_row, std::uint32_t count);
     static std::uint32_t buckets_for(std::uint32_t bodies);
     // Appends a body whose row is its id.

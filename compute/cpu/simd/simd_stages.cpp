@@ -277,7 +277,7 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         const Group<plain> group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after = relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables, p),
+        const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),
                                                 debts(tables, group, ma, mb), 1.0f, p);
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));

@@ -124,25 +124,25 @@ LAW SolveResult solve_contact(Constraint c, Impulse impulse, VelocityPair v, Mas
 // five supports, 30 left with more energy than they brought, up to 100 times, because each support answered with the whole mass.
 CONSTANT float ARRIVAL = 4.0f;
 
-// The relax pass, after the positions were integrated with `v`: updates separations, removes the spring's velocity,
+// The relax pass, after the positions were integrated with `moved`: updates separations, removes the spring's velocity,
 // applies restitution and friction. `debt`: part_of_debts(); `part`: part_of_stiffness().
-LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair v, Mass a, Mass b, vec4 state, float debt, float part,
-                              Parameters parameters) {
+LAW SolveResult relax_contact(Constraint c, Impulse impulse, VelocityPair moved, VelocityPair v, Mass a, Mass b, vec4 state,
+                              float debt, float part, Parameters parameters) {
     bool struck = is_impact(impulse);
     Constraint met = c;
     vec3 met_offset = impulse.center_offset;
     bool follows = is_of_round_bodies(c);
     if (!none(struck || follows)) met = refresh_round_contact(c, met_offset);
-    impulse = stretched(met, impulse, v, parameters);
+    impulse = stretched(met, impulse, moved, parameters);
     for (int k = 0; k < 4; ++k) {
         bool there = uint(k) < point_count(c) && !follows;
         if (none(there)) break;
         LeverArms r = lever_arms(c, lever_arm(c, k), impulse.center_offset);
-        float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, v));
+        float separation = impulse.separation[k] + parameters.h * dot3(c.normal, velocity_at(r, moved));
         impulse.separation[k] = choose(there, separation, impulse.separation[k]);
     }
     bool gone = impulse.slide_distance > c.slide_limit;  // as in the biased pass: this substep's impact stays
-    vec3 way = (v.b.linear - v.a.linear) * parameters.h;
+    vec3 way = (moved.b.linear - moved.a.linear) * parameters.h;
     impulse.center_offset = impulse.center_offset + way;
     impulse.slide_distance = impulse.slide_distance + length3(way - c.normal * dot3(way, c.normal));
     if (!none(follows)) impulse.separation.x = choose(follows, round_gap(c, impulse.center_offset), impulse.separation.x);

@@ -101,9 +101,9 @@ struct Relaxed {
     float pad2;
 };
 // The relax pass over one contact of a block. It also writes the next substep's warm start, or in the last substep the quiet
-// steps of either body for the other (`shown`: the velocities of the whole bodies), and sums the contact's impulse over the step
-// where bodies may break.
-Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_last, VelocityPair shown, Mass ma, Mass mb, float part,
+// steps of either body for the other, and sums the contact's impulse over the step where bodies may break. `moved`: the velocities
+// of the whole bodies.
+Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_last, VelocityPair moved, Mass ma, Mass mb, float part,
                   uint pass) {
     VelocityPair before = block.velocity;
     vec4 state = state_of_impacts(c);
@@ -111,7 +111,7 @@ Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_
     if (BOUNCES && is_impact(impulse))
         debt = part_of_debts(impulse, READ_FLOAT(impact_debts, c.a), READ(forces, c.a), ma, READ_FLOAT(impact_debts, c.b),
                              READ(forces, c.b), mb);
-    SolveResult after = relax_contact(c, impulse, before, ma, mb, state, debt, part, felt_by(c.a));
+    SolveResult after = relax_contact(c, impulse, moved, before, ma, mb, state, debt, part, felt_by(c.a));
     if (SUMS) {
         float sum = solved_impulse(after.impulse);
         if ((pass & FIRST_SUBSTEP) == 0u) sum = uintBitsToFloat(WORD(carried, i)) + sum;
@@ -142,7 +142,7 @@ Relaxed relax_one(uint i, Constraint c, Impulse impulse, Relaxed block, bool is_
     if ((pass & LAST_SUBSTEP) == 0u)
         share = warm_start(c, impulse, share, ma, mb);
     else
-        show_quiet_steps(c, shown);
+        show_quiet_steps(c, moved);
     block.velocity = after.pair_velocity;
     block.weight = larger(block.weight, counts_next(c, biased, impulse, after.pair_velocity, ma, mb, felt_by(c.a)));
     float weight = is_last ? block.weight : 0.0f;  // that of the whole block
@@ -164,11 +164,11 @@ void relax_contact(uint place, uint pass) {
     float part = BLOCKS ? part_of_stiffness(load) : 1.0f;
     Mass ma = impact_mass(lent, READ(masses, c.a), READ(forces, c.a), PARAMETERS);
     Mass mb = impact_mass(lent, READ(masses, c.b), READ(forces, c.b), PARAMETERS);
-    VelocityPair shown;
-    shown.a = READ(velocities, c.a);
-    shown.b = READ(velocities, c.b);
+    VelocityPair moved;
+    moved.a = READ(velocities, c.a);
+    moved.b = READ(velocities, c.b);
     Relaxed block;
-    block.velocity = shown;
+    block.velocity = moved;
     block.weight = 0.0f;
     uint came_from = 0u;
     for (uint here = i + 1u; here != 0u;) {
@@ -177,7 +177,7 @@ void relax_contact(uint place, uint pass) {
             impulse = narrowed(READ(impulses, here - 1u));
         }
         uint next = next_of_block(c, came_from);
-        block = relax_one(here - 1u, c, impulse, block, next == 0u, shown, ma, mb, part, pass);
+        block = relax_one(here - 1u, c, impulse, block, next == 0u, moved, ma, mb, part, pass);
         came_from = here;
         here = next;
     }
