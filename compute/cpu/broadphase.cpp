@@ -148,7 +148,7 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
         physics::ivec3 from = range.first;
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
-                if (!(overlap(around, other) & (key_of(other) == key))) continue;
+                if (!(int{overlap(around, other)} & int{key_of(other) == key})) continue;
                 if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
                 const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
                 if (cell.y != from.y || cell.z != from.z) continue;  // another row of cells, hashed to the same buckets
@@ -165,7 +165,7 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
     physics::ivec3 from = own_cell;
     const auto visit = [&](std::span<const physics::CellEntry> row) {
         for (const physics::CellEntry& other : row) {
-            if (!(overlap(around, other) & (key_of(other) == key))) continue;
+            if (!(int{overlap(around, other)} & int{key_of(other) == key})) continue;
             const physics::ivec3 cell = physics::cell_of(other.lower, other.upper, level, p.inverse_cell);
             if (cell.y != from.y || cell.z != from.z || !is_ahead(cell, other.body, own_cell, body)) continue;
             if (!physics::can_touch(own, state.properties[other.body])) continue;
@@ -271,7 +271,7 @@ void sort_cells(State& state, const Threads& threads, std::uint32_t) {
             const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
             const auto last = state.cell_entries.begin() + state.cell_ends[b];
             std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
-            for (physics::CellEntry& entry : std::ranges::subrange(first, last)) {
+            for (physics::CellEntry& entry : std::span(first, last)) {
                 const physics::Bounds& around = state.bounds[entry.body];
                 inactive += (around.level & physics::INACTIVE) != 0;
                 entry = {around.lower, entry.body, around.upper,

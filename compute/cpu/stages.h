@@ -55,6 +55,8 @@ SCREE_STAGE(count_slots);
 SCREE_STAGE(fill_slots);
 SCREE_STAGE(sort_slots);
 SCREE_STAGE(warm_start_contacts);
+
+// contact_passes.cpp
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);  // pass: 1 in the last substep, 2 in the first, 4 if contact impulses are summed

@@ -157,6 +157,7 @@ void State::note_content(std::uint32_t first_row, std::uint32_t count) {
         found.round |= physics::has_round_core(row.shape);
         found.hulls |= row.shape == physics::SHAPE_HULL;
         found.convex |= physics::is_general_convex(row.shape);
+        found.blocks |= physics::is_part(row) && row.shape != physics::SHAPE_TRIANGLE;
         found.triangles |= row.shape == physics::SHAPE_TRIANGLE;
         found.moving_parts |= physics::is_part(row) && physics::motion_of(row) != physics::MOTION_FIXED;
     }

@@ -102,6 +102,7 @@ struct SceneFeatures {
     bool sums = false;       // contacts sum their impulses over the step
     bool copies = false;     // there are several copies of the scene
     bool gravities = false;  // whose gravity differs
+    bool blocks = false;     // there are compounds or meshes: pairs of bodies in several contacts
     static SceneFeatures everything() {
         return {.convex = true,
                 .hulls = true,
@@ -120,11 +121,12 @@ struct SceneFeatures {
                 .filters = true,
                 .sums = true,
                 .copies = true,
-                .gravities = true};
+                .gravities = true,
+                .blocks = true};
     }
     bool operator==(const SceneFeatures&) const = default;
 };
-static_assert(sizeof(SceneFeatures) == 18 * sizeof(bool));  // everything() names all
+static_assert(sizeof(SceneFeatures) == 19 * sizeof(bool));  // everything() names all
 
 inline const physics::uvec4 no_filter{1u, 0xFFFFFFFFu, 0u, physics::NONE};  // filter.h
 
@@ -332,9 +334,11 @@ struct State {
     }
     // Likewise, if the gravity of copies differs: the parameters of each copy.
     std::vector<physics::Parameters> felt;
-    // Likewise: runs of contacts_to_solve that share no group of SIMD lanes, of one copy each, or with and without ghosts.
+    // Likewise: runs of contacts_to_solve that share no group of SIMD lanes, of one copy each, or with and without ghosts; those
+    // of blocks (contact_block.h) are in no group.
     struct Run {
         std::uint32_t first, last, copy;
+        bool of_blocks;
     };
     std::vector<Run> solver_runs;
     std::uint32_t inner_contacts = 0;  // the first ones of contacts_to_solve, without ghosts of other ranks

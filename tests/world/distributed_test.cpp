@@ -13,6 +13,7 @@
 #include "compute/scene_file/scene_json.h"
 #include "compute/world.h"
 #include "demos/scenes/demos.h"
+#include "tests/world/feet.h"
 
 using namespace scree;
 
@@ -124,6 +125,11 @@ TEST_CASE("stacks, mixed shapes, compounds and meshes on several ranks move as o
     agrees("mesh", 60, 60, {3});
     agrees("dominoes", 30, 90, {2});
     agrees("cradle", 0, 60, {2});
+}
+
+TEST_CASE("bodies in several contacts with another move on several ranks as on one", "[ranks]") {
+    agrees("feet", 0, 60, {2, 3});
+    agrees("what has feet", tests::what_has_feet(7), {}, 60, {2, 4});
 }
 
 TEST_CASE("joints, vehicles, what breaks, and what comes and goes on several ranks move as on one", "[ranks]") {

@@ -11,6 +11,7 @@
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
+#include "tests/world/feet.h"
 #include "tests/world/heaps.h"
 #include "tests/world/jointed.h"
 
@@ -89,6 +90,14 @@ TEST_CASE("several contacts at once leave the bits that each of them alone leave
         compare(tests::swarm(40, 0.8f), 1, lanes, 90);
         REQUIRE(compare(tests::belts(60), 1, lanes, 90) > 30);
         REQUIRE(compare(tests::heap(150), 2, lanes, 40) > 60);
+    }
+}
+
+TEST_CASE("bodies in several contacts with another leave the same bits one by one and beside lanes") {
+    for (const int lanes : {4, 8, 16}) {
+        CAPTURE(lanes);
+        REQUIRE(compare(tests::what_has_feet(7), 1, lanes, 60) > 64);
+        compare(tests::what_has_feet(7), 2, lanes, 20);
     }
 }
 

@@ -88,10 +88,12 @@ struct Group {
           b(c.b),
           before{gather<Velocity>(tables.velocities, a), gather<Velocity>(tables.velocities, b)} {}
 
-    SCREE_INLINE vec4 impacts_state(const WideTables& tables) const {
+    SCREE_INLINE vec4 impacts_state(const WideTables& tables, const Parameters& p) const {
         if (none(c.restitution > 0.0f)) return vec4(0.0f);
         return choose(c.restitution > 0.0f,
-                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b)), vec4(0.0f));
+                      impact_state(gather<BodyForces>(tables.forces, a), gather<BodyForces>(tables.forces, b),
+                                   gather<BodyMass>(tables.masses, a), gather<BodyMass>(tables.masses, b), p),
+                      vec4(0.0f));
     }
     SCREE_INLINE void hand_out(const WideTables& tables, const VelocityPair& share, Float weight, Float normal_impulse) const {
         scatter(tables.slots, Indices(choose(live, c.slot_a, Uint(NONE))), velocity_delta(share.a, weight, normal_impulse));
@@ -201,7 +203,10 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
             constexpr std::size_t words = sizeof(Contact) / sizeof(Words), at = offsetof(Contact, unrest) / sizeof(Words);
             for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
-                if (waits.v[lane] != 0) __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &unrest.v[lane], 4);
+                if (waits.v[lane] != 0) {
+                    const auto of_lane = unrest.v[lane];
+                    __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &of_lane, sizeof of_lane);
+                }
         }
         const Group<false> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
@@ -220,7 +225,8 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
         const Group<plain> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
-        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
+        const SolveResult after =
+            solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), 1.0f, p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         group.keep(after.impulse);
         if (tables.watched) group.give_back(tables, first, last);
@@ -271,8 +277,8 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         const Group<plain> group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after =
-            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), debts(tables, group, ma, mb), p);
+        const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),
+                                                debts(tables, group, ma, mb), 1.0f, p);
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);
