@@ -14,6 +14,9 @@ namespace scree {
 
 namespace {
 
+// Width of a fine cell over that of a coarse one: a power of two, so that fine cells lie in coarse ones.
+constexpr float coarse = 1.0f / 8;
+
 struct GhostAtStart {
     std::uint32_t id = 0, rest = 0;
     physics::Pose pose;
@@ -100,23 +103,37 @@ void Halo::find_near(const State& state, Exchange& exchange) {
     std::vector<Box> theirs(ranks);
     const std::vector<Bytes> told = exchange.gather(said);
     for (std::size_t r = 0; r < ranks; ++r) Unpacker(told[r]).take(theirs[r]);
-    // To each neighbour: the cells that bodies near it are in.
-    std::vector<Bytes> cells(ranks);
+    const auto may_touch = [&](std::size_t r) {
+        return r != own && overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper);
+    };
+    // To each neighbour coarse cells of all bodies; then of those in its coarse cells the fine ones.
+    CellSet whole(coarse * state.fixed().inverse_cell);
+    for (const Box& box : boxes) whole.add(box.lower, box.upper);
+    std::vector<Bytes> told_cells(ranks);
+    for (std::size_t r = 0; r < ranks; ++r)
+        if (may_touch(r)) told_cells[r] = whole.bytes();
+    const std::vector<Bytes> regions = exchange.swap(told_cells);
+    std::vector<std::vector<std::size_t>> near(ranks);
     for (std::size_t r = 0; r < ranks; ++r) {
-        if (r == own || !overlap(all.lower, all.upper, theirs[r].lower, theirs[r].upper)) continue;
+        told_cells[r].clear();
+        if (!may_touch(r)) continue;
+        const CellSet region(coarse * state.fixed().inverse_cell, regions[r]);
         CellSet set(state.fixed().inverse_cell);
-        for (const Box& box : boxes)
-            if (overlap(box.lower, box.upper, theirs[r].lower, theirs[r].upper)) set.add(box.lower, box.upper);
-        cells[r] = set.bytes();
+        for (std::size_t k = 0; k < boxes.size(); ++k) {
+            if (!overlap(boxes[k].lower, boxes[k].upper, theirs[r].lower, theirs[r].upper) ||
+                !region.meets(boxes[k].lower, boxes[k].upper))
+                continue;
+            near[r].push_back(k);
+            set.add(boxes[k].lower, boxes[k].upper);
+        }
+        told_cells[r] = set.bytes();
     }
-    const std::vector<Bytes> sets = exchange.swap(cells);
+    const std::vector<Bytes> sets = exchange.swap(told_cells);
     for (std::size_t r = 0; r < ranks; ++r) {
-        if (r == own || sets[r].empty()) continue;
+        if (!may_touch(r)) continue;
         const CellSet set(state.fixed().inverse_cell, sets[r]);
-        for (std::size_t k = 0; k < rows.size(); ++k)
-            if (overlap(boxes[k].lower, boxes[k].upper, theirs[r].lower, theirs[r].upper) &&
-                set.meets(boxes[k].lower, boxes[k].upper))
-                to_[r].push_back(rows[k]);
+        for (const std::size_t k : near[r])
+            if (set.meets(boxes[k].lower, boxes[k].upper)) to_[r].push_back(rows[k]);
     }
 }
 
