@@ -7,15 +7,15 @@
 // (Gauss-Seidel), as the points of one contact are.
 //
 // A penetrating point is a spring whose stiffness goes with the split mass, whatever the number of points, and more than four of
-// them would be stiffer than the substep allows: with the 16 points of four legs three tables swing at 71 mm/s. So each of more than
-// four points has its part of the stiffness of four, in the relax pass too: where that removes all of the velocity, columns on six
-// to twelve legs rock at 7 to 15 mm/s. Points that are still apart stop their bodies with the whole mass.
+// them would be stiffer than the substep allows: with the 16 points of four legs three tables swing at 71 mm/s. So each of more
+// than four points has its part of the stiffness of four, in the relax pass too: where that removes all of the velocity, columns
+// on six to twelve legs rock at 7 to 15 mm/s. Points that are still apart stop their bodies with the whole mass.
 //
-// The relax pass goes through the contacts in the order opposite to that of the biased pass: in one order they push each other round,
-// and columns on twelve legs rock at 4 mm/s and creep by 1 mm a second.
+// The relax pass goes through the contacts in the order opposite to that of the biased pass: in one order they push each other
+// round, and columns on twelve legs rock at 4 mm/s and creep by 1 mm a second.
 //
-// Measured (20 to 80 s after the start, awake): columns of two, three and five tables move at 0.002, 0.003 and 0.02 mm/s, and at 55,
-// 180 and 240 where each contact is a block of its own.
+// Measured (20 to 80 s after the start, awake): columns of two, three and five tables move at 0.002, 0.003 and 0.02 mm/s, and at
+// 55, 180 and 240 where each contact is a block of its own.
 //
 // Elastic contacts and tyres are blocks of their own: an impact needs the velocities before it.
 #ifndef SCREE_PHYSICS_CONTACT_BLOCK_H
