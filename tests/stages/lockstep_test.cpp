@@ -181,7 +181,7 @@ TEST_CASE("a cell with more bodies than a software device can sort is refused by
     for (Body& ball : scene.bodies) {
         ball.shape = Sphere{0.5f};
         ball.position = {0.1f, 0.1f, 0.1f};
-        ball.filter.group = -1;  // they collide with none
+        ball.filter = Filter{.group = -1};  // they collide with none
     }
     World world(scene, {}, std::make_unique<DeviceRunner>(watched.device));
     CHECK_THROWS_WITH(world.step(), Catch::Contains("a cell of the broadphase has 20001 bodies"));

@@ -1,0 +1,47 @@
+// What the bodies of an impact are doing beside it: their accelerations, joints, and whether they are under a blow.
+#ifndef SCREE_PHYSICS_IMPACT_STATE_H
+#define SCREE_PHYSICS_IMPACT_STATE_H
+
+#include "shaders/physics/solve/mass_splitting.h"
+#include "shaders/physics/solve/motion.h"
+
+LAWS_BEGIN
+
+// What BodyForces.impacts holds: the sum of the weights of its impacts, negative for a body on joints.
+LAW float impacts_of(float struck, BodyProperties body) {
+    return choose(body.joints != NONE, -struck, struck);
+}
+
+// What gravity adds to a speed in a substep, m/s; without gravity, the slowest impact of the settings.
+LAW float fall_speed(Parameters parameters) {
+    return choose(has_weight(parameters), parameters.h * length3(parameters.gravity), parameters.restitution_threshold);
+}
+// A normal impulse is a blow if it would change the velocity of a body by more than gravity does in so many substeps.
+CONSTANT float BLOW = 50.0f;
+LAW bool is_blow(float normal_impulse, float inverse_mass, Parameters parameters) {
+    return normal_impulse * inverse_mass > BLOW * fall_speed(parameters);
+}
+// Whether the normal impulses with which a body began the substep are a blow. A heavy body that has fallen upon a light one is
+// stopped by such impulses, which grow from substep to substep; the light one flies to and fro between it and the supports,
+// with energy that the warm start lends and the solution takes back. If its contacts returned e^2 of that they would return what
+// nothing ever brought: blows by 10 to 100 times the mass left with up to 140 times their energy.
+LAW bool is_under_blow(BodyMass body, Parameters parameters) {
+    return is_blow(normal_impulses_of(body.split_state), body.inverse_mass, parameters);
+}
+
+// xyz: relative acceleration (B minus A), m/s^2; w: 1 if one of the two is on joints, plus 2 if one is under a blow.
+LAW vec4 impact_state(BodyForces a, BodyForces b, BodyMass mass_a, BodyMass mass_b, Parameters parameters) {
+    float on_joints = choose(a.impacts < 0.0f || b.impacts < 0.0f, 1.0f, 0.0f);
+    float under_blow = choose(is_under_blow(mass_a, parameters) || is_under_blow(mass_b, parameters), 2.0f, 0.0f);
+    return vec4(b.acceleration - a.acceleration, on_joints + under_blow);
+}
+LAW bool is_on_joints(vec4 state) {
+    return state.w == 1.0f || state.w == 3.0f;
+}
+LAW bool may_rebound(Constraint c, vec4 state) {
+    return c.restitution > 0.0f && state.w < 2.0f;
+}
+
+LAWS_END
+
+#endif
