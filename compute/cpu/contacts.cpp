@@ -16,14 +16,6 @@ namespace scree::reference {
 
 namespace {
 
-bool movable(const State& state, std::uint32_t body) {
-    return physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
-}
-
-std::uint32_t taken(std::uint32_t& end, std::uint32_t places = 1) {
-    return std::atomic_ref(end).fetch_add(places, std::memory_order_relaxed);
-}
-
 physics::VelocityPair velocities_of(const State& state, const physics::Constraint& c) {
     return {state.velocities[c.a], state.velocities[c.b]};
 }
@@ -59,11 +51,22 @@ void show_quiet_steps(State& state, const physics::Constraint& c) {
 // Those at the border of a rank, which need ghosts, come after all others.
 constexpr std::size_t inner_classes = 16, solver_classes = 2 * inner_classes;
 constexpr std::uint8_t not_solved = 0xFF;
-std::uint8_t class_of(const State& state, const physics::Constraint& c, const physics::Contact& contact, bool bears) {
-    const auto is_ghost = [&](std::uint32_t row) { return !state.presence.empty() && state.presence[row] == Presence::ghost; };
-    const bool at_border = is_ghost(c.a) || is_ghost(c.b);
+std::uint8_t class_of(const State& state, std::uint32_t a, std::uint32_t b, std::uint32_t points, bool round, bool bears) {
+    const auto is_ghost = [&](std::uint32_t row) {
+        return !state.presence.empty() && state.presence[state.body_of(row)] == Presence::ghost;
+    };
+    const bool at_border = is_ghost(a) || is_ghost(b);
+    return static_cast<std::uint8_t>(inner_classes * at_border + 4 * (2 * round + !bears) + (4 - points));
+}
+std::uint8_t class_of(const State& state, std::size_t i) {
+    const physics::Contact& contact = state.contacts[i];
     const bool round = physics::is_round(state.properties[contact.a]) && physics::is_round(state.properties[contact.b]);
-    return static_cast<std::uint8_t>(inner_classes * at_border + 4 * (2 * round + !bears) + (4 - contact.count));
+    return class_of(state, contact.a, contact.b, contact.count, round, state.impulses[i].normal_sum > 0);
+}
+// Of a persistent contact: it bore an impulse, and its bodies are not both round (may_persist).
+std::uint8_t class_of_persistent(const State& state, std::size_t i) {
+    const std::uint32_t index = state.contact_pairs[i];
+    return class_of(state, state.pairs[index].a, state.pairs[index].b, state.point_counts[index], false, true);
 }
 
 // The same where the gravity of copies differs: by copy, then by class.
@@ -97,13 +100,13 @@ void sort_contacts_to_solve(State& state, const Threads& threads) {
     Places next{};
     threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
         const Places found = counts_of(first, last);
-        for (std::size_t k = 0; k < solver_classes; ++k) taken(next[k], found[k]);
+        for (std::size_t k = 0; k < solver_classes; ++k) taken(threads, next[k], found[k]);
     });
     std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
     state.inner_contacts = next[inner_classes];
     threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
         Places places = counts_of(first, last);
-        for (std::size_t k = 0; k < solver_classes; ++k) places[k] = taken(next[k], places[k]);
+        for (std::size_t k = 0; k < solver_classes; ++k) places[k] = taken(threads, next[k], places[k]);
         for (std::size_t i = first; i < last; ++i)
             if (state.solver_classes[i] != not_solved)
                 state.contacts_to_solve[places[state.solver_classes[i]]++] = static_cast<std::uint32_t>(i);
@@ -160,6 +163,15 @@ void for_each_group(State& state, const Threads& threads, const WideTables& tabl
 
 physics::uint slot_of(const State& state, std::size_t contact, std::size_t side) {
     return state.contact_slots[2 * contact + side];
+}
+
+bool is_idle(const State& state, std::size_t contact) {
+    return physics::is_idle(slot_of(state, contact, 0), slot_of(state, contact, 1));
+}
+
+// Contacts that lanes carry forward as they prepare them (WideTables::carries).
+bool is_carried_in_lanes(const State& state, std::size_t contact) {
+    return state.pairs[state.contact_pairs[contact]].pair_type == physics::PAIR_PERSISTENT && !is_idle(state, contact);
 }
 
 // Last step's impulses, and what else the contact takes from then.
@@ -244,65 +256,10 @@ void make_contacts(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
-void count_slots(State& state, const Threads& threads, std::uint32_t) {
-    if (!physics::any_stirs(state.counted())) return;
-    threads.for_each(state.counted().contacts, [&](std::size_t i) {
-        for (const std::uint32_t body : {state.body_of(state.contacts[i].a), state.body_of(state.contacts[i].b)})
-            if (movable(state, body)) taken(state.slot_counts()[body]);
-    });
-}
-
-void fill_slots(State& state, const Threads& threads, std::uint32_t) {
-    if (!physics::any_stirs(state.counted())) return;
-    physics::Counts& counts = state.counted();
-    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
-        std::vector<std::uint32_t> solved;  // one atomic add per thread: one per contact took longer than the rest
-        solved.reserve(last - first);
-        for (auto contact = static_cast<std::uint32_t>(first); contact < last; ++contact) {
-            const std::uint32_t a = state.body_of(state.contacts[contact].a), b = state.body_of(state.contacts[contact].b);
-            const bool moves_a = movable(state, a), moves_b = movable(state, b);
-            if (moves_a) state.slot_sides[taken(state.slot_starts()[a])] = 2 * contact;
-            if (moves_b) state.slot_sides[taken(state.slot_starts()[b])] = 2 * contact + 1;
-            if (moves_a || moves_b) solved.push_back(contact);
-        }
-        std::copy(solved.begin(), solved.end(),
-                  state.contacts_to_solve.begin() + taken(counts.solver_contacts, static_cast<std::uint32_t>(solved.size())));
-    });
-    counts.arguments[physics::WORK_SOLVER_CONTACTS].x = physics::work_for(counts.solver_contacts, state.fixed()).x;
-}
-
-void sort_slots(State& state, const Threads& threads, std::uint32_t) {
-    if (state.counted().overflow) return;
-    const std::size_t n = state.fixed().bodies;
-    threads.for_each(n, [&](std::size_t i) {
-        state.first_contacts[i] = state.contact_starts[state.pair_starts[i]];
-        const std::uint32_t first = i == 0 ? 0 : state.slot_ends[i - 1];
-        const std::uint32_t last = state.slot_ends[i];
-        // Order of a body's slots, which fixes the order of its sum: by the id of the contact's owner, then by contact;
-        // joints last.
-        const auto key = [&](std::uint32_t side) {
-            const bool of_joint = (side & physics::OF_JOINT) != 0;
-            return std::pair(of_joint ? physics::NONE : state.contact_owners[side / 2], side);
-        };
-        const auto sides = state.slot_sides.begin();
-        if (state.reordered())
-            std::sort(sides + first, sides + last, [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
-        else
-            std::sort(sides + first, sides + last);
-        for (std::uint32_t slot = first; slot < last; ++slot) {
-            const std::uint32_t side = state.slot_sides[slot];
-            if (side & physics::OF_JOINT) {
-                state.block_bodies[side & ~physics::OF_JOINT].slot = slot;
-                continue;
-            }
-            state.contact_slots[side] = slot;
-        }
-    });
-    state.first_contacts[n] = state.counted().contacts;
-}
-
 void warm_start_contacts(State& state, const Threads& threads, std::uint32_t) {
+    const bool carries = wide_stages(threads.lanes()) && wide_tables(state, state.contacts_to_solve).carries;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        if (carries && is_carried_in_lanes(state, i)) return;
         const physics::PreparedContact prepared = warm_started_contact(state, i);
         state.contacts[i].load = prepared.contact.load;
         state.contacts[i].unrest = prepared.contact.unrest;
@@ -313,16 +270,22 @@ void warm_start_contacts(State& state, const Threads& threads, std::uint32_t) {
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
     const bool sorted = wide || !state.presence.empty();
+    const bool carries = wide && wide_tables(state, state.contacts_to_solve).carries;
     if (sorted) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        if (carries && is_carried_in_lanes(state, i)) {
+            state.solver_classes[i] = class_of_persistent(state, i);
+            return;
+        }
+        const bool idle = is_idle(state, i);
+        if (sorted) state.solver_classes[i] = idle ? not_solved : class_of(state, i);
+        if (carries && !idle) return;
         const physics::Contact& contact = state.contacts[i];
         physics::Constraint& c = state.constraints[i];
         c.a = state.body_of(contact.a);
         c.b = state.body_of(contact.b);
         c.slot_a = slot_of(state, i, 0);
         c.slot_b = slot_of(state, i, 1);
-        const bool idle = physics::is_idle(c.slot_a, c.slot_b);
-        if (sorted) state.solver_classes[i] = idle ? not_solved : class_of(state, c, contact, state.impulses[i].normal_sum > 0);
         if (idle) {
             c = physics::idle_between(contact, c.a, c.b);
         } else if (wide && is_ordinary(state, contact)) {
@@ -358,7 +321,8 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
-    if (last) for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
+    if (last && state.fixed().sleep_steps != physics::NO_SLEEP)
+        for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
         if (felt) tables.carried = state.carried.data();
