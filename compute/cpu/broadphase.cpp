@@ -2,11 +2,12 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <cstring>
 #include <ranges>
 #include <span>
 #include <tuple>
 
+#include "compute/cpu/cells.h"
+#include "compute/cpu/near_rows.h"
 #include "compute/cpu/stages.h"
 #include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/collide/filter.h"
@@ -16,52 +17,8 @@ namespace scree::reference {
 
 namespace {
 
-std::span<const physics::CellEntry> entries(const State& state, std::size_t first, std::size_t last) {
-    return std::span(state.cell_entries).subspan(first, last - first);
-}
-
-std::span<const physics::CellEntry> bucket(const State& state, std::size_t b) {
-    return entries(state, b == 0 ? 0 : state.cell_ends[b - 1], state.cell_ends[b]);
-}
-
-// physics::boxes_overlap without branches: half of the neighbours overlap, which no branch predictor foresees.
-bool overlap(const physics::Bounds& a, const physics::CellEntry& b) {
-    using Four [[gnu::vector_size(16)]] = float;  // a bound and the integer behind it
-    using Halves [[gnu::vector_size(16)]] = std::uint64_t;
-    Four lower_a, upper_a, lower_b, upper_b;
-    std::memcpy(&lower_a, &a.lower, sizeof lower_a);
-    std::memcpy(&upper_a, &a.upper, sizeof upper_a);
-    std::memcpy(&lower_b, &b.lower, sizeof lower_b);
-    std::memcpy(&upper_b, &b.upper, sizeof upper_b);
-    const Halves both = (Halves)((lower_a <= upper_b) & (lower_b <= upper_a));
-    return (both[0] & (both[1] | 0xFFFFFFFF00000000u)) == ~std::uint64_t{0};
-}
-
-// Calls visit(entries) for the bodies in a row of cells along x, whose buckets may wrap round the end of the grid. `level`:
-// with the copy.
-template <typename Visit>
-void for_each_in_row(const State& state, physics::ivec3 from, std::uint32_t cells, std::uint32_t level, const Visit& visit) {
-    const std::uint32_t buckets = state.fixed().buckets;
-    const auto end_of = [&](std::uint32_t b) { return b == 0 ? 0 : state.cell_ends[b - 1]; };
-    if (cells >= buckets) return visit(entries(state, 0, end_of(buckets)));
-    const std::uint32_t first = physics::bucket_of(from, level, buckets);
-    const std::uint32_t last = std::min(first + cells, buckets);
-    visit(entries(state, end_of(first), end_of(last)));
-    if (first + cells > buckets) visit(entries(state, 0, end_of(first + cells - buckets)));
-}
-
-// Whether the entry's cell, which is noted with it, is in the row of cells along x: others are hashed to the same buckets.
-struct RowOfCells {
-    const State& state;
-    physics::ivec3 from;
-    const physics::ivec3& cell_of(const physics::CellEntry& entry) const {
-        return state.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())];
-    }
-    bool has(const physics::ivec3& cell) const { return (cell.y == from.y) & (cell.z == from.z); }
-};
-
-std::uint32_t key_of(const physics::CellEntry& entry) {
-    return entry.level & ~(physics::INACTIVE | physics::MOVES);
+bool still(const State& state, std::uint32_t body) {
+    return (state.bounds[body].level & physics::INACTIVE) != 0;
 }
 
 bool near_large(const State& state, std::size_t body, const physics::CellEntry& other) {
@@ -82,10 +39,6 @@ bool can_touch(const State& state, std::uint32_t body, const physics::BodyProper
 
 // Part of the rows above which inactive ones are too many to search from as well: 1/8.
 constexpr std::size_t most_still = 8;
-
-bool still(const State& state, std::uint32_t body) {
-    return (state.bounds[body].level & physics::INACTIVE) != 0;
-}
 
 // Pairs of inactive bodies are those of last step's contacts.
 template <typename Found>
@@ -119,8 +72,9 @@ bool may_collide(const State& state, std::uint32_t row, std::uint32_t other) {
 }
 
 // Where a body looks for partners on its own level: in all cells in reach, for pairs that it owns; or only in the cells
-// from its own on, in the order of their coordinates, for pairs that either owns.
-enum class Search { around, ahead };
+// from its own on, in the order of their coordinates, for pairs that either owns; or on all levels in the list of rows that were
+// near it (near_rows.h), for the same.
+enum class Search { around, ahead, listed };
 
 bool is_ahead(const physics::ivec3& cell, std::uint32_t body, const physics::ivec3& own_cell, std::uint32_t own) {
     return std::tie(cell.z, cell.y, cell.x, body) > std::tie(own_cell.z, own_cell.y, own_cell.x, own);
@@ -151,6 +105,19 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
         if (physics::can_touch(own, state.properties[other.body]) && near_large(state, body, other)) found(other.body);
     }
     if (physics::is_large(own)) return;
+    const auto found_by_either = [&](std::uint32_t other, std::uint32_t other_level) {
+        const std::uint32_t other_id = state.id_of(other);
+        if (physics::finds(id, around.level, other_id, other_level))
+            found_by(body, other);
+        else if (physics::finds(other_id, other_level, id, around.level))
+            found_by(other, body);
+    };
+    if (search == Search::listed) {
+        for_each_near(state, body, [&](std::uint32_t other) {
+            if (physics::can_touch(own, state.properties[other])) found_by_either(other, state.bounds[other].level);
+        });
+        return;
+    }
     for (std::uint32_t levels = physics::levels_to_search(around.level, state.counted()); levels != 0; levels &= levels - 1) {
         const auto level = static_cast<std::uint32_t>(std::countr_zero(levels));
         if (search == Search::ahead && level == (around.level & physics::LEVEL_BITS)) continue;
@@ -180,11 +147,7 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
             const physics::ivec3& cell = cell_row.cell_of(other);
             if (!(overlap(around, other) & (key_of(other) == key) & cell_row.has(cell))) continue;
             if (!is_ahead(cell, other.body, own_cell, body) || !can_touch(state, body, own, other)) continue;
-            const std::uint32_t other_level = other.level & ~physics::MOVES, other_id = state.id_of(other.body);
-            if (physics::finds(id, around.level, other_id, other_level))
-                found_by(body, other.body);
-            else if (physics::finds(other_id, other_level, id, around.level))
-                found_by(other.body, body);
+            found_by_either(other.body, other.level & ~physics::MOVES);
         }
     };
     for (; from.z <= range.last.z; ++from.z)
@@ -236,11 +199,11 @@ void count_pairs(State& state, const Threads& threads, std::uint32_t) {
         if (place < State::noted) state.partners[owner][place] = other;
     };
     if (state.still_entries < bodies / most_still) {
+        const auto list = [&](std::uint32_t owner, std::uint32_t other) { note(owner, other, taken(threads, counts[owner])); };
+        const bool listed = find_near_rows(state, threads);
         threads.for_each(bodies, [&](std::size_t i) {
-            for_each_pair<Search::ahead>(state, static_cast<std::uint32_t>(i), [&](std::uint32_t owner, std::uint32_t other) {
-                const std::uint32_t place = taken(threads, counts[owner]);
-                note(owner, other, place);
-            });
+            const auto body = static_cast<std::uint32_t>(i);
+            listed ? for_each_pair<Search::listed>(state, body, list) : for_each_pair<Search::ahead>(state, body, list);
         });
     } else {
         threads.for_each(bodies, [&](std::size_t i) {

@@ -14,6 +14,7 @@
 #include "compute/scene.h"
 #include "compute/settings.h"
 #include "compute/step/joint_groups.h"
+#include "compute/step/near_rows.h"
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/shape_data.h"
@@ -286,6 +287,8 @@ struct State {
     std::uint32_t still_entries = 0;
     // Likewise: the cell of each entry of cells.
     std::vector<physics::ivec3> entry_cells;
+    // Likewise: which rows are near each other.
+    NearRows near_rows;
     // Likewise: the least id of the partners in the contacts that each body owned in the last step.
     std::vector<std::uint32_t> least_partners;
     std::vector<std::uint8_t> row_kinds;  // by row, its shape and whether it is inactive
