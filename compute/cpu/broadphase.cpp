@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <atomic>
 #include <bit>
-#include <ranges>
 #include <span>
 #include <tuple>
 
@@ -128,7 +127,8 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
         physics::ivec3& from = cell_row.from;
         const auto visit = [&](std::span<const physics::CellEntry> row) {
             for (const physics::CellEntry& other : row) {
-                if (!(overlap(around, other) & (key_of(other) == key) & cell_row.has(cell_row.cell_of(other)))) continue;
+                if (!(int{overlap(around, other)} & int{key_of(other) == key} & int{cell_row.has(cell_row.cell_of(other))}))
+                    continue;
                 if (!physics::finds(id, around.level, state.id_of(other.body), other.level & ~physics::MOVES)) continue;
                 if (can_touch(state, body, own, other)) found(other.body);
             }
@@ -145,7 +145,7 @@ void for_each_pair(const State& state, std::uint32_t body, const List& list) {
     const auto visit = [&](std::span<const physics::CellEntry> row) {
         for (const physics::CellEntry& other : row) {
             const physics::ivec3& cell = cell_row.cell_of(other);
-            if (!(overlap(around, other) & (key_of(other) == key) & cell_row.has(cell))) continue;
+            if (!(int{overlap(around, other)} & int{key_of(other) == key} & int{cell_row.has(cell)})) continue;
             if (!is_ahead(cell, other.body, own_cell, body) || !can_touch(state, body, own, other)) continue;
             found_by_either(other.body, other.level & ~physics::MOVES);
         }
@@ -176,7 +176,7 @@ void sort_cells(State& state, const Threads& threads, std::uint32_t) {
             const auto first = state.cell_entries.begin() + (b == 0 ? 0 : state.cell_ends[b - 1]);
             const auto last = state.cell_entries.begin() + state.cell_ends[b];
             std::sort(first, last, [](const auto& x, const auto& y) { return x.body < y.body; });
-            for (physics::CellEntry& entry : std::ranges::subrange(first, last)) {
+            for (physics::CellEntry& entry : std::span(first, last)) {
                 const physics::Bounds& around = state.bounds[entry.body];
                 inactive += (around.level & physics::INACTIVE) != 0;
                 entry = {around.lower, entry.body, around.upper,

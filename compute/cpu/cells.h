@@ -54,7 +54,7 @@ struct RowOfCells {
     const physics::ivec3& cell_of(const physics::CellEntry& entry) const {
         return state.entry_cells[static_cast<std::size_t>(&entry - state.cell_entries.data())];
     }
-    bool has(const physics::ivec3& cell) const { return (cell.y == from.y) & (cell.z == from.z); }
+    bool has(const physics::ivec3& cell) const { return (int{cell.y == from.y} & int{cell.z == from.z}) != 0; }
 };
 
 inline std::uint32_t key_of(const physics::CellEntry& entry) {
@@ -68,7 +68,7 @@ void for_each_in_cells(const State& state, const physics::CellRange& range, std:
     RowOfCells row{state, range.first};
     const auto visit_row = [&](std::span<const physics::CellEntry> found) {
         for (const physics::CellEntry& entry : found)
-            if ((key_of(entry) == level) & row.has(row.cell_of(entry))) visit(entry);
+            if (int{key_of(entry) == level} & int{row.has(row.cell_of(entry))}) visit(entry);
     };
     for (row.from.z = range.first.z; row.from.z <= range.last.z; ++row.from.z)
         for (row.from.y = range.first.y; row.from.y <= range.last.y; ++row.from.y)

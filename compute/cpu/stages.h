@@ -63,6 +63,8 @@ SCREE_STAGE(propagate_wake);  // pass: the depth of this round
 // contacts.cpp
 SCREE_STAGE(make_contacts);
 SCREE_STAGE(warm_start_contacts);
+
+// contact_passes.cpp
 SCREE_STAGE(prepare_contacts);
 SCREE_STAGE(solve_contacts);
 SCREE_STAGE(relax_contacts);  // pass: 1 in the last substep, 2 in the first, 4 if contact impulses are summed

@@ -13,6 +13,7 @@
 #include "compute/cpu/simd/simd_stages.h"
 #include "compute/world.h"
 #include "tests/world/belts.h"
+#include "tests/world/feet.h"
 #include "tests/world/heaps.h"
 #include "tests/world/jointed.h"
 
@@ -103,6 +104,14 @@ TEST_CASE("several contacts at once leave the bits that each of them alone leave
     }
 }
 
+TEST_CASE("bodies in several contacts with another leave the same bits one by one and beside lanes") {
+    for (const int lanes : {4, 8, 16}) {
+        CAPTURE(lanes);
+        REQUIRE(compare(tests::what_has_feet(7), 1, lanes, 60) > 64);
+        compare(tests::what_has_feet(7), 2, lanes, 20);
+    }
+}
+
 // Between stages that nobody looks at, lanes leave out what later stages do not read.
 TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops") {
     const auto runs = [](const Scene& scene, int threads, int lanes) {
@@ -128,6 +137,7 @@ TEST_CASE("steps whose stages nobody looks at leave the bits of the plain loops"
         runs(tests::swarm(40, 0.8f), 1, lanes);
         runs(tests::belts(40), 1, lanes);
         runs(tests::packed(40), 1, lanes);
+        runs(tests::what_has_feet(7), 1, lanes);
     }
 }
 

@@ -80,8 +80,10 @@ void separate_boxes(const WideTables& tables, std::size_t first, std::size_t las
 SCREE_INLINE void set_in_contacts(const WideTables& tables, std::size_t offset, const Indices& contacts, Float value,
                                   std::size_t items) {
     constexpr std::size_t words = sizeof(Contact) / sizeof(Words);
-    for (std::size_t lane = 0; lane < lanes && lane < items; ++lane)
-        __builtin_memcpy(tables.contacts + words * contacts.of[lane] + offset / sizeof(Words), &value.v[lane], 4);
+    for (std::size_t lane = 0; lane < lanes && lane < items; ++lane) {
+        const auto of_lane = value.v[lane];
+        __builtin_memcpy(tables.contacts + words * contacts.of[lane] + offset / sizeof(Words), &of_lane, sizeof of_lane);
+    }
 }
 
 // What a group of contacts has from the last step, and from the manifolds of this one.
@@ -169,7 +171,10 @@ void prepare(const WideTables& tables, std::size_t first, std::size_t last) {
             scatter(tables.constraints, contacts.only(living(first, last) && waits), c);
             constexpr std::size_t words = sizeof(Contact) / sizeof(Words), at = offsetof(Contact, unrest) / sizeof(Words);
             for (std::size_t lane = 0; lane < lanes && lane < last - first; ++lane)
-                if (waits.v[lane] != 0) __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &unrest.v[lane], 4);
+                if (waits.v[lane] != 0) {
+                    const auto of_lane = unrest.v[lane];
+                    __builtin_memcpy(tables.contacts + words * contacts.of[lane] + at, &of_lane, sizeof of_lane);
+                }
         }
         const Group<false> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
@@ -190,7 +195,8 @@ SCREE_INLINE void solve_groups(const WideTables& tables, std::size_t first, std:
         const Group<plain> group(tables, first, last);
         const Mass ma = split_mass(gather<BodyMass>(tables.masses, group.a), group.impulse, p);
         const Mass mb = split_mass(gather<BodyMass>(tables.masses, group.b), group.impulse, p);
-        const SolveResult after = solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables), p);
+        const SolveResult after =
+            solve_contact(group.c, group.impulse, group.before, ma, mb, group.impacts_state(tables, p), 1.0f, p);
         const VelocityPair share = to_body_deltas(group.before, after.pair_velocity, ma, mb);
         group.keep_solved(after.impulse);
         if (tables.watched) group.give_back(tables, first, last);
@@ -242,8 +248,8 @@ SCREE_INLINE void relax_groups(const WideTables& tables, std::size_t first, std:
         const Group<plain> group(tables, first, last);
         const Impulse& was = group.impulse;
         const Mass ma = shared(was, tables, group.a, p), mb = shared(was, tables, group.b, p);
-        const SolveResult after =
-            relax_contact(group.c, was, group.before, ma, mb, group.impacts_state(tables), debts(tables, group, ma, mb), p);
+        const SolveResult after = relax_contact(group.c, was, group.before, group.before, ma, mb, group.impacts_state(tables, p),
+                                                debts(tables, group, ma, mb), 1.0f, p);
         if (tables.carried != nullptr) feel(tables, Indices(listed(tables.items, first, last)), after.impulse, last - first);
         Impulse impulse = clear_impacts(after.impulse, point_count(group.c));
         impulse.normal_sum = normal_impulse(impulse);

@@ -36,6 +36,11 @@ LAW float contact_count_of(float split_state) {
     return uintBitsToFloat(floatBitsToUint(split_state) << 16u);
 }
 
+// Sum of the normal impulses of a body's contacts as the substep began, N s.
+LAW float normal_impulses_of(float split_state) {
+    return uintBitsToFloat(floatBitsToUint(split_state) & 0xFFFF0000u);
+}
+
 // Once a step, before its first substep: the count moves by one unit towards the number of active contacts.
 LAW float update_hysteresis(float split_state, float carrying, uint steps) {
     uint was = floatBitsToUint(split_state) & 0xFFFFu;
@@ -52,7 +57,7 @@ LAW float split_state_after(float split_state, float carrying, float normal_impu
 // The split factor s of a contact, which solves with 1/s of the mass: max(1, contacts / 1.5) if the shares are equal.
 LAW float split_factor(float split_state, float normal_sum, Parameters parameters) {
     float contacts = contact_count_of(split_state);
-    float all = uintBitsToFloat(floatBitsToUint(split_state) & 0xFFFF0000u);
+    float all = normal_impulses_of(split_state);
     float split = contacts * parameters.inverse_relaxation;
     bool weighed = contacts > 1.0f && 0.5f * all > LEAST_PRESSING;
     float part = 0.5f * reciprocal(contacts) + 0.5f * smaller(1.0f, normal_sum * reciprocal(all));

@@ -28,6 +28,7 @@
 
 #include "shaders/physics/solve/jacobian.h"
 #include "shaders/physics/solve/mass_splitting.h"
+#include "shaders/physics/solve/motion.h"
 
 LAWS_BEGIN
 
@@ -45,9 +46,34 @@ LAW float impacts_of(float struck, BodyProperties body) {
     return choose(body.joints != NONE, -struck, struck);
 }
 
-// xyz: relative acceleration (B minus A), m/s^2; w: 1 if one of the two is on joints, else 0.
-LAW vec4 impact_state(BodyForces a, BodyForces b) {
-    return vec4(b.acceleration - a.acceleration, choose(a.impacts < 0.0f || b.impacts < 0.0f, 1.0f, 0.0f));
+// What gravity adds to a speed in a substep, m/s; without gravity, the slowest impact of the settings.
+LAW float fall_speed(Parameters parameters) {
+    return choose(has_weight(parameters), parameters.h * length3(parameters.gravity), parameters.restitution_threshold);
+}
+// A normal impulse is a blow if it would change the velocity of a body by more than gravity does in so many substeps.
+CONSTANT float BLOW = 50.0f;
+LAW bool is_blow(float normal_impulse, float inverse_mass, Parameters parameters) {
+    return normal_impulse * inverse_mass > BLOW * fall_speed(parameters);
+}
+// Whether the normal impulses with which a body began the substep are a blow. A heavy body that has fallen upon a light one is
+// stopped by such impulses, which grow from substep to substep; the light one flies to and fro between it and the supports,
+// with energy that the warm start lends and the solution takes back. If its contacts returned e^2 of that they would return what
+// nothing ever brought: blows by 10 to 100 times the mass left with up to 140 times their energy.
+LAW bool is_under_blow(BodyMass body, Parameters parameters) {
+    return is_blow(normal_impulses_of(body.split_state), body.inverse_mass, parameters);
+}
+
+// xyz: relative acceleration (B minus A), m/s^2; w: 1 if one of the two is on joints, plus 2 if one is under a blow.
+LAW vec4 impact_state(BodyForces a, BodyForces b, BodyMass mass_a, BodyMass mass_b, Parameters parameters) {
+    float on_joints = choose(a.impacts < 0.0f || b.impacts < 0.0f, 1.0f, 0.0f);
+    float under_blow = choose(is_under_blow(mass_a, parameters) || is_under_blow(mass_b, parameters), 2.0f, 0.0f);
+    return vec4(b.acceleration - a.acceleration, on_joints + under_blow);
+}
+LAW bool is_on_joints(vec4 state) {
+    return state.w == 1.0f || state.w == 3.0f;
+}
+LAW bool rebounds(Constraint c, vec4 state) {
+    return c.restitution > 0.0f && state.w < 2.0f;
 }
 
 // Slower approaches have no restitution, m/s: what rests on a surface approaches at up to the speed of a fall in two
@@ -87,7 +113,7 @@ LAW Impulse impact_in_progress(Constraint c, Impulse impulse, VelocityPair v, ve
     }
     float before = impulse.rebound_energy;
     float left = flush_least(before - work);
-    bool held = state.w > 0.0f && work < REBOUND_PROGRESS * before;
+    bool held = is_on_joints(state) && work < REBOUND_PROGRESS * before;
     bool lasted = is_impact(impulse) && impulse.impact_energy > 0.0f;
     bool lasts = lasted && left > REBOUND_LEFT * impulse.impact_energy && !held;
     float weight = choose(left < before, square_root(positive(left * reciprocal(larger(before, left)))), 1.0f);
@@ -141,6 +167,11 @@ LAW bool is_any(vec4 striking) {
     return striking.x < 0.0f || striking.y < 0.0f || striking.z < 0.0f || striking.w < 0.0f;
 }
 
+// Bound of the mass on which a point's impulse acts, of the point's own effective mass; the points of a face that strikes at
+// once have up to twice their own. Where other points turn the body against it a point changes its velocity by almost nothing,
+// and the quotient has no bound.
+CONSTANT float MOST_STRUCK_MASS = 4.0f;
+
 // After the biased pass: the points that struck, and of the energy to return what is known so far. The compression impulse
 // p does the work p (v + u) / 2 from velocity v to u; u is known when all contacts have been solved (with_restitution). With
 // the rebound w that a single point would have, and the mass m on which it acts, m (w^2 - e^2 v^2) / 2 is what gravity adds
@@ -169,11 +200,12 @@ LAW Impulse after_compression(Constraint c, Impulse impulse, vec4 striking, vec4
         // Clamped: a speculative impulse may change almost nothing, and then rounding decides.
         float rise = larger(larger(reached - speed, 1.0e-4f * abs(speed)), 1.0e-9f);
         float wanted = plain_rebound(c, strike, pull, parameters);
-        float flight = whole * (pressed * ((wanted * wanted - e2 * (speed * speed)) * reciprocal(rise)));
+        float own_mass = mass_along(jacobian_row(r, c.normal, a, b), a, b);
+        float mass = smaller(pressed * reciprocal(rise), MOST_STRUCK_MASS * own_mass);
+        float flight = whole * (mass * (wanted * wanted - e2 * (speed * speed)));
         impulse.flight_energy = choose(struck, impulse.flight_energy + 0.5f * flight, impulse.flight_energy);
         impulse.rebound_energy = choose(struck, impulse.rebound_energy - 0.5f * (pressed * (e2 * speed)), impulse.rebound_energy);
-        impulse.impact_weight =
-            choose(struck, impulse.impact_weight + pressed * (1.0f + wanted * reciprocal(rise)), impulse.impact_weight);
+        impulse.impact_weight = choose(struck, impulse.impact_weight + (pressed + mass * wanted), impulse.impact_weight);
         impulse.impact[k] = choose(struck, impulse.impact[k] + pressed, impulse.impact[k]);
     }
     impulse.impact = flush_tiny(impulse.impact);
@@ -306,7 +338,7 @@ LAW SolveResult with_restitution(Constraint met, vec3 offset, VelocityPair reach
             choose(struck, pushed(result.pair_velocity, row, change, a, a.split, b, b.split), result.pair_velocity);
     }
     // Where all else stays as it is, the work is done at once.
-    bool passes_on = state.w > 0.0f || larger(a.split, b.split) > 1.001f;
+    bool passes_on = is_on_joints(state) || larger(a.split, b.split) > 1.001f;
     bool lasts = passes_on && push > 0.0f && energy > 0.0f;
     for (int k = 0; k < 4; ++k) {
         bool struck = impulse.impact[k] > 0.0f;
