@@ -252,8 +252,13 @@ void relax_block(State& state, std::size_t last_contact, std::uint32_t pass) {
 void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
     const WideStages* wide = wide_stages(threads.lanes());
     const bool sorted = wide || !state.presence.empty(), blocks = state.features().blocks;
+    const bool carries = wide && wide_tables(state, state.contacts_to_solve).carries;
     if (sorted) state.solver_classes.resize(std::max<std::size_t>(state.solver_classes.size(), state.counted().contacts));
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        if (carries && is_carried_in_lanes(state, i)) {
+            state.solver_classes[i] = class_of_persistent(state, i);
+            return;
+        }
         const physics::Contact& contact = state.contacts[i];
         const std::uint32_t a = state.body_of(contact.a), b = state.body_of(contact.b);
         const bool idle = physics::is_idle(state.contact_slots[2 * i], state.contact_slots[2 * i + 1]);
@@ -263,6 +268,7 @@ void prepare_contacts(State& state, const Threads& threads, std::uint32_t) {
             state.solver_classes[i] =
                 idle ? not_solved : class_to_solve(state, a, b, contact, state.impulses[i].normal_sum > 0, follows || leads);
         if (follows) return;  // the first contact of its block prepares it
+        if (carries && !idle) return;
         physics::Constraint& c = state.constraints[i];
         begin_constraint(state, i);
         if (idle) {
@@ -293,7 +299,8 @@ void solve_contacts(State& state, const Threads& threads, std::uint32_t) {
 void relax_contacts(State& state, const Threads& threads, std::uint32_t pass) {
     const auto alone = [&](std::size_t i) { relax_block(state, i, pass); };
     const bool last = (pass & 1) != 0, first = (pass & 2) != 0, felt = (pass & 4) != 0;
-    if (last) for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
+    if (last && state.fixed().sleep_steps != physics::NO_SLEEP)
+        for_each_solved(state, threads, [&](std::size_t i) { show_quiet_steps(state, state.constraints[i]); });
     if (const WideStages* wide = wide_stages(threads.lanes())) {
         WideTables tables = wide_tables(state, state.contacts_to_solve);
         if (felt) tables.carried = state.carried.data();

@@ -3,27 +3,29 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <numeric>
 #include <span>
 #include <tuple>
 
 #include "compute/cpu/stages.h"
 #include "shaders/physics/collide/body_scale.h"
+#include "shaders/physics/solve/contact_preparation.h"
 
 namespace scree::reference {
 
 namespace {
-
-std::uint32_t take(std::uint32_t& end, std::uint32_t places) {
-    return std::atomic_ref(end).fetch_add(places, std::memory_order_relaxed);
-}
 
 // Contacts that lanes take together, because they skip the same work: as many points, bearing or not, of round bodies or not.
 // Those of blocks, which no lanes take, follow; those at the border of a rank, which need ghosts, come after all others.
 constexpr std::size_t lane_classes = 16, inner_classes = lane_classes + 1, solver_classes = 2 * inner_classes;
 bool is_of_block(std::uint8_t solver_class) {
     return solver_class % inner_classes == lane_classes;
+}
+
+std::uint8_t class_among(const State& state, std::uint32_t a, std::uint32_t b, std::size_t inner_class) {
+    const auto is_ghost = [&](std::uint32_t row) { return !state.presence.empty() && state.presence[row] == Presence::ghost; };
+    const bool at_border = is_ghost(a) || is_ghost(b);
+    return static_cast<std::uint8_t>(inner_classes * at_border + inner_class);
 }
 
 // The same where the gravity of copies differs: by copy, then by class.
@@ -49,13 +51,21 @@ void sort_by_copy(State& state) {
 
 }  // namespace
 
+bool is_carried_in_lanes(const State& state, std::size_t contact) {
+    return state.pairs[state.contact_pairs[contact]].pair_type == physics::PAIR_PERSISTENT &&
+           !physics::is_idle(state.contact_slots[2 * contact], state.contact_slots[2 * contact + 1]);
+}
+
 std::uint8_t class_to_solve(const State& state, std::uint32_t a, std::uint32_t b, const physics::Contact& contact, bool bears,
                             bool of_block) {
-    const auto is_ghost = [&](std::uint32_t row) { return !state.presence.empty() && state.presence[row] == Presence::ghost; };
-    const bool at_border = is_ghost(a) || is_ghost(b);
     const bool round = physics::is_round(state.properties[contact.a]) && physics::is_round(state.properties[contact.b]);
-    const std::size_t among = of_block ? lane_classes : 4 * (2 * round + !bears) + (4 - contact.count);
-    return static_cast<std::uint8_t>(inner_classes * at_border + among);
+    return class_among(state, a, b, of_block ? lane_classes : 4 * (2 * round + !bears) + (4 - contact.count));
+}
+
+std::uint8_t class_of_persistent(const State& state, std::size_t contact) {
+    const std::uint32_t index = state.contact_pairs[contact];
+    return class_among(state, state.body_of(state.pairs[index].a), state.body_of(state.pairs[index].b),
+                       4 - state.point_counts[index]);
 }
 
 void sort_contacts_to_solve(State& state, const Threads& threads) {
@@ -73,14 +83,14 @@ void sort_contacts_to_solve(State& state, const Threads& threads) {
     Places next{};
     threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
         const Places found = counts_of(first, last);
-        for (std::size_t k = 0; k < solver_classes; ++k) take(next[k], found[k]);
+        for (std::size_t k = 0; k < solver_classes; ++k) taken(threads, next[k], found[k]);
     });
     std::exclusive_scan(next.begin(), next.end(), next.begin(), 0u);
     state.inner_contacts = next[inner_classes];
     const std::uint32_t inner_blocks = next[lane_classes], border_blocks = next[inner_classes + lane_classes];
     threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
         Places places = counts_of(first, last);
-        for (std::size_t k = 0; k < solver_classes; ++k) places[k] = take(next[k], places[k]);
+        for (std::size_t k = 0; k < solver_classes; ++k) places[k] = taken(threads, next[k], places[k]);
         for (std::size_t i = first; i < last; ++i)
             if (state.solver_classes[i] != not_solved)
                 state.contacts_to_solve[places[state.solver_classes[i]]++] = static_cast<std::uint32_t>(i);

@@ -1,22 +1,11 @@
-// Reference contact stages before the solver: contacts, their slots, and the warm start from the last step.
-#include <algorithm>
-#include <atomic>
-
+// Reference contact stages before the solver: contacts, and the warm start from the last step.
+#include "compute/cpu/contact_runs.h"
 #include "compute/cpu/stages.h"
-#include "shaders/physics/base/work_counts.h"
 #include "shaders/physics/solve/contact_preparation.h"
 
 namespace scree::reference {
 
 namespace {
-
-bool movable(const State& state, std::uint32_t body) {
-    return physics::is_movable(state.properties[body].motion, state.sleep_states[body], state.fixed().sleep_steps);
-}
-
-std::uint32_t taken(std::uint32_t& end, std::uint32_t places = 1) {
-    return std::atomic_ref(end).fetch_add(places, std::memory_order_relaxed);
-}
 
 physics::uint slot_of(const State& state, std::size_t contact, std::size_t side) {
     return state.contact_slots[2 * contact + side];
@@ -70,65 +59,10 @@ void make_contacts(State& state, const Threads& threads, std::uint32_t) {
     });
 }
 
-void count_slots(State& state, const Threads& threads, std::uint32_t) {
-    if (!physics::any_stirs(state.counted())) return;
-    threads.for_each(state.counted().contacts, [&](std::size_t i) {
-        for (const std::uint32_t body : {state.body_of(state.contacts[i].a), state.body_of(state.contacts[i].b)})
-            if (movable(state, body)) taken(state.slot_counts()[body]);
-    });
-}
-
-void fill_slots(State& state, const Threads& threads, std::uint32_t) {
-    if (!physics::any_stirs(state.counted())) return;
-    physics::Counts& counts = state.counted();
-    threads.for_ranges(counts.contacts, [&](std::size_t first, std::size_t last) {
-        std::vector<std::uint32_t> solved;  // one atomic add per thread: one per contact took longer than the rest
-        solved.reserve(last - first);
-        for (auto contact = static_cast<std::uint32_t>(first); contact < last; ++contact) {
-            const std::uint32_t a = state.body_of(state.contacts[contact].a), b = state.body_of(state.contacts[contact].b);
-            const bool moves_a = movable(state, a), moves_b = movable(state, b);
-            if (moves_a) state.slot_sides[taken(state.slot_starts()[a])] = 2 * contact;
-            if (moves_b) state.slot_sides[taken(state.slot_starts()[b])] = 2 * contact + 1;
-            if (moves_a || moves_b) solved.push_back(contact);
-        }
-        std::copy(solved.begin(), solved.end(),
-                  state.contacts_to_solve.begin() + taken(counts.solver_contacts, static_cast<std::uint32_t>(solved.size())));
-    });
-    counts.arguments[physics::WORK_SOLVER_CONTACTS].x = physics::work_for(counts.solver_contacts, state.fixed()).x;
-}
-
-void sort_slots(State& state, const Threads& threads, std::uint32_t) {
-    if (state.counted().overflow) return;
-    const std::size_t n = state.fixed().bodies;
-    threads.for_each(n, [&](std::size_t i) {
-        state.first_contacts[i] = state.contact_starts[state.pair_starts[i]];
-        const std::uint32_t first = i == 0 ? 0 : state.slot_ends[i - 1];
-        const std::uint32_t last = state.slot_ends[i];
-        // Order of a body's slots, which fixes the order of its sum: by the id of the contact's owner, then by contact;
-        // joints last.
-        const auto key = [&](std::uint32_t side) {
-            const bool of_joint = (side & physics::OF_JOINT) != 0;
-            return std::pair(of_joint ? physics::NONE : state.contact_owners[side / 2], side);
-        };
-        const auto sides = state.slot_sides.begin();
-        if (state.reordered())
-            std::sort(sides + first, sides + last, [&](std::uint32_t x, std::uint32_t y) { return key(x) < key(y); });
-        else
-            std::sort(sides + first, sides + last);
-        for (std::uint32_t slot = first; slot < last; ++slot) {
-            const std::uint32_t side = state.slot_sides[slot];
-            if (side & physics::OF_JOINT) {
-                state.block_bodies[side & ~physics::OF_JOINT].slot = slot;
-                continue;
-            }
-            state.contact_slots[side] = slot;
-        }
-    });
-    state.first_contacts[n] = state.counted().contacts;
-}
-
 void warm_start_contacts(State& state, const Threads& threads, std::uint32_t) {
+    const bool carries = wide_stages(threads.lanes()) && wide_tables(state, state.contacts_to_solve).carries;
     threads.for_each(state.counted().contacts, [&](std::size_t i) {
+        if (carries && is_carried_in_lanes(state, i)) return;
         const physics::PreparedContact prepared = warm_started_contact(state, i);
         state.contacts[i].load = prepared.contact.load;
         state.contacts[i].unrest = prepared.contact.unrest;

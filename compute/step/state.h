@@ -15,6 +15,7 @@
 #include "compute/scene.h"
 #include "compute/settings.h"
 #include "compute/step/joint_groups.h"
+#include "compute/step/near_rows.h"
 #include "shaders/physics/base/copies.h"
 #include "shaders/physics/base/records.h"
 #include "shaders/physics/collide/shape_data.h"
@@ -306,10 +307,19 @@ struct State {
     std::vector<std::array<std::uint32_t, noted>> partners;
     // Likewise: entries of cells whose bodies are inactive in this step.
     std::uint32_t still_entries = 0;
+    // Likewise: the cell of each entry of cells.
+    std::vector<physics::ivec3> entry_cells;
+    // Likewise: which rows are near each other.
+    NearRows near_rows;
     // Likewise: the least id of the partners in the contacts that each body owned in the last step.
     std::vector<std::uint32_t> least_partners;
+    std::vector<std::uint8_t> row_kinds;  // by row, its shape and whether it is inactive
     // Likewise: rows of the bodies that contacts move in this step, and of kinematic ones in motion.
     std::vector<std::uint32_t> movable_bodies, driven_bodies;
+    // Likewise: by row of a body, whether contacts move it, whichever rank does.
+    std::vector<std::uint8_t> movable;
+    // Likewise: the pairs of this step's fast bodies.
+    std::vector<std::uint32_t> fast_pairs;
     // Likewise: by row, what predict_impacts asks of a body's velocity.
     std::vector<std::uint8_t> paces;
     // The contacts of a pass: those of contacts_to_solve from `first` up to `last`, if there are so many; and of the blocks of
